@@ -1,0 +1,33 @@
+# Two commands: `make run` shows a first simulation, `make test` checks everything. Both install what is missing and build first.
+BUILD := build/release
+PACKAGES := $(shell cat dependencies.txt)
+SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+
+.PHONY: run test build dependencies bench format clean
+
+run: build
+	$(BUILD)/bzm run copper --out results/copper
+	@echo "Results are in $(CURDIR)/results/copper (start with picture.png)"
+
+test: build
+	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $$(nproc)
+
+build: $(BUILD)/build.ninja
+	cmake --build $(BUILD)
+
+$(BUILD)/build.ninja: dependencies
+	cmake --preset release
+
+dependencies:
+	@missing=$$(for p in $(PACKAGES); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+	if [ -n "$$missing" ]; then echo "installing" $$missing; \
+	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
+
+bench: build
+	$(BUILD)/benchmarks/all
+
+format:
+	clang-format -i $$(git ls-files '*.cpp' '*.hpp' '*.c')
+
+clean:
+	rm -rf build results

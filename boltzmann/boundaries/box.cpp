@@ -1,0 +1,180 @@
+// Wrapping and reflecting, and the refusals of particles that can't be where they are.
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+constexpr char const* axis_name = "xyz";
+
+std::string who(AnyEnsemble const& particles, std::size_t i) {
+  return fmt::format("particle {} of '{}'", i, particles.name());
+}
+
+bool inside(Region const& region, int dimension, double const* x) {
+  for (int a = 0; a < dimension; ++a)
+    if (!(x[a] >= region.low[a] && x[a] <= region.high[a])) return false;
+  return true;
+}
+
+bool strictly_inside(Region const& region, int dimension, double const* x) {
+  for (int a = 0; a < dimension; ++a)
+    if (!(x[a] > region.low[a] && x[a] < region.high[a])) return false;
+  return true;
+}
+
+void reflect(double wall, double* x, double* v) {
+  *x = 2 * wall - *x;
+  if (v) *v = -*v;
+}
+
+}  // namespace
+
+std::string to_string(Boundary boundary) {
+  switch (boundary) {
+    case Boundary::open:
+      return "open";
+    case Boundary::bounded:
+      return "bounded";
+    case Boundary::periodic:
+      return "periodic";
+  }
+  return "?";
+}
+
+Box::Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, std::array<Boundary, 3> boundaries)
+    : dimension_(dimension), low_(low), high_(high), boundaries_(boundaries), all_open_(true) {
+  if (dimension < 1 || dimension > 3) throw Error(fmt::format("a box has 1, 2 or 3 dimensions, not {}", dimension));
+  for (int a = 0; a < dimension; ++a) {
+    if (!std::isfinite(low[a]) || !std::isfinite(high[a]) || !(low[a] < high[a]))
+      throw Error(
+          fmt::format("box: on axis {} the low edge {} is not below the high edge {}", axis_name[a], low[a], high[a]));
+    if (boundaries[a] != Boundary::open) all_open_ = false;
+  }
+}
+
+bool Box::any_periodic() const {
+  for (int a = 0; a < dimension_; ++a)
+    if (periodic(a)) return true;
+  return false;
+}
+
+double Box::volume() const {
+  double product = 1;
+  for (int a = 0; a < dimension_; ++a) product *= length(a);
+  return product;
+}
+
+void Box::install(Region const& region) {
+  for (int a = 0; a < dimension_; ++a)
+    if (!(region.low[a] < region.high[a]) || !std::isfinite(region.low[a]) || !std::isfinite(region.high[a]))
+      throw Error(fmt::format("region: on axis {} the low edge {} is not below the high edge {}", axis_name[a],
+                              region.low[a], region.high[a]));
+  regions_.push_back(region);
+}
+
+void Box::check(AnyEnsemble const& particles) const {
+  if (particles.dimension() != dimension_)
+    throw Error(fmt::format("ensemble '{}' has {} dimensions, its box has {}", particles.name(), particles.dimension(),
+                            dimension_));
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    double const* x = particles.row(i);
+    for (std::size_t k = 0; k < particles.doubles(); ++k)
+      if (!std::isfinite(x[k])) {
+        for (auto const& field : particles.fields())
+          if (static_cast<int>(k) >= field.offset && static_cast<int>(k) < field.offset + field.components)
+            throw Error(fmt::format("{} has a {} that is not finite: {}", who(particles, i), field.name, x[k]));
+        throw Error(fmt::format("{} has a field that is not finite: {}", who(particles, i), x[k]));
+      }
+    for (int a = 0; a < dimension_; ++a)
+      if (boundary(a) == Boundary::bounded && !(x[a] >= low_[a] && x[a] <= high_[a]))
+        throw Error(fmt::format("{} is outside the box: {} = {}, the bounded axis goes from {} to {}",
+                                who(particles, i), axis_name[a], x[a], low_[a], high_[a]));
+    for (auto const& region : regions_) {
+      if (region.side == Region::Side::keep_out && strictly_inside(region, dimension_, x))
+        throw Error(fmt::format("{} is inside a region that keeps particles out", who(particles, i)));
+      if (region.side == Region::Side::keep_in && !inside(region, dimension_, x))
+        throw Error(fmt::format("{} is outside the region that keeps particles in", who(particles, i)));
+    }
+  }
+}
+
+void Box::apply(AnyEnsemble& particles) const {
+  if (all_open_ && regions_.empty()) return;
+  Field const* velocity = particles.find_field("velocity");
+  auto const fail = [&](std::size_t i, int a, double x) {
+    if (!std::isfinite(x)) throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles, i)));
+    throw PhysicsFailure(fmt::format(
+        "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
+        who(particles, i), axis_name[a], x, low_[a], high_[a]));
+  };
+  for (int a = 0; a < dimension_; ++a) {
+    if (boundary(a) == Boundary::open) continue;
+    double const low = low_[a], high = high_[a], length = high - low;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      double* x = particles.row(i) + a;
+      if (*x >= low && *x < high) continue;
+      double const before = *x;
+      if (boundary(a) == Boundary::periodic) {
+        if (*x < low)
+          *x += length;
+        else if (*x >= high)
+          *x -= length;
+        // A particle a rounding error below `low` lands on `high`: that is `low`.
+        if (*x == high) *x = low;
+      } else if (*x != high) {
+        reflect(*x < low ? low : high, x, velocity ? particles.row(i) + velocity->offset + a : nullptr);
+      }
+      if (!(*x >= low && *x <= high)) fail(i, a, before);
+    }
+  }
+  for (auto const& region : regions_)
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      double* x = particles.row(i);
+      double* v = velocity ? x + velocity->offset : nullptr;
+      if (region.side == Region::Side::keep_in) {
+        for (int a = 0; a < dimension_; ++a) {
+          if (x[a] < region.low[a])
+            reflect(region.low[a], x + a, v ? v + a : nullptr);
+          else if (x[a] > region.high[a])
+            reflect(region.high[a], x + a, v ? v + a : nullptr);
+          if (!(x[a] >= region.low[a] && x[a] <= region.high[a])) fail(i, a, x[a]);
+        }
+      } else if (strictly_inside(region, dimension_, x)) {
+        // Out through the face that it came in by: the nearest one that it moves away from.
+        int axis = -1;
+        double wall = 0, depth = 0;
+        for (int a = 0; a < dimension_; ++a)
+          for (double const face : {region.low[a], region.high[a]}) {
+            bool const inward = v == nullptr || (face == region.low[a] ? v[a] > 0 : v[a] < 0);
+            double const distance = std::abs(x[a] - face);
+            if (inward && (axis < 0 || distance < depth)) axis = a, wall = face, depth = distance;
+          }
+        if (axis >= 0) reflect(wall, x + axis, v ? v + axis : nullptr);
+      }
+    }
+}
+
+void Box::on_grid(double quantum) {
+  auto const rounded = [&](double x) { return quantum * std::nearbyint(x / quantum); };
+  for (int a = 0; a < dimension_; ++a) {
+    low_[a] = rounded(low_[a]);
+    high_[a] = rounded(high_[a]);
+    for (auto& region : regions_) {
+      region.low[a] = rounded(region.low[a]);
+      region.high[a] = rounded(region.high[a]);
+    }
+  }
+}
+
+void Box::nearest_image(double* d) const {
+  for (int a = 0; a < dimension_; ++a)
+    if (periodic(a)) d[a] -= length(a) * std::nearbyint(d[a] / length(a));
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,33 @@
+// Errors: what a user did wrong, and what the physics did wrong, each as one readable line.
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace boltzmann {
+
+/// The user's input can't be used. The message is one line: what was found, where, what is allowed. Exit status 2 of
+/// `bzm`.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The physics failed during a run (NaN, a particle escaped, a step too large). The line names particle and step. Exit
+/// status 3 of `bzm`.
+struct PhysicsFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The candidate with the smallest edit distance to `word` (ignoring case), or "" if none is near (distance above a
+/// third of the longer word + 1).
+std::string nearest(std::string_view word, std::span<std::string const> candidates);
+
+/// "; did you mean 'cutoff'?" for the nearest candidate, "" if none is near.
+std::string did_you_mean(std::string_view word, std::span<std::string const> candidates);
+
+/// "a, b, c": the allowed words for a message.
+std::string join(std::span<std::string const> words, std::string_view separator = ", ");
+
+}  // namespace boltzmann

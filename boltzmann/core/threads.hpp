@@ -1,0 +1,31 @@
+// Threads: a loop over ranges, without OpenMP in any header.
+#pragma once
+
+#include <cstddef>
+
+namespace boltzmann {
+
+/// The number of threads that a loop uses unless told otherwise (OMP_NUM_THREADS or the number of cores).
+int default_threads();
+
+namespace detail {
+void parallel_ranges(std::size_t size, std::size_t grain, int threads, void const* function,
+                     void (*call)(void const* function, std::size_t begin, std::size_t end));
+}
+
+/// Calls function(begin, end) for ranges of `grain` items that cover [0, size), on `threads` threads; on the caller's
+/// thread if there is only one range or thread. Which thread takes which range is open, so a function must write only
+/// what belongs to its own items; then the result has the same bits for any number of threads. An exception in a range
+/// is rethrown here (the one of the lowest range).
+template <class Function>
+void for_ranges(std::size_t size, std::size_t grain, int threads, Function const& function) {
+  if (threads <= 1 || size <= grain) {
+    if (size > 0) function(std::size_t{0}, size);
+    return;
+  }
+  detail::parallel_ranges(size, grain, threads, &function, [](void const* f, std::size_t begin, std::size_t end) {
+    (*static_cast<Function const*>(f))(begin, end);
+  });
+}
+
+}  // namespace boltzmann

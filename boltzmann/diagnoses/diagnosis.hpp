@@ -1,0 +1,42 @@
+// Diagnosis: a measuring instrument that looks at a finished step and gives numbers with names and dimensions.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// One number that a diagnosis gives at every look.
+struct Column {
+  std::string name;  ///< for example "kinetic energy" or "atoms temperature"
+  Dimension dimension;
+};
+
+/// A finished step, as diagnoses see it. Nothing can be changed through it.
+struct Sample {
+  std::span<AnyEnsemble* const> ensembles;
+  Box const& box;
+  Measures const* measures;   ///< energies and virial; null unless the diagnosis needs_energies()
+  double boltzmann_constant;  ///< in the simulation's base
+  double time;
+  std::int64_t step;
+};
+
+class Diagnosis {
+ public:
+  virtual ~Diagnosis() = default;
+  virtual std::vector<Column> columns() const = 0;
+  /// Appends one value for each of columns().
+  virtual void measure(Sample const& sample, std::vector<double>& values) = 0;
+  virtual bool needs_energies() const { return false; }
+  /// What it remembers from earlier looks (initial velocities of a group, ...), for checkpoints.
+  virtual std::vector<double> state() const { return {}; }
+  virtual void restore(std::span<double const>) {}
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,89 @@
+// Integrator: advances the particles of one ensemble through a time step, in stages between which influences are
+// calculated anew.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// How an ensemble is advanced.
+enum class Method {
+  euler,                 ///< first order
+  leap_frog,             ///< kick, drift, kick (velocity Verlet); second order, symplectic
+  rk2,                   ///< second-order Runge-Kutta, midpoint
+  rk4,                   ///< fourth-order Runge-Kutta
+  reversible_leap_frog,  ///< leap-frog on a fixed-point grid: run backwards it returns to the last bit
+  random_walk,           ///< RK2 and a random step of variance 2 nu dt per axis, for viscous vortices (Eq 3.13)
+  deactivate,            ///< stays put
+};
+
+std::string to_string(Method method);
+std::vector<std::string> method_names();
+/// The method of that name ("leap-frog", "rk4", ...); Error with the allowed names.
+Method method_named(std::string_view name);
+
+/// What a stage did to the positions.
+enum class Motion {
+  none,          ///< nothing: the influences are still those of the positions
+  intermediate,  ///< moved to a point inside the step
+  final,         ///< moved to the end of the step
+};
+
+struct StepContext {
+  double dt;
+  std::uint64_t step;  ///< number of the step, for random streams
+  std::uint64_t seed;
+};
+
+/// The furthest that a particle has moved in the last step, and the first particle that is not finite, if any.
+struct LargestMove {
+  static constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+  double square = 0;
+  std::size_t particle = 0;
+  std::size_t not_finite = nobody;
+
+  void take(double d, std::size_t i) {
+    if (d <= square) return;
+    if (d < std::numeric_limits<double>::infinity())
+      square = d, particle = i;
+    else if (not_finite == nobody)
+      not_finite = i;
+  }
+  void take(LargestMove const& other) {
+    if (other.square > square) square = other.square, particle = other.particle;
+    if (other.not_finite < not_finite) not_finite = other.not_finite;
+  }
+};
+
+/// Grids of the reversible leap-frog: every position, velocity and force is a multiple of its quantum (a power of two),
+/// so that sums and differences are exact.
+struct FixedPoint {
+  double position = 0, velocity = 0, force = 0;
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  virtual Method method() const = 0;
+  virtual int stages() const = 0;
+  /// The part of the step that has passed once stage k is done.
+  virtual double time_after(int stage) const = 0;
+  /// Stage k of a step; the ensemble's influence arrays hold the influences at the positions of now.
+  virtual Motion advance(int stage, StepContext const& context) = 0;
+  /// Puts the state on a grid (reversible leap-frog only).
+  virtual void prepare(FixedPoint const&) {}
+
+  LargestMove const& largest_move() const { return move_; }
+  void threads(int count) { threads_ = count; }
+
+ protected:
+  LargestMove move_;
+  int threads_ = 1;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,26 @@
+// The Lennard-Jones law (Eq 6.8 of the 1990 thesis).
+#pragma once
+
+#include <boltzmann/laws/interaction.hpp>
+
+namespace boltzmann {
+
+/// phi(r) = depth [(r0/r)^12 - 2 (r0/r)^6]: minimum -depth at r0. (sigma = r0 / 2^(1/6).)
+struct LennardJones {
+  static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+
+  double depth;
+  double r0;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    auto const r = q.position - p.position;
+    auto const inverse = 1.0 / dot(r, r);
+    auto const s6 = cube(r0 * r0 * inverse);
+    return Interaction{r * (-12 * depth * s6 * (s6 - 1.0) * inverse), depth * s6 * (s6 - 2.0)};
+  }
+
+  double length_scale() const { return r0; }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,38 @@
+// From i:j:k to a list of partners.
+#include <boltzmann/neighbours/connection.hpp>
+
+#include <boltzmann/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace boltzmann {
+
+NeighbourList connected_pairs(std::span<Connection const> connections, std::size_t size) {
+  std::vector<std::vector<std::uint32_t>> partners(size);
+  for (auto const& c : connections) {
+    if (c.interval == 0) throw Error(fmt::format("connection {}:{}:0: the interval is at least 1", c.first, c.last));
+    if (c.first > c.last) throw Error(fmt::format("connection {}:{}:{} runs backwards", c.first, c.last, c.interval));
+    if (c.last >= size)
+      throw Error(fmt::format("connection {}:{}:{} names particle {}, but there are {} (0 to {})", c.first, c.last,
+                              c.interval, c.last, size, size == 0 ? 0 : size - 1));
+    for (std::size_t i = c.first; i + c.interval <= c.last; i += c.interval) {
+      partners[i].push_back(static_cast<std::uint32_t>(i + c.interval));
+      partners[i + c.interval].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  NeighbourList list;
+  list.start.push_back(0);
+  for (std::size_t i = 0; i < size; ++i) {
+    auto& mine = partners[i];
+    std::sort(mine.begin(), mine.end());
+    mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+    list.index.insert(list.index.end(), mine.begin(), mine.end());
+    while (list.index.size() % NeighbourList::padding != 0) list.index.push_back(static_cast<std::uint32_t>(i));
+    list.start.push_back(list.index.size());
+  }
+  return list;
+}
+
+}  // namespace boltzmann

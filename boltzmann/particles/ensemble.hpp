@@ -1,0 +1,122 @@
+// Ensembles: the particles of one class, as an array of the user's own struct.
+#pragma once
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/particles/field.hpp>
+#include <boltzmann/particles/rows.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// How an ensemble is drawn.
+struct Appearance {
+  std::string colour;   ///< a name that colour_named() knows; empty: the next of the palette
+  double diameter = 0;  ///< in the simulation's length unit; 0: chosen by the drawing
+};
+
+/// An ensemble without its class: what schemes, boundaries, files and diagnoses see. Row i is particle i, always:
+/// engines that need another order keep a copy of their own.
+class AnyEnsemble {
+ public:
+  virtual ~AnyEnsemble() = default;
+  AnyEnsemble(AnyEnsemble const&) = delete;
+  AnyEnsemble& operator=(AnyEnsemble const&) = delete;
+
+  std::string const& name() const { return name_; }
+  std::string const& class_name() const { return class_name_; }
+  int dimension() const { return dimension_; }
+  std::size_t size() const { return size_; }
+
+  /// The first double of row i; the position comes first in every class.
+  double* row(std::size_t i) { return data_ + i * stride_; }
+  double const* row(std::size_t i) const { return data_ + i * stride_; }
+  std::size_t stride() const { return stride_; }    ///< doubles from row to row, a multiple of 4
+  std::size_t doubles() const { return doubles_; }  ///< doubles of the class in a row (the rest is padding)
+
+  /// What the schemes have summed up for particle i: `influence_size()` doubles (a force for Newton, a velocity for
+  /// Euler).
+  double* influence(std::size_t i) { return influence_.data() + i * influence_size_; }
+  double const* influence(std::size_t i) const { return influence_.data() + i * influence_size_; }
+  std::size_t influence_size() const { return influence_size_; }
+  void clear_influence() {
+    for (double& x : influence_) x = 0;
+  }
+
+  std::vector<Field> const& fields() const { return fields_; }
+  /// The descriptor of a field, or nullptr if the class has none of that name.
+  Field const* find_field(std::string_view name) const;
+  /// The descriptor of a field; Error naming the fields there are, and the nearest, if it is missing.
+  Field const& field(std::string_view name) const;
+  /// One component of a field for all particles, in order.
+  std::vector<double> column(Field const& field, int component = 0) const;
+
+  virtual void resize(std::size_t size) = 0;
+
+  Appearance appearance;
+
+ protected:
+  AnyEnsemble(std::string name, std::string class_name, int dimension, std::size_t stride, std::size_t doubles,
+              std::size_t influence_size, std::vector<Field> fields);
+  void attach(double* data, std::size_t size);
+
+ private:
+  std::string name_, class_name_;
+  int dimension_;
+  std::size_t stride_, doubles_, influence_size_, size_ = 0;
+  double* data_ = nullptr;
+  std::vector<double> influence_;
+  std::vector<Field> fields_;
+};
+
+/// The particles of class P (for example Newton<2>, or your own class for doubles: Ion<double>). Behaves like a vector
+/// of P.
+template <class P>
+class Ensemble final : public AnyEnsemble {
+ public:
+  using Particle = P;
+  using Influence = typename P::Influence;
+  static_assert(sizeof(P) % sizeof(double) == 0 && std::is_trivially_copyable_v<P>,
+                "a particle class holds nothing but Real and Vector<D, Real>");
+
+  /// `size` particles, every field zero (and mass one where the class has a mass).
+  explicit Ensemble(std::string name, std::size_t size = 0)
+      : AnyEnsemble(std::move(name), P::class_name, P::dimension, row_stride<P>, row_doubles<P>,
+                    sizeof(Influence) / sizeof(double), P::template fields<P>().fields) {
+    resize(size);
+  }
+
+  P& operator[](std::size_t i) { return rows_[i]; }
+  P const& operator[](std::size_t i) const { return rows_[i]; }
+  Row<P>* begin() { return rows_.data(); }
+  Row<P>* end() { return rows_.data() + size(); }
+  Row<P> const* begin() const { return rows_.data(); }
+  Row<P> const* end() const { return rows_.data() + size(); }
+
+  Influence const& influence_on(std::size_t i) const { return *reinterpret_cast<Influence const*>(influence(i)); }
+
+  void add(P const& particle) {
+    std::size_t const i = size();
+    resize(i + 1);
+    (*this)[i] = particle;
+  }
+
+  void resize(std::size_t size) override {
+    std::size_t const old = this->size();
+    rows_.resize(size + padding, Row<P>{});
+    for (std::size_t i = size < old ? size : old; i < rows_.size(); ++i) {
+      rows_[i] = Row<P>{};
+      if constexpr (requires(P p) { p.mass; }) rows_[i].mass = 1;
+    }
+    attach(rows_.empty() ? nullptr : &rows_[0].position[0], size);
+  }
+
+ private:
+  static constexpr std::size_t padding = 16;  // packs may read past the last particle, and mask what they read
+  std::vector<Row<P>> rows_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,22 @@
+// Euler: fluid particles, driven by a velocity field (section 3.6).
+#pragma once
+
+#include <boltzmann/particles/particle.hpp>
+
+namespace boltzmann {
+
+/// A fluid particle; its influence is a velocity.
+template <int D, class Real = double>
+struct Euler : Particle<D, Real> {
+  static constexpr char const* class_name = "Euler";
+
+  /// Eq 3.8: dr/dt = v, the velocity field at the particle.
+  template <class Self, class I>
+  static Self rate(Self const& p, I const& velocity) {
+    Self derivative = Particle<D, Real>::rate(p, velocity);
+    derivative.position = velocity;
+    return derivative;
+  }
+};
+
+}  // namespace boltzmann

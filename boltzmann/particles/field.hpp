@@ -1,0 +1,59 @@
+// Field descriptors: the one table per particle class that names its fields for files, scenarios, diagnoses and pages.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/core/vector.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace boltzmann {
+
+/// One field of a particle class: where it stands in the row and what it means.
+struct Field {
+  std::string name;     ///< the word in files, scenario keys and diagnoses
+  int offset;           ///< position in the row, counted in doubles
+  int components;       ///< 1, or the number of components of a vector
+  Dimension dimension;  ///< its unit's dimension
+  std::string doc;      ///< one line
+};
+
+namespace detail {
+template <class Member>
+struct component_count {
+  static constexpr int value = 1;
+};
+template <int D, class Real>
+struct component_count<Vector<D, Real>> {
+  static constexpr int value = D;
+};
+}  // namespace detail
+
+/// The row offset of a member, in doubles.
+template <class P, class Class, class Member>
+int offset_of(Member Class::*member) {
+  static_assert(std::is_base_of_v<Class, P>);
+  P const particle{};
+  auto const* start = reinterpret_cast<char const*>(std::addressof(particle));
+  auto const* field = reinterpret_cast<char const*>(std::addressof(particle.*member));
+  return static_cast<int>((field - start) / static_cast<std::ptrdiff_t>(sizeof(double)));
+}
+
+/// A table that grows down the class hierarchy: each class adds its own fields to those of its parent.
+template <class P>
+struct FieldTable {
+  std::vector<Field> fields;
+
+  template <class Class, class Member>
+  FieldTable&& add(Member Class::*member, std::string name, Dimension dimension, std::string doc) && {
+    fields.push_back(
+        {std::move(name), offset_of<P>(member), detail::component_count<Member>::value, dimension, std::move(doc)});
+    return std::move(*this);
+  }
+};
+
+}  // namespace boltzmann

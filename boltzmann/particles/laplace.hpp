@@ -1,0 +1,42 @@
+// Laplace, Coulomb, Kepler: classical particles whose influence is Green's function of the Laplacian (section 3.5).
+#pragma once
+
+#include <boltzmann/particles/newton.hpp>
+
+namespace boltzmann {
+
+/// A particle with a strength: its field obeys div E = C strength. A derived class says what the strength is by
+/// `strength()` and whether equal strengths repel (sign +1) or attract (-1); mesh and multipole schemes need no more.
+template <int D, class Real = double>
+struct Laplace : Newton<D, Real> {
+  static constexpr char const* class_name = "Laplace";
+};
+
+/// A charged particle: strength = charge; like charges repel (section 3.5.1).
+template <int D, class Real = double>
+struct Coulomb : Laplace<D, Real> {
+  static constexpr char const* class_name = "Coulomb";
+  static constexpr double sign = 1;
+
+  Real charge;
+
+  Real strength() const { return charge; }
+
+  template <class Self>
+  static FieldTable<Self> fields() {
+    return Laplace<D, Real>::template fields<Self>().add(&Coulomb::charge, "charge", dimensions::charge,
+                                                         "electric charge");
+  }
+};
+
+/// A gravitating particle: strength = mass (the constant G is the law's); masses attract (section 3.5.2, whose listing
+/// repels).
+template <int D, class Real = double>
+struct Kepler : Laplace<D, Real> {
+  static constexpr char const* class_name = "Kepler";
+  static constexpr double sign = -1;
+
+  Real strength() const { return this->mass; }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,33 @@
+// Newton: classical particles, driven by a force (section 3.4).
+#pragma once
+
+#include <boltzmann/particles/particle.hpp>
+
+namespace boltzmann {
+
+/// A classical particle; its influence is a force.
+template <int D, class Real = double>
+struct Newton : Particle<D, Real> {
+  static constexpr char const* class_name = "Newton";
+
+  Real mass;
+  Vector<D, Real> velocity;
+
+  /// Newton's law (Eq 3.5, 3.6): dr/dt = v, dv/dt = F / m.
+  template <class Self, class I>
+  static Self rate(Self const& p, I const& force) {
+    Self derivative = Particle<D, Real>::rate(p, force);
+    derivative.position = p.velocity;
+    derivative.velocity = force / p.mass;
+    return derivative;
+  }
+
+  template <class Self>
+  static FieldTable<Self> fields() {
+    return Particle<D, Real>::template fields<Self>()
+        .add(&Newton::mass, "mass", dimensions::mass, "inertial mass")
+        .add(&Newton::velocity, "velocity", dimensions::velocity, "rate of change of the position");
+  }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,35 @@
+// Particle: the root of the hierarchy; everything that has a position.
+#pragma once
+
+#include <boltzmann/core/vector.hpp>
+#include <boltzmann/particles/field.hpp>
+
+namespace boltzmann {
+
+/// A point that can be influenced. `Real` is double for one particle and a Pack in the inner loops; a class holds
+/// nothing but Real and Vector<D, Real>, so that the same struct serves both. To make your own class: derive, add
+/// fields, done. What a class may replace:
+///   Influence  the type that laws add up for it (a force, a velocity, any struct of Real),
+///   rate       the equations of motion: the time derivative of every field, as a particle,
+///   fields     its descriptor table, if its own fields shall have names in files and diagnoses.
+template <int D, class Real = double>
+struct Particle {
+  static constexpr int dimension = D;
+  using Influence = Vector<D, Real>;
+  static constexpr char const* class_name = "Particle";
+
+  Vector<D, Real> position;
+
+  /// d(state)/dt of a particle that nothing moves: zero in every field.
+  template <class Self, class I>
+  static Self rate(Self const&, I const&) {
+    return Self{};
+  }
+
+  template <class Self>
+  static FieldTable<Self> fields() {
+    return FieldTable<Self>{}.add(&Particle::position, "position", dimensions::length, "where the particle is");
+  }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,73 @@
+// Scenario: a simulation as a file. TOML text in, a simulation that is ready to run out; every mistake of the file in one go.
+#pragma once
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right word`.
+struct ScenarioErrors : Error {
+  explicit ScenarioErrors(std::vector<std::string> all);
+  std::vector<std::string> lines;
+};
+
+/// What the command line changes in a scenario.
+struct Overrides {
+  std::vector<std::string> set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
+  std::optional<std::int64_t> steps;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+};
+
+/// A picture that a scenario asks for.
+struct PicturePlan {
+  std::string drawing;  ///< "cartesian", "phase-space", "spectrum" or "time-series"
+  std::string x, y;     ///< fields ("position.x", "velocity.y") of phase space; the columns of a time series in y, separated by commas
+  std::string colour;   ///< a field, "speed", "kinetic-energy", "potential-energy" or empty: by ensemble
+  std::string size;     ///< the same for the diameter; empty: the ensemble's
+  std::string file = "picture.png";
+  bool trace = false;   ///< draw the tracks of all frames, not the last state
+};
+
+/// How often what is written.
+struct OutputPlan {
+  std::int64_t diagnoses = 0, trajectory = 0, checkpoint = 0;  ///< steps between two; 0: never
+  std::vector<PicturePlan> pictures;
+};
+
+/// A scenario that is ready to run. Owns everything.
+struct ScenarioSimulation {
+  std::string name, title, description;
+  Base base;
+  bool reduced = false;  ///< pure numbers: no units in files and pictures
+  std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
+  std::unique_ptr<PairScheme> scheme;
+  std::unique_ptr<Simulation> simulation;
+  std::vector<std::unique_ptr<Diagnosis>> diagnoses;
+  std::int64_t steps = 0;
+  OutputPlan output;
+  std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
+};
+
+/// Reads a scenario file. Throws ScenarioErrors with all its mistakes, or Error if the file can't be read.
+std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides = {});
+/// The same from text; `name` stands for the file in messages.
+std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name, Overrides const& overrides = {});
+
+/// The folder of shipped scenarios, and the names in it ("copper", ...), sorted.
+std::string scenario_folder();
+std::vector<std::string> shipped_scenarios();
+/// The path of a scenario given as file or as shipped name; Error with the nearest name.
+std::string find_scenario(std::string const& file_or_name);
+
+}  // namespace boltzmann

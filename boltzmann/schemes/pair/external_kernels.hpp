@@ -1,0 +1,77 @@
+// External influences: a law of one particle, from outside.
+#pragma once
+
+#include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/particles/rows.hpp>
+#include <boltzmann/schemes/pair/pair_kernels.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boltzmann {
+
+struct ExternalTask {
+  double const* rows = nullptr;
+  std::uint32_t const* only = nullptr;  ///< the particles it acts on; null: all
+  double time = 0;
+  double* influence = nullptr;
+  double* energy = nullptr;  ///< measuring: energy of each particle in the field
+};
+
+using ExternalKernel = void (*)(void const* law, ExternalTask const& task, std::size_t begin, std::size_t end);
+
+struct ExternalKernels {
+  ExternalKernel influence = nullptr, measure = nullptr;
+  bool has_energy = false;
+};
+
+/// True if law(p) or law(p, time) can be called for this class.
+template <class Law, class P>
+concept ExternalLaw = requires(Law const& law, P const& p) {
+  law(p);
+}
+|| requires(Law const& law, P const& p) { law(p, 0.0); };
+
+namespace detail {
+
+template <class P, class Law>
+[[gnu::always_inline]] inline auto external_result(Law const& law, P const& p, double time) {
+  if constexpr (requires { law(p, time); })
+    return law(p, time);
+  else
+    return law(p);
+}
+
+template <Pass pass, class P, class Law>
+[[gnu::flatten]] void over_particles(void const* the_law, ExternalTask const& task, std::size_t begin,
+                                     std::size_t end) {
+  Held<Law> law = *static_cast<Law const*>(the_law);
+  auto const* rows = reinterpret_cast<Row<P> const*>(task.rows);
+  constexpr std::size_t components = sizeof(typename P::Influence) / sizeof(double);
+  for (std::size_t k = begin; k < end; ++k) {
+    std::size_t const i = task.only ? task.only[k] : k;
+    P const& p = rows[i];
+    auto const result = external_result(law, p, task.time);
+    if constexpr (pass == Pass::measure) {
+      if constexpr (has_energy<decltype(result)>) task.energy[i] += result.energy;
+    } else {
+      auto const influence = as_array<double>(influence_of(result));
+      static_assert(
+          std::tuple_size_v<decltype(influence)> == components,
+          "the law returns something else than the influence that the particle class wants (see Particle::Influence)");
+      for (std::size_t c = 0; c < components; ++c) task.influence[i * components + c] += influence[c];
+    }
+  }
+}
+
+}  // namespace detail
+
+template <class P, class Law>
+ExternalKernels external_kernels() {
+  using detail::Pass;
+  using Result = decltype(detail::external_result(std::declval<Law const&>(), std::declval<P const&>(), 0.0));
+  return {detail::over_particles<Pass::influence, P, Law>, detail::over_particles<Pass::measure, P, Law>,
+          detail::has_energy<Result>};
+}
+
+}  // namespace boltzmann

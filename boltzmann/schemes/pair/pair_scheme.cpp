@@ -1,0 +1,380 @@
+// The pair scheme without any physics: which kernel runs over which rows, and when lists are rebuilt.
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+
+#include <boltzmann/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+constexpr double skin_of_cutoff = 0.12;
+constexpr std::size_t few_particles = 24;       // up to here scalars over half the pairs beat packs over all of them
+constexpr std::size_t particle_grain = 256;     // particles of one range of a list
+constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
+constexpr char const* axis_name = "xyz";
+
+}  // namespace
+
+struct PairScheme::Near {
+  AnyEnsemble *target, *source;
+  PairKernels kernels;
+  LawPointer law;
+  LawTraits traits;
+  double cutoff;
+  Mirror *target_mirror = nullptr, *source_mirror = nullptr;
+  NeighbourList list;
+
+  bool all_pairs() const { return !std::isfinite(cutoff); }
+
+  PairTask task(double quantum) const {
+    PairTask t;
+    t.influence = target->influence(0);
+    t.same = target == source;
+    if (all_pairs()) {
+      t.target = target->row(0);
+      t.source = source->row(0);
+      t.targets = target->size();
+      t.sources = source->size();
+    } else {
+      t.target = target_mirror->rows();
+      t.source = source_mirror->rows();
+      t.targets = target_mirror->owned();
+      t.sources = source_mirror->total();
+      t.order = target_mirror->order();
+      t.start = list.start.data();
+      t.index = list.index.data();
+      t.cutoff2 = cutoff * cutoff;
+      t.rounding = 1.5 * 4503599627370496.0 * quantum;
+    }
+    return t;
+  }
+  std::size_t grain() const {
+    return all_pairs() ? std::max<std::size_t>(8, pairs_grain / (source->size() + 1)) : particle_grain;
+  }
+};
+
+struct PairScheme::Connected {
+  AnyEnsemble* ensemble;
+  PairKernels kernels;
+  LawPointer law;
+  LawTraits traits;
+  NeighbourList list;
+
+  PairTask task(Box const& box) const {
+    PairTask t;
+    t.influence = ensemble->influence(0);
+    t.same = true;
+    t.target = t.source = ensemble->row(0);
+    t.targets = t.sources = ensemble->size();
+    t.start = list.start.data();
+    t.index = list.index.data();
+    for (int a = 0; a < box.dimension(); ++a)
+      if (box.periodic(a)) {
+        t.period[a] = box.length(a);
+        t.inverse_period[a] = 1 / box.length(a);
+      }
+    return t;
+  }
+};
+
+struct PairScheme::External {
+  AnyEnsemble* ensemble;
+  ExternalKernels kernels;
+  LawPointer law;
+  LawTraits traits;
+  bool everyone;
+  std::vector<std::uint32_t> only;
+
+  std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
+  ExternalTask task(double time) const {
+    ExternalTask t;
+    t.rows = ensemble->row(0);
+    t.only = everyone ? nullptr : only.data();
+    t.time = time;
+    t.influence = ensemble->influence(0);
+    return t;
+  }
+};
+
+PairScheme::PairScheme(Box box, double cutoff)
+    : Scheme(std::move(box)), cutoff_(cutoff), skin_(std::isfinite(cutoff) ? skin_of_cutoff * cutoff : 0) {
+  if (!(cutoff > 0)) throw Error(fmt::format("the cut-off is a positive length, not {}", cutoff));
+}
+
+PairScheme::~PairScheme() = default;
+
+void PairScheme::skin(double length) {
+  if (!(length >= 0) || !std::isfinite(length))
+    throw Error(fmt::format("the skin is a length of zero or more, not {}", length));
+  skin_ = length;
+  lists_stale_ = true;
+}
+
+Mirror& PairScheme::mirror(AnyEnsemble& ensemble) {
+  for (auto& mirror : mirrors_)
+    if (&mirror->ensemble() == &ensemble) return *mirror;
+  mirrors_.push_back(std::make_unique<Mirror>(ensemble, box()));
+  return *mirrors_.back();
+}
+
+void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law,
+                           LawTraits traits, double cutoff) {
+  if (!(cutoff > 0)) throw Error(fmt::format("the cut-off is a positive length, not {}", cutoff));
+  for (int a = 0; a < box().dimension(); ++a) {
+    if (!box().periodic(a)) continue;
+    if (!std::isfinite(cutoff))
+      throw Error(
+          fmt::format("axis {} is periodic: a pair law needs a cut-off there (at most the axis' length {}), or the sum "
+                      "over images has no end",
+                      axis_name[a], box().length(a)));
+    if (cutoff > box().length(a))
+      throw Error(fmt::format("the cut-off {} is longer than the periodic axis {}, which allows at most {}", cutoff,
+                              axis_name[a], box().length(a)));
+  }
+  load(target);
+  load(source);
+  auto near = std::make_unique<Near>();
+  near->target = &target;
+  near->source = &source;
+  near->kernels = kernels;
+  near->law = std::move(law);
+  near->traits = traits;
+  near->cutoff = cutoff;
+  if (std::isfinite(cutoff)) {
+    near->target_mirror = &mirror(target);
+    near->source_mirror = &mirror(source);
+    if (skin_ == 0) skin_ = skin_of_cutoff * cutoff;
+  }
+  lists_stale_ = true;
+  near_.push_back(std::move(near));
+}
+
+void PairScheme::add_connections(AnyEnsemble& ensemble, std::vector<Connection> const& connections, PairKernels kernels,
+                                 LawPointer law, LawTraits traits) {
+  load(ensemble);
+  auto connected = std::make_unique<Connected>();
+  connected->ensemble = &ensemble;
+  connected->kernels = kernels;
+  connected->law = std::move(law);
+  connected->traits = traits;
+  connected->list = connected_pairs(connections, ensemble.size());
+  connected_.push_back(std::move(connected));
+}
+
+void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, LawPointer law, LawTraits traits,
+                              std::vector<std::uint32_t> const* only) {
+  load(ensemble);
+  auto external = std::make_unique<External>();
+  external->ensemble = &ensemble;
+  external->kernels = kernels;
+  external->law = std::move(law);
+  external->traits = traits;
+  external->everyone = only == nullptr;
+  if (only) external->only = *only;
+  for (auto const i : external->only)
+    if (i >= ensemble.size())
+      throw Error(
+          fmt::format("external influence on particle {} of '{}', which has {}", i, ensemble.name(), ensemble.size()));
+  external_.push_back(std::move(external));
+}
+
+void PairScheme::build_lists() {
+  reach_ = 0;
+  for (auto& near : near_)
+    if (!near->all_pairs()) reach_ = std::max(reach_, near->cutoff + skin_);
+  for (auto& mirror : mirrors_) mirror->build(reach_);
+  for (auto& near : near_)
+    if (!near->all_pairs())
+      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_, threads());
+  lists_stale_ = false;
+  ++builds_;
+}
+
+void PairScheme::refresh() {
+  if (mirrors_.empty()) return;
+  for (auto& mirror : mirrors_)
+    if (mirror->owned() != mirror->ensemble().size()) lists_stale_ = true;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (lists_stale_) build_lists();
+    Displacements moved;
+    for (auto& mirror : mirrors_) {
+      auto const d = mirror->refresh(threads());
+      moved.take(d.largest);
+      moved.take(d.second);
+    }
+    // A pair outside the lists has come no closer than reach minus the two largest displacements.
+    if (std::sqrt(moved.largest) + std::sqrt(moved.second) <= skin_) return;
+    lists_stale_ = true;
+  }
+}
+
+void PairScheme::add_influences(double time) {
+  ++calculations_;
+  refresh();
+  for (auto const& near : near_) {
+    PairTask const task = near->task(quantum_);
+    if (near->all_pairs() && task.same && task.targets <= few_particles && near->kernels.few) {
+      near->kernels.few(near->law.get(), task, 0, task.targets);
+      continue;
+    }
+    PairKernel const kernel = near->all_pairs() ? near->kernels.all
+                              : quantum_ > 0    ? near->kernels.list_reversible
+                                                : near->kernels.list;
+    for_ranges(task.targets, near->grain(), threads(),
+               [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
+  }
+  for (auto const& connected : connected_) {
+    PairTask const task = connected->task(box());
+    for_ranges(task.targets, 4 * particle_grain, threads(), [&](std::size_t begin, std::size_t end) {
+      connected->kernels.connected(connected->law.get(), task, begin, end);
+    });
+  }
+  for (auto const& external : external_) {
+    ExternalTask const task = external->task(time);
+    for_ranges(external->count(), 16 * particle_grain, threads(), [&](std::size_t begin, std::size_t end) {
+      external->kernels.influence(external->law.get(), task, begin, end);
+    });
+  }
+}
+
+Measures PairScheme::measure(double time) {
+  Measures measures;
+  refresh();
+  auto const& all = ensembles();
+  measures.per_particle.resize(all.size());
+  std::vector<std::vector<double>> virial(all.size()), field(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    measures.per_particle[e].assign(all[e]->size(), 0.0);
+    virial[e].assign(9 * all[e]->size(), 0.0);
+    field[e].assign(all[e]->size(), 0.0);
+  }
+  auto const number = [&](AnyEnsemble const* ensemble) {
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), ensemble) - all.begin());
+  };
+  auto const run = [&](PairTask task, AnyEnsemble const* target, std::size_t grain, PairKernel kernel,
+                       void const* law) {
+    task.energy = measures.per_particle[number(target)].data();
+    task.virial = virial[number(target)].data();
+    for_ranges(task.targets, grain, threads(),
+               [&](std::size_t begin, std::size_t end) { kernel(law, task, begin, end); });
+  };
+  for (auto const& near : near_) {
+    if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
+    run(near->task(0), near->target, near->grain(),
+        near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
+  }
+  for (auto const& connected : connected_) {
+    if (!connected->kernels.has_energy) measures.unknown = "a connection of '" + connected->ensemble->name() + "'";
+    run(connected->task(box()), connected->ensemble, 4 * particle_grain, connected->kernels.connected_measure,
+        connected->law.get());
+  }
+  for (auto const& external : external_) {
+    if (!external->kernels.has_energy) {
+      if (!external->traits.velocity_dependent)
+        measures.unknown = "an external law on '" + external->ensemble->name() + "'";
+      continue;
+    }
+    ExternalTask task = external->task(time);
+    task.energy = field[number(external->ensemble)].data();
+    for_ranges(external->count(), 16 * particle_grain, threads(), [&](std::size_t begin, std::size_t end) {
+      external->kernels.measure(external->law.get(), task, begin, end);
+    });
+  }
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    for (double const u : measures.per_particle[e]) measures.potential += u;
+    for (double const u : field[e]) measures.external += u;
+    for (std::size_t i = 0; i < all[e]->size(); ++i)
+      for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] += virial[e][9 * i + k];
+  }
+  return measures;
+}
+
+double PairScheme::length_scale(AnyEnsemble const& ensemble) const {
+  double shortest = no_cutoff;
+  for (auto const& near : near_)
+    if (near->target == &ensemble) shortest = std::min({shortest, near->traits.length_scale, near->cutoff});
+  for (auto const& connected : connected_)
+    if (connected->ensemble == &ensemble) shortest = std::min(shortest, connected->traits.length_scale);
+  for (auto const& external : external_)
+    if (external->ensemble == &ensemble) shortest = std::min(shortest, external->traits.length_scale);
+  return shortest;
+}
+
+std::string PairScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  int const dimension = ensemble.dimension();
+  double const* x = ensemble.row(i);
+  for (auto const* other : ensembles())
+    for (std::size_t j = 0; j < other->size(); ++j) {
+      if (other == &ensemble && i == j) continue;
+      double d[3] = {0, 0, 0};
+      for (int a = 0; a < dimension; ++a) d[a] = other->row(j)[a] - x[a];
+      box().nearest_image(d);
+      if (d[0] == 0 && d[1] == 0 && d[2] == 0)
+        return fmt::format(
+            "particle {} of '{}' and particle {} of '{}' are at the same place, where their law is not finite", i,
+            ensemble.name(), j, other->name());
+    }
+  return "";
+}
+
+void PairScheme::make_reversible(double quantum) {
+  auto const refuse = [](bool velocity_dependent, std::string const& name) {
+    if (velocity_dependent)
+      throw Error("the reversible leap-frog can't run a law that depends on velocities (on '" + name +
+                  "'); use leap-frog");
+  };
+  for (auto const& near : near_) refuse(near->traits.velocity_dependent, near->target->name());
+  for (auto const& connected : connected_) refuse(connected->traits.velocity_dependent, connected->ensemble->name());
+  for (auto const& external : external_) refuse(external->traits.velocity_dependent, external->ensemble->name());
+  quantum_ = quantum;
+}
+
+std::string PairScheme::report() const {
+  if (mirrors_.empty()) return "";
+  std::size_t pairs = 0;
+  for (auto const& near : near_) pairs += near->list.index.size();
+  return fmt::format("{} influence calculations, lists built {} times", calculations_, builds_);
+}
+
+std::vector<PairScheme::Bond> PairScheme::bonds() const {
+  std::vector<Bond> bonds;
+  for (auto const& connected : connected_)
+    for (std::uint32_t i = 0; i < connected->ensemble->size(); ++i)
+      for (std::size_t k = connected->list.start[i]; k < connected->list.start[i + 1]; ++k)
+        if (connected->list.index[k] > i) bonds.push_back({connected->ensemble, i, connected->list.index[k]});
+  return bonds;
+}
+
+std::vector<double> PairScheme::state() const {
+  std::vector<double> state{quantum_, lists_stale_ ? 1.0 : 0.0};
+  for (auto const& mirror : mirrors_) state.insert(state.end(), mirror->reference().begin(), mirror->reference().end());
+  return state;
+}
+
+void PairScheme::restore(std::span<double const> state) {
+  std::size_t expected = 2;
+  for (auto const& mirror : mirrors_) expected += mirror->ensemble().size() * box().dimension();
+  bool const never_built = state.size() == 2;
+  if (state.size() != expected && !never_built)
+    throw Error(
+        fmt::format("the checkpoint's pair scheme has {} numbers, this simulation's has {}", state.size(), expected));
+  quantum_ = state[0];
+  lists_stale_ = state[1] != 0 || never_built;
+  if (lists_stale_) return;
+  build_lists();
+  std::size_t at = 2;
+  for (auto& mirror : mirrors_) {
+    std::size_t const count = mirror->ensemble().size() * box().dimension();
+    mirror->rebuild(reach_, state.subspan(at, count));
+    at += count;
+  }
+  for (auto& near : near_)
+    if (!near->all_pairs())
+      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_, threads());
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,144 @@
+// PairScheme: sums influences over pairs of particles (section 4.3): all pairs, pairs within a cut-off, or fixed
+// connections.
+#pragma once
+
+#include <boltzmann/neighbours/connection.hpp>
+#include <boltzmann/neighbours/mirror.hpp>
+#include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/schemes/pair/external_kernels.hpp>
+#include <boltzmann/schemes/pair/pair_kernels.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+inline constexpr double no_cutoff = std::numeric_limits<double>::infinity();
+
+class PairScheme final : public Scheme {
+ public:
+  /// `cutoff`: the distance beyond which influences are taken as zero, for laws that don't say otherwise. Error if it
+  /// is not positive or longer than a periodic axis. Without a cut-off all pairs are summed; periodic axes then have no
+  /// finite sum and are refused.
+  explicit PairScheme(Box box, double cutoff = no_cutoff);
+  ~PairScheme() override;
+
+  /// Influences among the particles of one ensemble.
+  template <class P, class Law>
+  void internal(Ensemble<P>& ensemble, Law const& law) {
+    internal(ensemble, law, cutoff_);
+  }
+  template <class P, class Law>
+  void internal(Ensemble<P>& ensemble, Law const& law, double cutoff) {
+    static_assert(PairLaw<Law, P, P>,
+                  "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
+                  "auto const& q) { ... }");
+    add_pairs(ensemble, ensemble, near_kernels<P, P, Law>(), keep(law), traits_of(law), cutoff);
+  }
+
+  /// Influences between two ensembles: law(p, q) on p in `a` and law(q, p) on q in `b`; a one-way law acts on `a` only.
+  template <class P, class Q, class Law>
+  void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law) {
+    between(a, b, law, cutoff_);
+  }
+  template <class P, class Q, class Law>
+  void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law, double cutoff) {
+    static_assert(PairLaw<Law, P, Q>,
+                  "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
+                  "auto const& q) { ... }");
+    auto const kept = keep(law);
+    add_pairs(a, b, near_kernels<P, Q, Law>(), kept, traits_of(law), cutoff);
+    if constexpr (symmetry_of<Law>() != Symmetry::one_way)
+      add_pairs(b, a, near_kernels<Q, P, Law>(), kept, traits_of(law), cutoff);
+  }
+
+  /// Influences between fixed pairs of one ensemble, over the nearest image on periodic axes.
+  template <class P, class Law>
+  void connect(Ensemble<P>& ensemble, std::vector<Connection> const& connections, Law const& law) {
+    static_assert(PairLaw<Law, P, P>,
+                  "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
+                  "auto const& q) { ... }");
+    add_connections(ensemble, connections, connection_kernels<P, Law>(), keep(law), traits_of(law));
+  }
+
+  /// An influence from outside, law(p) or law(p, time), on all particles of an ensemble or on the chosen ones.
+  template <class P, class Law>
+  void external(Ensemble<P>& ensemble, Law const& law) {
+    static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
+    add_external(ensemble, external_kernels<P, Law>(), keep(law), traits_of(law), nullptr);
+  }
+  template <class P, class Law>
+  void external(Ensemble<P>& ensemble, Law const& law, std::vector<std::uint32_t> const& only) {
+    static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
+    add_external(ensemble, external_kernels<P, Law>(), keep(law), traits_of(law), &only);
+  }
+
+  /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
+  void skin(double length);
+  double skin() const { return skin_; }
+  double cutoff() const { return cutoff_; }
+  /// The pairs connected by connect(), for drawings: (ensemble, i, j), each once.
+  struct Bond {
+    AnyEnsemble const* ensemble;
+    std::uint32_t i, j;
+  };
+  std::vector<Bond> bonds() const;
+
+  void add_influences(double time) override;
+  Measures measure(double time = 0) override;
+  double length_scale(AnyEnsemble const& ensemble) const override;
+  std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  void make_reversible(double quantum) override;
+  std::string report() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+  // For code that knows classes only at run time (scenarios): the same as the members above, with the kernels already
+  // chosen.
+  struct LawTraits {
+    double length_scale = no_cutoff;
+    bool velocity_dependent = false;
+    bool antisymmetric = false;
+  };
+  template <class Law>
+  static LawTraits traits_of(Law const& law) {
+    return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::antisymmetric};
+  }
+  using LawPointer = std::shared_ptr<void const>;
+  void add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law, LawTraits traits,
+                 double cutoff);
+  void add_connections(AnyEnsemble& ensemble, std::vector<Connection> const& connections, PairKernels kernels,
+                       LawPointer law, LawTraits traits);
+  void add_external(AnyEnsemble& ensemble, ExternalKernels kernels, LawPointer law, LawTraits traits,
+                    std::vector<std::uint32_t> const* only);
+  template <class Law>
+  static LawPointer keep(Law const& law) {
+    if constexpr (requires { law.check(); }) law.check();
+    return std::make_shared<Law>(law);
+  }
+
+ private:
+  struct Near;
+  struct Connected;
+  struct External;
+
+  Mirror& mirror(AnyEnsemble& ensemble);
+  void refresh();
+  void build_lists();
+
+  double cutoff_;
+  double skin_;
+  double reach_ = 0;  // of the longest list
+  double quantum_ = 0;
+  bool lists_stale_ = true;
+  std::size_t calculations_ = 0, builds_ = 0;
+  std::vector<std::unique_ptr<Mirror>> mirrors_;
+  std::vector<std::unique_ptr<Near>> near_;
+  std::vector<std::unique_ptr<Connected>> connected_;
+  std::vector<std::unique_ptr<External>> external_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,17 @@
+// Loading particles into a scheme.
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <algorithm>
+
+namespace boltzmann {
+
+void Scheme::load(AnyEnsemble& ensemble) {
+  if (std::find(ensembles_.begin(), ensembles_.end(), &ensemble) != ensembles_.end()) return;
+  for (auto const* other : ensembles_)
+    if (other->name() == ensemble.name())
+      throw Error("two ensembles are called '" + ensemble.name() + "'; each needs a name of its own");
+  box_.check(ensemble);
+  ensembles_.push_back(&ensemble);
+}
+
+}  // namespace boltzmann

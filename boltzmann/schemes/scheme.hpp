@@ -1,0 +1,76 @@
+// Scheme: what supervises particles through their influences; the interface that simulations, diagnoses and files see.
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// Energies and virial of a state, summed over everything a scheme supervises.
+struct Measures {
+  double potential = 0;                           ///< of the influences between particles
+  double external = 0;                            ///< in the external fields
+  std::array<std::array<double, 3>, 3> virial{};  ///< - sum over pairs r_a F_b with r = q - p and F the force on p; the
+                                                  ///< pressure tensor is (sum m v v + virial) / volume
+  std::string unknown;  ///< empty, or the name of a law that gives no energy: the energies are then incomplete
+  std::vector<std::vector<double>>
+      per_particle;  ///< potential energy of each particle (half of each of its pairs), one vector per ensemble
+};
+
+class Scheme {
+ public:
+  explicit Scheme(Box box) : box_(std::move(box)) {}
+  virtual ~Scheme() = default;
+  Scheme(Scheme const&) = delete;
+  Scheme& operator=(Scheme const&) = delete;
+
+  Box const& box() const { return box_; }
+  Box& box() { return box_; }
+  /// The ensembles that this scheme supervises, in the order in which they were loaded.
+  std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
+  void load(AnyEnsemble& ensemble);
+
+  /// The influence on every particle at this time, into the ensembles' influence arrays. PhysicsFailure naming the
+  /// particle if a position is not finite.
+  void calculate(double time = 0) {
+    for (auto* ensemble : ensembles_) ensemble->clear_influence();
+    add_influences(time);
+  }
+  /// Adds this scheme's influences to the arrays, for ensembles that go through several schemes.
+  virtual void add_influences(double time) = 0;
+  /// Energies and virial of the state as it stands.
+  virtual Measures measure(double time = 0) = 0;
+
+  /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite
+  /// if unknown.
+  virtual double length_scale(AnyEnsemble const& ensemble) const = 0;
+  /// Why influences on particle i may not be finite (two particles at one place, ...), for the message of a failure;
+  /// empty if unknown.
+  virtual std::string explain(AnyEnsemble const& ensemble, std::size_t i) const = 0;
+  /// Makes influences a function of the positions alone, whatever happened before: every contribution is rounded to a
+  /// multiple of `quantum`, so that sums are exact in any order. Error if a law can't be reversed in time.
+  virtual void make_reversible(double quantum) = 0;
+  /// One line about the work done, for the end of a run.
+  virtual std::string report() const { return ""; }
+
+  /// What, besides the particles, determines the bits of the next influences; restore() takes it back. Error if it does
+  /// not fit.
+  virtual std::vector<double> state() const { return {}; }
+  virtual void restore(std::span<double const>) {}
+
+  void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
+  int threads() const { return threads_; }
+
+ private:
+  Box box_;
+  std::vector<AnyEnsemble*> ensembles_;
+  int threads_ = default_threads();
+};
+
+}  // namespace boltzmann

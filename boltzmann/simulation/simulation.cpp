@@ -1,0 +1,249 @@
+// The loop, and the checks that turn a failing simulation into one line.
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
+  this->step_size(step_size);
+  add(scheme);
+}
+
+void Simulation::add(Scheme& scheme) {
+  schemes_.push_back(&scheme);
+  checked_ = false;
+}
+
+void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator) {
+  checked_ = false;
+  for (auto& part : parts_)
+    if (part.ensemble == &ensemble) {
+      part.integrator = std::move(integrator);
+      return;
+    }
+  parts_.push_back({&ensemble, std::move(integrator), 0});
+}
+
+void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
+  if (every == 0) throw Error("an observer looks every 1 or more steps, not every 0");
+  observations_.push_back({every, std::move(observer)});
+}
+
+void Simulation::step_size(double size) {
+  if (!std::isfinite(size) || size == 0)
+    throw Error(fmt::format("the step size is a finite time other than zero, not {}", size));
+  base_time_ = time();
+  base_step_ = step_;
+  step_size_ = size;
+  fresh_ = false;
+}
+
+void Simulation::threads(int count) {
+  for (auto* scheme : schemes_) scheme->threads(count);
+  for (auto& part : parts_) part.integrator->threads(count < 1 ? default_threads() : count);
+}
+
+Method Simulation::method(AnyEnsemble const& ensemble) const {
+  for (auto const& part : parts_)
+    if (part.ensemble == &ensemble) return part.integrator->method();
+  throw Error("ensemble '" + ensemble.name() + "' has no integrator");
+}
+
+void Simulation::check() {
+  if (checked_) return;
+  ensembles_.clear();
+  for (auto* scheme : schemes_)
+    for (auto* ensemble : scheme->ensembles()) {
+      scheme->box().check(*ensemble);
+      if (std::find(ensembles_.begin(), ensembles_.end(), ensemble) == ensembles_.end()) ensembles_.push_back(ensemble);
+    }
+  stages_ = 0;
+  bool reversible = false;
+  for (auto* ensemble : ensembles_) {
+    auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
+    if (part == parts_.end())
+      throw Error("ensemble '" + ensemble->name() +
+                  "' has no integrator: call integrate(ensemble, Method::...), one of " + join(method_names()));
+    double scale = std::numeric_limits<double>::infinity();
+    for (auto const* scheme : schemes_) scale = std::min(scale, scheme->length_scale(*ensemble));
+    part->longest_move2 = scale * scale;
+    part->integrator->threads(schemes_.front()->threads());
+    stages_ = std::max(stages_, part->integrator->stages());
+    reversible = reversible || part->integrator->method() == Method::reversible_leap_frog;
+  }
+  std::erase_if(parts_, [&](Part const& p) {
+    return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
+  });
+  if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
+  calculate(time());
+  for (auto* ensemble : ensembles_)
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      for (std::size_t c = 0; c < ensemble->influence_size(); ++c)
+        if (!std::isfinite(ensemble->influence(i)[c])) {
+          std::string why;
+          for (auto const* scheme : schemes_)
+            if (why.empty()) why = scheme->explain(*ensemble, i);
+          throw Error(why.empty() ? fmt::format("the influence on particle {} of '{}' is not finite at the start", i,
+                                                ensemble->name())
+                                  : why);
+        }
+  fresh_ = true;
+  checked_ = true;
+}
+
+FixedPoint Simulation::choose_grid() const {
+  double extent = 0, mass = std::numeric_limits<double>::infinity();
+  for (auto const* scheme : schemes_)
+    for (int a = 0; a < scheme->box().dimension(); ++a)
+      extent =
+          std::max({extent, std::abs(scheme->box().low(a)), std::abs(scheme->box().high(a)), scheme->box().length(a)});
+  for (auto const& part : parts_)
+    if (Field const* field = part.ensemble->find_field("mass"))
+      for (std::size_t i = 0; i < part.ensemble->size(); ++i)
+        mass = std::min(mass, part.ensemble->row(i)[field->offset]);
+  if (!std::isfinite(mass) || !(mass > 0)) mass = 1;
+  auto const power_of_two = [](double x) { return std::exp2(std::floor(std::log2(x))); };
+  FixedPoint grid;
+  grid.position = power_of_two(extent * 0x1p-49);
+  grid.velocity = power_of_two(grid.position / std::abs(step_size_) * 0x1p-8);
+  grid.force = power_of_two(grid.velocity * mass / std::abs(step_size_) * 0x1p-3);
+  return grid;
+}
+
+void Simulation::make_reversible(FixedPoint const& grid) {
+  grid_ = grid;
+  for (auto* scheme : schemes_) {
+    scheme->make_reversible(grid.force);
+    scheme->box().on_grid(grid.position);
+  }
+  for (auto& part : parts_) part.integrator->prepare(grid);
+}
+
+void Simulation::calculate(double time) {
+  if (schemes_.size() == 1) {
+    schemes_.front()->calculate(time);
+    return;
+  }
+  for (auto* ensemble : ensembles_) ensemble->clear_influence();
+  for (auto* scheme : schemes_) scheme->add_influences(time);
+}
+
+void Simulation::advance(double dt) {
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
+  double const start = time();
+  double passed = 0;
+  for (int stage = 0; stage < stages_; ++stage) {
+    if (!fresh_) {
+      calculate(start + passed * dt);
+      fresh_ = true;
+    }
+    for (auto& part : parts_) {
+      if (stage >= part.integrator->stages()) continue;
+      Motion const motion = part.integrator->advance(stage, context);
+      if (motion != Motion::none) fresh_ = false;
+      if (motion == Motion::final)
+        for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble);
+      passed = std::max(passed, part.integrator->time_after(stage));
+    }
+  }
+  for (auto const& part : parts_) check_moves(part);
+}
+
+void Simulation::check_moves(Part const& part) const {
+  LargestMove const& move = part.integrator->largest_move();
+  if (move.not_finite == LargestMove::nobody && move.square <= part.longest_move2) return;
+  auto const& name = part.ensemble->name();
+  if (move.not_finite != LargestMove::nobody) {
+    std::string why;
+    for (auto const* scheme : schemes_)
+      if (why.empty()) why = scheme->explain(*part.ensemble, move.not_finite);
+    throw PhysicsFailure(
+        fmt::format("particle {} of '{}' has a position or velocity that is not finite (or beyond the range of the "
+                    "fixed-point grid){}{}",
+                    move.not_finite, name, why.empty() ? "" : ": ", why));
+  }
+  double const moved = std::sqrt(move.square), allowed = std::sqrt(part.longest_move2);
+  throw PhysicsFailure(
+      fmt::format("particle {} of '{}' moved {:.4g} in one step, further than the length {:.4g} of its law; take a "
+                  "step below {:.3g}",
+                  move.particle, name, moved, allowed, 0.1 * std::abs(step_size_) * allowed / moved));
+}
+
+void Simulation::observe_now() const {
+  for (auto const& observation : observations_)
+    if (step_ % static_cast<std::int64_t>(observation.every) == 0) observation.observer(*this);
+}
+
+void Simulation::run(std::uint64_t steps) { run(steps, 1); }
+void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
+
+void Simulation::run(std::uint64_t steps, int direction) {
+  check();
+  if (!observed_) {
+    observed_ = true;
+    observe_now();
+  }
+  fresh_ = false;  // the particles may have been changed since the last run
+  double const dt = direction * step_size_;
+  for (std::uint64_t n = 0; n < steps && !stop_; ++n) {
+    try {
+      advance(dt);
+    } catch (PhysicsFailure const& failure) {
+      throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
+    }
+    step_ += direction;
+    if (!observations_.empty()) observe_now();
+  }
+}
+
+Measures Simulation::measure() const {
+  Measures total;
+  for (auto* scheme : schemes_) {
+    Measures const part = scheme->measure(time());
+    total.potential += part.potential;
+    total.external += part.external;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) total.virial[a][b] += part.virial[a][b];
+    if (!part.unknown.empty()) total.unknown = part.unknown;
+    if (schemes_.size() == 1) total.per_particle = part.per_particle;
+  }
+  return total;
+}
+
+std::vector<double> Simulation::state() const {
+  std::vector<double> state{static_cast<double>(base_step_), base_time_, grid_.position, grid_.velocity, grid_.force};
+  for (auto const* scheme : schemes_) {
+    auto const part = scheme->state();
+    state.push_back(static_cast<double>(part.size()));
+    state.insert(state.end(), part.begin(), part.end());
+  }
+  return state;
+}
+
+void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed, std::span<double const> state) {
+  auto const misfit = [] { return Error("the checkpoint does not fit this simulation: its state has another length"); };
+  if (state.size() < 5) throw misfit();
+  grid_ = {state[2], state[3], state[4]};
+  check();
+  std::size_t at = 5;
+  for (auto* scheme : schemes_) {
+    if (at >= state.size()) throw misfit();
+    auto const count = static_cast<std::size_t>(state[at++]);
+    if (at + count > state.size()) throw misfit();
+    scheme->restore(state.subspan(at, count));
+    at += count;
+  }
+  step_size_ = step_size;
+  step_ = step;
+  base_step_ = static_cast<std::int64_t>(state[0]);
+  base_time_ = state[1];
+  seed_ = seed;
+  fresh_ = false;
+  observed_ = true;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,102 @@
+// Simulation: the loop. Schemes calculate influences, integrators advance particles, observers look at finished steps.
+#pragma once
+
+#include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace boltzmann {
+
+class Simulation {
+ public:
+  /// A simulation of what the scheme supervises, in steps of this size (in the simulation's time unit). Scheme and
+  /// ensembles must outlive it.
+  Simulation(Scheme& scheme, double step_size);
+
+  /// A further scheme that adds its influences (its ensembles may be the same or others).
+  void add(Scheme& scheme);
+
+  /// How an ensemble is advanced. Every ensemble needs one method.
+  template <class P>
+  void integrate(Ensemble<P>& ensemble, Method method) {
+    integrate(ensemble, make_integrator(ensemble, method));
+  }
+  void integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator);
+
+  /// Calls the observer at step 0 (when the run starts) and whenever the step number is a multiple of `every`.
+  /// Observers change nothing.
+  void observe(std::uint64_t every, std::function<void(Simulation const&)> observer);
+
+  /// Makes ready and refuses what can't run: an ensemble without integrator, particles where they can't be, influences
+  /// that are not finite (two particles at one place). Error with one line. run() calls it once.
+  void check();
+
+  /// Advances by so many steps; less if stop() is called (from an observer, a signal handler or another thread): the
+  /// step is finished first. PhysicsFailure, naming step and particle, if something is not finite, has escaped, or
+  /// moved further in one step than its law's length.
+  void run(std::uint64_t steps);
+  /// The same with the negative step: the step number counts down. With the reversible leap-frog it retraces to the
+  /// last bit.
+  void rewind(std::uint64_t steps);
+  void stop() { stop_ = true; }
+  bool stopped() const { return stop_; }
+
+  std::int64_t step() const { return step_; }
+  double time() const { return base_time_ + static_cast<double>(step_ - base_step_) * step_size_; }
+  double step_size() const { return step_size_; }
+  void step_size(double size);
+  std::uint64_t seed() const { return seed_; }
+  void seed(std::uint64_t seed) { seed_ = seed; }
+  void threads(int count);
+
+  std::vector<Scheme*> const& schemes() const { return schemes_; }
+  std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
+  Method method(AnyEnsemble const& ensemble) const;
+  /// Energies and virial of the present state, over all schemes.
+  Measures measure() const;
+
+  /// What, besides the particles, determines the bits of the next step.
+  std::vector<double> state() const;
+  /// Takes a state back after the ensembles' rows have been restored: the next step has the same bits as if the run had
+  /// never stopped.
+  void restore(std::int64_t step, double step_size, std::uint64_t seed, std::span<double const> state);
+
+ private:
+  struct Part {
+    AnyEnsemble* ensemble;
+    std::unique_ptr<Integrator> integrator;
+    double longest_move2;  // square of the law's length
+  };
+  struct Observation {
+    std::uint64_t every;
+    std::function<void(Simulation const&)> observer;
+  };
+
+  void advance(double dt);
+  void run(std::uint64_t steps, int direction);
+  void calculate(double time);
+  void check_moves(Part const& part) const;
+  void observe_now() const;
+  void adopt(Scheme& scheme);
+  void make_reversible(FixedPoint const& grid);
+  FixedPoint choose_grid() const;
+
+  std::vector<Scheme*> schemes_;
+  std::vector<AnyEnsemble*> ensembles_;
+  std::vector<Part> parts_;
+  std::vector<Observation> observations_;
+  FixedPoint grid_;
+  double step_size_;
+  std::int64_t step_ = 0, base_step_ = 0;
+  double base_time_ = 0;
+  std::uint64_t seed_ = 1;
+  int stages_ = 0;
+  bool checked_ = false, fresh_ = false, observed_ = false;
+  volatile bool stop_ = false;
+};
+
+}  // namespace boltzmann
