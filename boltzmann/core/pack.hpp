@@ -4,6 +4,7 @@
 #include <boltzmann/core/number.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace boltzmann {
 
@@ -90,7 +91,10 @@ struct Pack {
   friend Pack select(Mask<Real, W> condition, Pack a, Pack b) { return condition.native ? a.native : b.native; }
   friend Pack min(Pack a, Pack b) { return select(b < a, b, a); }
   friend Pack max(Pack a, Pack b) { return select(a < b, b, a); }
-  friend Pack abs(Pack a) { return select(a < Pack(Real(0)), -a, a); }
+  friend Pack abs(Pack a) {  // also of -0 and of NaN: the sign bit goes
+    using Bits = typename Mask<Real, W>::Native;
+    return (Native)((Bits)a.native & (Bits{} + std::numeric_limits<typename detail::integer_of<Real>::type>::max()));
+  }
 
   friend Pack sqrt(Pack a) {
 #if defined(__AVX512F__)
@@ -129,7 +133,7 @@ struct Pack {
       Pack const y = Native(__builtin_ia32_rsqrt14pd512_mask(a.native, a.native, -1));
       Pack const e = Real(1) - a * y * y;
       Pack const corrected = y + y * e * (Real(0.5) + e * (Real(0.375) + Real(0.3125) * e));
-      return select(a > Real(0) & a < Real(__builtin_inf()), corrected, y);
+      return select((a > Real(0)) & (a < Real(__builtin_inf())), corrected, y);
     } else
 #endif
       return Real(1) / sqrt(a);
@@ -147,3 +151,5 @@ Real sum(Pack<Real, W> a) {
 }
 
 }  // namespace boltzmann
+
+#include <boltzmann/core/pack_math.hpp>  // exp, log, pow, sin, cos, tanh of packs

@@ -1,5 +1,5 @@
 // The methods of integration, each as its textbook has it, on the equations of motion that the particle class gives
-// (P::rate).
+// (P::equations).
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -8,8 +8,6 @@
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -29,15 +27,23 @@ inline constexpr bool has_viscosity = requires(P p) {
   p.viscosity;
 };
 
-/// p + a rate, field by field.
-template <class P>
-[[gnu::always_inline]] inline P moved(P const& p, double a, P const& rate) {
-  using Doubles = std::array<double, row_doubles<P>>;
-  auto x = std::bit_cast<Doubles>(p);
-  auto const dx = std::bit_cast<Doubles>(rate);
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] += a * dx[k];
-  return std::bit_cast<P>(x);
+/// Calls f(x, ...) for one number, or for each component of vectors.
+template <class F, class... Real>
+[[gnu::always_inline]] inline void each_component(F const& f, double& x, Real&... more) {
+  f(x, more...);
 }
+template <class F, int D, class... V>
+[[gnu::always_inline]] inline void each_component(F const& f, Vector<D>& x, V&... more) {
+  [&]<std::size_t... A>(std::index_sequence<A...>) {
+    auto const one = [&](auto a) { f(x.component[a], more.component[a]...); };
+    (one(std::integral_constant<std::size_t, A>{}), ...);
+  }
+  (std::make_index_sequence<D>{});
+}
+
+/// True for the position among the fields that the equations of motion name.
+template <class P, class Member>
+inline constexpr bool is_position = std::is_same_v<Member, decltype(&P::position)>;
 
 /// x rounded to a multiple of the quantum (a power of two), half to even: the same for x and -x.
 [[gnu::always_inline]] inline double on_grid(double x, double quantum) {
@@ -52,10 +58,17 @@ class MethodOf : public Integrator {
   Method method() const override { return method_; }
 
  protected:
-  /// The time derivative of every field of particle i (Eq 3.5, 3.8, ...).
-  [[gnu::always_inline]] P rate(std::size_t i) const {
+  /// Calls rate(member, derivative) for every field of particle i that changes in time (Eq 3.5, 3.8, ...). All
+  /// derivatives are computed before the first call, so that rate may write to the particle.
+  template <class Rate>
+  [[gnu::always_inline]] void equations(std::size_t i, Rate const& rate) const {
     P const& p = ensemble_[i];
-    return P::template rate<P>(p, ensemble_.influence_on(i));
+    typename P::Influence const& influence = ensemble_.influence_on(i);
+    P derivatives;
+    P::equations(p, influence, [&](auto member, auto const& derivative) {
+      each_component([](double& to, double const& from) { to = from; }, derivatives.*member, derivative);
+    });
+    P::equations(p, influence, [&](auto member, auto const&) { rate(member, derivatives.*member); });
   }
 
   /// Calls function(i, LargestMove&) for every particle.
@@ -101,56 +114,79 @@ class EulerMethod final : public MethodOf<P> {
     double const dt = context.dt;
     this->each([&](std::size_t i, LargestMove& move) {
       P& p = this->ensemble_[i];
-      P const next = moved(p, dt, this->rate(i));
-      move.take(norm2(next.position - p.position), i);
-      p = next;
+      auto const start = p.position;
+      this->equations(i, [&](auto member, auto const& derivative) {
+        each_component([&](double& x, double rate) { x += dt * rate; }, p.*member, derivative);
+      });
+      move.take(norm2(p.position - start), i);
     });
     return Motion::final;
   }
 };
 
+/// The drift of the position and the kick of everything else, as the leap-frogs alternate them.
 template <class P>
-class LeapFrog final : public MethodOf<P> {
+class Alternating : public MethodOf<P> {
  public:
   using MethodOf<P>::MethodOf;
   int stages() const override { return 2; }
   double time_after(int) const override { return 1; }
-  Motion advance(int stage, StepContext const& context) override {
-    double const dt = context.dt;
-    if (stage == 0) {
-      this->each([&](std::size_t i, LargestMove& move) {
-        P& p = this->ensemble_[i];
-        kick(p, i, 0.5 * dt);
-        auto const drift = dt * this->rate(i).position;
-        move.take(norm2(drift), i);
-        p.position += drift;
-      });
-      return Motion::final;
-    }
-    auto const moved_in_drift = this->move_;
-    this->each([&](std::size_t i, LargestMove& move) {
-      P& p = this->ensemble_[i];
-      kick(p, i, 0.5 * dt);
-      move.take(norm2(p.velocity), i);
-    });
-    if (this->move_.not_finite == LargestMove::nobody) this->move_ = moved_in_drift;
-    return Motion::none;
-  }
 
- private:
-  [[gnu::always_inline]] void kick(P& p, std::size_t i, double dt) {
-    auto const position = p.position;
-    p = moved(p, dt, this->rate(i));
-    p.position = position;
+ protected:
+  /// increment(x, dx): how a field takes its increment.
+  template <class Increment>
+  [[gnu::always_inline]] void kick(std::size_t i, double dt, Increment const& increment) {
+    P& p = this->ensemble_[i];
+    this->equations(i, [&](auto member, auto const& derivative) {
+      if constexpr (!is_position<P, decltype(member)>)
+        each_component([&](double& x, double rate) { increment(x, dt * rate); }, p.*member, derivative);
+    });
+  }
+  template <class Increment>
+  [[gnu::always_inline]] void drift(std::size_t i, double dt, LargestMove& move, Increment const& increment) {
+    P& p = this->ensemble_[i];
+    auto const start = p.position;
+    this->equations(i, [&](auto member, auto const& derivative) {
+      if constexpr (is_position<P, decltype(member)>)
+        each_component([&](double& x, double rate) { increment(x, dt * rate); }, p.*member, derivative);
+    });
+    move.take(norm2(p.position - start), i);
+  }
+  /// Runs the second kick, which must not forget how far the drift went.
+  template <class Function>
+  void each_again(Function const& function) {
+    auto const drifted = this->move_;
+    this->each(function);
+    if (this->move_.not_finite == LargestMove::nobody) this->move_ = drifted;
   }
 };
 
 template <class P>
-class ReversibleLeapFrog final : public MethodOf<P> {
+class LeapFrog final : public Alternating<P> {
  public:
-  using MethodOf<P>::MethodOf;
-  int stages() const override { return 2; }
-  double time_after(int) const override { return 1; }
+  using Alternating<P>::Alternating;
+  Motion advance(int stage, StepContext const& context) override {
+    double const dt = context.dt;
+    auto const plain = [](double& x, double dx) { x += dx; };
+    if (stage == 0) {
+      this->each([&](std::size_t i, LargestMove& move) {
+        this->kick(i, 0.5 * dt, plain);
+        this->drift(i, dt, move, plain);
+      });
+      return Motion::final;
+    }
+    this->each_again([&](std::size_t i, LargestMove& move) {
+      this->kick(i, 0.5 * dt, plain);
+      move.take(norm2(this->ensemble_[i].velocity), i);
+    });
+    return Motion::none;
+  }
+};
+
+template <class P>
+class ReversibleLeapFrog final : public Alternating<P> {
+ public:
+  using Alternating<P>::Alternating;
   void prepare(FixedPoint const& grid) override {
     grid_ = grid;
     for (P& p : this->ensemble_) {
@@ -160,29 +196,24 @@ class ReversibleLeapFrog final : public MethodOf<P> {
   }
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
-    auto const kick = [&](P& p, std::size_t i) {
-      p.velocity += map(this->rate(i).velocity, [&](double a) { return on_grid(0.5 * dt * a, grid_.velocity); });
-    };
+    auto const of_velocity = [&](double& v, double dv) { v += on_grid(dv, grid_.velocity); };
+    auto const of_position = [&](double& x, double dx) { x += on_grid(dx, grid_.position); };
     // Beyond this, numbers are no longer multiples of their quantum.
-    double const furthest = 2251799813685248.0 * grid_.position, fastest = 2251799813685248.0 * grid_.velocity;
+    double const furthest = square(2251799813685248.0 * grid_.position);
+    double const fastest = square(2251799813685248.0 * grid_.velocity);
+    double const infinite = std::numeric_limits<double>::infinity();
     if (stage == 0) {
       this->each([&](std::size_t i, LargestMove& move) {
-        P& p = this->ensemble_[i];
-        kick(p, i);
-        auto const drift = map(p.velocity, [&](double v) { return on_grid(dt * v, grid_.position); });
-        move.take(norm2(drift), i);
-        p.position += drift;
-        if (!(norm2(p.position) < furthest * furthest)) move.take(std::numeric_limits<double>::infinity(), i);
+        this->kick(i, 0.5 * dt, of_velocity);
+        this->drift(i, dt, move, of_position);
+        if (!(norm2(this->ensemble_[i].position) < furthest)) move.take(infinite, i);
       });
       return Motion::final;
     }
-    auto const moved_in_drift = this->move_;
-    this->each([&](std::size_t i, LargestMove& move) {
-      P& p = this->ensemble_[i];
-      kick(p, i);
-      if (!(norm2(p.velocity) < fastest * fastest)) move.take(std::numeric_limits<double>::infinity(), i);
+    this->each_again([&](std::size_t i, LargestMove& move) {
+      this->kick(i, 0.5 * dt, of_velocity);
+      if (!(norm2(this->ensemble_[i].velocity) < fastest)) move.take(infinite, i);
     });
-    if (this->move_.not_finite == LargestMove::nobody) this->move_ = moved_in_drift;
     return Motion::none;
   }
 
@@ -198,19 +229,28 @@ class Rk2 : public MethodOf<P> {
   double time_after(int stage) const override { return stage == 0 ? 0.5 : 1; }
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
-    start_.resize(this->ensemble_.size());
     if (stage == 0) {
+      start_.resize(this->ensemble_.size());
       this->each([&](std::size_t i, LargestMove&) {
-        P& p = this->ensemble_[i];
-        start_[i] = p;
-        p = moved(start_[i], 0.5 * dt, this->rate(i));
+        P &p = this->ensemble_[i], &start = start_[i];
+        this->equations(i, [&](auto member, auto const& derivative) {
+          each_component(
+              [&](double& x, double& x0, double rate) {
+                x0 = x;
+                x = x0 + 0.5 * dt * rate;
+              },
+              p.*member, start.*member, derivative);
+        });
       });
       return Motion::intermediate;
     }
     this->each([&](std::size_t i, LargestMove& move) {
-      P& p = this->ensemble_[i];
-      p = moved(start_[i], dt, this->rate(i));
-      move.take(norm2(p.position - start_[i].position), i);
+      P &p = this->ensemble_[i], &start = start_[i];
+      this->equations(i, [&](auto member, auto const& derivative) {
+        each_component([&](double& x, double& x0, double rate) { x = x0 + dt * rate; }, p.*member, start.*member,
+                       derivative);
+      });
+      move.take(norm2(p.position - start.position), i);
     });
     return Motion::final;
   }
@@ -225,41 +265,43 @@ class Rk4 final : public MethodOf<P> {
   using MethodOf<P>::MethodOf;
   int stages() const override { return 4; }
   double time_after(int stage) const override { return stage < 2 ? 0.5 : 1; }
-  Motion advance(int stage, StepContext const& context) override {
+  [[gnu::flatten, gnu::optimize("no-tree-vectorize")]] Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
-    start_.resize(this->ensemble_.size());
-    sum_.resize(this->ensemble_.size());
     switch (stage) {
       case 0:
-        this->each([&](std::size_t i, LargestMove&) {
-          P& p = this->ensemble_[i];
-          start_[i] = p;
-          sum_[i] = this->rate(i);
-          p = moved(start_[i], 0.5 * dt, sum_[i]);
+        start_.resize(this->ensemble_.size());
+        sum_.resize(this->ensemble_.size());
+        each_field<false>([&](double& x, double& x0, double& sum, double rate) {
+          x0 = x;
+          sum = rate;
+          x = x0 + 0.5 * dt * rate;
         });
         return Motion::intermediate;
       case 1:
-        inner(0.5 * dt);
-        return Motion::intermediate;
-      case 2:
-        inner(dt);
-        return Motion::intermediate;
-      default:
-        this->each([&](std::size_t i, LargestMove& move) {
-          P& p = this->ensemble_[i];
-          p = moved(start_[i], dt / 6, moved(sum_[i], 1.0, this->rate(i)));
-          move.take(norm2(p.position - start_[i].position), i);
+      case 2: {
+        double const h = stage == 1 ? 0.5 * dt : dt;
+        each_field<false>([&](double& x, double& x0, double& sum, double rate) {
+          sum += 2 * rate;
+          x = x0 + h * rate;
         });
+        return Motion::intermediate;
+      }
+      default:
+        each_field<true>([&](double& x, double& x0, double& sum, double rate) { x = x0 + dt / 6 * (sum + rate); });
         return Motion::final;
     }
   }
 
  private:
-  void inner(double dt) {
-    this->each([&](std::size_t i, LargestMove&) {
-      P const rate = this->rate(i);
-      sum_[i] = moved(sum_[i], 2.0, rate);
-      this->ensemble_[i] = moved(start_[i], dt, rate);
+  /// f(x, x at the start of the step, weighted sum of rates, rate) for every number that changes in time.
+  template <bool at_end, class F>
+  void each_field(F const& f) {
+    this->each([&](std::size_t i, [[maybe_unused]] LargestMove& move) {
+      P &p = this->ensemble_[i], &start = start_[i], &sum = sum_[i];
+      this->equations(i, [&](auto member, auto const& derivative) {
+        each_component(f, p.*member, start.*member, sum.*member, derivative);
+      });
+      if constexpr (at_end) move.take(norm2(p.position - start.position), i);
     });
   }
 

@@ -11,11 +11,9 @@ struct Euler : Particle<D, Real> {
   static constexpr char const* class_name = "Euler";
 
   /// Eq 3.8: dr/dt = v, the velocity field at the particle.
-  template <class Self, class I>
-  static Self rate(Self const& p, I const& velocity) {
-    Self derivative = Particle<D, Real>::rate(p, velocity);
-    derivative.position = velocity;
-    return derivative;
+  template <class Self, class I, class Rate>
+  static void equations(Self const&, I const& velocity, Rate const& rate) {
+    rate(&Euler::position, velocity);
   }
 };
 

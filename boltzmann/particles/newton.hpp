@@ -14,12 +14,10 @@ struct Newton : Particle<D, Real> {
   Vector<D, Real> velocity;
 
   /// Newton's law (Eq 3.5, 3.6): dr/dt = v, dv/dt = F / m.
-  template <class Self, class I>
-  static Self rate(Self const& p, I const& force) {
-    Self derivative = Particle<D, Real>::rate(p, force);
-    derivative.position = p.velocity;
-    derivative.velocity = force / p.mass;
-    return derivative;
+  template <class Self, class I, class Rate>
+  static void equations(Self const& p, I const& force, Rate const& rate) {
+    rate(&Newton::position, p.velocity);
+    rate(&Newton::velocity, force * (1 / p.mass));
   }
 
   template <class Self>

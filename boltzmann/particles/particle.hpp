@@ -10,7 +10,7 @@ namespace boltzmann {
 /// nothing but Real and Vector<D, Real>, so that the same struct serves both. To make your own class: derive, add
 /// fields, done. What a class may replace:
 ///   Influence  the type that laws add up for it (a force, a velocity, any struct of Real),
-///   rate       the equations of motion: the time derivative of every field, as a particle,
+///   equations  the equations of motion: calls rate(&Class::field, derivative) for every field that changes in time,
 ///   fields     its descriptor table, if its own fields shall have names in files and diagnoses.
 template <int D, class Real = double>
 struct Particle {
@@ -20,11 +20,9 @@ struct Particle {
 
   Vector<D, Real> position;
 
-  /// d(state)/dt of a particle that nothing moves: zero in every field.
-  template <class Self, class I>
-  static Self rate(Self const&, I const&) {
-    return Self{};
-  }
+  /// A particle that nothing moves.
+  template <class Self, class I, class Rate>
+  static void equations(Self const&, I const&, Rate const&) {}
 
   template <class Self>
   static FieldTable<Self> fields() {

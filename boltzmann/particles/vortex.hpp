@@ -43,11 +43,10 @@ struct Inviscid<3, Real> : Vortex<3, Real> {
   static constexpr char const* class_name = "Inviscid";
   using Influence = VortexInfluence<Real>;
 
-  template <class Self, class I>
-  static Self rate(Self const& p, I const& influence) {
-    Self derivative = Vortex<3, Real>::rate(p, influence.velocity);
-    derivative.vorticity = influence.stretching;
-    return derivative;
+  template <class Self, class I, class Rate>
+  static void equations(Self const& p, I const& influence, Rate const& rate) {
+    Vortex<3, Real>::equations(p, influence.velocity, rate);
+    rate(&Inviscid::vorticity, influence.stretching);
   }
 };
 

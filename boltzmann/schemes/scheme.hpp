@@ -44,6 +44,13 @@ class Scheme {
   }
   /// Adds this scheme's influences to the arrays, for ensembles that go through several schemes.
   virtual void add_influences(double time) = 0;
+  /// One call that does all of calculate(), for systems so small that the way there costs as much as the work. It holds
+  /// until an ensemble, a law or the box changes; `call` is null if there is none.
+  struct Shortcut {
+    void (*call)(void const* data) = nullptr;
+    void const* data = nullptr;
+  };
+  virtual Shortcut shortcut() { return {}; }
   /// Energies and virial of the state as it stands.
   virtual Measures measure(double time = 0) = 0;
 

@@ -25,7 +25,7 @@ void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> in
       part.integrator = std::move(integrator);
       return;
     }
-  parts_.push_back({&ensemble, std::move(integrator), 0});
+  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}});
 }
 
 void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
@@ -55,6 +55,7 @@ Method Simulation::method(AnyEnsemble const& ensemble) const {
 
 void Simulation::check() {
   if (checked_) return;
+  shortcut_ = {};
   ensembles_.clear();
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
@@ -71,8 +72,11 @@ void Simulation::check() {
     double scale = std::numeric_limits<double>::infinity();
     for (auto const* scheme : schemes_) scale = std::min(scale, scheme->length_scale(*ensemble));
     part->longest_move2 = scale * scale;
+    part->time_after.clear();
     part->integrator->threads(schemes_.front()->threads());
-    stages_ = std::max(stages_, part->integrator->stages());
+    part->stages = part->integrator->stages();
+    for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
+    stages_ = std::max(stages_, part->stages);
     reversible = reversible || part->integrator->method() == Method::reversible_leap_frog;
   }
   std::erase_if(parts_, [&](Part const& p) {
@@ -97,10 +101,13 @@ void Simulation::check() {
 
 FixedPoint Simulation::choose_grid() const {
   double extent = 0, mass = std::numeric_limits<double>::infinity();
+  bool open = false;  // particles may fly off: leave them room for 512 boxes, and 4 otherwise
   for (auto const* scheme : schemes_)
-    for (int a = 0; a < scheme->box().dimension(); ++a)
-      extent =
-          std::max({extent, std::abs(scheme->box().low(a)), std::abs(scheme->box().high(a)), scheme->box().length(a)});
+    for (int a = 0; a < scheme->box().dimension(); ++a) {
+      Box const& box = scheme->box();
+      extent = std::max({extent, std::abs(box.low(a)), std::abs(box.high(a)), box.length(a)});
+      open = open || box.boundary(a) == Boundary::open;
+    }
   for (auto const& part : parts_)
     if (Field const* field = part.ensemble->find_field("mass"))
       for (std::size_t i = 0; i < part.ensemble->size(); ++i)
@@ -108,8 +115,8 @@ FixedPoint Simulation::choose_grid() const {
   if (!std::isfinite(mass) || !(mass > 0)) mass = 1;
   auto const power_of_two = [](double x) { return std::exp2(std::floor(std::log2(x))); };
   FixedPoint grid;
-  grid.position = power_of_two(extent * 0x1p-49);
-  grid.velocity = power_of_two(grid.position / std::abs(step_size_) * 0x1p-8);
+  grid.position = power_of_two(extent * (open ? 0x1p-42 : 0x1p-49));
+  grid.velocity = power_of_two(grid.position / std::abs(step_size_) * 0x1p-4);
   grid.force = power_of_two(grid.velocity * mass / std::abs(step_size_) * 0x1p-3);
   return grid;
 }
@@ -124,6 +131,10 @@ void Simulation::make_reversible(FixedPoint const& grid) {
 }
 
 void Simulation::calculate(double time) {
+  if (shortcut_.call) {
+    shortcut_.call(shortcut_.data);
+    return;
+  }
   if (schemes_.size() == 1) {
     schemes_.front()->calculate(time);
     return;
@@ -137,17 +148,16 @@ void Simulation::advance(double dt) {
   double const start = time();
   double passed = 0;
   for (int stage = 0; stage < stages_; ++stage) {
-    if (!fresh_) {
-      calculate(start + passed * dt);
-      fresh_ = true;
-    }
+    if (!fresh_) calculate(start + passed * dt);
+    fresh_ = true;
     for (auto& part : parts_) {
-      if (stage >= part.integrator->stages()) continue;
+      if (stage >= part.stages) continue;
       Motion const motion = part.integrator->advance(stage, context);
-      if (motion != Motion::none) fresh_ = false;
+      if (motion == Motion::none) continue;
+      fresh_ = false;
+      passed = part.time_after[stage];
       if (motion == Motion::final)
         for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble);
-      passed = std::max(passed, part.integrator->time_after(stage));
     }
   }
   for (auto const& part : parts_) check_moves(part);
@@ -188,6 +198,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     observe_now();
   }
   fresh_ = false;  // the particles may have been changed since the last run
+  shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
   double const dt = direction * step_size_;
   for (std::uint64_t n = 0; n < steps && !stop_; ++n) {
     try {

@@ -70,6 +70,8 @@ class Simulation {
     AnyEnsemble* ensemble;
     std::unique_ptr<Integrator> integrator;
     double longest_move2;  // square of the law's length
+    int stages;
+    std::vector<double> time_after;  // of each stage
   };
   struct Observation {
     std::uint64_t every;
@@ -90,6 +92,7 @@ class Simulation {
   std::vector<Part> parts_;
   std::vector<Observation> observations_;
   FixedPoint grid_;
+  Scheme::Shortcut shortcut_;
   double step_size_;
   std::int64_t step_ = 0, base_step_ = 0;
   double base_time_ = 0;

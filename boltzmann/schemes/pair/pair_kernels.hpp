@@ -21,6 +21,7 @@ struct PairTask {
   std::uint32_t const* order = nullptr;  ///< row -> particle number; null: they are the same
   double const* source = nullptr;        ///< rows of those that influence
   std::size_t sources = 0;
+  bool overwrite = false;              ///< the influence is stored, not added (the scalar path only)
   bool same = false;                   ///< target and source are one ensemble: nobody influences itself
   std::size_t const* start = nullptr;  ///< neighbour list (lists and connections)
   std::uint32_t const* index = nullptr;
@@ -33,6 +34,9 @@ struct PairTask {
   double* energy = nullptr;    ///< measuring: half of each pair's energy
   double* virial = nullptr;    ///< measuring: 9 numbers a particle, half of each pair's -r_a F_b
 };
+
+/// Up to here scalars over half the pairs beat packs over all of them.
+inline constexpr std::size_t few_particles = 24;
 
 using PairKernel = void (*)(void const* law, PairTask const& task, std::size_t begin, std::size_t end);
 
@@ -205,27 +209,46 @@ template <Pass pass, class P, class Law>
   }
 }
 
-/// Every pair of one ensemble once, one after the other.
-template <class P, class Law>
-[[gnu::flatten]] void over_few(void const* the_law, PairTask const& task, std::size_t, std::size_t) {
-  Law const& law = *static_cast<Law const*>(the_law);
+/// Every pair of one ensemble once. For 2, 3 and 4 particles the count is a constant, and all stays in registers.
+template <class P, class Law, class Count>
+[[gnu::always_inline]] inline void each_pair(Law const& law, PairTask const& task, Count count) {
   constexpr std::size_t components = sizeof(typename P::Influence) / sizeof(double);
+  constexpr std::size_t most = few_particles;
   auto const* rows = reinterpret_cast<Row<P> const*>(task.target);
-  for (std::size_t i = 0; i < task.targets; ++i) {
-    P const& p = rows[i];
-    std::array<double, components> total{};
-    for (std::size_t j = i + 1; j < task.targets; ++j) {
-      P const& q = rows[j];
+  std::array<std::array<double, components>, most> total;
+  for (std::size_t i = 0; i < count; ++i) total[i] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      P const &p = rows[i], &q = rows[j];
       auto const on_p = as_array<double>(influence_of(law(p, q)));
-      double* reaction = task.influence + j * components;
       if constexpr (symmetry_of<Law>() == Symmetry::antisymmetric) {
-        for (std::size_t c = 0; c < components; ++c) total[c] += on_p[c], reaction[c] -= on_p[c];
+        for (std::size_t c = 0; c < components; ++c) total[i][c] += on_p[c], total[j][c] -= on_p[c];
       } else {
         auto const on_q = as_array<double>(influence_of(law(q, p)));
-        for (std::size_t c = 0; c < components; ++c) total[c] += on_p[c], reaction[c] += on_q[c];
+        for (std::size_t c = 0; c < components; ++c) total[i][c] += on_p[c], total[j][c] += on_q[c];
       }
     }
-    for (std::size_t c = 0; c < components; ++c) task.influence[i * components + c] += total[c];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < components; ++c) {
+      double& influence = task.influence[i * components + c];
+      influence = task.overwrite ? total[i][c] : influence + total[i][c];
+    }
+}
+
+template <class P, class Law>
+[[gnu::flatten, gnu::optimize("no-tree-vectorize")]] void over_few(void const* the_law, PairTask const& task,
+                                                                   std::size_t, std::size_t) {
+  Held<Law> law = *static_cast<Law const*>(the_law);
+  switch (task.targets) {
+    case 2:
+      return each_pair<P>(law, task, std::integral_constant<std::size_t, 2>{});
+    case 3:
+      return each_pair<P>(law, task, std::integral_constant<std::size_t, 3>{});
+    case 4:
+      return each_pair<P>(law, task, std::integral_constant<std::size_t, 4>{});
+    default:
+      return each_pair<P>(law, task, task.targets);
   }
 }
 

@@ -12,7 +12,6 @@ namespace boltzmann {
 namespace {
 
 constexpr double skin_of_cutoff = 0.12;
-constexpr std::size_t few_particles = 24;       // up to here scalars over half the pairs beat packs over all of them
 constexpr std::size_t particle_grain = 256;     // particles of one range of a list
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
 constexpr char const* axis_name = "xyz";
@@ -27,30 +26,30 @@ struct PairScheme::Near {
   double cutoff;
   Mirror *target_mirror = nullptr, *source_mirror = nullptr;
   NeighbourList list;
+  PairTask task, overwriting;
+  PairKernel few = nullptr;  // the kernel for a handful of particles, if they are
 
-  bool all_pairs() const { return !std::isfinite(cutoff); }
+  bool all_pairs() const { return cutoff == no_cutoff; }
 
-  PairTask task(double quantum) const {
-    PairTask t;
-    t.influence = target->influence(0);
-    t.same = target == source;
+  /// Sets the task to where memory is now (ensembles may have been resized, mirrors rebuilt).
+  void locate(double quantum) {
+    task.influence = target->influence(0);
     if (all_pairs()) {
-      t.target = target->row(0);
-      t.source = source->row(0);
-      t.targets = target->size();
-      t.sources = source->size();
+      task.target = target->row(0);
+      task.source = source->row(0);
+      task.targets = target->size();
+      task.sources = source->size();
     } else {
-      t.target = target_mirror->rows();
-      t.source = source_mirror->rows();
-      t.targets = target_mirror->owned();
-      t.sources = source_mirror->total();
-      t.order = target_mirror->order();
-      t.start = list.start.data();
-      t.index = list.index.data();
-      t.cutoff2 = cutoff * cutoff;
-      t.rounding = 1.5 * 4503599627370496.0 * quantum;
+      task.target = target_mirror->rows();
+      task.source = source_mirror->rows();
+      task.targets = target_mirror->owned();
+      task.sources = source_mirror->total();
+      task.order = target_mirror->order();
+      task.start = list.start.data();
+      task.index = list.index.data();
+      task.rounding = 1.5 * 4503599627370496.0 * quantum;
     }
-    return t;
+    few = all_pairs() && task.same && task.targets <= few_particles ? kernels.few : nullptr;
   }
   std::size_t grain() const {
     return all_pairs() ? std::max<std::size_t>(8, pairs_grain / (source->size() + 1)) : particle_grain;
@@ -144,6 +143,8 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
   near->law = std::move(law);
   near->traits = traits;
   near->cutoff = cutoff;
+  near->task.same = &target == &source;
+  near->task.cutoff2 = cutoff * cutoff;
   if (std::isfinite(cutoff)) {
     near->target_mirror = &mirror(target);
     near->source_mirror = &mirror(source);
@@ -195,7 +196,6 @@ void PairScheme::build_lists() {
 }
 
 void PairScheme::refresh() {
-  if (mirrors_.empty()) return;
   for (auto& mirror : mirrors_)
     if (mirror->owned() != mirror->ensemble().size()) lists_stale_ = true;
   for (int attempt = 0; attempt < 2; ++attempt) {
@@ -214,11 +214,12 @@ void PairScheme::refresh() {
 
 void PairScheme::add_influences(double time) {
   ++calculations_;
-  refresh();
+  if (!mirrors_.empty()) refresh();
   for (auto const& near : near_) {
-    PairTask const task = near->task(quantum_);
-    if (near->all_pairs() && task.same && task.targets <= few_particles && near->kernels.few) {
-      near->kernels.few(near->law.get(), task, 0, task.targets);
+    near->locate(quantum_);
+    PairTask const& task = near->task;
+    if (near->few) {
+      near->few(near->law.get(), task, 0, task.targets);
       continue;
     }
     PairKernel const kernel = near->all_pairs() ? near->kernels.all
@@ -241,9 +242,23 @@ void PairScheme::add_influences(double time) {
   }
 }
 
+Scheme::Shortcut PairScheme::shortcut() {
+  if (near_.size() != 1 || !connected_.empty() || !external_.empty() || ensembles().size() != 1) return {};
+  Near& only = *near_.front();
+  only.locate(quantum_);
+  if (!only.few) return {};
+  only.overwriting = only.task;
+  only.overwriting.overwrite = true;
+  return {[](void const* data) {
+            auto const& near = *static_cast<Near const*>(data);
+            near.few(near.law.get(), near.overwriting, 0, near.overwriting.targets);
+          },
+          &only};
+}
+
 Measures PairScheme::measure(double time) {
   Measures measures;
-  refresh();
+  if (!mirrors_.empty()) refresh();
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
   std::vector<std::vector<double>> virial(all.size()), field(all.size());
@@ -264,7 +279,8 @@ Measures PairScheme::measure(double time) {
   };
   for (auto const& near : near_) {
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
-    run(near->task(0), near->target, near->grain(),
+    near->locate(0);
+    run(near->task, near->target, near->grain(),
         near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
   }
   for (auto const& connected : connected_) {

@@ -88,6 +88,7 @@ class PairScheme final : public Scheme {
   std::vector<Bond> bonds() const;
 
   void add_influences(double time) override;
+  Shortcut shortcut() override;
   Measures measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;

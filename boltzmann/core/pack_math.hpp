@@ -1,0 +1,368 @@
+// Elementary functions of packs: exp, expm1, log, pow, sin, cos and tanh, written once in the arithmetic of Pack.
+//
+// Every lane depends on its own input only. No branches, except that sin and cos of arguments beyond 2^20 go to the C
+// library, lane by lane. No instruction set is mentioned. Where a rounding error would matter, products are exact
+// (their factors have few bits), so that a compiler that fuses a * b + c changes nothing there; in the polynomials it
+// may change the last bit. So: the same bits on every instruction set with FMA, the same bits on every one without, and
+// at most the last bit between the two.
+//
+// Largest errors measured against 80-bit arithmetic, in units in the last place (tests/core/pack_math_test.cpp):
+//   exp 1.0   expm1 1.1   log 0.95   pow 1.1   sin 0.8   cos 0.8   tanh 1.9
+// Special values (0, -0, infinities, NaN, results that overflow or are subnormal) are those of the C standard; no flags
+// are raised on purpose. Packs of float are computed in double.
+#pragma once
+
+#include <boltzmann/core/pack.hpp>
+
+#include <cstdint>
+#include <type_traits>
+
+namespace boltzmann {
+
+using std::expm1;
+using std::tanh;
+
+namespace detail {
+
+template <int W>
+using Bits = typename Mask<double, W>::Native;
+
+template <int W>
+[[gnu::always_inline]] inline Bits<W> bits_of(Pack<double, W> x) {
+  return (Bits<W>)x.native;
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> from_bits(Bits<W> bits) {
+  return (typename Pack<double, W>::Native)bits;
+}
+/// All ones or all zeros per lane, as a condition for select().
+template <int W>
+[[gnu::always_inline]] inline Mask<double, W> mask_of(Bits<W> bits) {
+  return {bits};
+}
+
+inline constexpr std::int64_t sign_bit = INT64_MIN;
+inline constexpr std::int64_t mantissa_bits = 0x000fffffffffffff;
+
+/// x with the sign of s turned over it: x >= 0 gets the sign of s.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> with_sign_of(Pack<double, W> x, Pack<double, W> s) {
+  return from_bits<W>(bits_of(x) ^ (bits_of(s) & sign_bit));
+}
+/// The leading 26 bits: a product of two of these is exact.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> leading(Pack<double, W> x) {
+  return from_bits<W>(bits_of(x) & ~std::int64_t{0x7ffffff});
+}
+
+/// c0 + c1 x + c2 x^2 + ...
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> polynomial(Pack<double, W>, double c0) {
+  return c0;
+}
+template <int W, class... Coefficients>
+[[gnu::always_inline]] inline Pack<double, W> polynomial(Pack<double, W> x, double c0, Coefficients... more) {
+  return c0 + x * polynomial(x, more...);
+}
+
+// Adding and subtracting it rounds to the nearest integer, which then stands in the low bits of the sum.
+inline constexpr double to_integer = 0x1.8p52;
+
+inline constexpr double ln2_high = 0x1.62e42fefa2p-1;  // 40 bits: times an exponent it is exact
+inline constexpr double ln2_low = 0x1.9ef35793c7673p-41;
+
+/// 2^n for whole n in -1022..1023, given n + to_integer.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> power_of_two(Pack<double, W> n_shifted) {
+  return from_bits<W>((bits_of(n_shifted) + 1023) << 52);
+}
+
+/// exp(r) - 1 - r for |r| <= ln(2)/2.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> exp_tail(Pack<double, W> r) {
+  auto const q = polynomial(r, 0x1.555555555555cp-3, 0x1.5555555555556p-5, 0x1.111111110eb24p-7, 0x1.6c16c16c163b5p-10,
+                            0x1.a01a01b3f349ep-13, 0x1.a01a01a63aa89p-16, 0x1.71ddef0597a48p-19, 0x1.27e4dd9fd0bb5p-22,
+                            0x1.af6dc7c126498p-26, 0x1.1f6df94007fe5p-29);
+  return (r * r) * (0.5 + r * q);
+}
+
+/// exp(high + low), |low| far below |high|; high has at most 53 bits and is not NaN where low is finite.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> exp_of_sum(Pack<double, W> high, Pack<double, W> low) {
+  using Real = Pack<double, W>;
+  Mask<double, W> const over = high > 710.0, under = high < -746.0;
+  high = select(under, Real(-746.0), select(over, Real(710.0), high));
+  low = select(under | over, Real(0.0), low);
+  Real const shifted = high * 0x1.71547652b82fep+0 + to_integer;
+  Real const k = shifted - to_integer;
+  Real const r = (high - k * ln2_high) + (low - k * ln2_low);
+  // 2^k in two factors, since k reaches 1025 and -1077.
+  Real const half_shifted = k * 0.5 + to_integer;
+  Real const rest = k - (half_shifted - to_integer);
+  return (1.0 + (r + exp_tail(r))) * power_of_two(half_shifted) * power_of_two(rest + to_integer);
+}
+
+/// x = 2^exponent mantissa with the mantissa in [sqrt(1/2), sqrt(2)), for finite x > 0.
+template <int W>
+struct Split {
+  Pack<double, W> mantissa, exponent;
+};
+template <int W>
+[[gnu::always_inline]] inline Split<W> split(Pack<double, W> x) {
+  using Real = Pack<double, W>;
+  constexpr std::int64_t root_half = 0x3fe6a09e667f3bcd, one = 0x3ff0000000000000,
+                         magic = 0x4330000000000000;  // magic: 2^52
+  Mask<double, W> const subnormal = x < 0x1p-1022;
+  x = select(subnormal, x * 0x1p54, x);
+  Bits<W> const moved = bits_of(x) + (one - root_half);
+  Real const biased = from_bits<W>((Bits<W>)((typename Mask<double, W>::Native)moved >> 52 & 0x7ff) | magic);
+  return {from_bits<W>((moved & mantissa_bits) + root_half),
+          biased - select(subnormal, Real(0x1p52 + 1077), Real(0x1p52 + 1023))};
+}
+
+/// An argument of sin or cos as quadrant pi/2 + high + low.
+template <int W>
+struct Reduced {
+  Pack<double, W> high, low;
+  Bits<W> quadrant;  ///< right modulo 4
+};
+inline constexpr double reducible = 0x1p20;
+
+/// For |x| <= reducible: pi/2 in four parts, the first three of 33 bits, so that their products with the quadrant are
+/// exact.
+template <int W>
+[[gnu::always_inline]] inline Reduced<W> reduce_angle(Pack<double, W> x) {
+  using Real = Pack<double, W>;
+  Real const shifted = x * 0x1.45f306dc9c883p-1 + to_integer;
+  Real const n = shifted - to_integer;
+  Real const a = x - n * 0x1.921fb544p+0;
+  Real error = 0.0;
+  auto const subtract = [&error](Real big, Real part) {  // the rounding error of the difference goes to `error`
+    Real const difference = big - part;
+    Real const back = difference - big;
+    error += (big - (difference - back)) - (part + back);
+    return difference;
+  };
+  Real const b = subtract(a, n * 0x1.0b4611a6p-34);
+  Real const c = subtract(b, n * 0x1.3198a2ep-69);
+  Real const low = error - n * 0x1.b839a252049c1p-104;
+  Real const high = c + low;
+  return {high, (c - high) + low, bits_of(shifted)};
+}
+
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> sin_reduced(Reduced<W> r) {
+  auto const z = r.high * r.high;
+  auto const s = polynomial(z, -0x1.5555555555549p-3, 0x1.111111110f87ep-7, -0x1.a01a019c121c2p-13,
+                            0x1.71de35782c167p-19, -0x1.ae5e66998807ap-26, 0x1.5d931d4ea6d38p-33);
+  return r.high + (r.high * z * s + r.low * (1.0 - 0.5 * z));
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> cos_reduced(Reduced<W> r) {
+  auto const z = r.high * r.high;
+  auto const c = polynomial(z, 0x1.555555555554cp-5, -0x1.6c16c16c15180p-10, 0x1.a01a019cb20a2p-16,
+                            -0x1.27e4f80a2bf45p-22, 0x1.1ee9ec1401d6fp-29, -0x1.8faeb3d1b6debp-37);
+  auto const half = 0.5 * z;
+  auto const top = 1.0 - half;
+  return top + (((1.0 - top) - half) + (z * z * c - r.high * r.low));
+}
+/// sin(r + quadrant pi/2)
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> sin_of_quadrant(Reduced<W> r) {
+  Mask<double, W> const odd = mask_of<W>((r.quadrant & 1) != 0);
+  auto const value = select(odd, cos_reduced(r), sin_reduced(r));
+  return from_bits<W>(bits_of(value) ^ (Bits<W>)(r.quadrant << 62 & sign_bit));
+}
+
+/// The C library's function in the lanes that reduce_angle() can't take; in long double, since the one for doubles is
+/// 160 units off where a double comes closest to a multiple of pi/2.
+template <int W, class Function>
+[[gnu::noinline, gnu::cold]] void replace_lanes(double const* x, double* value, Function f) {
+  for (int lane = 0; lane < W; ++lane)
+    if (!(x[lane] <= reducible && x[lane] >= -reducible)) value[lane] = f(x[lane]);
+}
+template <int W, class Function>
+[[gnu::always_inline]] inline Pack<double, W> with_far_lanes(Pack<double, W> x, Pack<double, W> value, Function f) {
+  if (any(abs(x) > reducible)) [[unlikely]] {
+    double in[W], out[W];
+    for (int lane = 0; lane < W; ++lane) in[lane] = x.native[lane], out[lane] = value.native[lane];
+    replace_lanes<W>(in, out, f);
+    for (int lane = 0; lane < W; ++lane) value.native[lane] = out[lane];
+  }
+  return value;
+}
+
+}  // namespace detail
+
+/// e^x; 0 below -745.2, infinite above 709.8.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> exp(Pack<double, W> x) {
+  return detail::exp_of_sum(x, Pack<double, W>(0.0));
+}
+
+/// e^x - 1, accurate near zero.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> expm1(Pack<double, W> x) {
+  using Real = Pack<double, W>;
+  Real const limited = select(x < -40.0, Real(-40.0), select(x > 710.0, Real(710.0), x));
+  Real const shifted = limited * 0x1.71547652b82fep+0 + detail::to_integer;
+  Real const k = shifted - detail::to_integer;
+  Real const high = limited - k * detail::ln2_high;
+  Real const r = high - k * detail::ln2_low;
+  Real const error = (high - r) - k * detail::ln2_low;
+  Real const tail = detail::exp_tail(r) + (error + error * r);
+  Real const p = r + tail;
+  Real const p_low = (r - p) + tail;
+  // 2^k (p + p_low) + (2^k - 1) with half of 2^k, since k reaches 1024; products with it are exact.
+  Real const half = detail::power_of_two(shifted - 1.0);
+  Real const whole = half - 0.5;
+  Real const value = whole + half * p;
+  Real const value_low = ((whole - value) + half * p) + half * p_low;
+  return select(k == 0.0, select(x == 0.0, x, p), select(x > 709.0, Real(2.0 * value), 2.0 * (value + value_low)));
+}
+
+/// ln x; -infinity at 0, NaN below.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> log(Pack<double, W> x) {
+  using Real = Pack<double, W>;
+  auto const [m, k] = detail::split(x);
+  Real const f = m - 1.0;
+  Real const s = f / (2.0 + f);  // ln m = 2 artanh s
+  Real const z = s * s;
+  Real const r =
+      z * detail::polynomial(z, 0x1.5555555555592p-1, 0x1.999999997fd69p-2, 0x1.24924941f58c0p-2, 0x1.c71c5205ad7edp-3,
+                             0x1.74663fb0c35f1p-3, 0x1.39a1a5caaed36p-3, 0x1.2f063e053c530p-3);
+  Real const value = k * detail::ln2_high + (f - (s * (f - r) - k * detail::ln2_low));
+  double const infinity = __builtin_inf();
+  Real const finite = select(x > 0.0, select(x < infinity, value, x), Real(__builtin_nan("")));
+  return select(x == 0.0, Real(-infinity), finite);
+}
+
+/// x^y. For x < 0 only whole y have a power; every special case is that of the C standard (pow(x, 0) = pow(1, y) = 1).
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> pow(Pack<double, W> x, std::type_identity_t<Pack<double, W>> y) {
+  using Real = Pack<double, W>;
+  double const infinity = __builtin_inf();
+  Real const a = abs(x);
+  auto const [m, k] = detail::split(a);
+
+  // ln m = s (2 + 2/3 z + z^2 q), s = (m - 1) / (m + 1), z = s^2, to about 68 bits: every high part has 26 bits, every
+  // product of them is exact.
+  Real const f = m - 1.0;
+  Real const d = m + 1.0;
+  Real const d_high = detail::leading(d);
+  Real const d_low = (d - d_high) + (m - (d - 1.0));
+  Real const inverse = 1.0 / d;
+  Real const s_high = detail::leading(f * inverse);
+  Real const s_low = ((f - s_high * d_high) - s_high * d_low) * inverse;
+  Real const z_exact = s_high * s_high;
+  Real const z_error = s_low * (2.0 * s_high + s_low);
+  Real const z = z_exact + z_error;
+  Real const z_high = detail::leading(z_exact);
+  Real const q =
+      detail::polynomial(z, 0x1.9999999999996p-2, 0x1.2492492493035p-2, 0x1.c71c71c580565p-3, 0x1.745d18325b93ap-3,
+                         0x1.3b1362b3afee0p-3, 0x1.1120b5fb760b8p-3, 0x1.de33628f58486p-4, 0x1.eb1195c207326p-4);
+  constexpr double two_thirds_high = 0x1.555555p-1, two_thirds_low = 0x1.5555555555555p-27;
+  Real const t_exact = two_thirds_high * z_high;
+  Real const t_rest = (two_thirds_high * ((z_exact - z_high) + z_error) + two_thirds_low * z) + z * z * q;
+  Real const u_high = detail::leading(2.0 + (t_exact + t_rest));
+  Real const u_low = ((2.0 - u_high) + t_exact) + t_rest;
+  Real const ln_m = s_high * u_high;
+  Real const ln_m_low = s_high * u_low + s_low * (u_high + u_low);
+
+  Real const k_ln2 = k * detail::ln2_high;
+  Real const ln = k_ln2 + ln_m;
+  Real const ln_low = (ln_m - (ln - k_ln2)) + (k * detail::ln2_low + ln_m_low);
+
+  // y ln a; beyond 2^64 every y gives the same power.
+  Real const exponent = select(y > 0x1p64, Real(0x1p64), select(y < -0x1p64, Real(-0x1p64), y));
+  Real const y_high = detail::leading(exponent);
+  Real const ln_high = detail::leading(ln);
+  Real const ln_rest = (ln - ln_high) + ln_low;
+  Real const power = detail::exp_of_sum(y_high * ln_high, y_high * ln_rest + (exponent - y_high) * (ln_high + ln_rest));
+
+  Real const zero = 0.0, one = 1.0;
+  auto const grows = ((a > 1.0) & (y > 0.0)) | ((a < 1.0) & (y < 0.0));
+  Real value = select((a == 0.0) | (a == infinity), select(grows, Real(infinity), zero), power);
+
+  Real const size = abs(y);
+  auto const whole = [](Real v) { return (v >= 0x1p52) | (((v + 0x1p52) - 0x1p52) == v); };
+  auto const y_whole = whole(size);
+  auto const odd = y_whole & !whole(0.5 * size);
+  value = select(odd, detail::with_sign_of(value, x), value);
+  value = select((x < 0.0) & (a < infinity) & !y_whole, Real(__builtin_nan("")), value);
+  value = select((x == x) & (y == y), value, x + y);
+  return select((y == 0.0) | (x == 1.0), one, value);
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> pow(double x, Pack<double, W> y) {
+  return pow(Pack<double, W>(x), y);
+}
+
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> sin(Pack<double, W> x) {
+  auto const value = detail::sin_of_quadrant(detail::reduce_angle(x));
+  auto const near = select(abs(x) < 0x1p-27, x, value);  // -0 keeps its sign
+  return detail::with_far_lanes(x, near, [](long double far) { return static_cast<double>(std::sin(far)); });
+}
+
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> cos(Pack<double, W> x) {
+  auto r = detail::reduce_angle(x);
+  r.quadrant = r.quadrant + 1;
+  return detail::with_far_lanes(x, detail::sin_of_quadrant(r),
+                                [](long double far) { return static_cast<double>(std::cos(far)); });
+}
+
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> tanh(Pack<double, W> x) {
+  using Real = Pack<double, W>;
+  Real const a = abs(x);
+  Real const t = expm1(2.0 * select(a > 22.0, Real(22.0), a));
+  Real const d = t + 2.0;
+  Real const d_low = select(t < 2.0, t - (d - 2.0), Real(0.0));
+  Real const quotient = t / d;
+  return detail::with_sign_of(quotient - quotient * (d_low / d), x);
+}
+
+// Packs of float: in double, and rounded.
+namespace detail {
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> widened(Pack<float, W> x) {
+  return __builtin_convertvector(x.native, typename Pack<double, W>::Native);
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<float, W> narrowed(Pack<double, W> x) {
+  return __builtin_convertvector(x.native, typename Pack<float, W>::Native);
+}
+}  // namespace detail
+template <int W>
+Pack<float, W> exp(Pack<float, W> x) {
+  return detail::narrowed(exp(detail::widened(x)));
+}
+template <int W>
+Pack<float, W> expm1(Pack<float, W> x) {
+  return detail::narrowed(expm1(detail::widened(x)));
+}
+template <int W>
+Pack<float, W> log(Pack<float, W> x) {
+  return detail::narrowed(log(detail::widened(x)));
+}
+template <int W>
+Pack<float, W> pow(Pack<float, W> x, std::type_identity_t<Pack<float, W>> y) {
+  return detail::narrowed(pow(detail::widened(x), detail::widened(y)));
+}
+template <int W>
+Pack<float, W> sin(Pack<float, W> x) {
+  return detail::narrowed(sin(detail::widened(x)));
+}
+template <int W>
+Pack<float, W> cos(Pack<float, W> x) {
+  return detail::narrowed(cos(detail::widened(x)));
+}
+template <int W>
+Pack<float, W> tanh(Pack<float, W> x) {
+  return detail::narrowed(tanh(detail::widened(x)));
+}
+
+}  // namespace boltzmann

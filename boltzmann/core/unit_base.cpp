@@ -1,0 +1,262 @@
+// Bases of units: their construction, conversion, and the names of their units.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/core/unit_base.hpp>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+namespace boltzmann {
+namespace {
+
+void check_positive(double si, std::string_view what, std::string_view unit) {
+  if (!(si > 0) || !std::isfinite(si))
+    throw Error(fmt::format("the {} of a base of units must be positive and finite, not {:g} {}", what, si, unit));
+}
+
+long double integer_power(long double x, int n) {
+  long double product = 1;
+  for (int i = 0; i < std::abs(n); ++i) product *= x;
+  return n < 0 ? 1 / product : product;
+}
+
+// A name that texts can use, with its value.
+struct Printed {
+  std::string name;
+  double si;
+  Dimension dimension;
+};
+
+// The units that are printed, as a reader of each field expects them; of two that serve equally well, the first is
+// taken.
+std::vector<Printed> const& printed_units() {
+  static std::vector<Printed> const printed = [] {
+    std::vector<Printed> all;
+    for (auto const* name : {"m",
+                             "angstrom",
+                             "cm",
+                             "nm",
+                             "um",
+                             "mm",
+                             "km",
+                             "AU",
+                             "pc",
+                             "bohr",
+                             "kg",
+                             "amu",
+                             "g",
+                             "m_e",
+                             "Msun",
+                             "s",
+                             "ps",
+                             "fs",
+                             "ns",
+                             "us",
+                             "ms",
+                             "min",
+                             "h",
+                             "d",
+                             "yr",
+                             "K",
+                             "C",
+                             "e",
+                             "esu",
+                             "m/s",
+                             "cm/s",
+                             "angstrom/ps",
+                             "km/s",
+                             "kg/m^3",
+                             "g/cm^3",
+                             "J",
+                             "eV",
+                             "erg",
+                             "meV",
+                             "kcal/mol",
+                             "kJ/mol",
+                             "keV",
+                             "Ha",
+                             "N",
+                             "dyn",
+                             "W",
+                             "Pa",
+                             "GPa",
+                             "bar",
+                             "atm",
+                             "eV/angstrom",
+                             "N/m",
+                             "eV/angstrom^2"}) {
+      auto const quantity = parse_quantity(std::string("1 ") + name);
+      all.push_back({name, quantity.si, quantity.dimension});
+    }
+    return all;
+  }();
+  return printed;
+}
+
+bool fits(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
+
+struct Factor {
+  std::string name;
+  int exponent;
+};
+
+// "kg m^2/s^2", "1/s", "J/(kg K)"
+std::string composed(std::vector<Factor> const& factors) {
+  std::string above;
+  std::string below;
+  int number_below = 0;
+  for (auto const& [name, exponent] : factors) {
+    if (exponent == 0) continue;
+    auto& side = exponent > 0 ? above : below;
+    if (!side.empty()) side += ' ';
+    side += name;
+    if (std::abs(exponent) != 1) side += '^' + std::to_string(std::abs(exponent));
+    number_below += exponent < 0 ? 1 : 0;
+  }
+  if (above.empty()) above = "1";
+  if (number_below > 1) return above + "/(" + below + ")";
+  return number_below == 1 ? above + "/" + below : above;
+}
+
+struct System {
+  char const *length, *mass, *time, *temperature, *charge;
+};
+
+std::string name_in(System const& system, Dimension d) {
+  return composed({{system.mass, d.mass},
+                   {system.length, d.length},
+                   {system.charge, d.charge},
+                   {system.time, d.time},
+                   {system.temperature, d.temperature}});
+}
+
+constexpr System systems[] = {
+    {"m", "kg", "s", "K", "C"}, {"cm", "g", "s", "K", "esu"}, {"angstrom", "amu", "ps", "K", "e"}};
+
+// The name of a scale that is a known unit.
+std::optional<std::string> exact_name(double si, Dimension d) {
+  for (auto const& unit : printed_units())
+    if (unit.dimension == d && fits(si, unit.si)) return unit.name;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> example_units(Dimension d) {
+  std::vector<std::string> names;
+  if (d == dimensions::none) return names;
+  for (auto const& unit : printed_units())
+    if (unit.dimension == d && names.size() < 2) names.push_back(unit.name);
+  for (auto const& system : systems) {
+    auto const name = name_in(system, d);
+    if (names.empty() || (names.size() == 1 && names[0] != name)) names.push_back(name);
+  }
+  return names;
+}
+
+Base::Base(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass, Quantity<dimensions::time> time,
+           Quantity<dimensions::temperature> temperature, Quantity<dimensions::charge> charge)
+    : scale_{length.si, mass.si, time.si, temperature.si, charge.si} {
+  check_positive(length.si, "length", "m");
+  check_positive(mass.si, "mass", "kg");
+  check_positive(time.si, "time", "s");
+  check_positive(temperature.si, "temperature", "K");
+  check_positive(charge.si, "charge", "C");
+}
+
+Base Base::si() { return {}; }
+
+Base Base::cgs() { return {units::centimeter, units::gram, units::second, units::kelvin, units::esu}; }
+
+Base Base::lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions::energy> epsilon,
+                         Quantity<dimensions::mass> mass) {
+  check_positive(sigma.si, "sigma", "m");
+  check_positive(epsilon.si, "epsilon", "J");
+  check_positive(mass.si, "mass", "kg");
+  return {sigma, mass, sigma * sqrt(mass / epsilon), epsilon / constants::boltzmann,
+          sqrt(epsilon * sigma / constants::coulomb)};
+}
+
+Base Base::electrostatic_plasma(Quantity<dimensions::number_density> n0, Quantity<dimensions::charge> charge,
+                                Quantity<dimensions::mass> mass, Quantity<dimensions::temperature> temperature) {
+  charge = abs(charge);
+  check_positive(n0.si, "number density", "1/m^3");
+  check_positive(charge.si, "charge", "C");
+  check_positive(mass.si, "mass", "kg");
+  check_positive(temperature.si, "temperature", "K");
+  auto const stiffness = n0 * charge * charge / constants::vacuum_permittivity;  // mass wp^2
+  return {sqrt(constants::boltzmann * temperature / stiffness), mass, sqrt(mass / stiffness), temperature, charge};
+}
+
+Base Base::gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass) {
+  check_positive(length.si, "length", "m");
+  check_positive(mass.si, "mass", "kg");
+  return {length, mass, length * sqrt(length / (constants::gravitation * mass))};
+}
+
+Base Base::reduced() {
+  Base base;
+  base.reduced_ = true;
+  return base;
+}
+
+// In long double, whose range of exponents no product of units leaves.
+long double Base::unit(Dimension d) const {
+  return integer_power(scale_.length, d.length) * integer_power(scale_.mass, d.mass) *
+         integer_power(scale_.time, d.time) * integer_power(scale_.temperature, d.temperature) *
+         integer_power(scale_.charge, d.charge);
+}
+
+double Base::from_si(double si, Dimension d) const { return static_cast<double>(si / unit(d)); }
+
+double Base::to_si(double number, Dimension d) const { return static_cast<double>(number * unit(d)); }
+
+std::string Base::unit_name(Dimension d) const {
+  if (reduced_ || d == dimensions::none) return "";
+  double const size = to_si(1, d);
+  if (auto name = exact_name(size, d)) return *name;
+
+  std::vector<Factor> factors;
+  bool all_known = true;
+  auto const add = [&](Dimension dimension, double si, int exponent) {
+    if (exponent == 0) return;
+    auto const name = exact_name(si, dimension);
+    all_known = all_known && name;
+    factors.push_back({name.value_or(""), exponent});
+  };
+  add(dimensions::mass, scale_.mass, d.mass);
+  add(dimensions::length, scale_.length, d.length);
+  add(dimensions::charge, scale_.charge, d.charge);
+  add(dimensions::time, scale_.time, d.time);
+  add(dimensions::temperature, scale_.temperature, d.temperature);
+  if (all_known) return composed(factors);
+
+  // A number with a unit. Of all candidates: one whose six digits are the whole number, the shortest first; then the
+  // first with a handy number.
+  std::string best;
+  std::size_t best_cost = 0;
+  auto const consider = [&](std::string const& name, double si) {
+    double const ratio = size / si;
+    std::string const number = fmt::format("{:.6g}", ratio);
+    double rounded = 0;
+    std::from_chars(number.data(), number.data() + number.size(), rounded);
+    bool const handy = ratio >= 0.1 && ratio < 1000;
+    std::size_t const cost = fits(rounded, ratio) ? number.size() : (handy ? 100 : 200);
+    if (!best.empty() && cost >= best_cost) return;
+    best = number + (name.starts_with("1/") ? name.substr(1) : " " + name);
+    best_cost = cost;
+  };
+  for (auto const& unit : printed_units())
+    if (unit.dimension == d) consider(unit.name, unit.si);
+  for (auto const& system : systems) {
+    auto const name = name_in(system, d);
+    consider(name, parse_quantity("1 " + name).si);
+  }
+  return best;
+}
+
+}  // namespace boltzmann

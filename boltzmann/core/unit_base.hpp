@@ -1,0 +1,84 @@
+// The base of units that a simulation computes in: quantities become plain numbers on the way in, and numbers
+// quantities on the way out.
+#pragma once
+
+#include <boltzmann/core/units.hpp>
+
+#include <string>
+
+namespace boltzmann {
+
+/// Five units, of length, mass, time, temperature and charge; every other unit follows from them. Inner loops see plain
+/// numbers in this base ("Unit Conversion", section 2.3 of the 1990 thesis).
+class Base {
+ public:
+  /// The five units in SI: m, kg, s, K, C.
+  struct Scale {
+    double length = 1, mass = 1, time = 1, temperature = 1, charge = 1;
+    friend bool operator==(Scale const&, Scale const&) = default;
+  };
+
+  /// SI.
+  Base() = default;
+
+  /// A base of the user's own. Throws Error unless each unit is positive and finite.
+  Base(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass, Quantity<dimensions::time> time,
+       Quantity<dimensions::temperature> temperature = units::kelvin,
+       Quantity<dimensions::charge> charge = units::elementary_charge);
+
+  static Base si();
+
+  /// cm, g, s, K, esu: the Coulomb constant is 1.
+  static Base cgs();
+
+  /// sigma, epsilon, mass and the Boltzmann constant are 1: time in sigma sqrt(mass / epsilon), temperature in epsilon
+  /// / kB, charge such that the Coulomb constant is 1.
+  static Base lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions::energy> epsilon,
+                            Quantity<dimensions::mass> mass);
+
+  /// For particles of one charge and mass at a density n0 and a temperature: the plasma frequency
+  /// wp = sqrt(n0 charge^2 / (eps0 mass)), the Debye length sqrt(eps0 kB T / (n0 charge^2)), the thermal velocity
+  /// sqrt(kB T / mass), the charge, the mass, the temperature and the Boltzmann constant are 1. eps0 is then the number
+  /// of particles in a cubic Debye length. The sign of the charge doesn't matter.
+  static Base electrostatic_plasma(Quantity<dimensions::number_density> n0, Quantity<dimensions::charge> charge,
+                                   Quantity<dimensions::mass> mass, Quantity<dimensions::temperature> temperature);
+
+  /// The gravitational constant is 1: time in sqrt(length^3 / (G mass)).
+  static Base gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass);
+
+  /// Pure numbers without units: nothing is converted, and in_base refuses a text with a unit.
+  static Base reduced();
+  bool is_reduced() const { return reduced_; }
+
+  /// The plain number of a quantity in this base.
+  template <Dimension d>
+  double operator()(Quantity<d> quantity) const {
+    return from_si(quantity.si, d);
+  }
+
+  /// A plain number of this base as a quantity: base.quantity<dimensions::energy>(1).
+  template <Dimension d>
+  Quantity<d> quantity(double number) const {
+    return {to_si(number, d)};
+  }
+
+  double from_si(double si, Dimension) const;
+  double to_si(double number, Dimension) const;
+
+  /// What to print beside an axis or in a file: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the base are
+  /// known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and in a
+  /// reduced base. parse_quantity reads it back (with a "1 " before it where there is no number).
+  std::string unit_name(Dimension) const;
+
+  Scale scale() const { return scale_; }
+
+  friend bool operator==(Base const&, Base const&) = default;
+
+ private:
+  long double unit(Dimension) const;
+
+  Scale scale_;
+  bool reduced_ = false;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,166 @@
+// Canvas: what a diagnosis draws on. A recorded list of circles, points, lines, arrows, curves, texts and images in
+// simulation units.
+//
+// The list knows nothing of pixels, files or browsers: figure.hpp makes pictures of it, the window sends it to a page.
+// Coordinates that are not finite are left out when they are recorded (a curve gets a gap) and counted. Labels are
+// UTF-8; ^{...} raises, _{...} lowers.
+#pragma once
+
+#include <boltzmann/diagnoses/colour.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// What is written along an axis, "label (unit)", and what it shows: low..high, where NaN means automatic, from the
+/// content.
+struct Axis {
+  std::string label, unit;
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+  bool logarithmic = false;
+};
+
+class Canvas {
+ public:
+  /// radius in units of the x axis. Shaded circles look like spheres. depth: 0 (near) to 1 (far, faded towards the
+  /// paper).
+  struct Circle {
+    double x, y, radius;
+    Colour colour;
+    bool filled = true;
+    bool shaded = false;
+    float depth = 0;
+  };
+  /// A disc whose size is its diameter in pixels of a picture of 1200 x 900; so are all widths and text sizes below.
+  struct Point {
+    double x, y;
+    float size;
+    Colour colour;
+  };
+  struct Line {
+    double x0, y0, x1, y1;
+    float width;
+    Colour colour;
+  };
+  struct Arrow {
+    double x0, y0, x1, y1;
+    float width;
+    Colour colour;
+  };
+  /// A label puts the curve into the legend.
+  struct Curve {
+    std::vector<double> x, y;
+    float width;
+    Colour colour;
+    std::string label;
+    bool dashed;
+  };
+  /// align: 0 = the text begins at x, 0.5 = it is centred there, 1 = it ends there; its middle is at y.
+  struct Text {
+    double x, y;
+    std::string text;
+    float size;
+    Colour colour;
+    double align;
+  };
+  /// columns x rows cells between the corners (x0, y0) and (x1, y1); pixels are 0xAARRGGBB, row by row from y0 on.
+  struct Image {
+    double x0, y0, x1, y1;
+    int columns, rows;
+    std::vector<std::uint32_t> pixels;
+  };
+  struct ColourBar {
+    std::string label, unit;
+    double low, high;
+    ColourMap map;
+  };
+  struct LegendEntry {
+    std::string label;
+    Colour colour;
+  };
+  enum class Kind : std::uint8_t { circle, point, line, arrow, curve, text, image };
+  /// The drawing order: `count` elements of one list, beginning at `first`.
+  struct Run {
+    Kind kind;
+    std::size_t first, count;
+  };
+
+  // Drawing: later ones cover earlier ones.
+  void circle(double x, double y, double radius, Colour colour = ink, bool filled = true);
+  void circle(Circle const& circle);
+  void point(double x, double y, Colour colour = ink, float size = 4);
+  void line(double x0, double y0, double x1, double y1, Colour colour = ink, float width = 1.5F);
+  void rectangle(double x0, double y0, double x1, double y1, Colour colour = ink, float width = 1.5F);
+  void arrow(double x0, double y0, double x1, double y1, Colour colour = ink, float width = 1.5F);
+  /// Throws Error if x and y differ in length.
+  void curve(std::span<double const> x, std::span<double const> y, Colour colour = ink, std::string label = "",
+             float width = 2, bool dashed = false);
+  void text(double x, double y, std::string text, Colour colour = ink, float size = 20, double align = 0.5);
+  /// `values` holds columns x rows numbers, row by row from y0 on, coloured from low to high. Throws Error if the count
+  /// differs.
+  void image(double x0, double y0, double x1, double y1, int columns, int rows, std::span<double const> values,
+             double low, double high, ColourMap map = ColourMap::viridis);
+
+  // What stands around the drawing.
+  void axes(Axis x, Axis y);
+  /// One unit is as long on x as on y.
+  void equal_aspect(bool equal) { equal_aspect_ = equal; }
+  void grid(bool shown) { grid_ = shown; }
+  /// Without a frame there are no ticks and axis titles either (projections).
+  void frame(bool shown) { frame_ = shown; }
+  void colour_bar(std::string label, std::string unit, double low, double high, ColourMap map = ColourMap::viridis);
+  void legend(std::string label, Colour colour);
+  void title(std::string title) { title_ = std::move(title); }
+  /// A line below the drawing; each call adds one.
+  void note(std::string line) { notes_.push_back(std::move(line)); }
+
+  // The record.
+  std::vector<Circle> const& circles() const { return circles_; }
+  std::vector<Point> const& points() const { return points_; }
+  std::vector<Line> const& lines() const { return lines_; }
+  std::vector<Arrow> const& arrows() const { return arrows_; }
+  std::vector<Curve> const& curves() const { return curves_; }
+  std::vector<Text> const& texts() const { return texts_; }
+  std::vector<Image> const& images() const { return images_; }
+  std::vector<Run> const& order() const { return order_; }
+  std::vector<ColourBar> const& colour_bars() const { return colour_bars_; }
+  std::vector<LegendEntry> const& legend_entries() const { return legend_; }
+  std::vector<std::string> const& notes() const { return notes_; }
+  std::string const& title() const { return title_; }
+  Axis const& x_axis() const { return x_axis_; }
+  Axis const& y_axis() const { return y_axis_; }
+  bool equal_aspect() const { return equal_aspect_; }
+  bool grid() const { return grid_; }
+  bool frame() const { return frame_; }
+  /// How many elements (and nodes of curves) had a coordinate that is NaN or infinite.
+  std::size_t not_finite() const { return not_finite_; }
+
+ private:
+  void record(Kind kind, std::size_t index);
+
+  std::vector<Circle> circles_;
+  std::vector<Point> points_;
+  std::vector<Line> lines_;
+  std::vector<Arrow> arrows_;
+  std::vector<Curve> curves_;
+  std::vector<Text> texts_;
+  std::vector<Image> images_;
+  std::vector<Run> order_;
+  std::vector<ColourBar> colour_bars_;
+  std::vector<LegendEntry> legend_;
+  std::vector<std::string> notes_;
+  std::string title_;
+  Axis x_axis_, y_axis_;
+  bool equal_aspect_ = false, grid_ = false, frame_ = true;
+  std::size_t not_finite_ = 0;
+};
+
+/// The place of a value in low..high as 0..1, for map_colour; 0.5 if low = high, NaN for NaN.
+double place_between(double low, double high, double value);
+
+}  // namespace boltzmann

@@ -1,0 +1,82 @@
+// Drawings: particles in space, phase space, spectra and time series on a canvas, from plain arrays of numbers.
+#pragma once
+
+#include <boltzmann/diagnoses/canvas.hpp>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// From where one looks at three dimensions, in degrees: azimuth around the z axis (0 = along x), elevation above the
+/// xy plane (90 = from above). Parallel rays, z is up.
+struct Projection {
+  double azimuth = 35, elevation = 22;
+
+  struct Place {
+    double right, up, near;
+  };
+  /// Where a position falls on the picture, and how near it is to the eye.
+  Place operator()(double x, double y, double z) const;
+};
+
+/// What draw_cartesian shows besides positions. Arrays hold one element per particle or are empty; they are only read
+/// while drawing.
+struct CartesianStyle {
+  std::string title;
+  std::string unit;  // of lengths
+  std::array<std::string, 3> axes = {"x", "y", "z"};
+
+  std::span<double const> value = {};  // colours the particles, with a colour bar
+  std::string value_name, value_unit;
+  double value_low = std::numeric_limits<double>::quiet_NaN();  // NaN: automatic (diverging: -a..a)
+  double value_high = std::numeric_limits<double>::quiet_NaN();
+  ColourMap map = ColourMap::viridis;
+
+  std::span<int const> species = {};       // colours the particles if there is no value
+  std::vector<std::string> species_names;  // makes a legend
+
+  std::span<double const> diameter = {};  // of each particle, in length units
+  double common_diameter = 0;             // of all; 0 and no diameters: points of a fitting size
+
+  std::vector<std::array<double, 2>> box;                // {low, high} for each axis: the outline; may be empty
+  std::array<bool, 3> periodic = {false, false, false};  // connections longer than half the box go through the wall
+
+  std::span<std::array<std::size_t, 2> const> connections = {};
+  std::array<std::span<double const>, 3> velocity = {};  // arrows; the longest spans 1.5 particle distances
+  std::string velocity_unit;
+};
+
+/// Particles of two dimensions where they are, one unit as long on x as on y.
+/// Throws Error if arrays differ in length or a connection names a particle that doesn't exist.
+Canvas draw_cartesian(std::span<double const> x, std::span<double const> y, CartesianStyle const& style = {});
+
+/// Particles of three dimensions, seen through a projection; far ones are behind near ones and a little paler.
+Canvas draw_cartesian(std::span<double const> x, std::span<double const> y, std::span<double const> z,
+                      CartesianStyle const& style = {}, Projection const& projection = {});
+
+/// One species or one quantity: y over x, with its name.
+struct Series {
+  std::string label;
+  std::span<double const> x, y;
+};
+
+/// A point for each particle, a colour for each species (velocity over position, for example).
+Canvas draw_phase_space(std::span<Series const> species, Axis x, Axis y, std::string title = "");
+
+/// Density over frequency (or wave number); y is logarithmic if log_density, whatever the axis says.
+Canvas draw_spectrum(std::span<double const> frequency, std::span<double const> density, Axis x, Axis y,
+                     bool log_density = true, std::string title = "");
+
+/// A curve for each quantity over time; the time axis ends where the series end.
+Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::string title = "");
+
+/// Values on a mesh (columns x rows, row by row from the low end of y) that fills the axes from low to high (NaN: 0 and
+/// the number of cells), with a colour bar. The colours span the finite values, from -a to a with the diverging map.
+Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x, Axis y, std::string value_name,
+                  std::string value_unit, ColourMap map = ColourMap::viridis, std::string title = "");
+
+}  // namespace boltzmann
