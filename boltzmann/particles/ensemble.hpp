@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -106,11 +107,12 @@ class Ensemble final : public AnyEnsemble {
 
   void resize(std::size_t size) override {
     std::size_t const old = this->size();
-    rows_.resize(size + padding, Row<P>{});
-    for (std::size_t i = size < old ? size : old; i < rows_.size(); ++i) {
-      rows_[i] = Row<P>{};
-      if constexpr (requires(P p) { p.mass; }) rows_[i].mass = 1;
-    }
+    rows_.resize(size + padding);
+    std::size_t const first_new = size < old ? size : old;
+    // All bytes, the padding too: rows are compared, hashed and written as they are.
+    std::memset(static_cast<void*>(rows_.data() + first_new), 0, (rows_.size() - first_new) * sizeof(Row<P>));
+    if constexpr (requires(P p) { p.mass; })
+      for (std::size_t i = first_new; i < rows_.size(); ++i) rows_[i].mass = 1;
     attach(rows_.empty() ? nullptr : &rows_[0].position[0], size);
   }
 

@@ -242,8 +242,12 @@ TEST(PairScheme, EnergyAndVirialOfAPair) {
     atoms[1].position = {1, 1 + r, 1};
     PairScheme scheme(box, cutoff);
     scheme.internal(atoms, LennardJones{depth, r0});
+    scheme.shifted(false);
     auto const m = scheme.measure();
     EXPECT_NEAR(m.potential, phi, 1e-14);
+    scheme.shifted(true);
+    double const c6 = std::pow(r0 / cutoff, 6);
+    EXPECT_NEAR(scheme.measure().potential, phi - depth * (c6 * c6 - 2 * c6), 1e-14);
     EXPECT_NEAR(m.virial[1][1], -r * slope, 1e-13);
     EXPECT_NEAR(m.virial[0][0], 0, 1e-14);
     EXPECT_EQ(m.unknown, "");
@@ -267,6 +271,7 @@ TEST(PairScheme, EnergyOfTheMeltStart) {
   Box const box(Vector{0., 0., 0.}, Vector{a * cells, a * cells, a * cells}, Boundary::periodic);
   PairScheme scheme(box, 2.5);
   scheme.internal(atoms, LennardJones{1.0, std::pow(2, 1. / 6)});
+  scheme.shifted(false);
   EXPECT_NEAR(scheme.measure().potential / n, -6.7733680532, 2e-10);
 }
 

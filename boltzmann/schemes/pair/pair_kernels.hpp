@@ -27,6 +27,7 @@ struct PairTask {
   std::uint32_t const* index = nullptr;
   double cutoff2 = 0;                    ///< square of the cut-off (lists)
   double rounding = 0;                   ///< 3/2 2^52 times the quantum of the reversible form (lists)
+  double zero_at = 0;  ///< measuring: the distance at which energies are counted as zero; 0: infinity
   double period[3] = {0, 0, 0};          ///< length of periodic axes (connections)
   double inverse_period[3] = {0, 0, 0};  ///< its inverse, 0 on other axes
   double* influence = nullptr;
@@ -98,8 +99,8 @@ class Sum {
     for (auto& x : virial_) x = Real(0.0);
   }
 
-  [[gnu::always_inline]] void add(Law const& law, Target const& p, Source const& q, Mask<double, W> valid,
-                                  Real rounding) {
+  [[gnu::always_inline]] void add(Law const& law, Target const& p, Source const& q, Mask<double, W> valid, Real rounding,
+                                  [[maybe_unused]] double zero_at = 0) {
     auto const result = law(p, q);
     auto const influence = as_array<Real>(influence_of(result));
     Real const zero = 0.0;
@@ -109,7 +110,16 @@ class Sum {
       influence_[c] += x;
     }
     if constexpr (pass == Pass::measure) {
-      if constexpr (has_energy<Result>) energy_ += select(valid, Real(result.energy), zero);
+      if constexpr (has_energy<Result>) {
+        Real energy = result.energy;
+        if (zero_at > 0) {
+          Source at_cutoff = q;
+          auto const r = q.position - p.position;
+          at_cutoff.position = p.position + r * (zero_at * rsqrt(dot(r, r)));
+          energy = energy - law(p, at_cutoff).energy;
+        }
+        energy_ += select(valid, energy, zero);
+      }
       if constexpr (std::is_same_v<Influence, Vector<D, Real>>) {
         auto const r = q.position - p.position;
         for (int a = 0; a < D; ++a)
@@ -163,7 +173,7 @@ template <Pass pass, class P, class Q, class Law>
     std::uint32_t const* const last = task.index + task.start[i + 1];
     for (std::uint32_t const* j = task.index + task.start[i]; j != last; j += S::W) {
       auto const q = load_rows<Q>([&](int lane) { return task.source + j[lane] * row_stride<Q>; });
-      sum.add(law, p, q, norm2(q.position - p.position) < cutoff2, rounding);
+      sum.add(law, p, q, norm2(q.position - p.position) < cutoff2, rounding, task.zero_at);
     }
     sum.store(task, task.order ? task.order[i] : i);
   }

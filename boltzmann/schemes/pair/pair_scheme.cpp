@@ -280,6 +280,7 @@ Measures PairScheme::measure(double time) {
   for (auto const& near : near_) {
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
     near->locate(0);
+    near->task.zero_at = shifted_ && !near->all_pairs() ? near->cutoff : 0;
     run(near->task, near->target, near->grain(),
         near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
   }

@@ -79,6 +79,10 @@ class PairScheme final : public Scheme {
   /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
   void skin(double length);
   double skin() const { return skin_; }
+  /// Whether energies of laws with a cut-off are counted from their value there (the default): that is the energy which
+  /// the cut-off forces conserve. Otherwise they are counted as the law has them, and jump whenever a pair crosses the
+  /// cut-off.
+  void shifted(bool yes) { shifted_ = yes; }
   double cutoff() const { return cutoff_; }
   /// The pairs connected by connect(), for drawings: (ensemble, i, j), each once.
   struct Bond {
@@ -134,7 +138,7 @@ class PairScheme final : public Scheme {
   double skin_;
   double reach_ = 0;  // of the longest list
   double quantum_ = 0;
-  bool lists_stale_ = true;
+  bool lists_stale_ = true, shifted_ = true;
   std::size_t calculations_ = 0, builds_ = 0;
   std::vector<std::unique_ptr<Mirror>> mirrors_;
   std::vector<std::unique_ptr<Near>> near_;

@@ -1,0 +1,324 @@
+// The loop: same bits for any thread count and after a restart, failures as one line, N = 0, 1, 2.
+#include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace boltzmann {
+namespace {
+
+// A liquid that is out of equilibrium: lists are rebuilt often.
+template <int D>
+struct Liquid {
+  static constexpr int side = D == 1 ? 60 : D == 2 ? 30 : 9;
+  Ensemble<Newton<D>> atoms{"atoms", D == 1 ? 60u : D == 2 ? 900u : 729u};
+  PairScheme scheme;
+  Simulation simulation;
+
+  Liquid(Boundary boundary, Method method, int threads)
+      : scheme(box(boundary), 2.5), simulation(scheme, 0.004) {
+    std::mt19937_64 random(5);
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+      std::size_t rest = i;
+      for (int a = 0; a < D; ++a, rest /= side) {
+        atoms[i].position[a] = 1.1 * (static_cast<double>(rest % side) + 0.5);
+        atoms[i].velocity[a] = std::normal_distribution(0.0, 1.2)(random);
+      }
+    }
+    scheme.internal(atoms, LennardJones{1.0, 1.0});
+    scheme.threads(threads);
+    simulation.integrate(atoms, method);
+  }
+  static Box box(Boundary boundary) {
+    Vector<D> low{}, high{};
+    for (int a = 0; a < D; ++a) high[a] = 1.1 * side;
+    return Box(low, high, boundary);
+  }
+  std::vector<double> rows() const { return {atoms.row(0), atoms.row(0) + atoms.size() * atoms.stride()}; }
+};
+
+template <int D>
+void same_bits(Boundary boundary, Method method) {
+  Liquid<D> one(boundary, method, 1), two(boundary, method, 2), three(boundary, method, 3);
+  one.simulation.run(80);
+  two.simulation.run(40);
+  two.simulation.run(40);
+  three.simulation.run(80);
+  EXPECT_EQ(one.rows(), two.rows()) << D << "D " << to_string(boundary) << " " << to_string(method);
+  EXPECT_EQ(one.rows(), three.rows()) << D << "D " << to_string(boundary) << " " << to_string(method);
+}
+
+TEST(Simulation, SameBitsForAnyThreadCount) {
+  for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic}) {
+    same_bits<1>(boundary, Method::leap_frog);
+    same_bits<2>(boundary, Method::leap_frog);
+    same_bits<3>(boundary, Method::leap_frog);
+  }
+  same_bits<2>(Boundary::periodic, Method::rk4);
+  same_bits<2>(Boundary::periodic, Method::reversible_leap_frog);
+}
+
+template <int D>
+void restart(Boundary boundary, Method method, std::uint64_t at) {
+  Liquid<D> whole(boundary, method, 1), first(boundary, method, 2), second(boundary, method, 1);
+  whole.simulation.run(60);
+  first.simulation.run(at);
+  // Looking at a state changes nothing.
+  first.simulation.measure();
+  auto const rows = first.rows();
+  auto const state = first.simulation.state();
+  std::memcpy(second.atoms.row(0), rows.data(), rows.size() * sizeof(double));
+  second.simulation.restore(first.simulation.step(), first.simulation.step_size(), first.simulation.seed(), state);
+  EXPECT_EQ(second.simulation.step(), static_cast<std::int64_t>(at));
+  EXPECT_EQ(second.simulation.time(), first.simulation.time());
+  second.simulation.run(60 - at);
+  EXPECT_EQ(whole.rows(), second.rows()) << D << "D " << to_string(boundary) << " " << to_string(method) << " at " << at;
+  first.simulation.run(60 - at);
+  EXPECT_EQ(whole.rows(), first.rows()) << "saving changed the run";
+}
+
+TEST(Simulation, RestoredRunEqualsContinuedRun) {
+  for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic})
+    for (std::uint64_t const at : {0, 1, 37}) {
+      restart<1>(boundary, Method::leap_frog, at);
+      restart<2>(boundary, Method::leap_frog, at);
+      restart<3>(boundary, Method::leap_frog, at);
+    }
+  restart<2>(Boundary::periodic, Method::rk4, 41);
+  restart<2>(Boundary::periodic, Method::rk2, 41);
+  restart<2>(Boundary::periodic, Method::euler, 41);
+  restart<2>(Boundary::bounded, Method::reversible_leap_frog, 41);
+}
+
+// VERIFICATION.md: below 1e-5 per particle per 1000 steps at dt 0.005 (LJ time units; here r0 = sigma 2^(1/6)).
+TEST(Simulation, EnergyDriftOfALiquid) {
+  int const cells = 6;
+  double const a = std::cbrt(4 / 0.8442);
+  Ensemble<Newton<3>> atoms("atoms", 4 * cells * cells * cells);
+  std::mt19937_64 random(1);
+  std::size_t n = 0;
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j)
+      for (int k = 0; k < cells; ++k)
+        for (auto const& s : {Vector{0., 0., 0.}, Vector{.5, .5, 0.}, Vector{.5, 0., .5}, Vector{0., .5, .5}})
+          atoms[n++].position = a * (s + Vector{double(i), double(j), double(k)});
+  for (auto& p : atoms)
+    for (int c = 0; c < 3; ++c) p.velocity[c] = std::normal_distribution(0.0, 1.2)(random);
+  PairScheme scheme(Box(Vector{0., 0., 0.}, Vector{a * cells, a * cells, a * cells}, Boundary::periodic), 2.5);
+  scheme.internal(atoms, LennardJones{1.0, std::pow(2, 1. / 6)});
+  Simulation simulation(scheme, 0.005);
+  simulation.integrate(atoms, Method::leap_frog);
+  auto const energy = [&] {
+    double kinetic = 0;
+    for (auto const& p : atoms) kinetic += 0.5 * p.mass * norm2(p.velocity);
+    return (kinetic + simulation.measure().potential) / static_cast<double>(n);
+  };
+  simulation.run(200);  // melt
+  double first = 0, last = 0;
+  for (int k = 0; k < 100; ++k) simulation.run(1), first += energy() / 100;
+  simulation.run(900);
+  for (int k = 0; k < 100; ++k) simulation.run(1), last += energy() / 100;
+  std::printf("[  DRIFT   ] energy per particle in 1000 steps: %.2g\n", last - first);
+  EXPECT_LT(std::abs(last - first), 1e-4);
+  Vector<3> momentum{};
+  for (auto const& p : atoms) momentum += p.mass * p.velocity;
+  Vector<3> start{};
+  std::mt19937_64 again(1);
+  for (std::size_t i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) start[c] += std::normal_distribution(0.0, 1.2)(again);
+  EXPECT_LT(magnitude(momentum - start), 1e-9);
+}
+
+TEST(Simulation, ZeroOneAndTwoParticlesRunEverywhere) {
+  for (std::size_t const count : {0, 1, 2})
+    for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic})
+      for (Method const method : {Method::euler, Method::leap_frog, Method::rk2, Method::rk4, Method::reversible_leap_frog,
+                                  Method::deactivate}) {
+        Ensemble<Newton<2>> atoms("atoms", count);
+        for (std::size_t i = 0; i < count; ++i) {
+          atoms[i].position = {1.0 + 1.1 * static_cast<double>(i), 2};
+          atoms[i].velocity = {0.1, 0.2};
+        }
+        PairScheme scheme(Box(Vector{0., 0.}, Vector{4., 4.}, boundary), 2);
+        scheme.internal(atoms, LennardJones{1, 1});
+        Simulation simulation(scheme, 0.01);
+        simulation.integrate(atoms, method);
+        simulation.run(50);
+        EXPECT_EQ(simulation.step(), 50);
+        EXPECT_NEAR(simulation.time(), 0.5, 1e-15);
+      }
+}
+
+TEST(Simulation, BoundedBoxReflectsElastically) {
+  Ensemble<Newton<1>> ball("ball", 1);
+  ball[0].position = {0.9};
+  ball[0].velocity = {1};
+  PairScheme scheme(Box(Vector{0.}, Vector{1.}, Boundary::bounded));
+  scheme.load(ball);
+  Simulation simulation(scheme, 0.0625);
+  simulation.integrate(ball, Method::leap_frog);
+  simulation.run(8);  // half a time unit: to the wall and 0.4 back
+  EXPECT_NEAR(ball[0].position[0], 0.6, 1e-14);
+  EXPECT_EQ(ball[0].velocity[0], -1);
+}
+
+TEST(Simulation, RegionsKeepOutAndIn) {
+  Ensemble<Newton<2>> ball("ball", 1), caged("caged", 1);
+  ball[0].position = {1, 5};
+  ball[0].velocity = {1, 0};
+  caged[0].position = {9, 9};
+  caged[0].velocity = {0, 1};
+  Box outside(Vector{0., 0.}, Vector{10., 10.});
+  outside.install(Vector{4., 4.}, Vector{6., 6.}, Region::Side::keep_out);
+  PairScheme scheme(outside);
+  scheme.load(ball);
+  Simulation simulation(scheme, 0.125);
+  simulation.integrate(ball, Method::leap_frog);
+  simulation.run(40);  // 5 time units: 3 to the face, 2 back
+  EXPECT_NEAR(ball[0].position[0], 2, 1e-13);
+  EXPECT_EQ(ball[0].velocity[0], -1);
+
+  Box inside(Vector{0., 0.}, Vector{10., 10.});
+  inside.install(Vector{8., 8.}, Vector{9.5, 9.5}, Region::Side::keep_in);
+  PairScheme cage(inside);
+  cage.load(caged);
+  Simulation in_cage(cage, 0.125);
+  in_cage.integrate(caged, Method::leap_frog);
+  in_cage.run(8);
+  EXPECT_NEAR(caged[0].position[1], 9, 1e-13);
+  ball[0].position = {5, 5};
+  PairScheme late(outside);
+  EXPECT_THROW(late.load(ball), Error);
+}
+
+template <class Thrown>
+std::string message_of(Simulation& simulation, std::uint64_t steps = 1) {
+  try {
+    simulation.run(steps);
+  } catch (Thrown const& failure) {
+    return failure.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(Simulation, FailuresNameStepAndParticle) {
+  Box const box(Vector{0., 0.}, Vector{20., 20.}, Boundary::bounded);
+  auto const make = [&](Ensemble<Newton<2>>& atoms) {
+    atoms[0].position = {5, 5};
+    atoms[1].position = {9, 5};
+    atoms[2].position = {5, 15};
+  };
+  {  // a step that moves a particle by more than the law's length
+    Ensemble<Newton<2>> atoms("atoms", 3);
+    make(atoms);
+    atoms[2].velocity = {0, 30};
+    PairScheme scheme(box, 3);
+    scheme.internal(atoms, LennardJones{1, 1});
+    Simulation simulation(scheme, 0.05);
+    simulation.integrate(atoms, Method::leap_frog);
+    auto const text = message_of<PhysicsFailure>(simulation);
+    EXPECT_NE(text.find("step 1: particle 2 of 'atoms' moved 1.5"), std::string::npos) << text;
+  }
+  {  // a particle that leaves the box by more than a reflection
+    Ensemble<Newton<2>> atoms("atoms", 3);
+    make(atoms);
+    atoms[1].velocity = {1000, 0};
+    PairScheme scheme(box);
+    scheme.load(atoms);
+    Simulation simulation(scheme, 0.05);
+    simulation.integrate(atoms, Method::leap_frog);
+    auto const text = message_of<PhysicsFailure>(simulation);
+    EXPECT_NE(text.find("step 1: particle 1 of 'atoms' escaped: x = 59"), std::string::npos) << text;
+  }
+  {  // NaN at some time
+    Ensemble<Newton<2>> atoms("atoms", 3);
+    make(atoms);
+    PairScheme scheme(box);
+    scheme.external(atoms, [](auto const&, double time) { return Vector{time > 0.12 ? std::nan("") : 0.0, 0.0}; }, {2});
+    Simulation simulation(scheme, 0.05);
+    simulation.integrate(atoms, Method::leap_frog);
+    auto const text = message_of<PhysicsFailure>(simulation, 10);
+    EXPECT_NE(text.find("step 3: particle 2 of 'atoms'"), std::string::npos) << text;
+    EXPECT_NE(text.find("not finite"), std::string::npos) << text;
+  }
+  {  // two particles at one place
+    Ensemble<Newton<2>> atoms("atoms", 3);
+    make(atoms);
+    atoms[2].position = atoms[0].position;
+    PairScheme scheme(box, 3);
+    scheme.internal(atoms, LennardJones{1, 1});
+    Simulation simulation(scheme, 0.05);
+    simulation.integrate(atoms, Method::leap_frog);
+    auto const text = message_of<Error>(simulation);
+    EXPECT_NE(text.find("particle 0 of 'atoms' and particle 2 of 'atoms' are at the same place"), std::string::npos) << text;
+  }
+  {  // outside of a bounded box, not finite, no integrator, a senseless step
+    Ensemble<Newton<2>> atoms("atoms", 3);
+    make(atoms);
+    atoms[1].position = {21, 5};
+    PairScheme scheme(box, 3);
+    EXPECT_THROW(scheme.internal(atoms, LennardJones{1, 1}), Error);
+    atoms[1].position = {2, std::nan("")};
+    EXPECT_THROW(scheme.internal(atoms, LennardJones{1, 1}), Error);
+    atoms[1].position = {2, 2};
+    scheme.internal(atoms, LennardJones{1, 1});
+    Simulation simulation(scheme, 0.05);
+    auto const text = message_of<Error>(simulation);
+    EXPECT_NE(text.find("'atoms' has no integrator"), std::string::npos) << text;
+    for (double const step : {0.0, std::nan(""), std::numeric_limits<double>::infinity()})
+      EXPECT_THROW(Simulation(scheme, step), Error) << step;
+    EXPECT_THROW(simulation.observe(0, [](Simulation const&) {}), Error);
+  }
+}
+
+TEST(Simulation, ObserversSeeFinishedSteps) {
+  Ensemble<Newton<1>> ball("ball", 1);
+  ball[0].velocity = {1};
+  PairScheme scheme(Box(Vector{-9.}, Vector{9.}));
+  scheme.load(ball);
+  Simulation simulation(scheme, 0.5);
+  simulation.integrate(ball, Method::leap_frog);
+  std::vector<double> seen;
+  simulation.observe(2, [&](Simulation const& s) {
+    seen.push_back(s.time());
+    EXPECT_DOUBLE_EQ(ball[0].position[0], s.time());
+  });
+  simulation.run(5);
+  EXPECT_EQ(seen, (std::vector<double>{0, 1, 2}));
+  simulation.rewind(5);
+  EXPECT_EQ(simulation.step(), 0);
+  EXPECT_NEAR(ball[0].position[0], 0, 1e-15);
+}
+
+TEST(Simulation, StopFinishesTheStep) {
+  Ensemble<Newton<1>> ball("ball", 1);
+  PairScheme scheme(Box(Vector{-9.}, Vector{9.}));
+  scheme.load(ball);
+  Simulation simulation(scheme, 0.5);
+  simulation.integrate(ball, Method::leap_frog);
+  simulation.observe(3, [&](Simulation const& s) {
+    if (s.step() == 6) simulation.stop();
+  });
+  simulation.run(60);
+  EXPECT_EQ(simulation.step(), 6);
+}
+
+TEST(Simulation, EnsemblesOfSeveralSchemesAddTheirInfluences) {
+  Ensemble<Newton<1>> ball("ball", 1);
+  PairScheme up(Box(Vector{-9.}, Vector{9.})), down(Box(Vector{-9.}, Vector{9.}));
+  up.external(ball, [](auto const& p) { return Vector{3.0 * p.mass}; });
+  down.external(ball, [](auto const& p) { return Vector{-1.0 * p.mass}; });
+  Simulation simulation(up, 0.5);
+  simulation.add(down);
+  simulation.integrate(ball, Method::leap_frog);
+  simulation.run(2);
+  EXPECT_DOUBLE_EQ(ball[0].position[0], 1.0);  // a t^2 / 2 with a = 2, t = 1
+}
+
+}  // namespace
+}  // namespace boltzmann
