@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace boltzmann {
@@ -34,8 +35,8 @@ class Box {
   template <int D>
   Box(Vector<D> const& low, Vector<D> const& high, Boundary boundary = Boundary::open)
       : Box(D, widen(low), widen(high), {boundary, boundary, boundary}) {}
-  template <int D, std::size_t N>
-  requires(N == D) Box(Vector<D> const& low, Vector<D> const& high, std::array<Boundary, N> const& boundaries)
+  template <int D>
+  Box(Vector<D> const& low, Vector<D> const& high, std::type_identity_t<std::array<Boundary, D>> const& boundaries)
       : Box(D, widen(low), widen(high), widen(boundaries)) {}
   Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, std::array<Boundary, 3> boundaries);
 

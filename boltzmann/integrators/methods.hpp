@@ -16,6 +16,7 @@ namespace boltzmann {
 namespace detail {
 
 inline constexpr std::size_t integrator_grain = 8192;
+inline constexpr std::size_t integrator_worth_threads = 1U << 15U;
 
 template <class P>
 inline constexpr bool has_velocity = requires(P p) {
@@ -76,7 +77,7 @@ class MethodOf : public Integrator {
   void each(Function const& function) {
     std::size_t const size = ensemble_.size();
     move_ = {};
-    if (size <= integrator_grain || threads_ <= 1) {
+    if (size < integrator_worth_threads || threads_ <= 1) {
       for (std::size_t i = 0; i < size; ++i) function(i, move_);
       return;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/parameter.hpp>
 
 namespace boltzmann {
 
@@ -12,8 +13,8 @@ struct LennardJones {
   double depth;
   double r0;
 
-  template <class P>
-  auto operator()(P const& p, P const& q) const {
+  template <class P, class Q>
+  auto operator()(P const& p, Q const& q) const {
     auto const r = q.position - p.position;
     auto const inverse = 1.0 / dot(r, r);
     auto const s6 = cube(r0 * r0 * inverse);
@@ -21,6 +22,10 @@ struct LennardJones {
   }
 
   double length_scale() const { return r0; }
+  void check() const {
+    check_parameter("lennard-jones", "depth", depth, AllowedRange::non_negative);
+    check_parameter("lennard-jones", "r0", r0, AllowedRange::positive);
+  }
 };
 
 }  // namespace boltzmann

@@ -279,7 +279,7 @@ TEST(PairScheme, SameBitsForAnyThreadCount) {
   Box const box = make_box<3>({12, 12, 12}, Boundary::periodic);
   std::vector<std::vector<double>> results;
   for (int const threads : {1, 2, 3}) {
-    Ensemble<Newton<3>> atoms("atoms", 3000);
+    Ensemble<Newton<3>> atoms("atoms", 6000);
     scatter(atoms, box, 3);
     PairScheme scheme(box, 2.0);
     scheme.threads(threads);

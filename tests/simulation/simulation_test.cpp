@@ -53,6 +53,34 @@ void same_bits(Boundary boundary, Method method) {
   EXPECT_EQ(one.rows(), three.rows()) << D << "D " << to_string(boundary) << " " << to_string(method);
 }
 
+// So many particles that every loop is shared among threads: refresh, lists, pairs, external laws, integration.
+TEST(Simulation, SameBitsForAnyThreadCountOfManyParticles) {
+  auto const run = [](int threads, Boundary boundary) {
+    int const side = 210;
+    Ensemble<Newton<2>> atoms("atoms", side * side);
+    std::mt19937_64 random(9);
+    for (int i = 0; i < side * side; ++i) {
+      atoms[i].position = {1.1 * (i % side + 0.5), 1.1 * (i / side + 0.5)};
+      atoms[i].velocity = {std::normal_distribution(0.0, 1.2)(random), std::normal_distribution(0.0, 1.2)(random)};
+    }
+    PairScheme scheme(Box(Vector{0., 0.}, Vector{1.1 * side, 1.1 * side}, boundary), 2.5);
+    scheme.threads(threads);
+    scheme.internal(atoms, LennardJones{1.0, 1.0});
+    scheme.external(atoms, [](auto const& p) { return p.position * -1e-4; });
+    Simulation simulation(scheme, 0.004);
+    simulation.integrate(atoms, Method::leap_frog);
+    simulation.run(40);
+    std::vector<double> result(atoms.row(0), atoms.row(0) + atoms.size() * atoms.stride());
+    result.push_back(simulation.measure().potential);
+    return result;
+  };
+  for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic}) {
+    auto const one = run(1, boundary);
+    EXPECT_EQ(one, run(2, boundary)) << to_string(boundary);
+    EXPECT_EQ(one, run(3, boundary)) << to_string(boundary);
+  }
+}
+
 TEST(Simulation, SameBitsForAnyThreadCount) {
   for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic}) {
     same_bits<1>(boundary, Method::leap_frog);

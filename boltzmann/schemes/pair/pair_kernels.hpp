@@ -27,7 +27,7 @@ struct PairTask {
   std::uint32_t const* index = nullptr;
   double cutoff2 = 0;                    ///< square of the cut-off (lists)
   double rounding = 0;                   ///< 3/2 2^52 times the quantum of the reversible form (lists)
-  double zero_at = 0;  ///< measuring: the distance at which energies are counted as zero; 0: infinity
+  double zero_at = 0;                    ///< measuring: the distance at which energies are counted as zero; 0: infinity
   double period[3] = {0, 0, 0};          ///< length of periodic axes (connections)
   double inverse_period[3] = {0, 0, 0};  ///< its inverse, 0 on other axes
   double* influence = nullptr;
@@ -99,8 +99,8 @@ class Sum {
     for (auto& x : virial_) x = Real(0.0);
   }
 
-  [[gnu::always_inline]] void add(Law const& law, Target const& p, Source const& q, Mask<double, W> valid, Real rounding,
-                                  [[maybe_unused]] double zero_at = 0) {
+  [[gnu::always_inline]] void add(Law const& law, Target const& p, Source const& q, Mask<double, W> valid,
+                                  Real rounding, [[maybe_unused]] double zero_at = 0) {
     auto const result = law(p, q);
     auto const influence = as_array<Real>(influence_of(result));
     Real const zero = 0.0;

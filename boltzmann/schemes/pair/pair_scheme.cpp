@@ -14,6 +14,9 @@ namespace {
 constexpr double skin_of_cutoff = 0.12;
 constexpr std::size_t particle_grain = 256;     // particles of one range of a list
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
+// Below, one thread is faster than the start of two (some 10 us, and milliseconds where others use the cores too).
+constexpr std::size_t pairs_worth_threads = 1U << 18U;
+constexpr std::size_t particles_worth_threads = 1U << 15U;
 constexpr char const* axis_name = "xyz";
 
 }  // namespace
@@ -51,6 +54,7 @@ struct PairScheme::Near {
     }
     few = all_pairs() && task.same && task.targets <= few_particles ? kernels.few : nullptr;
   }
+  std::size_t pairs() const { return all_pairs() ? task.targets * task.sources : list.index.size(); }
   std::size_t grain() const {
     return all_pairs() ? std::max<std::size_t>(8, pairs_grain / (source->size() + 1)) : particle_grain;
   }
@@ -183,6 +187,8 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
   external_.push_back(std::move(external));
 }
 
+int PairScheme::worth(std::size_t work, std::size_t least) const { return work < least ? 1 : threads(); }
+
 void PairScheme::build_lists() {
   reach_ = 0;
   for (auto& near : near_)
@@ -190,7 +196,8 @@ void PairScheme::build_lists() {
   for (auto& mirror : mirrors_) mirror->build(reach_);
   for (auto& near : near_)
     if (!near->all_pairs())
-      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_, threads());
+      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_,
+                              worth(near->target->size(), particles_worth_threads / 8));
   lists_stale_ = false;
   ++builds_;
 }
@@ -202,7 +209,7 @@ void PairScheme::refresh() {
     if (lists_stale_) build_lists();
     Displacements moved;
     for (auto& mirror : mirrors_) {
-      auto const d = mirror->refresh(threads());
+      auto const d = mirror->refresh(worth(mirror->owned(), particles_worth_threads));
       moved.take(d.largest);
       moved.take(d.second);
     }
@@ -225,20 +232,22 @@ void PairScheme::add_influences(double time) {
     PairKernel const kernel = near->all_pairs() ? near->kernels.all
                               : quantum_ > 0    ? near->kernels.list_reversible
                                                 : near->kernels.list;
-    for_ranges(task.targets, near->grain(), threads(),
+    for_ranges(task.targets, near->grain(), worth(near->pairs(), pairs_worth_threads),
                [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
   }
   for (auto const& connected : connected_) {
     PairTask const task = connected->task(box());
-    for_ranges(task.targets, 4 * particle_grain, threads(), [&](std::size_t begin, std::size_t end) {
-      connected->kernels.connected(connected->law.get(), task, begin, end);
-    });
+    for_ranges(task.targets, 4 * particle_grain, worth(connected->list.index.size(), pairs_worth_threads),
+               [&](std::size_t begin, std::size_t end) {
+                 connected->kernels.connected(connected->law.get(), task, begin, end);
+               });
   }
   for (auto const& external : external_) {
     ExternalTask const task = external->task(time);
-    for_ranges(external->count(), 16 * particle_grain, threads(), [&](std::size_t begin, std::size_t end) {
-      external->kernels.influence(external->law.get(), task, begin, end);
-    });
+    for_ranges(external->count(), 16 * particle_grain, worth(external->count(), particles_worth_threads),
+               [&](std::size_t begin, std::size_t end) {
+                 external->kernels.influence(external->law.get(), task, begin, end);
+               });
   }
 }
 
@@ -274,7 +283,7 @@ Measures PairScheme::measure(double time) {
                        void const* law) {
     task.energy = measures.per_particle[number(target)].data();
     task.virial = virial[number(target)].data();
-    for_ranges(task.targets, grain, threads(),
+    for_ranges(task.targets, grain, worth(task.targets, particles_worth_threads / 8),
                [&](std::size_t begin, std::size_t end) { kernel(law, task, begin, end); });
   };
   for (auto const& near : near_) {
@@ -297,9 +306,9 @@ Measures PairScheme::measure(double time) {
     }
     ExternalTask task = external->task(time);
     task.energy = field[number(external->ensemble)].data();
-    for_ranges(external->count(), 16 * particle_grain, threads(), [&](std::size_t begin, std::size_t end) {
-      external->kernels.measure(external->law.get(), task, begin, end);
-    });
+    for_ranges(
+        external->count(), 16 * particle_grain, worth(external->count(), particles_worth_threads),
+        [&](std::size_t begin, std::size_t end) { external->kernels.measure(external->law.get(), task, begin, end); });
   }
   for (std::size_t e = 0; e < all.size(); ++e) {
     for (double const u : measures.per_particle[e]) measures.potential += u;
@@ -391,7 +400,8 @@ void PairScheme::restore(std::span<double const> state) {
   }
   for (auto& near : near_)
     if (!near->all_pairs())
-      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_, threads());
+      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_,
+                              worth(near->target->size(), particles_worth_threads / 8));
 }
 
 }  // namespace boltzmann

@@ -133,6 +133,7 @@ class PairScheme final : public Scheme {
   Mirror& mirror(AnyEnsemble& ensemble);
   void refresh();
   void build_lists();
+  int worth(std::size_t work, std::size_t least) const;
 
   double cutoff_;
   double skin_;

@@ -1,0 +1,96 @@
+// bzm build: the compiler line of a user's program, printed and run.
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/process.hpp>
+#include <boltzmann/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace boltzmann::bzm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Installation {
+  std::string include, library;
+};
+
+// Where headers and library are: in the source and build folders if this program was built there, else where it is
+// installed.
+Installation installation() {
+  fs::path const own = own_path();
+  for (fs::path const& build : {own.parent_path(), fs::path(BOLTZMANN_BUILD)})
+    if (fs::exists(build / "libboltzmann.a") && fs::exists(fs::path(BOLTZMANN_SOURCE) / "boltzmann/core/error.hpp"))
+      return {BOLTZMANN_SOURCE, (build / "libboltzmann.a").string()};
+  fs::path const prefix = own.parent_path().parent_path();
+  if (fs::exists(prefix / "include/boltzmann/core/error.hpp") && fs::exists(prefix / "lib"))
+    for (auto const& entry : fs::recursive_directory_iterator(prefix / "lib"))
+      if (entry.path().filename() == "libboltzmann.a") return {(prefix / "include").string(), entry.path().string()};
+  throw Error(fmt::format("the headers and libboltzmann.a are neither in {} and {} nor below {}", BOLTZMANN_SOURCE,
+                          BOLTZMANN_BUILD, prefix.string()));
+}
+
+std::vector<std::string> words_of(std::string const& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+// What libboltzmann.a itself needs.
+std::vector<std::string> dependencies() {
+  auto words = words_of(output_of({"pkg-config", "--libs", "fftw3", "cairo", "hdf5"}));
+  if (!words.empty()) return words;
+  words = {"-lfftw3", "-lcairo"};
+  for (auto const* folder : {"/usr/lib/x86_64-linux-gnu/hdf5/serial", "/usr/lib/aarch64-linux-gnu/hdf5/serial"})
+    if (fs::exists(folder)) words.push_back(std::string("-L") + folder);
+  words.emplace_back("-lhdf5");
+  return words;
+}
+
+}  // namespace
+
+int build(BuildOptions const& options) {
+  if (!fs::is_regular_file(options.program)) throw Error("there is no program '" + options.program + "'");
+  std::string const out = options.out.empty() ? fs::path(options.program).replace_extension("").string() : options.out;
+  if (fs::path(out).lexically_normal() == fs::path(options.program).lexically_normal())
+    throw Error("'" + options.program + "' would be replaced by its own program; name another with -o");
+  auto const place = installation();
+  char const* chosen = std::getenv("CXX");
+  std::vector<std::string> line = words_of(chosen ? chosen : "g++");
+  if (line.empty()) line = {"g++"};
+  if (find_program(line[0]).empty())
+    throw Error("the compiler '" + line[0] + "' is not there (Debian: apt install g++)");
+  for (auto const* word : {"-std=c++20", "-O3", "-DNDEBUG", "-march=native", "-Wno-psabi", "-Wall", "-Wextra"})
+    line.emplace_back(word);
+#if defined(__SANITIZE_THREAD__)
+  line.emplace_back("-fsanitize=thread");
+#elif defined(__SANITIZE_ADDRESS__)
+  line.emplace_back("-fsanitize=address,undefined");
+#endif
+  line.push_back("-I" + place.include);
+  line.push_back(options.program);
+  line.emplace_back("-o");
+  line.push_back(out);
+  line.push_back("-L" + fs::path(place.library).parent_path().string());
+  for (auto const* word : {"-lboltzmann", "-lfmt", "-fopenmp"}) line.emplace_back(word);
+  for (auto const& word : dependencies()) line.push_back(word);
+  fmt::print("{}\n", shell_line(line));
+  std::fflush(stdout);
+  if (options.dry) return 0;
+  auto const start = std::chrono::steady_clock::now();
+  if (int const status = run_program(line); status != 0) {
+    fmt::print(stderr, "'{}' does not compile (the compiler's messages are above)\n", options.program);
+    return status > 128 ? status : 2;
+  }
+  fmt::print("{} built in {:.1f} s\n", out,
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return 0;
+}
+
+}  // namespace boltzmann::bzm

@@ -1,0 +1,62 @@
+// The commands of bzm: what each is told, and the exit status that it gives (0 done, 1 internal error, 2 wrong input,
+// 3 the physics failed, 130 stopped by a signal). Mistakes are thrown as Error and PhysicsFailure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann::bzm {
+
+struct RunOptions {
+  std::string scenario;
+  std::vector<std::string> set;
+  std::optional<std::int64_t> steps;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+  std::string out;  ///< empty: results/<name>
+  bool quiet = false, force = false;
+};
+int run(RunOptions const& options);
+
+struct ResumeOptions {
+  std::string folder;
+  std::optional<std::int64_t> steps;
+  std::optional<int> threads;
+  bool quiet = false;
+};
+int resume(ResumeOptions const& options);
+
+struct RenderOptions {
+  std::string folder, out;
+  std::optional<std::int64_t> frame;  ///< counts from 0; negative: from the end
+  std::string drawing, x, y, colour, size;
+  bool trace = false, dark = false;
+  int frames_per_second = 25;
+  double scale = 1;
+};
+int render(RenderOptions const& options);
+
+/// `kind` empty: all kinds of names; or "scenarios", "classes", "laws", "integrators", "diagnoses", "units".
+int list(std::string const& kind, bool names_only);
+int show(std::string const& name);
+int check(std::string const& scenario);
+int new_scenario(std::string const& name);
+
+struct BuildOptions {
+  std::string program, out;
+  bool dry = false;
+};
+int build(BuildOptions const& options);
+
+int doctor(std::string const& folder);
+
+/// The completion script of a shell ("bash"); `commands` and their options come from the parser.
+struct CommandWords {
+  std::string name;
+  std::vector<std::string> options;
+};
+int completion(std::string const& shell, std::vector<CommandWords> const& commands);
+
+}  // namespace boltzmann::bzm

@@ -1,0 +1,197 @@
+// bzm doctor: is this machine fit to run, and does it compute right?
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/process.hpp>
+#include <boltzmann/core/pack.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/particles/newton.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+#include <boltzmann/simulation/version.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+// Their headers are not needed for a version.
+extern "C" {
+int H5get_libversion(unsigned* major, unsigned* minor, unsigned* release);
+char const* cairo_version_string(void);
+extern char const fftw_version[];
+}
+
+namespace boltzmann::bzm {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+class Findings {
+ public:
+  void ok(std::string const& what, std::string const& text) const { line("ok", "32", what, text); }
+  void note(std::string const& what, std::string const& text) const { line("note", "33", what, text); }
+  void problem(std::string const& what, std::string const& text) {
+    ++problems_;
+    line("problem", "31", what, text);
+  }
+  int problems() const { return problems_; }
+
+ private:
+  void line(char const* mark, char const* colour, std::string const& what, std::string const& text) const {
+    if (coloured_)
+      fmt::print("\033[{}m{:<8}\033[0m{:<16}{}\n", colour, mark, what, text);
+    else
+      fmt::print("{:<8}{:<16}{}\n", mark, what, text);
+    std::fflush(stdout);
+  }
+  int problems_ = 0;
+  bool coloured_ = isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
+};
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) {
+      auto const at = line.find(": ");
+      if (at != std::string::npos) return line.substr(at + 2);
+    }
+  return "unknown";
+}
+
+constexpr char const* instruction_set() {
+#if defined(__AVX512F__)
+  return "AVX-512";
+#elif defined(__AVX2__)
+  return "AVX2";
+#elif defined(__AVX__)
+  return "AVX";
+#elif defined(__SSE2__)
+  return "SSE2";
+#elif defined(__ARM_NEON)
+  return "NEON";
+#else
+  return "no vector instructions";
+#endif
+}
+
+std::string first_line(std::string const& text) { return text.substr(0, text.find('\n')); }
+
+void check_compiler(Findings& findings) {
+  char const* chosen = std::getenv("CXX");
+  std::string const compiler = chosen && *chosen ? chosen : "g++";
+  std::string const path = find_program(compiler);
+  if (path.empty())
+    findings.note("compiler", compiler + " is not there: `bzm build` needs it (Debian: apt install g++)");
+  else
+    findings.ok("compiler", first_line(output_of({path, "--version"})));
+}
+
+// 64 MB to the disk and away again.
+void check_writing(std::string const& folder, Findings& findings) {
+  fs::path place = folder;
+  std::error_code ignored;
+  while (!fs::is_directory(place, ignored) && place.has_parent_path() && place != place.parent_path())
+    place = place.parent_path();
+  if (!fs::is_directory(place, ignored)) place = ".";
+  std::string name = (place / ".bzm-doctor-XXXXXX").string();
+  int const file = mkstemp(name.data());
+  if (file < 0) {
+    findings.problem("writing", fmt::format("no file can be made in {}", place.string()));
+    return;
+  }
+  std::vector<char> const block(1 << 20, 'b');
+  auto const start = Clock::now();
+  int written = 0;
+  while (written < 64 && write(file, block.data(), block.size()) == static_cast<ssize_t>(block.size())) ++written;
+  bool const kept = fsync(file) == 0;
+  double const time = seconds_since(start);
+  close(file);
+  fs::remove(name, ignored);
+  if (written < 64 || !kept)
+    findings.problem("writing", fmt::format("only {} of 64 MB could be written to {}", written, place.string()));
+  else
+    findings.ok("writing",
+                fmt::format("{:.0f} MB/s to {}", 64 / time, fs::absolute(place).lexically_normal().string()));
+}
+
+// The start of the standard Lennard-Jones liquid benchmark: 32,000 atoms on an fcc lattice at density 0.8442, cut at
+// 2.5: potential energy -6.7733680532 per atom. Then as many steps as half a second holds.
+void check_physics(Findings& findings) {
+  constexpr double wanted = -6.7733680532;
+  double const edge = 20 * std::cbrt(4 / 0.8442);
+  Ensemble<Newton<3>> atoms("atoms");
+  LatticeBlock const block{Lattice::fcc, edge / 20 / std::numbers::sqrt2, {20, 20, 20}, {0, 0, 0}};
+  block_load(atoms, block, true);
+  maxwellian_load(atoms, 1.44, 1, 87287, {.remove_drift = true});
+  PairScheme scheme(Box(Vector{0., 0., 0.}, Vector{edge, edge, edge}, Boundary::periodic), 2.5);
+  scheme.internal(atoms, LennardJones{1, std::pow(2, 1.0 / 6)});
+  Simulation simulation(scheme, 0.005);
+  simulation.integrate(atoms, Method::leap_frog);
+  scheme.shifted(false);  // the known energy is that of the law as it stands
+  simulation.check();
+  double const size = static_cast<double>(atoms.size());
+  double const energy = simulation.measure().potential / size;
+  std::string const text = fmt::format("Lennard-Jones fcc, 32000 atoms: {:.10f} energy per atom", energy);
+  if (std::abs(energy - wanted) < 1e-9)
+    findings.ok("physics", text);
+  else
+    findings.problem("physics", fmt::format("{}; right is {:.10f}", text, wanted));
+  scheme.shifted(true);
+  auto const before = conserved(simulation);
+  auto const start = Clock::now();
+  std::uint64_t steps = 0;
+  while (seconds_since(start) < 0.7 && steps < 1000) simulation.run(5), steps += 5;
+  double const time = seconds_since(start);
+  auto const after = conserved(simulation);
+  double const drift = std::abs(*after.energy - *before.energy) / size;
+  if (drift < 0.01)
+    findings.ok("energy", fmt::format("changes by {:.1e} per atom in {} steps", drift, steps));
+  else
+    findings.problem("energy",
+                     fmt::format("changes by {:.1e} per atom in {} steps; below 0.01 is right", drift, steps));
+  findings.ok("speed", fmt::format("{:.3g} million particle-steps/s with {} threads",
+                                   size * static_cast<double>(steps) / time / 1e6, scheme.threads()));
+}
+
+}  // namespace
+
+int doctor(std::string const& folder) {
+  Findings findings;
+  findings.ok("bzm", fmt::format("{} ({})", program_version, own_path()));
+  findings.ok("processor", cpu_name());
+  findings.ok("instructions", fmt::format("{}: {} numbers at a time", instruction_set(), native_width<double>));
+  findings.ok("threads", fmt::format("{}", default_threads()));
+  check_compiler(findings);
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  findings.ok("HDF5", fmt::format("{}.{}.{}", major, minor, release));
+  findings.ok("FFTW", static_cast<char const*>(fftw_version));
+  findings.ok("Cairo", cairo_version_string());
+  if (auto const ffmpeg = find_program("ffmpeg"); ffmpeg.empty())
+    findings.note("ffmpeg", "is not there: `bzm render` makes pictures but no movies (Debian: apt install ffmpeg)");
+  else
+    findings.ok("ffmpeg", first_line(output_of({ffmpeg, "-version"})));
+  check_writing(folder.empty() ? "results" : folder, findings);
+  check_physics(findings);
+  if (findings.problems() == 0)
+    fmt::print("all is well\n");
+  else
+    fmt::print("{} {}\n", findings.problems(), findings.problems() == 1 ? "problem" : "problems");
+  return findings.problems() == 0 ? 0 : 1;
+}
+
+}  // namespace boltzmann::bzm

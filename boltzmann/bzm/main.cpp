@@ -1,0 +1,193 @@
+// bzm: the command line. Parses, calls a command, and turns every failure into its line and exit status.
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/simulation/version.hpp>
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+namespace {
+
+using namespace boltzmann;
+using namespace boltzmann::bzm;
+
+constexpr char const* exit_statuses =
+    "Exit status: 0 done; 1 internal error, or a file could not be written during the run; 2 your input is wrong;\n"
+    "3 the physics failed (the message names step, particle and the last good checkpoint); 130 stopped by Ctrl-C.";
+
+std::vector<std::string> command_names(CLI::App const& app) {
+  std::vector<std::string> names;
+  for (auto const* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(CLI::App const& app) {
+  std::vector<std::string> names;
+  for (auto const* option : app.get_options())
+    for (auto const& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// The first word has to be a command; CLI11 would only say that it is an unexpected argument.
+void check_command(CLI::App const& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string const word = argv[1];
+  auto const names = command_names(app);
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  std::string message = "unknown command '" + word + "'; there are " + join(names);
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(word, ignored) && word.ends_with(".toml"))
+    message += "; did you mean 'bzm run " + word + "'?";
+  else
+    message += did_you_mean(word, names);
+  throw Error(message);
+}
+
+// An option that is not there: the nearest one that is.
+std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc, char** argv) {
+  CLI::App const* command = nullptr;
+  for (auto const* each : app.get_subcommands({}))
+    if (argc > 1 && each->get_name() == argv[1]) command = each;
+  auto const known = option_names(command ? *command : app);
+  for (int i = 1; i < argc; ++i) {
+    std::string const word = argv[i];
+    std::string const name = word.substr(0, word.find('='));
+    if (name.starts_with("--") && name.size() > 2 && std::find(known.begin(), known.end(), name) == known.end())
+      return fmt::format("unknown option '{}'{}; {} has {}{}", name, command ? " of bzm " + command->get_name() : "",
+                         command ? "it" : "bzm", join(known), did_you_mean(name, known));
+  }
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return fmt::format("{} (bzm {}--help tells more)", text, command ? command->get_name() + " " : "");
+}
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Boltzmann: particle simulations from a scenario file or a C++ program.", "bzm");
+  app.set_version_flag("--version", std::string("bzm ") + program_version);
+  app.require_subcommand(0, 1);
+  app.footer(exit_statuses);
+  app.set_help_flag("-h,--help", "say what can be said, and stop");
+  std::function<int()> action;
+  auto const command = [&](char const* name, char const* doc, std::function<int()> call) {
+    auto* sub = app.add_subcommand(name, doc);
+    sub->set_help_flag("-h,--help", "say what can be said, and stop");
+    sub->callback([&action, call = std::move(call)] { action = call; });
+    return sub;
+  };
+
+  RunOptions run_options;
+  auto* sub = command("run", "run a scenario; results go into a folder", [&] { return run(run_options); });
+  sub->add_option("scenario", run_options.scenario, "a file, or the name of a shipped scenario (bzm list)")->required();
+  sub->add_option("--set", run_options.set, "change the scenario: key.path=value (may be given again)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->add_option("--steps", run_options.steps, "number of steps")->check(CLI::NonNegativeNumber);
+  sub->add_option("--seed", run_options.seed, "seed of all random numbers");
+  sub->add_option("--threads", run_options.threads, "number of threads")->check(CLI::Range(1, 4096));
+  sub->add_option("--out", run_options.out, "folder for the results [results/<name>]")->type_name("DIR");
+  sub->add_flag("--quiet", run_options.quiet, "no progress line and no table");
+  sub->add_flag("--force", run_options.force, "replace a run that is in the folder");
+
+  ResumeOptions resume_options;
+  sub = command("resume", "go on with a run from its checkpoint", [&] { return resume(resume_options); });
+  sub->add_option("folder", resume_options.folder, "the folder of the run")->required();
+  sub->add_option("--steps", resume_options.steps, "so many steps from the checkpoint on [to the planned end]")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--threads", resume_options.threads, "number of threads")->check(CLI::Range(1, 4096));
+  sub->add_flag("--quiet", resume_options.quiet, "no progress line and no table");
+
+  RenderOptions render_options;
+  sub = command("render", "draw a picture or a movie of a run", [&] { return render(render_options); });
+  sub->add_option("folder", render_options.folder, "the folder of the run")->required();
+  sub->add_option("-o,--out", render_options.out,
+                  "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
+      ->required();
+  sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
+  sub->add_option("--drawing", render_options.drawing, "cartesian, phase-space, spectrum or time-series");
+  sub->add_option("--x", render_options.x,
+                  "what is to the right: a field (phase-space), position.x or time (spectrum)");
+  sub->add_option("--y", render_options.y, "what is upwards: a field, or columns of diagnoses.csv (time-series)");
+  sub->add_option("--colour,--color", render_options.colour,
+                  "colour by a field, speed, kinetic-energy or potential-energy");
+  sub->add_option("--size", render_options.size, "diameters by the same");
+  sub->add_flag("--trace", render_options.trace, "draw the tracks of all frames");
+  sub->add_option("--fps", render_options.frames_per_second, "frames per second of a movie")->capture_default_str();
+  sub->add_option("--scale", render_options.scale, "1: 1200 x 900 pixels")->capture_default_str();
+  sub->add_flag("--dark", render_options.dark, "light on dark");
+
+  std::string kind;
+  bool names_only = false;
+  sub = command("list", "list scenarios, particle classes, laws, integrators, diagnoses",
+                [&] { return list(kind, names_only); });
+  sub->add_option("kind", kind, "scenarios, classes, laws, integrators, diagnoses or units [all but units]");
+  sub->add_flag("--names", names_only, "only the names, one a line");
+
+  std::string name;
+  sub = command("show", "explain a scenario, class, law, integrator, diagnosis or unit", [&] { return show(name); });
+  sub->add_option("name", name, "a word that bzm list shows, or a unit")->required();
+  sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name); });
+  sub->add_option("scenario", name, "a file, or the name of a shipped scenario")->required();
+  sub = command("new", "write a commented scenario to start from", [&] { return new_scenario(name); });
+  sub->add_option("name", name, "the scenario's name; NAME.toml is written here")->required();
+
+  BuildOptions build_options;
+  sub = command("build", "compile a C++ program with the right compiler line, and show the line",
+                [&] { return build(build_options); });
+  sub->add_option("program", build_options.program, "program.cpp")->required();
+  sub->add_option("-o,--out", build_options.out, "the program to write [without .cpp]");
+  sub->add_flag("--dry", build_options.dry, "show the line only");
+
+  std::string folder;
+  sub = command("doctor", "look at this machine and compute a known answer", [&] { return doctor(folder); });
+  sub->add_option("folder", folder, "where results will go [results]");
+
+  std::string shell = "bash";
+  sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"", [&] {
+    std::vector<CommandWords> words;
+    for (auto const* each : app.get_subcommands({})) words.push_back({each->get_name(), option_names(*each)});
+    return completion(shell, words);
+  });
+  sub->add_option("shell", shell, "bash")->capture_default_str();
+
+  check_command(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::ParseError const& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw Error(explain(app, error, argc, argv));
+  }
+  if (!action) {
+    fmt::print("{}", app.help());
+    return 0;
+  }
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return command_line(argc, argv);
+  } catch (ScenarioErrors const& errors) {
+    for (auto const& line : errors.lines) fmt::print(stderr, "{}\n", line);
+    return 2;
+  } catch (Error const& error) {
+    return report(error);
+  } catch (PhysicsFailure const& failure) {
+    return report(failure);
+  } catch (RecordingFailure const& failure) {
+    return report(failure);
+  } catch (std::bad_alloc const&) {
+    fmt::print(stderr, "there is not enough memory for this simulation\n");
+    return 1;
+  } catch (std::exception const& error) {
+    fmt::print(stderr, "internal error: {}\n", error.what());
+    return 1;
+  }
+}

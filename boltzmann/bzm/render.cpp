@@ -1,0 +1,169 @@
+// bzm render: pictures and movies of a finished (or running) run, from its trajectory.
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/process.hpp>
+#include <boltzmann/bzm/scenario_recording.hpp>
+#include <boltzmann/diagnoses/figure.hpp>
+#include <boltzmann/files/trajectory.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+namespace boltzmann::bzm {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Output { picture, movie, numbered };
+
+Output output_of(std::string const& out) {
+  if (out.empty())
+    throw Error("say where the picture goes: -o picture.png, movie.mp4, or a folder for numbered pictures: frames/");
+  if (out.back() == '/') return Output::numbered;
+  std::string const extension = fs::path(out).extension().string();
+  if (extension == ".png" || extension == ".svg" || extension == ".pdf") return Output::picture;
+  if (extension == ".mp4" || extension == ".webm" || extension == ".gif") return Output::movie;
+  throw Error("'" + out +
+              "' ends in none of .png, .svg, .pdf (pictures), .mp4, .webm, .gif (movies) or / (numbered pictures)");
+}
+
+// A folder that goes away with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "bzm-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw Error("no temporary folder can be made in " + fs::temp_directory_path().string());
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(TemporaryFolder const&) = delete;
+  TemporaryFolder& operator=(TemporaryFolder const&) = delete;
+  std::string const& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+class Frames {
+ public:
+  Frames(RenderOptions const& options, ScenarioSimulation& scenario)
+      : scenario_(scenario),
+        folder_(options.folder),
+        title_(!scenario.title.empty() ? scenario.title
+                                       : fs::absolute(options.folder + "/").parent_path().filename().string()),
+        reader_(options.folder + "/trajectory.h5") {
+    if (reader_.frames() == 0) throw Error("'" + folder_ + "/trajectory.h5' has no frames");
+    if (!scenario.output.pictures.empty()) picture_ = picture_of(scenario.output.pictures[0]);
+    if (!options.drawing.empty()) picture_.drawing = options.drawing;
+    if (!options.x.empty()) picture_.x = options.x;
+    if (!options.y.empty()) picture_.y = options.y;
+    if (!options.colour.empty()) picture_.colour = options.colour;
+    if (!options.size.empty()) picture_.size = options.size;
+    if (options.trace) picture_.trace = true;
+    paper_.scale = options.scale;
+    paper_.dark = options.dark;
+  }
+
+  std::int64_t count() const { return static_cast<std::int64_t>(reader_.frames()); }
+  std::int64_t step(std::int64_t frame) const { return reader_.steps()[static_cast<std::size_t>(frame)]; }
+
+  Canvas canvas(std::int64_t number) {
+    auto const frame = static_cast<std::size_t>(number);
+    for (auto& ensemble : scenario_.ensembles) reader_.load(frame, *ensemble);
+    return draw(picture_, {*scenario_.simulation, scenario_.base, title_, reader_.steps()[frame],
+                           reader_.times()[frame], folder_});
+  }
+  void write(std::int64_t frame, std::string const& path) { write_picture(canvas(frame), path, paper_); }
+
+  /// One scale of colours for all frames of a movie.
+  void fix_colours() {
+    if (picture_.colour.empty() || picture_.drawing != "cartesian") return;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::int64_t frame = 0; frame < count(); ++frame) {
+      Canvas const drawn = canvas(frame);
+      for (auto const& bar : drawn.colour_bars()) low = std::min(low, bar.low), high = std::max(high, bar.high);
+    }
+    if (low <= high) picture_.low = low, picture_.high = high;
+  }
+
+  /// Pictures 000000.png, 000001.png, ... of all frames.
+  void write_all(std::string const& folder) {
+    fix_colours();
+    bool const terminal = isatty(STDERR_FILENO) == 1;
+    for (std::int64_t frame = 0; frame < count(); ++frame) {
+      write(frame, fmt::format("{}/{:06d}.png", folder, frame));
+      if (terminal) fmt::print(stderr, "\rframe {} of {}", frame + 1, count());
+    }
+    if (terminal) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  ScenarioSimulation& scenario_;
+  std::string folder_, title_;
+  TrajectoryReader reader_;
+  Picture picture_;
+  PictureOptions paper_;
+};
+
+}  // namespace
+
+int render(RenderOptions const& options) {
+  Output const kind = output_of(options.out);
+  if (!fs::is_directory(options.folder)) throw Error("there is no folder '" + options.folder + "' with a run to draw");
+  std::string const stored = options.folder + "/scenario.toml";
+  if (!fs::exists(stored))
+    throw Error("'" + options.folder + "' has no scenario.toml: only runs of `bzm run` can be drawn again");
+  std::string const ffmpeg = find_program("ffmpeg");
+  if (kind == Output::movie && ffmpeg.empty())
+    throw Error(
+        "a movie needs ffmpeg, which is not installed (Debian: apt install ffmpeg); `-o frames/` writes numbered "
+        "pictures");
+  if (kind != Output::picture && options.frame) throw Error("--frame chooses one picture; a movie has all frames");
+  if (options.frames_per_second < 1 || options.frames_per_second > 240)
+    throw Error(fmt::format("a movie has 1 to 240 frames per second, not {}", options.frames_per_second));
+  auto const scenario = load_scenario(stored);
+  scenario->simulation->check();
+  Frames frames(options, *scenario);
+
+  if (kind == Output::picture) {
+    std::int64_t const chosen = options.frame.value_or(-1);
+    std::int64_t const frame = chosen < 0 ? chosen + frames.count() : chosen;
+    if (frame < 0 || frame >= frames.count())
+      throw Error(fmt::format("there is no frame {}; the trajectory has frames 0 to {} (or -1 to -{} from the end)",
+                              chosen, frames.count() - 1, frames.count()));
+    frames.write(frame, options.out);
+    fmt::print("{}: frame {} (step {})\n", options.out, frame, frames.step(frame));
+    return 0;
+  }
+  if (kind == Output::numbered) {
+    std::error_code error;
+    fs::create_directories(options.out, error);
+    if (error) throw Error("the folder '" + options.out + "' can't be made: " + error.message());
+    frames.write_all(options.out.substr(0, options.out.size() - 1));
+    fmt::print("{}: {} pictures\n", options.out, frames.count());
+    return 0;
+  }
+  TemporaryFolder const folder;
+  frames.write_all(folder.path());
+  std::vector<std::string> words{ffmpeg,       "-y",
+                                 "-loglevel",  "error",
+                                 "-framerate", std::to_string(options.frames_per_second),
+                                 "-i",         folder.path() + "/%06d.png"};
+  std::string const extension = fs::path(options.out).extension().string();
+  if (extension == ".mp4") words.insert(words.end(), {"-c:v", "libx264", "-pix_fmt", "yuv420p"});
+  words.push_back(options.out);
+  if (run_program(words) != 0) throw Error("ffmpeg could not write '" + options.out + "' (its message is above)");
+  fmt::print("{}: {} frames\n", options.out, frames.count());
+  return 0;
+}
+
+}  // namespace boltzmann::bzm

@@ -1,0 +1,74 @@
+// bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/scenario_recording.hpp>
+#include <boltzmann/files/checkpoint.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace boltzmann::bzm {
+namespace {
+
+void print_heading(ScenarioSimulation const& scenario, std::string const& folder) {
+  fmt::print("{} -> {}\n", scenario.title.empty() ? scenario.name : scenario.title, folder);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int run(RunOptions const& options) {
+  std::string const path = find_scenario(options.scenario);
+  auto const scenario = load_scenario(path, {options.set, options.steps, options.seed, options.threads});
+  std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
+  auto const recording = make_recording(*scenario, folder, options.force);
+  scenario->simulation->check();
+  recording->check();
+  if (!options.quiet) print_heading(*scenario, folder);
+  return run_recording(*recording, scenario->steps, scenario->steps, options.quiet);
+}
+
+int resume(ResumeOptions const& options) {
+  std::string const path = options.folder + "/checkpoint.h5";
+  if (!std::filesystem::is_directory(options.folder))
+    throw Error("there is no folder '" + options.folder + "' with a run to resume");
+  auto const checkpoint = read_checkpoint(path);
+  if (checkpoint.scenario.empty())
+    throw Error("'" + path + "' was written by a C++ program, which goes on with Recording::resume()");
+  auto const scenario = parse_scenario(checkpoint.scenario, path, {{}, {}, {}, options.threads});
+  std::int64_t planned = scenario->steps;
+  if (auto const stored = checkpoint.state.find("planned"); stored != checkpoint.state.end() && !stored->second.empty())
+    planned = static_cast<std::int64_t>(stored->second[0]);
+  if (options.steps) planned = checkpoint.step + *options.steps;
+  auto const recording = make_recording(*scenario, options.folder, true);
+  recording->resume();
+  recording->planned(planned);
+  std::int64_t const steps = planned - checkpoint.step;
+  if (!options.quiet) {
+    print_heading(*scenario, options.folder);
+    if (steps > 0)
+      fmt::print("goes on from step {} to {}\n", checkpoint.step, planned);
+    else
+      fmt::print("is already at its last step, {}; --steps N goes on from there\n", checkpoint.step);
+    std::fflush(stdout);
+  }
+  return run_recording(*recording, steps, planned, options.quiet);
+}
+
+int check(std::string const& name) {
+  std::string const path = find_scenario(name);
+  auto const scenario = load_scenario(path);
+  std::size_t particles = 0, bytes = 0;
+  for (auto const& ensemble : scenario->ensembles) {
+    particles += ensemble->size();
+    bytes += ensemble->size() * (ensemble->stride() + ensemble->influence_size()) * sizeof(double);
+  }
+  auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
+  scenario->simulation->check();
+  recording->check();
+  fmt::print("ok: {} particles ({:.3g} MB), {} steps\n", particles, static_cast<double>(bytes) / 1e6, scenario->steps);
+  return 0;
+}
+
+}  // namespace boltzmann::bzm

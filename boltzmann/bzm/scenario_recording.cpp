@@ -1,0 +1,40 @@
+// What run, resume, check and render share.
+#include <boltzmann/bzm/scenario_recording.hpp>
+
+#include <algorithm>
+
+namespace boltzmann::bzm {
+
+Picture picture_of(PicturePlan const& plan) {
+  Picture picture;
+  if (!plan.drawing.empty()) picture.drawing = plan.drawing;
+  picture.x = plan.x;
+  picture.y = plan.y;
+  picture.colour = plan.colour;
+  picture.size = plan.size;
+  if (!plan.file.empty()) picture.file = plan.file;
+  picture.trace = plan.trace;
+  return picture;
+}
+
+std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder, bool overwrite) {
+  auto recording = std::make_unique<Recording>(*scenario.simulation, scenario.base, folder, overwrite);
+  if (!scenario.title.empty()) recording->title(scenario.title);
+  recording->scenario(scenario.resolved);
+  recording->planned(scenario.steps);
+  auto const& output = scenario.output;
+  if (output.diagnoses > 0 && !scenario.diagnoses.empty())
+    recording->diagnoses(static_cast<std::uint64_t>(output.diagnoses), std::move(scenario.diagnoses));
+  if (output.trajectory > 0) recording->trajectory(static_cast<std::uint64_t>(output.trajectory));
+  if (output.checkpoint > 0) recording->checkpoint(static_cast<std::uint64_t>(output.checkpoint));
+  for (auto const& plan : output.pictures) recording->picture(picture_of(plan));
+  return recording;
+}
+
+int run_recording(Recording& recording, std::int64_t steps, std::int64_t planned, bool quiet) {
+  auto const report =
+      run_with_progress(recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)), {quiet, planned});
+  return report.interrupted ? 130 : 0;
+}
+
+}  // namespace boltzmann::bzm

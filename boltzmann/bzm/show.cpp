@@ -1,0 +1,242 @@
+// bzm list and bzm show: what there is, from the tables that the program itself works with.
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/files/text_file.hpp>
+#include <boltzmann/laws/catalogue.hpp>
+#include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <sstream>
+
+namespace boltzmann::bzm {
+namespace {
+
+struct IntegratorDoc {
+  Method method;
+  char const* doc;
+};
+
+constexpr IntegratorDoc integrator_docs[] = {
+    {Method::euler, "first order, one evaluation a step; energy grows: for comparison, and for flows"},
+    {Method::leap_frog,
+     "second order, one evaluation a step, symplectic (velocity Verlet): energy stays bounded; for forces"},
+    {Method::rk2, "second-order Runge-Kutta (midpoint), two evaluations a step"},
+    {Method::rk4, "fourth-order Runge-Kutta, four evaluations a step: for few bodies, vortices and smooth motion"},
+    {Method::reversible_leap_frog,
+     "leap-frog on a fixed-point grid: run backwards it returns to the start to the last bit"},
+    {Method::random_walk, "rk2 and a random step of variance 2 nu dt on each axis: viscous vortices"},
+    {Method::deactivate, "the particles stay where they are"},
+};
+
+std::string integrator_doc(std::string const& name) {
+  for (auto const& entry : integrator_docs)
+    if (to_string(entry.method) == name) return entry.doc;
+  return "";
+}
+
+// One name of a list and its line.
+struct Named {
+  std::string name, doc;
+};
+
+std::string title_of(std::string const& scenario) {
+  std::istringstream text(read_text(scenario_folder() + "/" + scenario + ".toml"));
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with("title")) continue;
+    auto const from = line.find('"'), to = line.rfind('"');
+    if (from < to && to != std::string::npos) return line.substr(from + 1, to - from - 1);
+  }
+  return "";
+}
+
+std::vector<Named> scenarios() {
+  std::vector<Named> all;
+  for (auto const& name : shipped_scenarios()) all.push_back({name, title_of(name)});
+  return all;
+}
+std::vector<Named> classes() {
+  std::vector<Named> all;
+  for (auto const& one : particle_classes()) all.push_back({one.name, one.doc});
+  return all;
+}
+std::vector<Named> laws() {
+  std::vector<Named> all;
+  for (auto const& law : law_catalogue()) all.push_back({std::string(law.name), std::string(law.doc)});
+  return all;
+}
+std::vector<Named> integrators() {
+  std::vector<Named> all;
+  for (auto const& name : method_names()) all.push_back({name, integrator_doc(name)});
+  return all;
+}
+std::vector<Named> diagnoses() {
+  std::vector<Named> all;
+  for (auto const& kind : diagnosis_kinds()) all.push_back({kind.name, kind.doc});
+  return all;
+}
+std::vector<Named> unit_list() {
+  std::vector<Named> all;
+  for (auto const& unit : unit_table()) {
+    std::string const symbols(unit.symbols), words(unit.words);
+    std::string const& names = symbols.empty() ? words : symbols;
+    all.push_back({names.substr(0, names.find(' ')),
+                   fmt::format("{} = {:.10g} SI, a {}{}", words.empty() ? symbols : words, unit.si,
+                               name_of(unit.dimension), unit.prefixes ? "; takes metric prefixes" : "")});
+  }
+  return all;
+}
+
+struct Section {
+  char const* name;
+  std::vector<Named> (*entries)();
+};
+constexpr Section sections[] = {{"scenarios", scenarios},     {"classes", classes},     {"laws", laws},
+                                {"integrators", integrators}, {"diagnoses", diagnoses}, {"units", unit_list}};
+
+void show_scenario(std::string const& name) {
+  std::string const path = find_scenario(name);
+  auto const scenario = load_scenario(path);
+  fmt::print("scenario {}{}{}\n", scenario->name, scenario->title.empty() ? "" : ": ", scenario->title);
+  if (!scenario->description.empty()) fmt::print("\n{}\n", scenario->description);
+  fmt::print("\n  file        {}\n", path);
+  auto const unit = scenario->base.unit_name(dimensions::time);
+  fmt::print("  steps       {} of {:.6g}{}\n", scenario->steps, scenario->simulation->step_size(),
+             unit.empty() ? "" : " " + unit);
+  for (auto const& ensemble : scenario->ensembles)
+    fmt::print("  ensemble    {}: {} of class {}, {}D\n", ensemble->name(), ensemble->size(), ensemble->class_name(),
+               ensemble->dimension());
+  Box const& box = scenario->scheme->box();
+  for (int a = 0; a < box.dimension(); ++a)
+    fmt::print("  {}           {:.6g} to {:.6g}, {}\n", "xyz"[a], box.low(a), box.high(a), to_string(box.boundary(a)));
+  fmt::print("\nbzm run {}\n", name);
+}
+
+void show_class(ParticleClass const& one) {
+  fmt::print("class {}: {}\n", one.name, one.doc);
+  fmt::print("\n  moved by    {}, usually with {}\n", one.classical ? "forces" : "a flow (its influence is a velocity)",
+             to_string(one.usual_method));
+  for (auto const& variant : one.variants)
+    fmt::print("  in {}D       {} bytes of memory for a particle and its influence\n", variant.dimension,
+               variant.row_bytes);
+  auto const& largest = one.variants.back();
+  fmt::print("\n  fields in {}D\n", largest.dimension);
+  for (auto const& field : largest.fields)
+    fmt::print("    {:<12} {:<10} {:<22} {}\n", field.name,
+               field.components == 1 ? "number" : fmt::format("{} numbers", field.components), name_of(field.dimension),
+               field.doc);
+  fmt::print("\n  quantities for pictures and diagnoses\n");
+  for (auto const& quantity : quantities(*largest.make("particles", 0)))
+    fmt::print("    {:<18} {}\n", quantity.name, name_of(quantity.dimension));
+}
+
+void show_law(LawInfo const& law) {
+  fmt::print("law {}: {}\n\n  {}     {}\n", law.name, law.doc, law.has_energy ? "energy   " : "influence", law.formula);
+  if (law.kind == LawKind::pair)
+    fmt::print("  between       {} (influenced) and {}, or classes derived from them\n", law.target, law.source);
+  else
+    fmt::print("  acts on       {} and classes derived from it, from outside\n", law.target);
+  fmt::print("  dimensions    {} to {}\n", law.least_dimension, law.greatest_dimension);
+  if (law.kind == LawKind::pair)
+    fmt::print("  symmetry      {}\n", law.symmetry == Symmetry::antisymmetric ? "Newton's third law"
+                                       : law.symmetry == Symmetry::one_way     ? "one way"
+                                                                               : "general");
+  if (law.velocity_dependent) fmt::print("  depends on velocities: not for the reversible leap-frog\n");
+  if (!law.has_energy) fmt::print("  has no energy: total energies are not defined with it\n");
+  fmt::print("\n  parameters\n");
+  for (auto const& parameter : law.parameters) {
+    auto const examples = example_units(parameter.dimension);
+    fmt::print("    {:<14} {}{}{}, {}{}\n", parameter.name, parameter.doc, "; ",
+               examples.empty() ? "a pure number" : fmt::format("in {}", join(examples, " or ")),
+               parameter.range == AllowedRange::positive       ? "positive"
+               : parameter.range == AllowedRange::non_negative ? "not negative"
+                                                               : "any number",
+               parameter.default_text.empty() ? "" : fmt::format("; {} unless told", parameter.default_text));
+  }
+  fmt::print("\n  in C++: #include <{}>, {}\n", law.header, law.type);
+}
+
+void show_diagnosis(DiagnosisKind const& kind) {
+  fmt::print("diagnosis {}: {}\n", kind.name, kind.doc);
+  if (!kind.options.empty()) fmt::print("\n  options  {}\n", join(kind.options));
+}
+
+bool show_unit(std::string const& name) {
+  for (auto const& unit : unit_table()) {
+    std::istringstream names(std::string(unit.symbols) + " " + std::string(unit.words));
+    for (std::string one; names >> one;)
+      if (one == name) {
+        fmt::print("unit {}: a {}\n\n  names       {} {}\n  in SI       {:.12g} {}\n  prefixes    {}\n", name,
+                   name_of(unit.dimension), unit.symbols, unit.words, unit.si, join(example_units(unit.dimension)),
+                   unit.prefixes ? "yes (k, M, m, ...; kilo, mega, milli, ... before words)" : "no");
+        return true;
+      }
+  }
+  auto const all = unit_names();
+  if (std::find(all.begin(), all.end(), name) == all.end()) return false;
+  auto const quantity = parse_quantity("1 " + name);
+  fmt::print("unit {}: a {}\n\n  in SI       {:.12g}\n", name, name_of(quantity.dimension), quantity.si);
+  return true;
+}
+
+}  // namespace
+
+int list(std::string const& kind, bool names_only) {
+  std::vector<std::string> kinds;
+  for (auto const& section : sections) kinds.emplace_back(section.name);
+  if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+    throw Error("nothing is listed as '" + kind + "'; there are " + join(kinds) + did_you_mean(kind, kinds));
+  bool first = true;
+  for (auto const& section : sections) {
+    if (kind.empty() ? std::string(section.name) == "units" : kind != section.name) continue;
+    auto const entries = section.entries();
+    if (names_only) {
+      for (auto const& entry : entries) fmt::print("{}\n", entry.name);
+      continue;
+    }
+    fmt::print("{}{}\n", first ? "" : "\n", section.name);
+    first = false;
+    for (auto const& entry : entries) fmt::print("  {:<22} {}\n", entry.name, entry.doc);
+  }
+  if (!names_only && kind.empty()) fmt::print("\nbzm show NAME explains one; bzm list units lists the units.\n");
+  return 0;
+}
+
+int show(std::string const& name) {
+  auto const shipped = shipped_scenarios();
+  if (std::find(shipped.begin(), shipped.end(), name) != shipped.end() || name.ends_with(".toml")) {
+    show_scenario(name);
+    return 0;
+  }
+  if (auto const* one = find_class(name)) {
+    show_class(*one);
+    return 0;
+  }
+  for (auto const& law : law_catalogue())
+    if (law.name == name) {
+      show_law(law);
+      return 0;
+    }
+  for (auto const& kind : diagnosis_kinds())
+    if (kind.name == name) {
+      show_diagnosis(kind);
+      return 0;
+    }
+  if (auto const doc = integrator_doc(name); !doc.empty()) {
+    fmt::print("integrator {}: {}\n", name, doc);
+    return 0;
+  }
+  if (show_unit(name)) return 0;
+  std::vector<std::string> names;
+  for (auto const& section : sections)
+    for (auto const& entry : section.entries()) names.push_back(entry.name);
+  throw Error("nothing is called '" + name + "'" + did_you_mean(name, names) + " (bzm list shows all names)");
+}
+
+}  // namespace boltzmann::bzm

@@ -1,0 +1,107 @@
+// Names to numbers: the table of quantities of a class and how each is computed.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+struct Entry {
+  QuantityMeaning meaning;
+  std::function<double(std::size_t)> value;
+};
+
+/// The component of a vector as a word: x, y, z; further ones are numbered from 3.
+std::string component_name(int component) {
+  return component < 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
+}
+
+std::string readable(std::string name) {
+  for (char& c : name)
+    if (c == '_' || c == '-' || c == '.') c = ' ';
+  return name;
+}
+
+std::vector<Entry> table_of(AnyEnsemble const& ensemble, std::span<double const> potential_energy) {
+  std::vector<Entry> table;
+  auto const* particles = &ensemble;
+  auto const add = [&](std::string const& name, Dimension dimension, std::function<double(std::size_t)> value) {
+    table.push_back({{name, readable(name), dimension}, std::move(value)});
+  };
+  for (auto const& field : ensemble.fields())
+    for (int c = 0; c < field.components; ++c) {
+      auto const value = [particles, at = field.offset + c](std::size_t i) { return particles->row(i)[at]; };
+      bool const along_axes = field.components > 1 || field.name == "position" || field.name == "velocity";
+      if (field.components == 1) add(field.name, field.dimension, value);
+      if (along_axes) add(field.name + "." + component_name(c), field.dimension, value);
+    }
+  bool const body = carries_momentum(ensemble), has_velocity = ensemble.find_field("velocity") != nullptr;
+  int const dimension = ensemble.dimension();
+  if (static_cast<std::size_t>(dimension) <= ensemble.influence_size()) {
+    for (int c = 0; c < dimension; ++c) {
+      auto const value = [particles, c](std::size_t i) { return particles->influence(i)[c]; };
+      if (!has_velocity) add("velocity." + component_name(c), dimensions::velocity, value);
+      add("influence." + component_name(c), body ? dimensions::force : dimensions::velocity, value);
+    }
+  }
+  if (has_velocities(ensemble))
+    add("speed", dimensions::velocity, [velocities = velocities_of(ensemble), dimension](std::size_t i) {
+      double const* v = velocities[i];
+      return std::hypot(v[0], dimension > 1 ? v[1] : 0.0, dimension > 2 ? v[2] : 0.0);
+    });
+  if (body)
+    add("kinetic-energy", dimensions::energy,
+        [particles, velocities = velocities_of(ensemble), dimension,
+         mass = ensemble.field("mass").offset](std::size_t i) {
+          double const* v = velocities[i];
+          double square = 0;
+          for (int a = 0; a < dimension; ++a) square += v[a] * v[a];
+          return 0.5 * particles->row(i)[mass] * square;
+        });
+  bool const known = potential_energy.size() == ensemble.size();
+  add("potential-energy", dimensions::energy, [known, potential_energy](std::size_t i) {
+    return known ? potential_energy[i] : std::numeric_limits<double>::quiet_NaN();
+  });
+  return table;
+}
+
+Entry find(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential_energy) {
+  auto table = table_of(ensemble, potential_energy);
+  std::vector<std::string> names;
+  for (auto& entry : table) {
+    if (entry.meaning.name == name) return std::move(entry);
+    names.push_back(entry.meaning.name);
+  }
+  Field const* vector = ensemble.find_field(name);
+  std::string const hint = vector != nullptr ? fmt::format("; did you mean '{}.x'?", name) : did_you_mean(name, names);
+  throw Error(fmt::format("ensemble '{}' of class {} has no quantity '{}'; it has {}{}", ensemble.name(),
+                          ensemble.class_name(), name, join(names), hint));
+}
+
+}  // namespace
+
+std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble) {
+  std::vector<QuantityMeaning> meanings;
+  for (auto& entry : table_of(ensemble, {})) meanings.push_back(std::move(entry.meaning));
+  return meanings;
+}
+
+QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name) {
+  return find(ensemble, name, {}).meaning;
+}
+
+std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
+                             std::span<double const> potential_energy) {
+  Entry const entry = find(ensemble, name, potential_energy);
+  std::vector<double> values(ensemble.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = entry.value(i);
+  return values;
+}
+
+}  // namespace boltzmann

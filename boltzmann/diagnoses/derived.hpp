@@ -1,0 +1,35 @@
+// Derived quantities: every field of a class and what follows from them (speed, energies), by name, for all particles.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// What a name stands for.
+struct QuantityMeaning {
+  std::string name;   ///< "velocity.x", "kinetic-energy"
+  std::string label;  ///< for axes and columns: "velocity x", "kinetic energy"
+  Dimension dimension;
+};
+
+/// All names that are allowed for an ensemble: its fields ("mass", "position.x"; in 1D also "position"), "speed",
+/// "kinetic-energy" (with mass and velocity), "influence.x" (a force for classes with mass and velocity, else a
+/// velocity: its first dimension() components) and "potential-energy". A class without velocity has its influence for
+/// "velocity.x".
+std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble);
+
+/// Meaning of one name; Error with all names that are allowed, and the nearest.
+QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name);
+
+/// The quantity of every particle, in order. "potential-energy" comes from the scheme: pass the ensemble's vector of
+/// Measures::per_particle; without it (or with another length) the values are NaN. Error as above.
+std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
+                             std::span<double const> potential_energy = {});
+
+}  // namespace boltzmann

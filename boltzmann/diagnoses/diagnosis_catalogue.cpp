@@ -1,0 +1,463 @@
+// The instruments behind the catalogue: each turns the plain functions of measures.hpp into columns.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// ---- Looking up ----
+
+std::vector<std::string> names_of(std::vector<AnyEnsemble const*> const& ensembles) {
+  std::vector<std::string> names;
+  names.reserve(ensembles.size());
+  for (auto const* ensemble : ensembles) names.push_back(ensemble->name());
+  return names;
+}
+
+AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& ensembles, std::string const& name) {
+  for (auto const* ensemble : ensembles)
+    if (ensemble->name() == name) return *ensemble;
+  auto const names = names_of(ensembles);
+  throw Error(fmt::format("there is no ensemble '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+}
+
+std::size_t index_in(Sample const& sample, std::string const& name) {
+  for (std::size_t e = 0; e < sample.ensembles.size(); ++e)
+    if (sample.ensembles[e]->name() == name) return e;
+  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+}
+
+/// "momentum x", "momentum y", ...
+std::vector<Column> along_axes(std::string const& what, int axes, Dimension dimension) {
+  std::vector<Column> columns;
+  columns.reserve(static_cast<std::size_t>(axes));
+  for (int a = 0; a < axes; ++a) columns.push_back({what + " " + "xyz"[a], dimension});
+  return columns;
+}
+
+std::string named(std::string const& prefix, std::string const& what) {
+  return prefix.empty() ? what : prefix + " " + what;
+}
+
+int dimension_of(DiagnosisParameters const& parameters) {
+  if (parameters.available.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
+  return parameters.available.front()->dimension();
+}
+
+// ---- Of the whole system, or of each ensemble that is named ----
+
+/// One set of columns for the whole system, or one for each named ensemble.
+class SystemDiagnosis : public Diagnosis {
+ public:
+  explicit SystemDiagnosis(DiagnosisParameters const& parameters)
+      : dimension_(dimension_of(parameters)), names_(parameters.ensembles) {
+    for (auto const& name : names_) ensemble_named(parameters.available, name);
+  }
+
+  std::vector<Column> columns() const final {
+    std::vector<Column> columns;
+    for (auto const& name : names_)
+      for (auto const& column : columns_of_one()) columns.push_back({named(name, column.name), column.dimension});
+    if (names_.empty()) columns = columns_of_one();
+    for (auto const& column : columns_of_all()) columns.push_back(column);
+    return columns;
+  }
+
+  void measure(Sample const& sample, std::vector<double>& values) final {
+    for (auto const& name : names_) measure_one(*sample.ensembles[index_in(sample, name)], sample, values);
+    if (names_.empty()) measure_one(sample.ensembles, sample, values);
+    measure_all(sample, values);
+  }
+
+ protected:
+  int dimension() const { return dimension_; }
+  virtual std::vector<Column> columns_of_one() const = 0;
+  virtual void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) = 0;
+  /// What belongs to the whole system only, after the others.
+  virtual std::vector<Column> columns_of_all() const { return {}; }
+  virtual void measure_all(Sample const&, std::vector<double>&) {}
+
+ private:
+  int dimension_;
+  std::vector<std::string> names_;
+};
+
+class Number final : public SystemDiagnosis {
+ public:
+  explicit Number(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
+  std::vector<Column> columns_of_one() const override {
+    return {{"number", dimensions::none}, {"mass", dimensions::mass}};
+  }
+  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
+    values.push_back(static_cast<double>(number_of_particles(of)));
+    values.push_back(total_mass(of));
+  }
+};
+
+class Momentum final : public SystemDiagnosis {
+ public:
+  explicit Momentum(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
+  std::vector<Column> columns_of_one() const override {
+    return along_axes("momentum", dimension(), dimensions::momentum);
+  }
+  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
+    Triple const p = momentum(of);
+    values.insert(values.end(), p.begin(), p.begin() + dimension());
+  }
+};
+
+class AngularMomentum final : public SystemDiagnosis {
+ public:
+  explicit AngularMomentum(DiagnosisParameters const& parameters)
+      : SystemDiagnosis(parameters), about_centre_(parameters.about_centre_of_mass) {}
+  std::vector<Column> columns_of_one() const override {
+    if (dimension() < 3) return {{"angular momentum", dimensions::angular_momentum}};
+    return along_axes("angular momentum", 3, dimensions::angular_momentum);
+  }
+  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
+    Triple const l = angular_momentum(of, about_centre_ && total_mass(of) != 0 ? centre_of_mass(of) : Triple{});
+    values.insert(values.end(), l.begin(), l.begin() + (dimension() < 3 ? 1 : 3));
+  }
+
+ private:
+  bool about_centre_;
+};
+
+class TemperatureDiagnosis final : public SystemDiagnosis {
+ public:
+  explicit TemperatureDiagnosis(DiagnosisParameters const& parameters)
+      : SystemDiagnosis(parameters), subtract_drift_(parameters.subtract_drift) {
+    for (auto const& name : parameters.ensembles)
+      if (AnyEnsemble const& ensemble = ensemble_named(parameters.available, name); !carries_momentum(ensemble))
+        throw Error(fmt::format("ensemble '{}' of class {} has no temperature: it needs a mass and a velocity", name,
+                                ensemble.class_name()));
+  }
+  std::vector<Column> columns_of_one() const override {
+    std::vector<Column> columns{{"temperature", dimensions::temperature}};
+    if (dimension() > 1)
+      for (auto& column : along_axes("temperature", dimension(), dimensions::temperature))
+        columns.push_back(std::move(column));
+    return columns;
+  }
+  void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
+    Temperature const t = temperature(of, sample.boltzmann_constant, subtract_drift_);
+    values.push_back(t.total);
+    if (dimension() > 1) values.insert(values.end(), t.component.begin(), t.component.begin() + dimension());
+  }
+
+ private:
+  bool subtract_drift_;
+};
+
+/// Energies of the whole system; of named ensembles the kinetic energy besides.
+class Energies final : public SystemDiagnosis {
+ public:
+  explicit Energies(DiagnosisParameters const& parameters)
+      : SystemDiagnosis(parameters), whole_only_(parameters.ensembles.empty()) {}
+  bool needs_energies() const override { return true; }
+  std::vector<Column> columns_of_one() const override { return {{"kinetic energy", dimensions::energy}}; }
+  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
+    values.push_back(kinetic_energy(of));
+  }
+  std::vector<Column> columns_of_all() const override {
+    std::vector<Column> columns;
+    if (!whole_only_) columns.push_back({"kinetic energy", dimensions::energy});
+    for (char const* name : {"potential energy", "external energy", "total energy"})
+      columns.push_back({name, dimensions::energy});
+    return columns;
+  }
+  void measure_all(Sample const& sample, std::vector<double>& values) override {
+    double const kinetic = kinetic_energy(sample.ensembles);
+    bool const known = sample.measures != nullptr && sample.measures->unknown.empty();
+    double const potential = known ? sample.measures->potential : nan;
+    double const external = known ? sample.measures->external : nan;
+    if (!whole_only_) values.push_back(kinetic);
+    values.insert(values.end(), {potential, external, kinetic + potential + external});
+  }
+
+ private:
+  bool whole_only_;
+};
+
+class Pressure final : public SystemDiagnosis {
+ public:
+  explicit Pressure(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
+  bool needs_energies() const override { return true; }
+  std::vector<Column> columns_of_one() const override {
+    Dimension const unit = dimensions::energy / pow(dimensions::length, dimension());
+    std::vector<Column> columns{{"pressure", unit}};
+    for (int a = 0; dimension() > 1 && a < dimension(); ++a)
+      for (int b = 0; b < dimension(); ++b) columns.push_back({fmt::format("pressure {}{}", "xyz"[a], "xyz"[b]), unit});
+    return columns;
+  }
+  void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
+    Tensor3 tensor;
+    for (auto& row : tensor) row.fill(nan);
+    if (sample.measures != nullptr) tensor = pressure_tensor(of, *sample.measures, sample.box);
+    values.push_back(sample.measures != nullptr ? pressure(of, *sample.measures, sample.box) : nan);
+    for (int a = 0; dimension() > 1 && a < dimension(); ++a)
+      values.insert(values.end(), tensor[a].begin(), tensor[a].begin() + dimension());
+  }
+};
+
+// ---- Of a group of particles ----
+
+/// A group in each of the chosen ensembles: all, by number, or those of similar velocity at the first look.
+class GroupDiagnosis : public Diagnosis {
+ public:
+  explicit GroupDiagnosis(DiagnosisParameters const& parameters)
+      : dimension_(dimension_of(parameters)),
+        names_(parameters.ensembles.empty() ? names_of(parameters.available) : parameters.ensembles),
+        label_(parameters.label),
+        particles_(parameters.particles),
+        similar_(parameters.similar_velocity),
+        tolerance_(parameters.tolerance) {
+    if (!particles_.empty() && similar_)
+      throw Error("a group is given by particle numbers or by a velocity, not by both");
+    if ((!particles_.empty() || !label_.empty()) && names_.size() != 1)
+      throw Error(fmt::format("a group of chosen particles belongs to one ensemble; say which of {}", join(names_)));
+    if (!(tolerance_ >= 0))
+      throw Error(fmt::format("the tolerance of a group must not be negative, it is {}", tolerance_));
+    for (auto const& name : names_) {
+      AnyEnsemble const& ensemble = ensemble_named(parameters.available, name);
+      for (std::uint32_t const i : particles_)
+        if (i >= ensemble.size())
+          throw Error(fmt::format("ensemble '{}' has {} particles, numbered from 0; there is no particle {}", name,
+                                  ensemble.size(), i));
+      prefixes_.push_back(label_.empty() ? name : label_);
+    }
+  }
+
+  std::vector<Column> columns() const final {
+    std::vector<Column> columns;
+    for (std::size_t g = 0; g < prefixes_.size(); ++g)
+      for (auto const& column : columns_of_group(g))
+        columns.push_back({named(prefixes_[g], column.name), column.dimension});
+    return columns;
+  }
+
+  void measure(Sample const& sample, std::vector<double>& values) final {
+    if (similar_ && groups_.empty()) choose_similar(sample);
+    for (std::size_t g = 0; g < names_.size(); ++g) {
+      std::size_t const e = index_in(sample, names_[g]);
+      AnyEnsemble const& ensemble = *sample.ensembles[e];
+      measure_group(g, ensemble,
+                    similar_             ? groups_[g]
+                    : particles_.empty() ? all_particles(ensemble)
+                                         : particles_,
+                    energies_of(sample, e), values);
+    }
+  }
+
+  /// Nothing before the first look; then, for each ensemble, the size of its group and the numbers of its particles.
+  std::vector<double> state() const final {
+    std::vector<double> state;
+    for (auto const& group : groups_) {
+      state.push_back(static_cast<double>(group.size()));
+      state.insert(state.end(), group.begin(), group.end());
+    }
+    return state;
+  }
+  void restore(std::span<double const> state) final {
+    groups_.clear();
+    if (state.empty()) return;
+    std::size_t at = 0;
+    for (std::size_t g = 0; similar_ && g < names_.size(); ++g) {
+      auto const left = static_cast<double>(state.size() - at);
+      double const count = at < state.size() ? state[at++] : -1;
+      if (!(count >= 0 && count < left)) break;
+      auto const begin = state.begin() + static_cast<std::ptrdiff_t>(at);
+      auto& group = groups_.emplace_back();
+      std::transform(begin, begin + static_cast<std::ptrdiff_t>(count), std::back_inserter(group),
+                     [](double i) { return static_cast<std::uint32_t>(i); });
+      at += group.size();
+    }
+    if (groups_.size() != names_.size() || at != state.size())
+      throw Error("the checkpoint does not fit this diagnosis: its groups are others");
+  }
+
+ protected:
+  int dimension() const { return dimension_; }
+  virtual std::vector<Column> columns_of_group(std::size_t group) const = 0;
+  virtual void measure_group(std::size_t group, AnyEnsemble const& ensemble,
+                             std::vector<std::uint32_t> const& particles, std::span<double const> energies,
+                             std::vector<double>& values) = 0;
+
+ private:
+  void choose_similar(Sample const& sample) {
+    std::size_t found = 0;
+    for (auto const& name : names_) {
+      groups_.push_back(similar_particles(*sample.ensembles[index_in(sample, name)], *similar_, tolerance_));
+      found += groups_.back().size();
+    }
+    if (found > 0) return;
+    groups_.clear();
+    throw Error(fmt::format("no particle of {} starts within {} of the velocity ({})", join(names_), tolerance_,
+                            fmt::join(std::span(*similar_).first(static_cast<std::size_t>(dimension_)), ", ")));
+  }
+  static std::span<double const> energies_of(Sample const& sample, std::size_t e) {
+    if (sample.measures == nullptr || !sample.measures->unknown.empty()) return {};
+    if (e >= sample.measures->per_particle.size()) return {};
+    return sample.measures->per_particle[e];
+  }
+
+  int dimension_;
+  std::vector<std::string> names_, prefixes_;
+  std::string label_;
+  std::vector<std::uint32_t> particles_;
+  std::optional<Triple> similar_;
+  double tolerance_;
+  std::vector<std::vector<std::uint32_t>> groups_;
+};
+
+class Drag final : public GroupDiagnosis {
+ public:
+  explicit Drag(DiagnosisParameters const& parameters) : GroupDiagnosis(parameters) {}
+  std::vector<Column> columns_of_group(std::size_t) const override {
+    return along_axes("mean velocity", dimension(), dimensions::velocity);
+  }
+  void measure_group(std::size_t, AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& particles,
+                     std::span<double const>, std::vector<double>& values) override {
+    Triple const mean = mean_velocity(ensemble, particles);
+    values.insert(values.end(), mean.begin(), mean.begin() + dimension());
+  }
+};
+
+class VelocityDiffusion final : public GroupDiagnosis {
+ public:
+  explicit VelocityDiffusion(DiagnosisParameters const& parameters) : GroupDiagnosis(parameters) {}
+  std::vector<Column> columns_of_group(std::size_t) const override {
+    return {{"velocity spread", dimensions::velocity * dimensions::velocity}};
+  }
+  void measure_group(std::size_t, AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& particles,
+                     std::span<double const>, std::vector<double>& values) override {
+    values.push_back(velocity_spread(ensemble, particles));
+  }
+};
+
+class ExtremesDiagnosis final : public GroupDiagnosis {
+ public:
+  explicit ExtremesDiagnosis(DiagnosisParameters const& parameters) : GroupDiagnosis(parameters) {
+    auto const names = parameters.ensembles.empty() ? names_of(parameters.available) : parameters.ensembles;
+    for (auto const& name : names)
+      meanings_.push_back(quantity_meaning(ensemble_named(parameters.available, name), parameters.quantity));
+  }
+  bool needs_energies() const override { return meanings_.front().name == "potential-energy"; }
+  std::vector<Column> columns_of_group(std::size_t group) const override {
+    auto const& meaning = meanings_[group];
+    std::vector<Column> columns;
+    for (char const* which : {"minimum", "maximum", "mean"})
+      columns.push_back({fmt::format("{} {}", meaning.label, which), meaning.dimension});
+    return columns;
+  }
+  void measure_group(std::size_t group, AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& particles,
+                     std::span<double const> energies, std::vector<double>& values) override {
+    auto const all = quantity(ensemble, meanings_[group].name, energies);
+    std::vector<double> chosen;
+    chosen.reserve(particles.size());
+    for (std::uint32_t const i : particles) {
+      if (i >= all.size()) throw Error(fmt::format("ensemble '{}' has no particle {} any more", ensemble.name(), i));
+      chosen.push_back(all[i]);
+    }
+    Extremes const found = extremes(chosen);
+    values.insert(values.end(), {found.minimum, found.maximum, found.mean});
+  }
+
+ private:
+  std::vector<QuantityMeaning> meanings_;
+};
+
+// ---- The table ----
+
+using Maker = std::unique_ptr<Diagnosis> (*)(DiagnosisParameters const&);
+
+template <class Kind>
+std::unique_ptr<Diagnosis> make(DiagnosisParameters const& parameters) {
+  return std::make_unique<Kind>(parameters);
+}
+
+struct Entry {
+  DiagnosisKind kind;
+  Maker make;
+};
+
+std::vector<Entry> const& table() {
+  static std::vector<Entry> const entries = [] {
+    std::vector<std::string> const group{"ensembles", "label", "particles", "similar_velocity", "tolerance"};
+    std::vector<std::string> group_and_quantity = group;
+    group_and_quantity.emplace_back("quantity");
+    return std::vector<Entry>{
+        {{"energies",
+          "kinetic, potential, external and total energy; kinetic energy of each named ensemble",
+          {"ensembles"}},
+         make<Energies>},
+        {{"momentum", "total momentum: the sum of m v", {"ensembles"}}, make<Momentum>},
+        {{"angular-momentum",
+          "the sum of m r x v about the origin or the centre of mass; conserved in open space only",
+          {"ensembles", "about_centre_of_mass"}},
+         make<AngularMomentum>},
+        {{"temperature", "m <v^2> / k along each axis and their mean", {"ensembles", "subtract_drift"}},
+         make<TemperatureDiagnosis>},
+        {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},
+         make<Pressure>},
+        {{"number", "number of particles and their mass", {"ensembles"}}, make<Number>},
+        {{"drag", "mean velocity of a group of particles: its change is the drag", group}, make<Drag>},
+        {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", group},
+         make<VelocityDiffusion>},
+        {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", group_and_quantity},
+         make<ExtremesDiagnosis>},
+    };
+  }();
+  return entries;
+}
+
+void refuse_unused(DiagnosisKind const& kind, DiagnosisParameters const& parameters) {
+  auto const check = [&](char const* option, bool given) {
+    if (!given || std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end()) return;
+    throw Error(fmt::format("diagnosis {} has no option {}; it has {}", kind.name, option,
+                            kind.options.empty() ? "none" : join(kind.options)));
+  };
+  check("ensembles", !parameters.ensembles.empty());
+  check("label", !parameters.label.empty());
+  check("particles", !parameters.particles.empty());
+  check("similar_velocity", parameters.similar_velocity.has_value());
+  check("tolerance", parameters.tolerance != 0);
+  check("subtract_drift", parameters.subtract_drift);
+  check("about_centre_of_mass", parameters.about_centre_of_mass);
+  check("quantity", !parameters.quantity.empty());
+}
+
+}  // namespace
+
+std::vector<DiagnosisKind> const& diagnosis_kinds() {
+  static std::vector<DiagnosisKind> const kinds = [] {
+    std::vector<DiagnosisKind> all;
+    for (auto const& entry : table()) all.push_back(entry.kind);
+    return all;
+  }();
+  return kinds;
+}
+
+std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters) {
+  std::vector<std::string> names;
+  for (auto const& entry : table()) {
+    if (entry.kind.name == kind) {
+      refuse_unused(entry.kind, parameters);
+      return entry.make(parameters);
+    }
+    names.push_back(entry.kind.name);
+  }
+  throw Error(fmt::format("there is no diagnosis '{}'; there are {}{}", kind, join(names), did_you_mean(kind, names)));
+}
+
+}  // namespace boltzmann

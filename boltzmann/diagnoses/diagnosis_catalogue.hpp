@@ -1,0 +1,53 @@
+// The catalogue of diagnoses: from a word of a scenario to a measuring instrument.
+#pragma once
+
+#include <boltzmann/diagnoses/diagnosis.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// What a diagnosis may be told. Which of these a kind looks at is in its DiagnosisKind::options; the others must be
+/// left as they are.
+struct DiagnosisParameters {
+  /// All ensembles of the simulation, for names, dimensions and checks. They are used by the constructor only.
+  std::vector<AnyEnsemble const*> available = {};
+  /// Names of ensembles: one set of columns for each, "atoms temperature". Empty: one set for the whole system,
+  /// "temperature" (for drag, velocity-diffusion and extremes: one set for each ensemble there is).
+  std::vector<std::string> ensembles = {};
+  /// What the columns are called instead of the ensemble, if a group is measured; empty: the ensemble's name.
+  std::string label = {};
+  std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble, by number; empty: all
+  std::optional<std::array<double, 3>> similar_velocity =
+      {};                             ///< a group by velocity at the first look (section 5.2.3.3) ...
+  double tolerance = 0;               ///< ... within this distance of it
+  bool subtract_drift = false;        ///< temperature: without the mean velocity, over N - 1
+  bool about_centre_of_mass = false;  ///< angular momentum: else about the origin
+  std::string quantity = {};          ///< extremes: a name that quantity() knows
+};
+
+/// One kind of diagnosis.
+struct DiagnosisKind {
+  std::string name;                  ///< the word in scenarios
+  std::string doc;                   ///< one line
+  std::vector<std::string> options;  ///< members of DiagnosisParameters that it looks at, by name
+};
+
+/// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, drag, velocity-diffusion,
+/// extremes.
+std::vector<DiagnosisKind> const& diagnosis_kinds();
+
+/// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or
+/// missing, or a parameter is given that the kind does not look at.
+///
+/// Where a law gives no energy (Measures::unknown), energies are NaN and the columns stay; likewise a mean over no
+/// particles.
+std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters);
+
+}  // namespace boltzmann

@@ -1,0 +1,245 @@
+// The sums of section 5.2.3 over particles, compensated.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace boltzmann {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using TripleSum = std::array<CompensatedSum, 3>;
+
+Triple value_of(TripleSum const& sum) { return {sum[0].value(), sum[1].value(), sum[2].value()}; }
+
+/// Calls f(mass, velocity, position, dimension) for every particle that carries momentum.
+template <class Function>
+void for_each_body(Ensembles of, Function f) {
+  for (AnyEnsemble const* ensemble : of) {
+    if (!carries_momentum(*ensemble)) continue;
+    int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double const* row = ensemble->row(i);
+      f(row[mass], row + velocity, row, ensemble->dimension());
+    }
+  }
+}
+
+template <class Function>
+void for_each_mass(Ensembles of, Function f) {
+  for (AnyEnsemble const* ensemble : of)
+    if (Field const* mass = ensemble->find_field("mass"))
+      for (std::size_t i = 0; i < ensemble->size(); ++i)
+        f(ensemble->row(i)[mass->offset], ensemble->row(i), ensemble->dimension());
+}
+
+Field const* velocity_field(AnyEnsemble const& ensemble) {
+  Field const* velocity = ensemble.find_field("velocity");
+  return velocity != nullptr && velocity->components == ensemble.dimension() ? velocity : nullptr;
+}
+
+void check_group(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group) {
+  for (std::uint32_t const i : group)
+    if (i >= ensemble.size())
+      throw Error(fmt::format("ensemble '{}' has {} particles, numbered from 0; there is no particle {}",
+                              ensemble.name(), ensemble.size(), i));
+}
+
+}  // namespace
+
+bool carries_momentum(AnyEnsemble const& ensemble) {
+  return velocity_field(ensemble) != nullptr && ensemble.find_field("mass") != nullptr;
+}
+
+bool has_velocities(AnyEnsemble const& ensemble) {
+  return velocity_field(ensemble) != nullptr ||
+         ensemble.influence_size() >= static_cast<std::size_t>(ensemble.dimension());
+}
+
+Velocities velocities_of(AnyEnsemble const& ensemble) {
+  if (!has_velocities(ensemble))
+    throw Error(fmt::format("ensemble '{}' of class {} has neither a velocity nor an influence that could be one",
+                            ensemble.name(), ensemble.class_name()));
+  if (ensemble.size() == 0) return {nullptr, 0};
+  if (Field const* velocity = velocity_field(ensemble)) return {ensemble.row(0) + velocity->offset, ensemble.stride()};
+  return {ensemble.influence(0), ensemble.influence_size()};
+}
+
+std::size_t number_of_particles(Ensembles of) {
+  std::size_t number = 0;
+  for (AnyEnsemble const* ensemble : of) number += ensemble->size();
+  return number;
+}
+
+double total_mass(Ensembles of) {
+  CompensatedSum sum;
+  for_each_mass(of, [&](double mass, double const*, int) { sum += mass; });
+  return sum.value();
+}
+
+Triple centre_of_mass(Ensembles of) {
+  TripleSum moment;
+  for_each_mass(of, [&](double mass, double const* position, int dimension) {
+    for (int a = 0; a < dimension; ++a) moment[a] += mass * position[a];
+  });
+  Triple centre = value_of(moment);
+  double const mass = total_mass(of);
+  for (double& x : centre) x = mass != 0 ? x / mass : nan;
+  return centre;
+}
+
+Triple momentum(Ensembles of) {
+  TripleSum sum;
+  for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
+    for (int a = 0; a < dimension; ++a) sum[a] += mass * velocity[a];
+  });
+  return value_of(sum);
+}
+
+Triple angular_momentum(Ensembles of, Triple const& about) {
+  TripleSum sum;
+  for_each_body(of, [&](double mass, double const* velocity, double const* position, int dimension) {
+    Triple r{};
+    for (int a = 0; a < dimension; ++a) r[a] = position[a] - about[a];
+    if (dimension == 2) {
+      sum[0] += mass * r[0] * velocity[1];
+      sum[0] += -mass * r[1] * velocity[0];
+    } else if (dimension == 3) {
+      for (int a = 0; a < 3; ++a) {
+        int const b = (a + 1) % 3, c = (a + 2) % 3;
+        sum[a] += mass * r[b] * velocity[c];
+        sum[a] += -mass * r[c] * velocity[b];
+      }
+    }
+  });
+  return value_of(sum);
+}
+
+double kinetic_energy(Ensembles of) {
+  CompensatedSum sum;
+  for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
+    for (int a = 0; a < dimension; ++a) sum += mass * velocity[a] * velocity[a];
+  });
+  return 0.5 * sum.value();
+}
+
+Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_drift) {
+  std::size_t count = 0;
+  CompensatedSum mass;
+  TripleSum momentum;
+  int axes = 1;
+  for (AnyEnsemble const* ensemble : of) axes = ensemble->dimension();
+  for_each_body(of, [&](double m, double const* velocity, double const*, int dimension) {
+    ++count;
+    mass += m;
+    for (int a = 0; a < dimension; ++a) momentum[a] += m * velocity[a];
+  });
+  Triple drift{0, 0, 0};
+  if (subtract_drift)
+    for (int a = 0; a < 3; ++a) drift[a] = momentum[a].value() / mass.value();
+  TripleSum heat;
+  for_each_body(of, [&](double m, double const* velocity, double const*, int dimension) {
+    for (int a = 0; a < dimension; ++a) heat[a] += m * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
+  });
+  std::size_t const lost = subtract_drift ? 1 : 0;
+  Temperature result;
+  double const freedom = static_cast<double>(count) - static_cast<double>(lost);
+  double sum = 0;
+  for (int a = 0; a < axes; ++a) {
+    result.component[a] = freedom > 0 ? heat[a].value() / (boltzmann_constant * freedom) : nan;
+    sum += result.component[a];
+  }
+  result.total = sum / axes;
+  return result;
+}
+
+Tensor3 kinetic_stress(Ensembles of) {
+  std::array<TripleSum, 3> sum;
+  for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
+    for (int a = 0; a < dimension; ++a)
+      for (int b = 0; b < dimension; ++b) sum[a][b] += mass * (velocity[a] * velocity[b]);
+  });
+  return {value_of(sum[0]), value_of(sum[1]), value_of(sum[2])};
+}
+
+Tensor3 pressure_tensor(Ensembles of, Measures const& measures, Box const& box) {
+  Tensor3 tensor = kinetic_stress(of);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) tensor[a][b] = (tensor[a][b] + measures.virial[a][b]) / box.volume();
+  return tensor;
+}
+
+double pressure(Ensembles of, Measures const& measures, Box const& box) {
+  Tensor3 const tensor = pressure_tensor(of, measures, box);
+  double trace = 0;
+  for (int a = 0; a < box.dimension(); ++a) trace += tensor[a][a];
+  return trace / box.dimension();
+}
+
+std::vector<std::uint32_t> all_particles(AnyEnsemble const& ensemble) {
+  std::vector<std::uint32_t> group(ensemble.size());
+  std::iota(group.begin(), group.end(), 0U);
+  return group;
+}
+
+std::vector<std::uint32_t> similar_particles(AnyEnsemble const& ensemble, Triple const& velocity, double tolerance) {
+  if (!(tolerance >= 0))
+    throw Error(fmt::format("similar particles: the tolerance must not be negative, it is {}", tolerance));
+  Velocities const velocities = velocities_of(ensemble);
+  std::vector<std::uint32_t> group;
+  for (std::size_t i = 0; i < ensemble.size(); ++i) {
+    double const* v = velocities[i];
+    Triple difference{};
+    for (int a = 0; a < ensemble.dimension(); ++a) difference[a] = v[a] - velocity[a];
+    if (std::hypot(difference[0], difference[1], difference[2]) <= tolerance)
+      group.push_back(static_cast<std::uint32_t>(i));
+  }
+  return group;
+}
+
+Triple mean_velocity(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group) {
+  check_group(ensemble, group);
+  Velocities const velocities = velocities_of(ensemble);
+  TripleSum sum;
+  for (std::uint32_t const i : group)
+    for (int a = 0; a < ensemble.dimension(); ++a) sum[a] += velocities[i][a];
+  Triple mean{};
+  for (int a = 0; a < ensemble.dimension(); ++a)
+    mean[a] = group.empty() ? nan : sum[a].value() / static_cast<double>(group.size());
+  return mean;
+}
+
+double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group) {
+  Triple const mean = mean_velocity(ensemble, group);
+  if (group.empty()) return nan;
+  Velocities const velocities = velocities_of(ensemble);
+  CompensatedSum sum;
+  for (std::uint32_t const i : group)
+    for (int a = 0; a < ensemble.dimension(); ++a) {
+      double const difference = velocities[i][a] - mean[a];
+      sum += difference * difference;
+    }
+  return sum.value() / static_cast<double>(group.size());
+}
+
+Extremes extremes(std::span<double const> values) {
+  if (values.empty()) return {nan, nan, nan};
+  CompensatedSum sum;
+  double low = values.front(), high = values.front();
+  for (double const x : values) {
+    if (std::isnan(x)) return {nan, nan, nan};
+    low = std::min(low, x);
+    high = std::max(high, x);
+    sum += x;
+  }
+  return {low, high, sum.value() / static_cast<double>(values.size())};
+}
+
+}  // namespace boltzmann

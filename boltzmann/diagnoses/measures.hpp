@@ -1,0 +1,102 @@
+// Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
+//
+// Every function is a compensated sum in the order of the particles, so that results do not depend on threads. What a
+// class does not have does not count: an ensemble without mass or velocity (Euler particles, vortices) adds nothing to
+// mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0.
+#pragma once
+
+#include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace boltzmann {
+
+using Triple = std::array<double, 3>;
+using Tensor3 = std::array<std::array<double, 3>, 3>;
+
+/// What a measure is taken of: one ensemble, or several as one system. A view, for arguments.
+class Ensembles {
+ public:
+  Ensembles(AnyEnsemble const& one) : one_(&one) {}
+  template <class List>
+  requires std::convertible_to<List const&, std::span<AnyEnsemble const* const>> Ensembles(List const& list)
+      : list_(list) {}
+
+  AnyEnsemble const* const* begin() const { return one_ ? &one_ : list_.data(); }
+  AnyEnsemble const* const* end() const { return begin() + (one_ ? 1 : list_.size()); }
+
+ private:
+  AnyEnsemble const* one_ = nullptr;
+  std::span<AnyEnsemble const* const> list_;
+};
+
+/// Whether the class has a mass and a velocity, so that it carries momentum and heat.
+bool carries_momentum(AnyEnsemble const& ensemble);
+/// The velocities of an ensemble: velocities[i] are the dimension() components of particle i.
+struct Velocities {
+  double const* first;
+  std::size_t stride;
+  double const* operator[](std::size_t i) const { return first + i * stride; }
+};
+/// Whether velocities_of() can give them.
+bool has_velocities(AnyEnsemble const& ensemble);
+/// The field "velocity", or the influence in a class without one (Euler); a view. Error if the class has neither.
+Velocities velocities_of(AnyEnsemble const& ensemble);
+
+// ---- The system as a whole ----
+
+std::size_t number_of_particles(Ensembles of);
+double total_mass(Ensembles of);
+/// Sum m r / Sum m, of the positions as they stand (on periodic axes: in the box); NaN without mass.
+Triple centre_of_mass(Ensembles of);
+/// Sum m v
+Triple momentum(Ensembles of);
+/// Sum m (r - about) x v: one component in 1D (always 0) and in 2D (out of the plane), three in 3D. Particles that
+/// cross a periodic boundary change it: it is conserved in open space only.
+Triple angular_momentum(Ensembles of, Triple const& about = {0, 0, 0});
+/// (1/2) Sum m v.v (section 5.2.3.2)
+double kinetic_energy(Ensembles of);
+
+struct Temperature {
+  Triple component{};  ///< T_a = <m v_a^2> / k for each axis: equal in equilibrium
+  double total = 0;    ///< their mean over the axes
+};
+/// Section 5.2.3.1. As the 1990 text has it the mean velocity is not subtracted. With subtract_drift the particles'
+/// common (mass-weighted) velocity is taken off, and the mean is over N - 1 degrees of freedom along each axis. NaN if
+/// there are no particles left to take a mean over.
+Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_drift = false);
+
+/// Sum m v_a v_b
+Tensor3 kinetic_stress(Ensembles of);
+/// (Sum m v v + virial) / V, V the volume of the box (area in 2D, length in 1D): the virial of all influences between
+/// particles. Meaningful where particles fill the box.
+Tensor3 pressure_tensor(Ensembles of, Measures const& measures, Box const& box);
+/// (Sum m v.v + trace of the virial) / (D V)
+double pressure(Ensembles of, Measures const& measures, Box const& box);
+
+// ---- Groups of particles ----
+
+/// 0, 1, 2, ...: all particles of an ensemble as a group.
+std::vector<std::uint32_t> all_particles(AnyEnsemble const& ensemble);
+/// "Similar" particles (section 5.2.3.3): those whose velocity now is within `tolerance` of the given one (the
+/// magnitude of the difference). Error if the tolerance is negative.
+std::vector<std::uint32_t> similar_particles(AnyEnsemble const& ensemble, Triple const& velocity, double tolerance);
+/// <v> of a group: its change in time shows the drag on it. NaN for an empty group; Error for a particle that is not
+/// there.
+Triple mean_velocity(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group);
+/// <|v - <v>|^2> of a group (section 5.2.3.4): its growth is the velocity diffusion. NaN and Error as above.
+double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group);
+
+struct Extremes {
+  double minimum, maximum, mean;
+};
+/// NaN for no values, or if a value is NaN.
+Extremes extremes(std::span<double const> values);
+
+}  // namespace boltzmann

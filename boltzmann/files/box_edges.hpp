@@ -1,0 +1,13 @@
+// The edges of the simulation's box, as the files keep them.
+#pragma once
+
+namespace boltzmann {
+
+/// An axis-aligned box in 1 to 3 dimensions; the entries behind `dimension` mean nothing. Edges may be infinite.
+struct BoxEdges {
+  int dimension = 3;
+  double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+  bool periodic[3] = {false, false, false};
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,144 @@
+// Writing and reading CSV.
+#include <fmt/format.h>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/files/csv.hpp>
+
+#include <charconv>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace boltzmann {
+namespace {
+
+std::string quoted(std::string const& word) {
+  if (word.find_first_of(",\"\r\n") == std::string::npos) return word;
+  std::string text = "\"";
+  for (char const c : word) {
+    if (c == '"') text += '"';
+    text += c;
+  }
+  return text + '"';
+}
+
+std::string header_row(std::vector<std::string> const& header) {
+  std::string row;
+  for (std::size_t k = 0; k < header.size(); ++k) row += (k > 0 ? "," : "") + quoted(header[k]);
+  return row + '\n';
+}
+
+// Reads a row that begins at `at` and moves `at` behind it. Nothing, and `at` unchanged, if the text ends within a
+// quotation.
+std::optional<std::vector<std::string>> next_row(std::string_view text, std::size_t& at) {
+  std::vector<std::string> words(1);
+  bool inside = false;
+  std::size_t k = at;
+  for (; k < text.size(); ++k) {
+    char const c = text[k];
+    if (inside) {
+      if (c != '"')
+        words.back() += c;
+      else if (k + 1 < text.size() && text[k + 1] == '"')
+        words.back() += text[++k];
+      else
+        inside = false;
+    } else if (c == '"' && words.back().empty()) {
+      inside = true;
+    } else if (c == ',') {
+      words.emplace_back();
+    } else if (c == '\n') {
+      break;
+    } else if (c != '\r' || (k + 1 < text.size() && text[k + 1] != '\n')) {
+      words.back() += c;
+    }
+  }
+  if (inside) return std::nullopt;
+  at = k < text.size() ? k + 1 : k;
+  return words;
+}
+
+std::optional<double> number(std::string_view word) {
+  while (!word.empty() && word.front() == ' ') word.remove_prefix(1);
+  while (!word.empty() && word.back() == ' ') word.remove_suffix(1);
+  if (word.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (word.front() == '+') word.remove_prefix(1);
+  double value = 0;
+  auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+CsvFile::CsvFile(std::string path, std::vector<std::string> const& header)
+    : file_(std::move(path), TextFile::Mode::replace), columns_(header.size()) {
+  if (header.empty()) throw Error(file_.path() + ": a table needs a column for the step");
+  file_.write(header_row(header));
+}
+
+CsvFile CsvFile::append_to(std::string path, std::vector<std::string> const& header, std::int64_t last_step) {
+  std::string const text = read_text(path);
+  std::size_t at = 0;
+  auto const found = next_row(text, at);
+  if (!found || *found != header)
+    throw Error(fmt::format("{}: its columns are {}, not {}", path, found ? join(*found) : "unreadable", join(header)));
+  if (at == 0 || text[at - 1] != '\n') throw Error(path + ": its header row has no end");
+  while (at < text.size()) {
+    std::size_t after = at;
+    auto const row = next_row(text, after);
+    if (!row || text[after - 1] != '\n' || row->size() != header.size()) break;
+    auto const step = number((*row)[0]);
+    if (!step || !(*step <= static_cast<double>(last_step))) break;
+    at = after;
+  }
+  TextFile file(std::move(path), TextFile::Mode::append);
+  file.cut(at);
+  return {std::move(file), header.size()};
+}
+
+void CsvFile::write(std::int64_t step, std::span<double const> values) {
+  if (values.size() + 1 != columns_)
+    throw Error(fmt::format("{}: a row of {} numbers for {} columns", file_.path(), values.size() + 1, columns_));
+  std::string row;
+  append_number(row, step);
+  for (double const value : values) {
+    row += ',';
+    append_number(row, value);
+  }
+  row += '\n';
+  file_.write(row);
+}
+
+std::vector<double> const& CsvTable::column(std::string_view name) const {
+  for (std::size_t k = 0; k < header.size(); ++k)
+    if (header[k] == name) return columns[k];
+  throw Error(fmt::format("there is no column '{}'; there are {}{}", name, join(header), did_you_mean(name, header)));
+}
+
+CsvTable read_csv(std::string const& path) {
+  std::string const text = read_text(path);
+  std::size_t at = 0;
+  if (text.empty()) throw Error(path + ": is empty");
+  auto header = next_row(text, at);
+  if (!header) throw Error(path + ":1: a quotation has no end");
+  CsvTable table{std::move(*header), {}};
+  table.columns.resize(table.header.size());
+  for (std::size_t line = 2; at < text.size(); ++line) {
+    auto const row = next_row(text, at);
+    if (!row) throw Error(fmt::format("{}: row {}: a quotation has no end", path, line));
+    if (row->size() == 1 && (*row)[0].empty() && at == text.size()) break;
+    if (row->size() != table.header.size())
+      throw Error(
+          fmt::format("{}: row {} has {} fields, the header has {}", path, line, row->size(), table.header.size()));
+    for (std::size_t k = 0; k < row->size(); ++k) {
+      auto const value = number((*row)[k]);
+      if (!value)
+        throw Error(
+            fmt::format("{}: row {}: '{}' in column '{}' is not a number", path, line, (*row)[k], table.header[k]));
+      table.columns[k].push_back(*value);
+    }
+  }
+  return table;
+}
+
+}  // namespace boltzmann

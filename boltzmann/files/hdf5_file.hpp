@@ -1,0 +1,123 @@
+// HDF5 files: a small owner of files, datasets and attributes in which every failure is one readable Error.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann::hdf5 {
+
+struct Disk;
+class File;
+
+using Extents = std::vector<std::uint64_t>;
+
+enum class Number { real, integer };  ///< double, or std::int64_t
+
+/// An open dataset. Valid as long as its File.
+class Dataset {
+ public:
+  Dataset() = default;
+  ~Dataset();
+  Dataset(Dataset&&) noexcept;
+  Dataset& operator=(Dataset&&) noexcept;
+
+  Extents extents() const;
+  /// Changes the extents of a dataset made by create_growing.
+  void resize(Extents const& extents);
+  /// Writes or reads the block of `count` numbers per axis that begins at `start`. Nothing happens if the block is
+  /// empty.
+  void write(double const* values, Extents const& start, Extents const& count);
+  void write(std::int64_t const* values, Extents const& start, Extents const& count);
+  void read(double* values, Extents const& start, Extents const& count) const;
+  void read(std::int64_t* values, Extents const& start, Extents const& count) const;
+  /// All numbers, in C order.
+  std::vector<double> reals() const;
+  std::vector<std::int64_t> integers() const;
+
+ private:
+  friend class File;
+  File const* file_ = nullptr;
+  std::int64_t id_ = -1;
+  std::string path_;
+};
+
+/// An HDF5 file. All paths inside are absolute ("/particles/ions"). Every function throws Error with the name of the
+/// file and the reason. Not for use by several threads at a time.
+class File {
+ public:
+  /// A new, empty file that replaces one of that name. `user_block` bytes (0 or a power of two from 512 on) before
+  /// HDF5's own first byte are the caller's. `ordered` makes the file one that start_ordered_writes can be called for.
+  static std::unique_ptr<File> create(std::string path, bool ordered = false, std::uint64_t user_block = 0);
+  /// An existing file, for reading: also one that another process is writing, or was writing when it was killed.
+  static std::unique_ptr<File> open(std::string path);
+  /// An existing file, for changing it.
+  static std::unique_ptr<File> open_for_writing(std::string path);
+
+  ~File();
+  File(File const&) = delete;
+  File& operator=(File const&) = delete;
+
+  std::string const& path() const { return path_; }
+
+  /// From here on HDF5 writes in such an order that the file can be read at any moment (its "single writer, multiple
+  /// readers" mode). Groups, datasets and attributes can no longer be made.
+  void start_ordered_writes();
+
+  /// From hold to release the file stays as it is; release writes all changes in one go (a flush that takes
+  /// microseconds). For changes to an existing file before the ordered writes start.
+  void hold();
+  void release();
+
+  /// Hands everything written so far to the system. Throws if that, or any write since the last flush, has failed; what
+  /// the last good flush wrote can still be read.
+  void flush();
+  /// Flushes and closes, and tells of failures, which the destructor can't.
+  void close();
+
+  bool has(std::string const& object) const;
+  bool is_dataset(std::string const& object) const;
+  std::vector<std::string> children(std::string const& group) const;
+
+  void create_group(std::string const& group);
+  /// A second name for the same object.
+  void link(std::string const& object, std::string const& new_name);
+
+  Dataset create(std::string const& dataset, Number, Extents const& extents);
+  /// A dataset stored in chunks whose axes can grow, the first one from 0; an axis with 0 in `growing` keeps its
+  /// extent.
+  Dataset create_growing(std::string const& dataset, Number, Extents const& extents, Extents const& chunk,
+                         std::vector<bool> const& growing);
+  Dataset dataset(std::string const& path) const;
+
+  void write_text(std::string const& dataset, std::string const& text);
+  std::string read_text(std::string const& dataset) const;
+
+  void set(std::string const& object, std::string const& attribute, std::string const& text);
+  void set(std::string const& object, std::string const& attribute, std::vector<std::string> const& texts);
+  void set(std::string const& object, std::string const& attribute, double value);
+  void set(std::string const& object, std::string const& attribute, std::vector<std::int64_t> const& values);
+  void set(std::string const& object, std::string const& attribute, std::int64_t value);
+  bool has(std::string const& object, std::string const& attribute) const;
+  std::string text(std::string const& object, std::string const& attribute) const;
+  std::vector<std::string> texts(std::string const& object, std::string const& attribute) const;
+  double real(std::string const& object, std::string const& attribute) const;
+  std::int64_t integer(std::string const& object, std::string const& attribute) const;
+
+ private:
+  friend class Dataset;
+  explicit File(std::string path);
+  [[noreturn]] void fail(std::string const& what) const;
+  void set_values(std::string const& object, std::string const& attribute, std::int64_t type, Extents const& extents,
+                  void const* values);
+  void get_values(std::string const& object, std::string const& attribute, std::int64_t type, std::size_t count,
+                  void* values) const;
+
+  std::string path_;
+  std::unique_ptr<Disk> disk_;  // outlives the identifier, which writes through it
+  std::int64_t id_ = -1;
+};
+
+}  // namespace boltzmann::hdf5

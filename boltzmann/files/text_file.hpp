@@ -1,0 +1,46 @@
+// Text files that grow: a write is whole or taken back, and doubles are written so that they read back as the same
+// bits.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace boltzmann {
+
+/// What errno says, as words: "No space left on device".
+std::string reason(int error);
+
+/// Appends the shortest decimal text that reads back as the same double ("nan" and "inf" for those).
+void append_number(std::string& text, double number);
+void append_number(std::string& text, std::int64_t number);
+
+/// A file of text that is written at its end. Every write goes to the system at once, so that a killed run loses
+/// nothing; a write that fails (disk full) is taken back as far as the system allows. Failures throw Error with path
+/// and reason.
+class TextFile {
+ public:
+  enum class Mode { replace, append };
+
+  TextFile(std::string path, Mode mode);
+  ~TextFile();
+  TextFile(TextFile&&) noexcept;
+  TextFile& operator=(TextFile&&) noexcept;
+
+  std::string const& path() const { return path_; }
+  void write(std::string_view text);
+  /// Cuts the file to its first `size` bytes; the next write follows there.
+  void cut(std::uint64_t size);
+  /// Closes the file. The destructor closes as well, but can't tell of a failure.
+  void close();
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// The whole content of a file; Error if it can't be read.
+std::string read_text(std::string const& path);
+
+}  // namespace boltzmann

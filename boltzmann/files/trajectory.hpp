@@ -1,0 +1,122 @@
+// Trajectories: all particles of a run, frame by frame, in H5MD 1.1 (https://www.nongnu.org/h5md/h5md.html), to be read
+// by h5py, MDAnalysis and our own reader, also while the run goes on and after it was killed.
+//
+//   /h5md                          version, author, creator, module "units"
+//   /particles/<ensemble>          class, dimension, index (attributes)
+//     box                          dimension, boundary; edges (if an axis is periodic); bounds (low and high of each
+//     axis) position/{step,time,value}   value [frame][particle][3]; the same for every other field of the class mass
+//     [particle], where the field was declared constant id, species                  [particle]: the number of the row,
+//     the index of the ensemble count/{step,time,value}      how many particles the frame has; rows behind them are NaN
+// All `step` and `time` are one dataset with many names. `unit` stands in H5MD's notation; `boltzmann_unit` as the
+// simulation says it.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/files/box_edges.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+class AnyEnsemble;
+
+struct TrajectoryOptions {
+  std::string author = "unknown";
+  std::string version;                              ///< of the program
+  std::function<std::string(Dimension)> unit_name;  ///< empty: no units are written
+  std::vector<std::string> constant_fields;  ///< written once (for example mass, charge); never position or velocity
+  bool three_columns = true;  ///< position and velocity get 3 columns in 1D and 2D too, as most readers want
+};
+
+/// Writes a trajectory. Every frame is with the system when `write` returns: a run that is killed at any moment leaves
+/// all its frames, and after a failed write (disk full) the frames before it are still there.
+class Trajectory {
+ public:
+  /// A new file, in place of one of that name. Error if it can't be made or another run is writing it.
+  explicit Trajectory(std::string path, TrajectoryOptions options = {});
+
+  /// Goes on with a file: the frames after `last_step` are cut off, so that a resumed run leaves what a run without a
+  /// stop would have left. The first frame written must have the same ensembles, with the same fields, as those in the
+  /// file.
+  static Trajectory append_to(std::string path, std::int64_t last_step, TrajectoryOptions options = {});
+
+  ~Trajectory();
+  Trajectory(Trajectory&&) noexcept;
+  Trajectory& operator=(Trajectory&&) noexcept;
+
+  /// Adds a frame. Every frame has the same ensembles in the same order; their sizes may change. Error if they don't
+  /// match the frames before, if a constant field has changed, or if the file can't be written (then the trajectory
+  /// ends: each further call throws as well).
+  void write(std::int64_t step, double time, std::span<AnyEnsemble const* const> ensembles, BoxEdges const& box);
+
+  std::size_t frames() const;
+
+  /// Closes the file and tells of failures, which the destructor can't.
+  void close();
+
+ private:
+  struct State;
+  explicit Trajectory(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Reads a trajectory that Trajectory wrote. Sees the frames that were there when it was opened.
+class TrajectoryReader {
+ public:
+  struct StoredField {
+    std::string name;
+    int components;    ///< without the zeros that pad position and velocity
+    bool constant;     ///< written once
+    std::string unit;  ///< as the simulation said it; "" if there were no units
+  };
+  struct StoredEnsemble {
+    std::string name, class_name;
+    int dimension;
+    std::vector<StoredField> fields;
+  };
+
+  /// Error (one line) if the file is missing, no HDF5, truncated, or no trajectory of ours.
+  explicit TrajectoryReader(std::string path);
+  ~TrajectoryReader();
+  TrajectoryReader(TrajectoryReader&&) noexcept;
+  TrajectoryReader& operator=(TrajectoryReader&&) noexcept;
+
+  std::size_t frames() const { return steps_.size(); }
+  std::vector<std::int64_t> const& steps() const { return steps_; }
+  std::vector<double> const& times() const { return times_; }
+  std::string const& time_unit() const { return time_unit_; }
+  std::vector<StoredEnsemble> const& ensembles() const { return ensembles_; }
+
+  /// Number of particles of an ensemble in a frame.
+  std::size_t size(std::size_t frame, std::string const& ensemble) const;
+  /// A field of a frame, particle after particle: size * components doubles.
+  std::vector<double> read(std::size_t frame, std::string const& ensemble, std::string const& field) const;
+  BoxEdges box(std::size_t frame) const;
+  /// Fills the ensemble (resizing it) with the stored ensemble of the same name: every field of its class that the file
+  /// has. Error if the file has no such ensemble, or it is of another class or dimension.
+  void load(std::size_t frame, AnyEnsemble& ensemble) const;
+
+ private:
+  struct State;
+  StoredEnsemble const& find(std::string const& ensemble) const;
+  StoredField const& find(StoredEnsemble const& ensemble, std::string const& field) const;
+  std::size_t checked(std::size_t frame) const;
+
+  std::unique_ptr<State> state_;
+  std::vector<StoredEnsemble> ensembles_;
+  std::vector<std::int64_t> steps_;
+  std::vector<double> times_;
+  std::string time_unit_;
+};
+
+/// A unit as H5MD writes it, "Angstrom ps-1" for "angstrom/ps", "" for a text that is not made of units (a number with
+/// a unit).
+std::string h5md_unit(std::string const& unit);
+
+}  // namespace boltzmann

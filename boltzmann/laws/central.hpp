@@ -1,0 +1,24 @@
+// Central laws: what Morse, Rydberg and spring share.
+#pragma once
+
+#include <boltzmann/laws/interaction.hpp>
+
+namespace boltzmann {
+
+/// The vector from p to q, its length, and its direction; the direction of two particles at one place is zero.
+template <int D, class Real>
+struct Separation {
+  Vector<D, Real> direction;
+  Real distance;
+};
+
+template <class P, class Q>
+auto separation(P const& p, Q const& q) {
+  auto const r = q.position - p.position;
+  auto const square = dot(r, r);
+  using Real = std::remove_cvref_t<decltype(square)>;
+  Real const inverse = select(square > 0.0, rsqrt(square), Real(0.0));
+  return Separation<P::dimension, Real>{r * inverse, square * inverse};
+}
+
+}  // namespace boltzmann

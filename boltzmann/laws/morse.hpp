@@ -1,0 +1,33 @@
+// The Morse law: a bond that breaks, with a core of finite height.
+#pragma once
+
+#include <boltzmann/laws/central.hpp>
+#include <boltzmann/laws/parameter.hpp>
+
+namespace boltzmann {
+
+/// phi(r) = depth [(1 - e^(-a (r - r0)))^2 - 1]: minimum -depth at r0, stiffness 2 depth a^2 there. Two particles at
+/// one place don't push each other: they have no direction.
+struct Morse {
+  static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+
+  double depth;
+  double r0;
+  double a;  ///< steepness: 1/a is the width of the well
+
+  template <class P, class Q>
+  auto operator()(P const& p, Q const& q) const {
+    auto const [direction, distance] = separation(p, q);
+    auto const e = exp(-a * (distance - r0));
+    return Interaction{direction * (2 * depth * a * e * (1.0 - e)), depth * e * (e - 2.0)};
+  }
+
+  double length_scale() const { return 1 / a; }
+  void check() const {
+    check_parameter("morse", "depth", depth, AllowedRange::non_negative);
+    check_parameter("morse", "r0", r0, AllowedRange::positive);
+    check_parameter("morse", "a", a, AllowedRange::positive);
+  }
+};
+
+}  // namespace boltzmann

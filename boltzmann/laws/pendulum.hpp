@@ -1,0 +1,42 @@
+// Laws of pendulums: weight, and a spring from bob to bob (section 6.1 of the 1990 thesis). Both give torques.
+#pragma once
+
+#include <boltzmann/core/pack_math.hpp>
+#include <boltzmann/laws/interaction.hpp>
+
+namespace boltzmann {
+
+/// A spring between the bobs: potential (stiffness / 2) (d - rest_length)^2 of their distance d. The torque on each is
+/// cross(arm, force on its own bob). The two torques differ, for Newton's third law holds for the forces but not for
+/// generalised forces; the energy is conserved.
+struct PendulumCoupling {
+  static constexpr Symmetry symmetry = Symmetry::general;
+
+  double stiffness;
+  double rest_length;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    auto const arm = p.arm();
+    auto const apart = q.pivot + q.arm() - p.pivot - arm;
+    auto const distance = max(magnitude(apart), 1e-300);
+    auto const stretch = distance - rest_length;
+    auto const force = apart * (stiffness * stretch / distance);
+    return Interaction{cross(arm, force), 0.5 * stiffness * stretch * stretch};
+  }
+};
+
+/// The weight of the bob in a uniform field `acceleration` downwards: torque -m g l sin(angle), energy zero where it
+/// hangs.
+struct PendulumGravity {
+  double acceleration;
+
+  template <class P>
+  auto operator()(P const& p) const {
+    auto const weight = p.bob_mass * acceleration * p.length;
+    auto const angle = p.position[0];
+    return Interaction{Vector{-weight * sin(angle)}, weight * (1.0 - cos(angle))};
+  }
+};
+
+}  // namespace boltzmann

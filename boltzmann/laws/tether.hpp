@@ -1,0 +1,23 @@
+// The tether: a spring from each particle to a point of its own (section 6.3 of the 1990 thesis, the boundary of the
+// metal).
+#pragma once
+
+#include <boltzmann/laws/interaction.hpp>
+
+namespace boltzmann {
+
+/// F = -stiffness (position - anchor), energy stiffness |position - anchor|^2 / 2; both are fields of the particle
+/// (class Tethered). The straight line to the anchor counts, also where an axis is periodic.
+struct Tether {
+  template <class P>
+  requires requires(P const& p) {
+    p.anchor;
+    p.stiffness;
+  }
+  auto operator()(P const& p) const {
+    auto const r = p.anchor - p.position;
+    return Interaction{r * p.stiffness, 0.5 * p.stiffness * dot(r, r)};
+  }
+};
+
+}  // namespace boltzmann

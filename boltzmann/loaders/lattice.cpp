@@ -1,0 +1,160 @@
+// The sites of the lattices, and particles on them.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/loaders/lattice.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+namespace boltzmann {
+namespace {
+
+using Place = std::array<double, 3>;
+
+/// A lattice kind in one dimension of space: the edges of its cell and the sites in it, in units of the spacing.
+struct Cell {
+  Place edges;
+  std::vector<Place> sites;
+  double shift = 0;  // of every second row, along x
+};
+
+Cell cell_of(Lattice kind, int dimension) {
+  auto const refuse = [&](char const* where) {
+    return Error(fmt::format("lattice {} exists in {} only, the space has {} dimension{}", to_string(kind), where,
+                             dimension, dimension == 1 ? "" : "s"));
+  };
+  switch (kind) {
+    case Lattice::square:
+      break;
+    case Lattice::triangular:
+      if (dimension != 2) throw refuse("2D");
+      return {{1, std::numbers::sqrt3 / 2, 1}, {{0, 0, 0}}, 0.5};
+    case Lattice::fcc: {
+      if (dimension != 3) throw refuse("3D");
+      double const a = std::numbers::sqrt2, h = a / 2;
+      return {{a, a, a}, {{0, 0, 0}, {h, h, 0}, {h, 0, h}, {0, h, h}}};
+    }
+    case Lattice::bcc: {
+      if (dimension != 3) throw refuse("3D");
+      double const a = 2 / std::numbers::sqrt3, h = a / 2;
+      return {{a, a, a}, {{0, 0, 0}, {h, h, h}}};
+    }
+  }
+  return {{1, 1, 1}, {{0, 0, 0}}};
+}
+
+void check(LatticeBlock const& block, int dimension) {
+  if (!(block.spacing > 0) || !std::isfinite(block.spacing))
+    throw Error(fmt::format("lattice: the spacing must be a positive length, not {}", block.spacing));
+  for (int a = 0; a < dimension; ++a)
+    if (!std::isfinite(block.origin[a])) throw Error("lattice: the origin is not finite");
+}
+
+std::vector<std::string> lattice_names() {
+  return {to_string(Lattice::square), to_string(Lattice::triangular), to_string(Lattice::fcc), to_string(Lattice::bcc)};
+}
+
+}  // namespace
+
+std::string to_string(Lattice kind) {
+  switch (kind) {
+    case Lattice::square:
+      return "square";
+    case Lattice::triangular:
+      return "triangular";
+    case Lattice::fcc:
+      return "fcc";
+    case Lattice::bcc:
+      return "bcc";
+  }
+  return "?";
+}
+
+Lattice lattice_named(std::string_view name) {
+  for (Lattice const kind : {Lattice::square, Lattice::triangular, Lattice::fcc, Lattice::bcc})
+    if (to_string(kind) == name) return kind;
+  auto const names = lattice_names();
+  throw Error(fmt::format("there is no lattice '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+}
+
+std::size_t site_count(LatticeBlock const& block, int dimension) {
+  check(block, dimension);
+  std::size_t count = cell_of(block.kind, dimension).sites.size();
+  for (int a = 0; a < dimension; ++a)
+    if (__builtin_mul_overflow(count, block.counts[a], &count) || count > std::numeric_limits<std::uint32_t>::max())
+      throw Error(fmt::format("lattice: a block of {} cells has too many sites", fmt::join(block.counts, " x ")));
+  return count;
+}
+
+std::vector<Place> lattice_sites(LatticeBlock const& block, int dimension) {
+  std::vector<Place> places;
+  places.reserve(site_count(block, dimension));
+  Cell const cell = cell_of(block.kind, dimension);
+  std::size_t const rows = dimension > 1 ? block.counts[1] : 1, layers = dimension > 2 ? block.counts[2] : 1;
+  for (std::size_t z = 0; z < layers; ++z)
+    for (std::size_t y = 0; y < rows; ++y)
+      for (std::size_t x = 0; x < block.counts[0]; ++x)
+        for (Place const& site : cell.sites) {
+          Place const number{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+          Place place{0, 0, 0};
+          for (int a = 0; a < dimension; ++a)
+            place[a] = block.origin[a] +
+                       block.spacing * (number[a] * cell.edges[a] + site[a] + (a == 0 && y % 2 == 1 ? cell.shift : 0));
+          places.push_back(place);
+        }
+  return places;
+}
+
+Place repeat_lengths(LatticeBlock const& block, int dimension) {
+  check(block, dimension);
+  Cell const cell = cell_of(block.kind, dimension);
+  Place lengths{0, 0, 0};
+  for (int a = 0; a < dimension; ++a) lengths[a] = static_cast<double>(block.counts[a]) * cell.edges[a] * block.spacing;
+  return lengths;
+}
+
+LatticeBlock centred(LatticeBlock block, Box const& box) {
+  block.origin = {0, 0, 0};
+  auto const places = lattice_sites(block, box.dimension());
+  if (places.empty()) return block;
+  for (int a = 0; a < box.dimension(); ++a) {
+    auto const [low, high] =
+        std::minmax_element(places.begin(), places.end(), [a](Place const& p, Place const& q) { return p[a] < q[a]; });
+    block.origin[a] = box.low(a) + 0.5 * (box.length(a) - (*high)[a] - (*low)[a]);
+  }
+  return block;
+}
+
+double spacing_for_density(Lattice kind, int dimension, double number_density) {
+  if (!(number_density > 0) || !std::isfinite(number_density))
+    throw Error(fmt::format("lattice: the number density must be positive, not {}", number_density));
+  Cell const cell = cell_of(kind, dimension);
+  double volume = 1;
+  for (int a = 0; a < dimension; ++a) volume *= cell.edges[a];
+  return std::pow(static_cast<double>(cell.sites.size()) / (volume * number_density), 1.0 / dimension);
+}
+
+std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block, bool resize) {
+  std::size_t const count = site_count(block, ensemble.dimension());
+  if (ensemble.size() != count) {
+    if (!resize)
+      throw Error(fmt::format("ensemble '{}' has {} particles, the {} lattice of {} cells has {} sites",
+                              ensemble.name(), ensemble.size(), to_string(block.kind),
+                              fmt::join(std::span(block.counts).first(ensemble.dimension()), " x "), count));
+    ensemble.resize(count);
+  }
+  auto const places = lattice_sites(block, ensemble.dimension());
+  for (std::size_t k = 0; k < count; ++k) std::copy_n(places[k].data(), ensemble.dimension(), ensemble.row(k));
+  return count;
+}
+
+std::size_t block_load(AnyEnsemble& ensemble, Lattice kind, double spacing, std::array<std::size_t, 3> const& counts,
+                       std::array<double, 3> const& origin, bool resize) {
+  return block_load(ensemble, LatticeBlock{kind, spacing, counts, origin}, resize);
+}
+
+}  // namespace boltzmann

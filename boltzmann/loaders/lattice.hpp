@@ -1,0 +1,55 @@
+// Lattices: particles on the sites of a block of crystal (BlockLoad of the 1990 thesis, section 6.3).
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// A kind of lattice. In every kind `spacing` is the distance of nearest neighbours, as in the 1990 listings.
+enum class Lattice {
+  square,      ///< a line in 1D, square in 2D, simple cubic in 3D: 2, 4, 6 neighbours
+  triangular,  ///< 2D: 6 neighbours; every second row is shifted by half a spacing
+  fcc,         ///< 3D, face-centred cubic: 12 neighbours; the cube's edge is sqrt(2) spacing, 4 sites in it
+  bcc,         ///< 3D, body-centred cubic: 8 neighbours; the cube's edge is 2/sqrt(3) spacing, 2 sites in it
+};
+
+/// "square", "triangular", "fcc", "bcc".
+std::string to_string(Lattice kind);
+/// The kind of that name; Error with the names there are.
+Lattice lattice_named(std::string_view name);
+
+/// A block of crystal: `counts` cells along x, y, z (what is beyond the dimension does not count). A cell is one site,
+/// or the cube of fcc and bcc.
+struct LatticeBlock {
+  Lattice kind = Lattice::square;
+  double spacing = 1;
+  std::array<std::size_t, 3> counts{1, 1, 1};
+  std::array<double, 3> origin{0, 0, 0};  ///< where site 0 is
+};
+
+/// Sites of the block in a space of that dimension. Error if the lattice does not exist in it, or spacing or origin are
+/// no usable numbers.
+std::size_t site_count(LatticeBlock const& block, int dimension);
+/// The place of every site: cells in the order x fastest, then y, then z; inside an fcc or bcc cube the corner first.
+std::vector<std::array<double, 3>> lattice_sites(LatticeBlock const& block, int dimension);
+/// The lengths after which the block repeats itself: a periodic box of these lengths is filled without a seam (for
+/// triangular only if the count of rows is even).
+std::array<double, 3> repeat_lengths(LatticeBlock const& block, int dimension);
+/// The same block, moved so that the outermost sites are equally far from the walls on both sides.
+LatticeBlock centred(LatticeBlock block, Box const& box);
+/// The distance of nearest neighbours at which the lattice has that many sites per length, area or volume.
+double spacing_for_density(Lattice kind, int dimension, double number_density);
+
+/// Puts particle k on site k. Returns how many were placed: all of the ensemble. Error if the ensemble has not as many
+/// particles as the block has sites, unless `resize` allows to make it so.
+std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block, bool resize = false);
+std::size_t block_load(AnyEnsemble& ensemble, Lattice kind, double spacing, std::array<std::size_t, 3> const& counts,
+                       std::array<double, 3> const& origin = {0, 0, 0}, bool resize = false);
+
+}  // namespace boltzmann

@@ -1,0 +1,55 @@
+// Random loads: positions and velocities drawn from the distributions of section 5.1 of the 1990 thesis.
+//
+// All draw for particle i from a stream of its own, keyed by the seed, the ensemble's name and i: the same bits for the
+// same seed, however many other particles there are. With boltzmann_constant 1 a temperature is an energy.
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/random.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+namespace boltzmann {
+
+/// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in.
+/// With a minimum distance, particle i is drawn again until it is that far from particles 0..i-1 (nearest images on
+/// periodic axes). Error if no place is found: the box is too full; the message says about how far it can go.
+void random_load(AnyEnsemble& ensemble, Box const& box, std::uint64_t seed, double minimum_distance = 0);
+
+/// One component of a field drawn from any random variable: RandomLoad of section B.9.1, for example with Ripple on
+/// "position". Components count from 0. Error if there is no such field or component.
+void random_field(AnyEnsemble& ensemble, std::string_view field, int component,
+                  std::function<double(Stream&)> const& variable, std::uint64_t seed);
+
+struct MaxwellianOptions {
+  /// Take the mean (mass-weighted) velocity off: the total momentum is then zero.
+  bool remove_drift = false;
+  /// Scale the velocities so that the measured temperature is the wanted one: Sum m v.v = k T times the number of
+  /// degrees of freedom, D N, or D (N - 1) after remove_drift.
+  bool exact_temperature = false;
+  /// A velocity that all get on top: beams and streams.
+  std::array<double, 3> drift{0, 0, 0};
+};
+
+/// Velocities in equilibrium (Eq 5.1): each component normal with variance k T / m, m the particle's own mass.
+/// Error if the class has no mass or velocity, a mass is not positive, or the temperature is negative.
+void maxwellian_load(AnyEnsemble& ensemble, double temperature, double boltzmann_constant, std::uint64_t seed,
+                     MaxwellianOptions const& options = {});
+
+/// Displaces particles from where they are, as small oscillations of angular frequency omega do in equilibrium
+/// (Eq 5.2): each component normal with variance k T / (m omega^2). Error as above, and if omega is not positive.
+void oscillating_load(AnyEnsemble& ensemble, double temperature, double omega, double boltzmann_constant,
+                      std::uint64_t seed);
+
+/// Positions in a gravitational field g that points down the last axis (Eq 5.3): the density falls as exp(-m g h / k T)
+/// with the height h above the box's low edge and ends at the high one; uniform along the other axes. Drawn by
+/// inversion of the truncated distribution; g = 0 is uniform, a negative g points up. Regions as in random_load. Error
+/// if the class has no mass or the temperature is not positive.
+void gravity_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
+                  std::uint64_t seed);
+
+}  // namespace boltzmann

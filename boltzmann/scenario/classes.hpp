@@ -1,0 +1,47 @@
+// Classes: the shipped particle classes by name, for code that learns the class at run time.
+#pragma once
+
+#include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// A particle class in one dimension.
+struct ClassVariant {
+  int dimension;
+  std::unique_ptr<AnyEnsemble> (*make)(std::string name, std::size_t size);
+  /// The integrator of an ensemble that make() has made. Error if the class can't be advanced that way.
+  std::unique_ptr<Integrator> (*integrate)(AnyEnsemble& ensemble, Method method);
+  std::vector<Field> fields;
+  std::size_t row_bytes;  ///< memory of one particle
+};
+
+/// A particle class.
+struct ParticleClass {
+  std::string name;
+  std::string doc;        ///< one line
+  Method usual_method;    ///< the integrator unless told otherwise
+  bool classical;         ///< moved by forces (has mass and velocity); else moved along by a flow
+  std::vector<ClassVariant> variants;
+
+  ClassVariant const* in(int dimension) const;
+};
+
+/// All shipped classes, in the order of the hierarchy.
+std::vector<ParticleClass> const& particle_classes();
+/// nullptr if there is none of that name.
+ParticleClass const* find_class(std::string_view name);
+
+namespace detail {
+// One per source file, so that they compile side by side.
+std::vector<ParticleClass> newton_classes();
+std::vector<ParticleClass> laplace_classes();
+std::vector<ParticleClass> flow_classes();
+}  // namespace detail
+
+}  // namespace boltzmann

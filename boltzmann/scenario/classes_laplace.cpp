@@ -1,0 +1,14 @@
+// Classes whose influence is Green's function of the Laplacian.
+#include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/scenario/class_variant.hpp>
+
+namespace boltzmann::detail {
+
+std::vector<ParticleClass> laplace_classes() {
+  return {{"Coulomb", "a charged particle", Method::leap_frog, true,
+           {variant_of<Coulomb<1>>(), variant_of<Coulomb<2>>(), variant_of<Coulomb<3>>()}},
+          {"Kepler", "a gravitating particle", Method::leap_frog, true,
+           {variant_of<Kepler<1>>(), variant_of<Kepler<2>>(), variant_of<Kepler<3>>()}}};
+}
+
+}  // namespace boltzmann::detail

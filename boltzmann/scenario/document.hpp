@@ -1,0 +1,91 @@
+// Document: a TOML text as a tree in which every value knows its line and column; overrides; the way back to TOML.
+// Private to this room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// Where something of a scenario was written: a line and column of the file, or an override of the command line.
+struct Place {
+  int line = 1, column = 1;
+  int override_number = -1;  ///< index in Mistakes' overrides; -1: in the file
+};
+
+/// Collects mistakes, so that a user sees all of them at once.
+class Mistakes {
+ public:
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+
+  void add(Place const& place, std::string message);
+  /// A text such as "--set run.step=0": stands for file, line and column in messages about what it has set.
+  int add_override(std::string text);
+  bool none() const { return list_.empty(); }
+  std::size_t count() const { return list_.size(); }
+  /// `file:line:column: message`, in the order of the file; those of overrides first.
+  std::vector<std::string> lines() const;
+
+ private:
+  struct Mistake {
+    Place place;
+    std::string message;
+  };
+  std::string file_;
+  std::vector<std::string> overrides_;
+  std::vector<Mistake> list_;
+};
+
+struct Entry;
+
+/// A TOML value.
+struct Item {
+  enum class Kind { table, array, text, integer, number, boolean, date };
+
+  Kind kind = Kind::table;
+  Place place;
+  std::string text;  ///< of a text; a date as it was written
+  std::int64_t integer = 0;
+  double number = 0;  ///< of a number, and of an integer
+  bool boolean = false;
+  bool inlined = false;        ///< a table in braces
+  std::vector<Entry> entries;  ///< of a table, in the order of the file
+  std::vector<Item> elements;  ///< of an array
+
+  bool is(Kind k) const { return kind == k; }
+  bool is_number() const { return kind == Kind::number || kind == Kind::integer; }
+  Entry const* find(std::string_view key) const;
+  Entry* find(std::string_view key);
+
+  static Item of_text(std::string text, Place place = {});
+  static Item of_integer(std::int64_t integer, Place place = {});
+};
+
+/// A key of a table and its value.
+struct Entry {
+  std::string key;
+  Place place;
+  Item item;
+};
+
+/// The tree of a TOML text. If the text is not TOML (or not UTF-8, or empty) there is one mistake, and the tree is
+/// empty.
+Item parse_document(std::string const& text, Mistakes& mistakes);
+
+/// Applies "run.step=0.1", "ensembles.0.mass='63.5 amu'", "ensembles.atoms.mass=2" (`option` is what precedes it in
+/// messages: "--set"). The value is TOML; what is no TOML is a text, so that quotes may be left out.
+void apply_override(Item& document, std::string const& assignment, std::string const& option, Mistakes& mistakes);
+
+/// Sets a value if the key is missing.
+void set_default(Item& document, std::string const& table, std::string const& key, Item value);
+
+/// The tree as TOML. It reads back to the same values, bit for bit.
+std::string write_document(Item const& document);
+
+/// "a text", "an array", ...: what was found.
+std::string found(Item const& item);
+
+}  // namespace boltzmann

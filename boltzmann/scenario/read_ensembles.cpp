@@ -1,0 +1,472 @@
+// Reads [[ensembles]]: which particles there are, where, and in what state.
+#include <boltzmann/diagnoses/colour.hpp>
+#include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/scenario/frozen.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+namespace boltzmann {
+namespace {
+
+constexpr double most_particles = 1e9;
+
+/// The value of a field for all particles, or one for each.
+struct FieldValue {
+  Field field;
+  bool each;
+  std::vector<double> values;  ///< field.components numbers, or that many for each particle
+};
+
+/// A field of `count` particles; count = 0: not known.
+std::optional<FieldValue> read_field(Item const& item, Field const& field, std::size_t count, Reading& reading) {
+  ReadContext& context = reading.context;
+  bool const is_vector = field.components > 1;
+  auto const wrong_count = [&](std::size_t n) {
+    context.mistakes.add(item.place, fmt::format("{}: {} value{} for {} particle{}; give one for all, or one for each",
+                                                 field.name, n, n == 1 ? "" : "s", count, count == 1 ? "" : "s"));
+    return std::nullopt;
+  };
+  if (!item.is(Item::Kind::array)) {
+    if (is_vector) {
+      read_vector(item, field.name, field.components, field.dimension, context);  // says what is wrong
+      return std::nullopt;
+    }
+    auto const value = read_quantity(item, field.name, field.dimension, context);
+    return value ? std::optional(FieldValue{field, false, {*value}}) : std::nullopt;
+  }
+  bool const nested = !item.elements.empty() && item.elements.front().is(Item::Kind::array);
+  if (nested || (!is_vector && item.elements.size() != 1)) {
+    if (count > 0 && item.elements.size() != count) return wrong_count(item.elements.size());
+    FieldValue result{field, true, {}};
+    for (auto const& element : item.elements) {
+      if (nested) {
+        auto const values = read_vector(element, field.name, field.components, field.dimension, context);
+        if (!values) return std::nullopt;
+        result.values.insert(result.values.end(), values->begin(), values->end());
+      } else {
+        auto const value = read_quantity(element, field.name, field.dimension, context);
+        if (!value) return std::nullopt;
+        result.values.push_back(*value);
+      }
+    }
+    return result;
+  }
+  auto const values = read_vector(item, field.name, field.components, field.dimension, context);
+  return values ? std::optional(FieldValue{field, false, *values}) : std::nullopt;
+}
+
+void apply(FieldValue const& value, AnyEnsemble& particles, std::vector<std::uint32_t> const& which) {
+  auto const components = static_cast<std::size_t>(value.field.components);
+  for (std::size_t k = 0; k < which.size(); ++k)
+    std::copy_n(value.values.data() + (value.each ? k * components : 0), components,
+                particles.row(which[k]) + value.field.offset);
+}
+
+std::vector<std::uint32_t> everyone(AnyEnsemble const& particles) {
+  std::vector<std::uint32_t> all(particles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+/// What so many particles take, with their influences, the schemes' copies and lists.
+double memory_of(double count, ClassVariant const& variant) { return count * (3.0 * variant.row_bytes + 200); }
+
+bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
+  double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  double const needed = memory_of(count, variant), gib = 1024.0 * 1024 * 1024;
+  if (count <= most_particles && needed <= machine) return true;
+  reading.mistake(place, fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} "
+                                     "GiB, and at most 1000000000 are allowed",
+                                     count, std::ceil(needed / gib), machine / gib));
+  return false;
+}
+
+/// How the particles of one ensemble are put in their places.
+class Loader {
+ public:
+  Loader(Item const& table, Reading& reading, ClassVariant const* variant)
+      : reading_(reading), variant_(variant), section_(table, "load", reading.context), place_(table.place) {}
+
+  /// Reads the table. `number` is what the ensemble says, 0 if nothing; afterwards count() particles are to be made.
+  bool read(std::size_t number, Place const& number_place) {
+    std::size_t const before = reading_.context.mistakes.count();
+    Item const* word = section_.need("kind", "kind = \"block\"");
+    if (!word) return false;
+    auto const kind = read_word(*word, "load", {"block", "random", "gravity", "positions", "file"}, reading_.context);
+    if (!kind) return false;
+    kind_ = *kind;
+    double own_count = 0;  // from what is loaded
+    if (kind_ == "block") own_count = read_block();
+    if (kind_ == "random") distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
+    if (kind_ == "gravity") {
+      temperature_ =
+          section_.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive).value_or(1);
+      acceleration_ = section_
+                          .need_quantity("acceleration", dimensions::acceleration, "acceleration = \"9.81 m/s^2\"")
+                          .value_or(0);
+    }
+    if (kind_ == "positions") own_count = read_positions();
+    if (kind_ == "file") own_count = read_file();
+    section_.finish();
+    if (reading_.context.mistakes.count() != before) return false;
+    if (kind_ == "random" || kind_ == "gravity") {
+      if (number == 0) {
+        reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", kind_));
+        return false;
+      }
+      own_count = static_cast<double>(number);
+    } else if (number != 0 && static_cast<double>(number) != own_count) {
+      reading_.mistake(number_place, fmt::format("number: {} particles, but load \"{}\" has places for {:.0f}; leave "
+                                                 "'number' out",
+                                                 number, kind_, own_count));
+      return false;
+    }
+    if (variant_ && !fits_memory(own_count, *variant_, number != 0 ? number_place : place_, reading_)) return false;
+    count_ = static_cast<std::size_t>(own_count);
+    return true;
+  }
+  std::size_t count() const { return count_; }
+
+  /// Error if the lower rooms refuse.
+  void load(AnyEnsemble& particles) {
+    std::uint64_t const seed = reading_.run.seed;
+    if (kind_ == "block") {
+      block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
+    } else if (kind_ == "random") {
+      random_load(particles, *reading_.box, seed, distance_);
+    } else if (kind_ == "gravity") {
+      gravity_load(particles, *reading_.box, temperature_, acceleration_, reading_.boltzmann_constant(), seed);
+    } else if (kind_ == "positions") {
+      for (std::size_t i = 0; i < count_; ++i)
+        std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),
+                    particles.row(i));
+    } else {
+      xyz_load(particles, frame_, options_);
+    }
+  }
+  std::string const& file() const { return file_; }
+
+ private:
+  double read_block() {
+    int const dimension = reading_.dimension;
+    auto const name = section_.word("lattice", {"square", "triangular", "fcc", "bcc"});
+    if (name) block_.kind = lattice_named(*name);
+    block_.spacing =
+        section_.need_quantity("spacing", dimensions::length, "spacing = \"2.551 angstrom\"", positive).value_or(1);
+    double count = 1;
+    if (Item const* counts = section_.need("counts", "counts = [25, 10]")) {
+      if (!counts->is(Item::Kind::array) || (dimension > 0 && counts->elements.size() != static_cast<std::size_t>(dimension))) {
+        reading_.mistake(counts->place,
+                         fmt::format("counts: an array of {} whole numbers is needed, one for each axis, not {}{}",
+                                     dimension, found(*counts),
+                                     counts->is(Item::Kind::array) ? fmt::format(" of {}", counts->elements.size()) : ""));
+      } else {
+        for (std::size_t a = 0; a < counts->elements.size() && a < 3; ++a)
+          if (auto const n = read_integer(counts->elements[a], "counts", 1, 1'000'000'000'000, reading_.context)) {
+            block_.counts[a] = static_cast<std::size_t>(*n);
+            count *= static_cast<double>(*n);
+          }
+      }
+    }
+    if (Item const* origin = section_.find("origin")) {
+      if (origin->is(Item::Kind::text)) {
+        centred_ = read_word(*origin, "origin", {"centred"}, reading_.context).has_value();
+      } else if (dimension > 0) {
+        if (auto const at = read_vector(*origin, "origin", dimension, dimensions::length, reading_.context)) {
+          std::copy(at->begin(), at->end(), block_.origin.begin());
+          centred_ = false;
+        }
+      }
+    }
+    if (block_.kind == Lattice::fcc) count *= 4;
+    if (block_.kind == Lattice::bcc) count *= 2;
+    return count;
+  }
+
+  double read_positions() {
+    Item const* list = section_.need("positions", "positions = [[0, 0], [1, 0]]");
+    if (!list) return 0;
+    if (!list->is(Item::Kind::array) || list->elements.empty()) {
+      reading_.mistake(list->place,
+                       fmt::format("positions: an array of positions is needed, [[0, 0], [1, 0]], not {}", found(*list)));
+      return 0;
+    }
+    Dimension dimension = dimensions::length;
+    if (variant_)
+      for (auto const& field : variant_->fields)
+        if (field.name == "position") dimension = field.dimension;
+    if (reading_.dimension > 0)
+      for (auto const& element : list->elements)
+        if (auto const at = read_vector(element, "positions", reading_.dimension, dimension, reading_.context))
+          positions_.insert(positions_.end(), at->begin(), at->end());
+    return static_cast<double>(list->elements.size());
+  }
+
+  double read_file() {
+    Item const* path_item = section_.need("path", "path = \"atoms.xyz\"");
+    auto const path = path_item ? read_text(*path_item, "path", reading_.context) : std::nullopt;
+    auto const frame = section_.integer("frame", 0).value_or(0);
+    options_.species = section_.text("species").value_or("");
+    options_.length = section_.quantity("length", dimensions::length, positive).value_or(1);
+    options_.velocity = section_.quantity("velocity", dimensions::velocity, positive).value_or(1);
+    if (!path) return 0;
+    std::filesystem::path full = *path;
+    if (full.is_relative() && !reading_.context.folder.empty()) full = std::filesystem::path(reading_.context.folder) / full;
+    file_ = std::filesystem::absolute(full).lexically_normal().string();
+    guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); });
+    if (options_.species.empty()) return static_cast<double>(frame_.size());
+    return static_cast<double>(std::count(frame_.species.begin(), frame_.species.end(), options_.species));
+  }
+
+  Reading& reading_;
+  ClassVariant const* variant_;
+  Section section_;
+  Place place_;
+  std::string kind_, file_;
+  std::size_t count_ = 0;
+  LatticeBlock block_;
+  bool centred_ = true;
+  double distance_ = 0, temperature_ = 1, acceleration_ = 0;
+  std::vector<double> positions_;
+  XyzFrame frame_;
+  XyzOptions options_;
+};
+
+/// The fields that the class has in this space (of its first variant if the space is not known).
+std::vector<Field> fields_of(ParticleClass const& kind, int dimension) {
+  ClassVariant const* variant = kind.in(dimension);
+  return variant ? variant->fields : kind.variants.front().fields;
+}
+
+/// Reads the fields that stand in a table. The position is not one of them in an ensemble's own table.
+std::vector<FieldValue> read_fields(Section& section, std::vector<Field> const& fields, bool with_position,
+                                    std::size_t count, Reading& reading) {
+  std::vector<FieldValue> values;
+  for (auto const& field : fields) {
+    if (field.name == "position" && !with_position) continue;
+    Item const* item = section.find(field.name);
+    if (item && reading.dimension > 0)
+      if (auto value = read_field(*item, field, count, reading)) values.push_back(std::move(*value));
+  }
+  return values;
+}
+
+void read_ensemble(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Entry const* name_entry = table.find("name");
+  Section section(table,
+                  name_entry && name_entry->item.is(Item::Kind::text) ? "[[ensembles]] '" + name_entry->item.text + "'"
+                                                                      : "[[ensembles]]",
+                  reading.context);
+  ReadEnsemble ensemble;
+  ensemble.place = table.place;
+  Item const* name_item = section.need("name", "name = \"atoms\"");
+  auto const name = name_item ? read_text(*name_item, "name", reading.context) : std::nullopt;
+  if (name) {
+    ensemble.name = *name;
+    if (name->empty()) reading.mistake(name_item->place, "name: an ensemble needs a name, not an empty text");
+    for (auto const& other : reading.ensembles)
+      if (other.name == *name && !name->empty())
+        reading.mistake(name_item->place, fmt::format("name: there is an ensemble '{}' already, in line {}; names must "
+                                                      "differ",
+                                                      *name, other.place.line));
+  }
+
+  Item const* class_item = section.need("class", "class = \"Newton\"");
+  std::vector<std::string> class_names;
+  for (auto const& entry : particle_classes()) class_names.push_back(entry.name);
+  auto const class_name = class_item ? read_word(*class_item, "class", class_names, reading.context) : std::nullopt;
+  ParticleClass const* kind = class_name ? find_class(*class_name) : nullptr;
+  ensemble.kind = kind;
+  ClassVariant const* variant = kind ? kind->in(reading.dimension) : nullptr;
+  if (kind && !variant && reading.dimension > 0) {
+    std::vector<std::string> spaces;
+    for (auto const& v : kind->variants) spaces.push_back(std::to_string(v.dimension) + "D");
+    reading.mistake(class_item->place, fmt::format("class {} lives in {}; the box has {} dimension{}", kind->name,
+                                                   join(spaces, " or "), reading.dimension,
+                                                   reading.dimension == 1 ? "" : "s"));
+  }
+
+  Item const* method_item = section.find("integrator");
+  auto const method_word =
+      method_item ? read_word(*method_item, "integrator", method_names(), reading.context) : std::nullopt;
+  Place const method_place = method_item ? method_item->place : table.place;
+
+  std::size_t number = 0;
+  if (Item const* item = section.find("number"))
+    number = static_cast<std::size_t>(
+        read_integer(*item, "number", 1, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0));
+
+  Appearance appearance;
+  if (Item const* item = section.find("colour"))
+    if (auto const colour = read_text(*item, "colour", reading.context))
+      if (guarded(reading, item->place, [&] { colour_named(*colour); })) appearance.colour = *colour;
+  appearance.diameter = section.quantity("diameter", dimensions::length, not_negative).value_or(0);
+
+  // The loader comes before the fields: it knows how many particles there are.
+  Item const* load_item = section.need("load", "load = { kind = \"random\" }");
+  std::optional<Loader> loader;
+  bool loadable = false;
+  if (load_item) {
+    ensemble.load_place = load_item->place;
+    if (load_item->is(Item::Kind::table)) {
+      loader.emplace(*load_item, reading, variant);
+      loadable = loader->read(number, section.place("number"));
+    } else {
+      reading.mistake(load_item->place,
+                      fmt::format("load: a table is needed, {{ kind = \"block\", ... }}, not {}", found(*load_item)));
+    }
+  }
+  std::size_t const count = loadable ? loader->count() : 0;
+
+  std::vector<FieldValue> fields;
+  if (kind) {
+    if (section.has("position"))
+      reading.mistake(table.find("position")->place,
+                      "positions are loaded: load = { kind = \"positions\", positions = [...] }");
+    fields = read_fields(section, fields_of(*kind, reading.dimension), false, count, reading);
+    section.allow("position");
+    for (auto const& value : fields)
+      if (value.field.name == "mass")
+        for (double const mass : value.values)
+          if (!(mass > 0)) {
+            reading.mistake(section.place("mass"), fmt::format("mass: {} is out of range; it must be positive", mass));
+            break;
+          }
+  }
+  Item const* temperature_item = section.find("temperature");
+  auto const temperature = section.quantity("temperature", dimensions::temperature, not_negative);
+  MaxwellianOptions thermal;
+  thermal.remove_drift = section.boolean("remove_drift");
+  thermal.exact_temperature = section.boolean("exact_temperature");
+  if (Item const* item = section.find("drift"); item && reading.dimension > 0)
+    if (auto const drift = read_vector(*item, "drift", reading.dimension, dimensions::velocity, reading.context))
+      std::copy(drift->begin(), drift->end(), thermal.drift.begin());
+  for (char const* key : {"drift", "remove_drift", "exact_temperature"})
+    if (section.has(key) && !temperature_item)
+      reading.mistake(section.place(key), fmt::format("{}: it belongs to 'temperature', which is missing", key));
+  if (temperature_item && section.has("velocity"))
+    reading.mistake(section.place("velocity"), "velocity: 'temperature' gives the velocities; for a common one on top "
+                                               "write 'drift'");
+
+  // From here on there are particles, if everything so far is right.
+  AnyEnsemble* particles = nullptr;
+  if (variant && loadable && reading.box && reading.context.mistakes.count() == before) {
+    reading.result->ensembles.push_back(variant->make(ensemble.name, count));
+    particles = reading.result->ensembles.back().get();
+    particles->appearance = appearance;
+    auto const all = everyone(*particles);
+    for (auto const& value : fields) apply(value, *particles, all);  // loaders look at masses
+    bool good = guarded(reading, ensemble.load_place, [&] { loader->load(*particles); });
+    for (auto const& value : fields) apply(value, *particles, all);
+    if (temperature && good)
+      good = guarded(reading, temperature_item->place, [&] {
+        maxwellian_load(*particles, *temperature, reading.boltzmann_constant(), reading.run.seed, thermal);
+      });
+    Field const* anchor = particles->find_field("anchor");
+    if (anchor && !section.has("anchor"))
+      for (std::size_t i = 0; i < count; ++i)
+        std::copy_n(particles->row(i), anchor->components, particles->row(i) + anchor->offset);
+    if (!good) particles = nullptr;
+  }
+
+  std::vector<std::uint32_t> frozen;
+  for (Item const* set_table : find_tables(section, "set")) {
+    Section set(*set_table, "[[ensembles.set]]", reading.context);
+    auto const which = read_particles(set, particles, reading);
+    if (!set.has("particles"))
+      reading.mistake(set.place(), "[[ensembles.set]] has no 'particles'; add e.g. particles = [0], \"edge\" or \"all\"");
+    bool const freeze = set.boolean("freeze");
+    auto const values = kind ? read_fields(set, fields_of(*kind, reading.dimension), true, which ? which->size() : 0, reading)
+                             : std::vector<FieldValue>{};
+    if (kind) set.finish();
+    if (!particles || !which || reading.context.mistakes.count() != before) continue;
+    for (auto const& value : values) apply(value, *particles, *which);
+    if (freeze) frozen.insert(frozen.end(), which->begin(), which->end());
+  }
+  if (kind) section.finish();
+
+  Method const method = method_word ? method_named(*method_word) : kind ? kind->usual_method : Method::leap_frog;
+  // Whether the class can be advanced that way is known without particles, too.
+  if (variant && (method_word || !method_item)) {
+    std::unique_ptr<AnyEnsemble> nobody;
+    if (!particles) nobody = variant->make(ensemble.name, 0);
+    guarded(reading, method_place,
+            [&] { ensemble.integrator = variant->integrate(particles ? *particles : *nobody, method); });
+    if (nobody) ensemble.integrator.reset();
+  }
+  if (particles && ensemble.integrator && !frozen.empty()) {
+    std::sort(frozen.begin(), frozen.end());
+    frozen.erase(std::unique(frozen.begin(), frozen.end()), frozen.end());
+    if (Field const* velocity = particles->find_field("velocity"))
+      for (auto const i : frozen) std::fill_n(particles->row(i) + velocity->offset, velocity->components, 0.0);
+    ensemble.integrator = std::make_unique<Frozen>(*particles, frozen, std::move(ensemble.integrator));
+  }
+  if (particles)
+    guarded(reading, ensemble.load_place, [&] { reading.box->check(*particles); });
+  ensemble.particles = reading.context.mistakes.count() == before ? particles : nullptr;
+  if (loader && !loader->file().empty()) {
+    // The stored scenario must find the file from any folder.
+    Item& load = const_cast<Item&>(*load_item);
+    load.find("path")->item.text = loader->file();
+  }
+  if (name) reading.ensembles.push_back(std::move(ensemble));
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
+                                                         Reading& reading) {
+  Item const* margin_item = section.find("margin");
+  auto const margin = section.quantity("margin", dimensions::length, not_negative);
+  Item const* item = section.find("particles");
+  if (!item) return std::nullopt;
+  bool const edge = item->is(Item::Kind::text) && item->text == "edge";
+  if (margin_item && !edge)
+    reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");
+  if (item->is(Item::Kind::text)) {
+    auto const word = read_word(*item, "particles", {"all", "edge"}, reading.context);
+    if (!word) return std::nullopt;
+    if (edge && !margin_item) {
+      reading.mistake(item->place, "particles = \"edge\" needs a 'margin': those nearer than it to a face of the block "
+                                   "that encloses all, e.g. margin = \"1.5 angstrom\"");
+      return std::nullopt;
+    }
+    if (!ensemble || (edge && !margin)) return std::nullopt;
+    return edge ? edge_particles(*ensemble, *margin) : everyone(*ensemble);
+  }
+  if (!item->is(Item::Kind::array)) {
+    reading.mistake(item->place, fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}",
+                                             found(*item)));
+    return std::nullopt;
+  }
+  std::vector<std::uint32_t> which;
+  for (auto const& element : item->elements) {
+    auto const i = read_integer(element, "particles", 0, 4'000'000'000, reading.context);
+    if (!i) return std::nullopt;
+    if (ensemble && static_cast<std::size_t>(*i) >= ensemble->size()) {
+      reading.mistake(element.place, fmt::format("particles: there is no particle {}; '{}' has {}, numbered from 0 to {}",
+                                                 *i, ensemble->name(), ensemble->size(), ensemble->size() - 1));
+      return std::nullopt;
+    }
+    which.push_back(static_cast<std::uint32_t>(*i));
+  }
+  return which;
+}
+
+void read_ensembles(Section& document, Reading& reading) {
+  if (!document.has("ensembles")) reading.mistake({}, "there are no [[ensembles]]; a scenario needs particles");
+  for (Item const* table : find_tables(document, "ensembles")) read_ensemble(*table, reading);
+}
+
+}  // namespace boltzmann

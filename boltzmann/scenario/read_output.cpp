@@ -1,0 +1,154 @@
+// Reads [[diagnoses]] and [output]: what is measured, written and drawn.
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/simulation/picture.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace boltzmann {
+namespace {
+
+std::vector<std::string> column_names(Reading const& reading) {
+  std::vector<std::string> names;
+  for (auto const& diagnosis : reading.result->diagnoses)
+    for (auto const& column : diagnosis->columns()) names.push_back(column.name);
+  return names;
+}
+
+bool all_loaded(Reading const& reading) {
+  return !reading.ensembles.empty() && std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
+                                                   [](ReadEnsemble const& e) { return e.particles != nullptr; });
+}
+
+void read_diagnosis(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[[diagnoses]]", reading.context);
+  std::vector<std::string> names;
+  for (auto const& kind : diagnosis_kinds()) names.push_back(kind.name);
+  Item const* word = section.need("kind", "kind = \"energies\"");
+  auto const name = word ? read_word(*word, "diagnosis", names, reading.context) : std::nullopt;
+  if (!name) return;
+  section.rename(fmt::format("[[diagnoses]] '{}'", *name));
+  auto const& kind = *std::find_if(diagnosis_kinds().begin(), diagnosis_kinds().end(),
+                                   [&](DiagnosisKind const& k) { return k.name == *name; });
+  auto const has = [&](char const* option) {
+    return std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end();
+  };
+  DiagnosisParameters parameters;
+  ReadEnsemble const* one = reading.ensembles.size() == 1 ? &reading.ensembles.front() : nullptr;
+  if (has("ensembles"))
+    if (Item const* item = section.find("ensembles")) {
+      auto const texts = read_texts(*item, "ensembles", reading.context);
+      if (texts.size() == (item->is(Item::Kind::array) ? item->elements.size() : 1))
+        for (std::size_t k = 0; k < texts.size(); ++k) {
+          auto const* named = reading.ensemble(item->is(Item::Kind::array) ? item->elements[k] : *item, "ensembles");
+          if (!named) continue;
+          one = texts.size() == 1 ? named : nullptr;
+          parameters.ensembles.push_back(named->name);
+        }
+    }
+  if (has("label")) parameters.label = section.text("label").value_or("");
+  if (has("particles")) {
+    auto const which = read_particles(section, one ? one->particles : nullptr, reading);
+    if (which) parameters.particles = *which;
+    if (which && !one)
+      reading.mistake(section.place("particles"), "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
+  }
+  if (has("similar_velocity") && reading.dimension > 0)
+    if (auto const v = section.vector("similar_velocity", reading.dimension, dimensions::velocity)) {
+      parameters.similar_velocity.emplace();
+      std::copy(v->begin(), v->end(), parameters.similar_velocity->begin());
+    }
+  if (has("tolerance")) parameters.tolerance = section.quantity("tolerance", dimensions::velocity, not_negative).value_or(0);
+  if (has("subtract_drift")) parameters.subtract_drift = section.boolean("subtract_drift");
+  if (has("about_centre_of_mass")) parameters.about_centre_of_mass = section.boolean("about_centre_of_mass");
+  if (has("quantity")) {
+    Item const* item = section.need("quantity", "quantity = \"speed\"");
+    parameters.quantity = item ? read_text(*item, "quantity", reading.context).value_or("") : "";
+  }
+  section.finish();
+  if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
+  for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
+  guarded(reading, section.has("quantity") ? section.place("quantity") : word->place, [&] {
+    auto diagnosis = make_diagnosis(*name, parameters);
+    auto const taken = column_names(reading);
+    for (auto const& column : diagnosis->columns())
+      if (std::find(taken.begin(), taken.end(), column.name) != taken.end())
+        throw Error(fmt::format("diagnosis '{}': there is a column '{}' already; names must differ{}", *name,
+                                column.name, has("label") ? " (give a label)" : ""));
+    reading.result->diagnoses.push_back(std::move(diagnosis));
+  });
+}
+
+void read_picture(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[[output.pictures]]", reading.context);
+  Picture picture;
+  PicturePlan plan;
+  plan.drawing = section.has("drawing") ? section.word("drawing", drawing_names()).value_or("cartesian") : "cartesian";
+  section.allow("drawing");
+  plan.x = section.text("x").value_or("");
+  plan.y = section.text("y").value_or("");
+  plan.colour = section.text("colour").value_or("");
+  plan.size = section.text("size").value_or("");
+  plan.trace = section.boolean("trace");
+  if (auto const file = section.text("file")) plan.file = *file;
+  section.finish();
+  for (auto const& other : reading.result->output.pictures)
+    if (other.file == plan.file)
+      reading.mistake(section.place("file"), fmt::format("file: there is a picture '{}' already; names must differ", plan.file));
+  if (reading.context.mistakes.count() == before && all_loaded(reading)) {
+    std::vector<AnyEnsemble*> ensembles;
+    for (auto const& ensemble : reading.ensembles) ensembles.push_back(ensemble.particles);
+    auto const check_as = [&](std::string_view key, Picture const& partial) {
+      if (!section.has(key)) return;
+      guarded(reading, section.place(key), [&] { check(partial, ensembles, column_names(reading)); });
+    };
+    Picture plain;
+    plain.colour = plan.colour;
+    check_as("colour", plain);
+    plain.colour.clear();
+    plain.size = plan.size;
+    check_as("size", plain);
+    plain.size.clear();
+    plain.file = plan.file;
+    check_as("file", plain);
+    if (reading.context.mistakes.count() == before) {
+      picture.drawing = plan.drawing;
+      picture.x = plan.x;
+      picture.y = plan.y;
+      guarded(reading, section.has("y") ? section.place("y") : table.place,
+              [&] { check(picture, ensembles, column_names(reading)); });
+    }
+  }
+  reading.result->output.pictures.push_back(plan);
+}
+
+}  // namespace
+
+void read_diagnoses(Section& document, Reading& reading) {
+  for (Item const* table : find_tables(document, "diagnoses")) read_diagnosis(*table, reading);
+}
+
+void read_output(Section& document, Item& resolved, Reading& reading) {
+  Item const* table = find_table(document, "output");
+  OutputPlan& plan = reading.result->output;
+  if (table) {
+    Section section(*table, "[output]", reading.context);
+    plan.diagnoses = section.integer("diagnoses", 0).value_or(0);
+    plan.trajectory = section.integer("trajectory", 0).value_or(0);
+    plan.checkpoint = section.integer("checkpoint", 0).value_or(0);
+    for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);
+    section.finish();
+  }
+  bool const has_interval = table && table->find("diagnoses");
+  if (!has_interval && document.has("diagnoses")) {
+    plan.diagnoses = std::max<std::int64_t>(1, reading.run.steps / 200);
+    set_default(resolved, "output", "diagnoses", Item::of_integer(plan.diagnoses));
+  }
+}
+
+}  // namespace boltzmann

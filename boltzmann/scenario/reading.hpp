@@ -1,0 +1,75 @@
+// Reading: what the readers of a scenario's tables hand to each other. Private to this room.
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/scenario/section.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// An ensemble of the file; `particles` is null if it could not be loaded.
+struct ReadEnsemble {
+  std::string name;
+  Place place, load_place;
+  ParticleClass const* kind = nullptr;
+  AnyEnsemble* particles = nullptr;
+  std::unique_ptr<Integrator> integrator;
+};
+
+struct ReadRun {
+  std::optional<double> step, cutoff, skin;
+  std::int64_t steps = 0;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  Place place, cutoff_place;
+};
+
+/// Everything that has been read so far. What could not be read is empty, and has left a mistake.
+struct Reading {
+  ReadContext context;
+  std::unique_ptr<ScenarioSimulation> result = std::make_unique<ScenarioSimulation>();
+  int dimension = 0;  ///< of the box; 0: unknown
+  std::optional<Box> box;
+  ReadRun run;
+  std::vector<ReadEnsemble> ensembles;
+
+  void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
+  std::vector<std::string> ensemble_names() const;
+  /// The ensemble that a word names; nullptr and a mistake if there is none.
+  ReadEnsemble* ensemble(Item const& word, std::string_view key);
+  double boltzmann_constant() const;
+};
+
+/// Calls function(); an Error becomes a mistake at the place. False if there was one.
+template <class Function>
+bool guarded(Reading& reading, Place const& place, Function const& function) {
+  try {
+    function();
+    return true;
+  } catch (Error const& error) {
+    reading.mistake(place, error.what());
+    return false;
+  }
+}
+
+/// Which particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
+/// `ensemble` may be null: then only the form is checked.
+std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
+                                                         Reading& reading);
+
+void read_units(Section& document, Reading& reading);
+void read_box(Section& document, Reading& reading);
+void read_run(Section& document, Reading& reading);
+void read_ensembles(Section& document, Reading& reading);
+void read_influences(Section& document, Reading& reading);
+void read_diagnoses(Section& document, Reading& reading);
+/// `resolved` gets the intervals that the file leaves to us.
+void read_output(Section& document, Item& resolved, Reading& reading);
+
+}  // namespace boltzmann

@@ -1,0 +1,125 @@
+// From the text of a scenario to a simulation: the tables in order, every mistake in one go.
+#include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <new>
+
+namespace boltzmann {
+namespace {
+
+std::string all_lines(std::vector<std::string> const& lines) {
+  std::string text;
+  for (auto const& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+/// The ensemble that an error of a lower room names, for its place.
+Place place_of(std::string const& message, Reading const& reading) {
+  for (auto const& ensemble : reading.ensembles)
+    if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
+  return reading.run.place;
+}
+
+void build(Item& document, Reading& reading) {
+  Section top(document, "the scenario", reading.context);
+  ScenarioSimulation& result = *reading.result;
+  result.title = top.text("title").value_or("");
+  result.description = top.text("description").value_or("");
+  read_units(top, reading);
+  read_box(top, reading);
+  read_run(top, reading);
+  if (reading.box) {
+    result.scheme = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
+    if (reading.run.skin) result.scheme->skin(*reading.run.skin);
+    result.scheme->threads(reading.run.threads);
+  }
+  read_ensembles(top, reading);
+  // Those that no law acts on are supervised, too.
+  if (result.scheme)
+    for (auto const& ensemble : reading.ensembles)
+      if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.scheme->load(*ensemble.particles); });
+  read_influences(top, reading);
+  read_diagnoses(top, reading);
+  read_output(top, document, reading);
+  top.finish();
+  if (!reading.context.mistakes.none()) return;
+
+  result.steps = reading.run.steps;
+  guarded(reading, reading.run.place, [&] {
+    result.simulation = std::make_unique<Simulation>(*result.scheme, *reading.run.step);
+    result.simulation->seed(reading.run.seed);
+  });
+  if (!result.simulation) return;
+  for (auto& ensemble : reading.ensembles)
+    result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
+  try {
+    result.simulation->check();
+  } catch (Error const& error) {
+    reading.mistake(place_of(error.what(), reading), error.what());
+  } catch (PhysicsFailure const& failure) {
+    reading.mistake(place_of(failure.what(), reading), failure.what());
+  }
+}
+
+std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string const& file, std::string const& name,
+                                          std::string const& folder, Overrides const& overrides) {
+  Mistakes mistakes(file);
+  Item document = parse_document(text, mistakes);
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  for (auto const& assignment : overrides.set) apply_override(document, assignment, "--set", mistakes);
+  if (overrides.steps) apply_override(document, fmt::format("run.steps={}", *overrides.steps), "--steps", mistakes);
+  if (overrides.seed) {
+    // TOML's integers end at 2^63 - 1.
+    if (*overrides.seed > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+      throw ScenarioErrors({fmt::format("--seed={}: it is out of range; it must be between 0 and {}", *overrides.seed,
+                                        std::numeric_limits<std::int64_t>::max())});
+    apply_override(document, fmt::format("run.seed={}", *overrides.seed), "--seed", mistakes);
+  }
+  if (overrides.threads)
+    apply_override(document, fmt::format("run.threads={}", *overrides.threads), "--threads", mistakes);
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
+    set_default(document, "run", "seed", Item::of_integer(1));
+
+  Reading reading{{mistakes, Base::si(), folder}, std::make_unique<ScenarioSimulation>(), 0, {}, {}, {}};
+  reading.result->name = name;
+  try {
+    build(document, reading);
+  } catch (std::bad_alloc const&) {
+    throw Error(fmt::format("{}: the scenario needs more memory than this machine has", file));
+  }
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  reading.result->resolved = write_document(document);
+  return std::move(reading.result);
+}
+
+}  // namespace
+
+ScenarioErrors::ScenarioErrors(std::vector<std::string> all) : Error(all_lines(all)), lines(std::move(all)) {}
+
+std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  if (fs::is_directory(path, failure)) throw Error(fmt::format("'{}' is a directory; a scenario is a file", path));
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(fmt::format("can't read '{}': {}", path, std::strerror(errno == 0 ? EIO : errno)));
+  std::string const text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (in.bad()) throw Error(fmt::format("can't read '{}'", path));
+  fs::path const file(path);
+  return parse(text, path, file.stem().string(), file.parent_path().string(), overrides);
+}
+
+std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name,
+                                                   Overrides const& overrides) {
+  return parse(text, name, std::filesystem::path(name).stem().string(), "", overrides);
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,221 @@
+// Reading values and saying what is wrong with them.
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/scenario/section.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+/// "a length, e.g. 1.5 or "1.5 m"".
+std::string wanted(Dimension dimension, Base const& base) {
+  if (dimension == dimensions::none) return "a number";
+  std::string text = "a number";
+  if (!base.is_reduced()) {
+    auto const units = example_units(dimension);
+    text += units.empty() ? fmt::format(" or a text with a unit of {}", name_of(dimension))
+                          : fmt::format(" or a text with a unit of {}, e.g. \"1.5 {}\"", name_of(dimension), units[0]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string NumberRange::text() const {
+  if (low_excluded && low == 0) return "positive";
+  if (low == 0 && std::isinf(high)) return "zero or more";
+  if (std::isinf(high)) return fmt::format("{} or more", low);
+  return fmt::format("between {} and {}", low, high);
+}
+
+std::string about(std::string_view name, std::string_view message) { return fmt::format("{}: {}", name, message); }
+
+std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,
+                                    NumberRange range) {
+  double value = 0;
+  if (item.is_number()) {
+    value = item.number;
+  } else if (item.is(Item::Kind::text)) {
+    try {
+      value = in_base(item.text, dimension, context.base);
+    } catch (Error const& error) {
+      context.mistakes.add(item.place, about(name, error.what()));
+      return std::nullopt;
+    }
+  } else {
+    context.mistakes.add(item.place,
+                         fmt::format("{}: {} is needed, not {}", name, wanted(dimension, context.base), found(item)));
+    return std::nullopt;
+  }
+  if (!std::isfinite(value)) {
+    context.mistakes.add(item.place, fmt::format("{}: {} is not a finite number", name, value));
+    return std::nullopt;
+  }
+  if (!range.contains(value)) {
+    std::string const shown = item.is(Item::Kind::text) ? "'" + item.text + "'" : fmt::format("{}", value);
+    context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, shown, range.text()));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<std::vector<double>> read_vector(Item const& item, std::string_view name, int components,
+                                               Dimension dimension, ReadContext& context) {
+  if (!item.is(Item::Kind::array)) {
+    context.mistakes.add(item.place, fmt::format("{}: an array of {} number{} is needed, not {}", name, components,
+                                                 components == 1 ? "" : "s", found(item)));
+    return std::nullopt;
+  }
+  if (item.elements.size() != static_cast<std::size_t>(components)) {
+    context.mistakes.add(item.place, fmt::format("{}: it has {} component{}, here {} {} needed", name,
+                                                 item.elements.size(), item.elements.size() == 1 ? "" : "s", components,
+                                                 components == 1 ? "is" : "are"));
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  for (auto const& element : item.elements)
+    if (auto const value = read_quantity(element, name, dimension, context)) values.push_back(*value);
+  if (values.size() != item.elements.size()) return std::nullopt;
+  return values;
+}
+
+std::optional<std::int64_t> read_integer(Item const& item, std::string_view name, std::int64_t low, std::int64_t high,
+                                         ReadContext& context) {
+  bool const whole = item.is(Item::Kind::number) && std::abs(item.number) < 9e15 && std::trunc(item.number) == item.number;
+  if (!item.is(Item::Kind::integer) && !whole) {
+    context.mistakes.add(item.place, fmt::format("{}: a whole number is needed, not {}", name, found(item)));
+    return std::nullopt;
+  }
+  std::int64_t const value = whole ? static_cast<std::int64_t>(item.number) : item.integer;
+  if (value < low || value > high) {
+    std::string const allowed = high == std::numeric_limits<std::int64_t>::max()
+                                    ? (low == 0 ? "zero or more" : fmt::format("{} or more", low))
+                                    : fmt::format("between {} and {}", low, high);
+    context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, value, allowed));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<std::string> read_text(Item const& item, std::string_view name, ReadContext& context) {
+  if (item.is(Item::Kind::text)) return item.text;
+  context.mistakes.add(item.place, fmt::format("{}: a text is needed, not {}", name, found(item)));
+  return std::nullopt;
+}
+
+std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,
+                                     ReadContext& context) {
+  auto const text = read_text(item, name, context);
+  if (!text) return std::nullopt;
+  if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
+  context.mistakes.add(item.place, fmt::format("unknown {} '{}'; there {} {}{}", name, *text,
+                                               words.size() == 1 ? "is" : "are", words.empty() ? "none" : join(words),
+                                               did_you_mean(*text, words)));
+  return std::nullopt;
+}
+
+std::vector<std::string> read_texts(Item const& item, std::string_view name, ReadContext& context) {
+  std::vector<std::string> texts;
+  if (item.is(Item::Kind::text)) return {item.text};
+  if (!item.is(Item::Kind::array)) {
+    context.mistakes.add(item.place, fmt::format("{}: a text or an array of texts is needed, not {}", name, found(item)));
+    return {};
+  }
+  for (auto const& element : item.elements)
+    if (auto text = read_text(element, name, context)) texts.push_back(*text);
+  return texts;
+}
+
+Item const* Section::find(std::string_view key) {
+  if (std::find(allowed_.begin(), allowed_.end(), key) == allowed_.end()) allowed_.emplace_back(key);
+  Entry const* entry = table_.find(key);
+  return entry ? &entry->item : nullptr;
+}
+
+Item const* Section::need(std::string_view key, std::string_view example) {
+  Item const* item = find(key);
+  if (!item) mistake(table_.place, fmt::format("{} has no '{}'; add e.g. {}", title_, key, example));
+  return item;
+}
+
+std::optional<double> Section::quantity(std::string_view key, Dimension dimension, NumberRange range) {
+  Item const* item = find(key);
+  return item ? read_quantity(*item, key, dimension, context_, range) : std::nullopt;
+}
+
+std::optional<double> Section::need_quantity(std::string_view key, Dimension dimension, std::string_view example,
+                                             NumberRange range) {
+  Item const* item = need(key, example);
+  return item ? read_quantity(*item, key, dimension, context_, range) : std::nullopt;
+}
+
+std::optional<std::vector<double>> Section::vector(std::string_view key, int components, Dimension dimension) {
+  Item const* item = find(key);
+  return item ? read_vector(*item, key, components, dimension, context_) : std::nullopt;
+}
+
+std::optional<std::int64_t> Section::integer(std::string_view key, std::int64_t low, std::int64_t high) {
+  Item const* item = find(key);
+  return item ? read_integer(*item, key, low, high, context_) : std::nullopt;
+}
+
+std::optional<std::string> Section::text(std::string_view key) {
+  Item const* item = find(key);
+  return item ? read_text(*item, key, context_) : std::nullopt;
+}
+
+std::optional<std::string> Section::word(std::string_view key, std::vector<std::string> const& words) {
+  Item const* item = find(key);
+  return item ? read_word(*item, key, words, context_) : std::nullopt;
+}
+
+bool Section::boolean(std::string_view key, bool otherwise) {
+  Item const* item = find(key);
+  if (!item) return otherwise;
+  if (item->is(Item::Kind::boolean)) return item->boolean;
+  mistake(item->place, fmt::format("{}: true or false is needed, not {}", key, found(*item)));
+  return otherwise;
+}
+
+Place Section::place(std::string_view key) const {
+  Entry const* entry = table_.find(key);
+  return entry ? entry->item.place : table_.place;
+}
+
+void Section::finish() {
+  for (auto const& entry : table_.entries)
+    if (std::find(allowed_.begin(), allowed_.end(), entry.key) == allowed_.end())
+      mistake(entry.place, fmt::format("unknown {} '{}' in {}; allowed are {}{}",
+                                       entry.item.is(Item::Kind::table) ? "table" : "key", entry.key, title_,
+                                       join(allowed_), did_you_mean(entry.key, allowed_)));
+}
+
+Item const* find_table(Section& document, std::string_view key) {
+  Item const* item = document.find(key);
+  if (!item || item->is(Item::Kind::table)) return item;
+  document.mistake(item->place, fmt::format("{}: a table is needed, [{}], not {}", key, key, found(*item)));
+  return nullptr;
+}
+
+std::vector<Item const*> find_tables(Section& section, std::string_view key) {
+  Item const* item = section.find(key);
+  if (!item) return {};
+  std::vector<Item const*> tables;
+  bool good = item->is(Item::Kind::array);
+  if (good)
+    for (auto const& element : item->elements) {
+      if (element.is(Item::Kind::table))
+        tables.push_back(&element);
+      else
+        good = false;
+    }
+  if (!good)
+    section.mistake(item->place, fmt::format("{}: a list of tables is needed, [[{}]] (two brackets), not {}", key, key,
+                                             found(*item)));
+  return tables;
+}
+
+}  // namespace boltzmann

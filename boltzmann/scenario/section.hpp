@@ -1,0 +1,101 @@
+// Section: reads the keys of one table of a scenario; what is wrong becomes a mistake with its place. Private to this
+// room.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/scenario/document.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// What all readers share.
+struct ReadContext {
+  Mistakes& mistakes;
+  Base base;          ///< of the numbers to come
+  std::string folder; ///< of the scenario file: where its other files are
+};
+
+/// What a number must be.
+struct NumberRange {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool low_excluded = false;
+
+  bool contains(double x) const { return (low_excluded ? x > low : x >= low) && x <= high; }
+  std::string text() const;
+};
+inline constexpr NumberRange any_number{};
+inline constexpr NumberRange positive{0, std::numeric_limits<double>::infinity(), true};
+inline constexpr NumberRange not_negative{0, std::numeric_limits<double>::infinity(), false};
+
+/// A finite number in the base from 0.5 or "0.5 ps"; a mistake otherwise. `name` is the key.
+std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,
+                                    NumberRange range = any_number);
+/// An array of `components` quantities.
+std::optional<std::vector<double>> read_vector(Item const& item, std::string_view name, int components,
+                                               Dimension dimension, ReadContext& context);
+std::optional<std::int64_t> read_integer(Item const& item, std::string_view name, std::int64_t low, std::int64_t high,
+                                         ReadContext& context);
+std::optional<std::string> read_text(Item const& item, std::string_view name, ReadContext& context);
+/// One of the words; a mistake that lists them and says the nearest.
+std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,
+                                     ReadContext& context);
+std::vector<std::string> read_texts(Item const& item, std::string_view name, ReadContext& context);
+
+/// "position.x: ..." -> what stands before a message about a key.
+std::string about(std::string_view name, std::string_view message);
+
+class Section {
+ public:
+  /// `title` is how messages call the table: "[run]", "[[ensembles]] 'atoms'".
+  Section(Item const& table, std::string title, ReadContext& context)
+      : table_(table), title_(std::move(title)), context_(context) {}
+
+  /// The value of a key, or nullptr; the key is then one of those allowed here.
+  Item const* find(std::string_view key);
+  /// The same; a mistake with an example if it is missing.
+  Item const* need(std::string_view key, std::string_view example);
+  bool has(std::string_view key) const { return table_.find(key) != nullptr; }
+  /// Names a key that is allowed but read elsewhere.
+  void allow(std::string_view key) { find(key); }
+
+  std::optional<double> quantity(std::string_view key, Dimension dimension, NumberRange range = any_number);
+  std::optional<double> need_quantity(std::string_view key, Dimension dimension, std::string_view example,
+                                      NumberRange range = any_number);
+  std::optional<std::vector<double>> vector(std::string_view key, int components, Dimension dimension);
+  std::optional<std::int64_t> integer(std::string_view key, std::int64_t low,
+                                      std::int64_t high = std::numeric_limits<std::int64_t>::max());
+  std::optional<std::string> text(std::string_view key);
+  std::optional<std::string> word(std::string_view key, std::vector<std::string> const& words);
+  bool boolean(std::string_view key, bool otherwise = false);
+
+  /// The place of a key's value, or of the table if the key is missing.
+  Place place(std::string_view key) const;
+  Place place() const { return table_.place; }
+  void rename(std::string title) { title_ = std::move(title); }
+  ReadContext& context() { return context_; }
+  void mistake(Place const& place, std::string message) { context_.mistakes.add(place, std::move(message)); }
+
+  /// Reports every key that nobody asked for.
+  void finish();
+
+ private:
+  Item const& table_;
+  std::string title_;
+  ReadContext& context_;
+  std::vector<std::string> allowed_;
+};
+
+/// A table under `key` of the document: nullptr (and a mistake) if it is something else, nullptr if it is missing.
+Item const* find_table(Section& document, std::string_view key);
+/// The tables of [[key]]; a mistake if it is something else. An empty list if it is missing.
+std::vector<Item const*> find_tables(Section& section, std::string_view key);
+
+}  // namespace boltzmann

@@ -1,0 +1,101 @@
+// Totals at both ends of a run, and the table that compares them.
+#include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+double magnitude(std::array<double, 3> const& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+std::array<double, 3> difference(std::array<double, 3> const& a, std::array<double, 3> const& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+// Sum of |m v| and of |m r x v|.
+void add_scales(AnyEnsemble const& ensemble, Conserved& total) {
+  int const D = ensemble.dimension(), mass = ensemble.field("mass").offset,
+            velocity = ensemble.field("velocity").offset;
+  for (std::size_t i = 0; i < ensemble.size(); ++i) {
+    double const* row = ensemble.row(i);
+    std::array<double, 3> r{}, v{};
+    for (int a = 0; a < D; ++a) r[a] = row[a], v[a] = row[velocity + a];
+    total.momentum_scale += row[mass] * magnitude(v);
+    total.angular_momentum_scale +=
+        row[mass] * magnitude({r[1] * v[2] - r[2] * v[1], r[2] * v[0] - r[0] * v[2], r[0] * v[1] - r[1] * v[0]});
+  }
+}
+
+std::string with_unit(std::string const& quantity, std::string const& unit) {
+  return unit.empty() ? quantity : quantity + " (" + unit + ")";
+}
+
+std::string row(std::string const& name, double start, double end, double drift, char const* relative_to) {
+  return fmt::format("  {:<34} {:>16.9g} {:>16.9g}   {:>9.2e}  {}", name, start, end, drift, relative_to);
+}
+
+}  // namespace
+
+Conserved conserved(Simulation const& simulation) {
+  Conserved total;
+  auto const& ensembles = simulation.ensembles();
+  Measures const measures = simulation.measure();
+  bool massive = !ensembles.empty();
+  bool periodic = false;
+  for (auto const* scheme : simulation.schemes()) {
+    periodic = periodic || scheme->box().any_periodic();
+    total.dimension = scheme->box().dimension();
+  }
+  for (auto const* ensemble : ensembles) {
+    if (!carries_momentum(*ensemble)) {
+      massive = false;
+      total.no_energy =
+          fmt::format("'{}' is of class {}, which has no kinetic energy", ensemble->name(), ensemble->class_name());
+      continue;
+    }
+    add_scales(*ensemble, total);
+  }
+  if (!massive) return total;
+  double const kinetic = kinetic_energy(ensembles);
+  total.momentum = momentum(ensembles);
+  if (!periodic && total.dimension > 1) total.angular_momentum = angular_momentum(ensembles);
+  if (measures.unknown.empty())
+    total.energy = kinetic + measures.potential + measures.external;
+  else
+    total.no_energy = measures.unknown + " gives no energy";
+  total.energy_scale = kinetic + std::abs(measures.potential) + std::abs(measures.external);
+  return total;
+}
+
+std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));
+  auto const part = [](double change, double scale) { return scale > 0 ? change / scale : change; };
+  if (start.energy && end.energy) {
+    bool const near_zero = std::abs(*start.energy) < 1e-3 * start.energy_scale;
+    double const scale = near_zero ? start.energy_scale : std::abs(*start.energy);
+    lines.push_back(row(with_unit("energy", base.unit_name(dimensions::energy)), *start.energy, *end.energy,
+                        part(*end.energy - *start.energy, scale),
+                        near_zero ? "of kinetic + |potential|" : "of itself"));
+  } else if (!start.no_energy.empty()) {
+    lines.push_back(fmt::format("  {:<34} not defined: {}", "energy", start.no_energy));
+  }
+  auto const vector = [&](char const* name, Dimension dimension, std::array<double, 3> const& a,
+                          std::array<double, 3> const& b, double scale, char const* relative_to) {
+    lines.push_back(row(with_unit(name, base.unit_name(dimension)), magnitude(a), magnitude(b),
+                        part(magnitude(difference(b, a)), scale), relative_to));
+  };
+  if (start.momentum && end.momentum)
+    vector("momentum", dimensions::momentum, *start.momentum, *end.momentum,
+           std::max(start.momentum_scale, end.momentum_scale), "of the sum of |m v|");
+  if (start.angular_momentum && end.angular_momentum)
+    vector("angular momentum", dimensions::angular_momentum, *start.angular_momentum, *end.angular_momentum,
+           std::max(start.angular_momentum_scale, end.angular_momentum_scale), "of the sum of |m r x v|");
+  return lines;
+}
+
+}  // namespace boltzmann

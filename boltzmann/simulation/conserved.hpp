@@ -1,0 +1,33 @@
+// What a run conserves: energy, momentum and angular momentum of a state, where they are defined.
+#pragma once
+
+#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// Totals over all ensembles whose class has a mass and a velocity.
+struct Conserved {
+  std::optional<double> energy;  ///< kinetic + potential + external; none if a law gives no energy or a class no mass
+  std::string no_energy;         ///< why there is none
+  std::optional<std::array<double, 3>> momentum;          ///< none where a class has no mass
+  std::optional<std::array<double, 3>> angular_momentum;  ///< about the origin; none on periodic axes
+  double energy_scale = 0;                                ///< kinetic energy + |potential| + |external|
+  double momentum_scale = 0;                              ///< sum of |m v|
+  double angular_momentum_scale = 0;                      ///< sum of |m r x v|
+  int dimension = 3;
+};
+
+/// Of the present state. Calculates the energies of all schemes once.
+Conserved conserved(Simulation const& simulation);
+
+/// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy: relative to its own
+/// start (to its scale if it starts near zero); momenta: relative to their scales, since totals are often zero.
+std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base);
+
+}  // namespace boltzmann

@@ -1,0 +1,434 @@
+// From the state and the files of a run to the arrays that the drawings want.
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/drawings.hpp>
+#include <boltzmann/diagnoses/spectrum_of.hpp>
+#include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/picture.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace boltzmann {
+namespace {
+
+using Values = std::vector<double>;
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> split(std::string const& text) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    std::size_t const end = std::min(text.find(',', at), text.size());
+    std::size_t first = text.find_first_not_of(' ', at);
+    std::size_t last = text.find_last_not_of(' ', end == 0 ? 0 : end - 1);
+    if (first < end && last != std::string::npos && last >= first)
+      words.push_back(text.substr(first, last - first + 1));
+    at = end + 1;
+  }
+  return words;
+}
+
+// "kinetic energy (eV)" -> {"kinetic energy", "eV"}.
+struct Heading {
+  std::string name, unit;
+};
+Heading heading(std::string const& text) {
+  std::size_t const at = text.rfind(" (");
+  if (at == std::string::npos || text.back() != ')') return {text, ""};
+  return {text.substr(0, at), text.substr(at + 2, text.size() - at - 3)};
+}
+
+bool has_quantity(AnyEnsemble const& ensemble, std::string const& name) {
+  auto const all = quantities(ensemble);
+  return std::any_of(all.begin(), all.end(), [&](auto const& q) { return q.name == name; });
+}
+
+// The meaning of a name that at least one of the ensembles knows.
+QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name) {
+  for (auto const* ensemble : ensembles)
+    if (has_quantity(*ensemble, name)) return quantity_meaning(*ensemble, name);
+  if (ensembles.empty()) throw Error("there are no particles to draw");
+  return quantity_meaning(*ensembles.front(), name);  // throws, with the allowed names
+}
+
+bool needs_influence(std::string const& name) {
+  return name == "speed" || name.starts_with("velocity") || name.starts_with("influence");
+}
+
+std::vector<AnyEnsemble*> ensembles_of(Simulation const& simulation) {
+  std::vector<AnyEnsemble*> all;
+  for (auto* scheme : simulation.schemes())
+    for (auto* ensemble : scheme->ensembles())
+      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+  return all;
+}
+
+class Drawer {
+ public:
+  Drawer(Picture const& picture, PictureContext const& context)
+      : picture_(picture), context_(context), ensembles_(ensembles_of(context.simulation)) {}
+
+  Canvas draw() {
+    if (picture_.drawing == "cartesian") return cartesian();
+    if (picture_.drawing == "phase-space") return phase_space(picture_.x, picture_.y);
+    if (picture_.drawing == "spectrum") return picture_.x == "time" ? spectrum_in_time() : spectrum_in_space();
+    return time_series();
+  }
+
+ private:
+  std::string unit(Dimension dimension) const { return context_.base.unit_name(dimension); }
+
+  std::string title(bool with_time = true) const {
+    if (!with_time) return context_.title;
+    std::string text = context_.title.empty() ? "" : context_.title + ", ";
+    text += fmt::format("step {}, time {:.4g}", context_.step, context_.time);
+    if (auto const t = unit(dimensions::time); !t.empty()) text += " " + t;
+    return text;
+  }
+
+  Box const& box() const { return context_.simulation.schemes().front()->box(); }
+
+  // The quantity of each ensemble that has it; NaN for the particles of the others.
+  std::vector<Values> values(std::string const& name) {
+    meaning(ensembles_, name);
+    if (needs_influence(name)) refresh_influence();
+    Measures measures;
+    if (name == "potential-energy") measures = context_.simulation.measure();
+    std::vector<Values> all;
+    for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+      std::span<double const> potential;
+      if (e < measures.per_particle.size()) potential = measures.per_particle[e];
+      if (has_quantity(*ensembles_[e], name))
+        all.push_back(quantity(*ensembles_[e], name, potential));
+      else
+        all.emplace_back(ensembles_[e]->size(), no_value);
+    }
+    return all;
+  }
+
+  // Classes without a velocity have their influence for it, and an integrator leaves that of an intermediate stage.
+  void refresh_influence() {
+    if (fresh_) return;
+    fresh_ = true;
+    for (auto* ensemble : ensembles_) ensemble->clear_influence();
+    for (auto* scheme : context_.simulation.schemes()) scheme->add_influences(context_.time);
+  }
+
+  static Values joined(std::vector<Values> const& parts) {
+    Values all;
+    for (auto const& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+  // The part of space that is shown: the box, and on open axes also what has left it, up to half a box away.
+  std::vector<std::array<double, 2>> shown_box(std::array<Values, 3> const& position) const {
+    std::vector<std::array<double, 2>> sides;
+    for (int a = 0; a < box().dimension(); ++a) {
+      std::array<double, 2> side{box().low(a), box().high(a)};
+      if (box().boundary(a) == Boundary::open)
+        for (double const x : position[a])
+          if (std::isfinite(x)) side = {std::min(side[0], x), std::max(side[1], x)};
+      double const room = box().length(a) / 2;
+      side = {std::max(side[0], box().low(a) - room), std::min(side[1], box().high(a) + room)};
+      sides.push_back(side);
+    }
+    return sides;
+  }
+
+  Values diameters(std::vector<Values> const& size) const {
+    double common = 0;
+    for (auto const* ensemble : ensembles_) common = std::max(common, ensemble->appearance.diameter);
+    double volume = box().volume();
+    std::size_t count = 0;
+    for (auto const* ensemble : ensembles_) count += ensemble->size();
+    if (common == 0 && count > 0) common = 0.5 * std::pow(volume / static_cast<double>(count), 1.0 / box().dimension());
+    double largest = 0;
+    for (auto const& part : size)
+      for (double const v : part)
+        if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+    Values all;
+    for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+      double const own = ensembles_[e]->appearance.diameter > 0 ? ensembles_[e]->appearance.diameter : common;
+      for (std::size_t i = 0; i < ensembles_[e]->size(); ++i)
+        all.push_back(size.empty() || !(largest > 0) || std::isnan(size[e][i]) ? own
+                                                                               : own * std::abs(size[e][i]) / largest);
+    }
+    return all;
+  }
+
+  bool any_diameter() const {
+    return std::any_of(ensembles_.begin(), ensembles_.end(), [](auto* e) { return e->appearance.diameter > 0; });
+  }
+
+  Canvas cartesian() {
+    int const D = box().dimension();
+    if (D == 1) return phase_space("position.x", picture_.colour.empty() ? "" : picture_.colour);
+    std::array<Values, 3> position;
+    for (int a = 0; a < D; ++a) position[a] = joined(values(std::string("position.") + "xyz"[a]));
+
+    CartesianStyle style;
+    style.title = title();
+    style.unit = unit(dimensions::length);
+    std::vector<int> species;
+    for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+      species.insert(species.end(), ensembles_[e]->size(), static_cast<int>(e));
+      if (ensembles_.size() > 1) style.species_names.push_back(ensembles_[e]->name());
+    }
+    style.species = species;
+    Values value;
+    if (!picture_.colour.empty()) {
+      auto const what = meaning(ensembles_, picture_.colour);
+      value = joined(values(picture_.colour));
+      style.value = value;
+      style.value_name = what.label;
+      style.value_unit = unit(what.dimension);
+      style.value_low = picture_.low;
+      style.value_high = picture_.high;
+      bool const negative = std::any_of(value.begin(), value.end(), [](double v) { return v < 0; });
+      bool const positive = std::any_of(value.begin(), value.end(), [](double v) { return v > 0; });
+      if (negative && positive) style.map = ColourMap::diverging;
+    }
+    Values diameter;
+    if (!picture_.size.empty() || any_diameter()) {
+      diameter = diameters(picture_.size.empty() ? std::vector<Values>{} : values(picture_.size));
+      style.diameter = diameter;
+    }
+    std::vector<Tracks> tracks;
+    std::array<Values, 3> reach = position;
+    if (picture_.trace) {
+      tracks = read_tracks();
+      for (auto const& track : tracks)
+        for (int a = 0; a < D; ++a) reach[a].insert(reach[a].end(), track.position[a].begin(), track.position[a].end());
+    }
+    style.box = shown_box(reach);
+    for (int a = 0; a < D; ++a) style.periodic[a] = box().periodic(a);
+    auto const connections = bonds();
+    style.connections = connections;
+    Canvas canvas = D == 2 ? draw_cartesian(position[0], position[1], style)
+                           : draw_cartesian(position[0], position[1], position[2], style);
+    for (auto const& track : tracks) draw_track(canvas, track);
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < position[0].size(); ++i)
+      for (int a = 0; a < D; ++a)
+        if (position[a][i] < style.box[a][0] || position[a][i] > style.box[a][1]) {
+          ++outside;
+          break;
+        }
+    if (outside > 0)
+      canvas.note(fmt::format("{} {} far outside the box", outside, outside == 1 ? "particle is" : "particles are"));
+    return canvas;
+  }
+
+  std::vector<std::array<std::size_t, 2>> bonds() const {
+    std::map<AnyEnsemble const*, std::size_t> first;
+    std::size_t count = 0;
+    for (auto const* ensemble : ensembles_) first[ensemble] = count, count += ensemble->size();
+    std::vector<std::array<std::size_t, 2>> all;
+    for (auto const* scheme : context_.simulation.schemes())
+      if (auto const* pairs = dynamic_cast<PairScheme const*>(scheme))
+        for (auto const& bond : pairs->bonds())
+          all.push_back({first[bond.ensemble] + bond.i, first[bond.ensemble] + bond.j});
+    return all;
+  }
+
+  // The way of one particle through all frames.
+  struct Tracks {
+    int species;
+    std::array<Values, 3> position;
+  };
+
+  std::vector<Tracks> read_tracks() const {
+    TrajectoryReader const reader(context_.folder + "/trajectory.h5");
+    std::vector<Tracks> all;
+    int const D = box().dimension();
+    for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+      std::size_t const first = all.size();
+      for (std::size_t f = 0; f < reader.frames(); ++f) {
+        if (reader.steps()[f] > context_.step) break;
+        auto const frame = reader.read(f, ensembles_[e]->name(), "position");
+        std::size_t const count = frame.size() / static_cast<std::size_t>(D);
+        while (all.size() < first + count) all.push_back({static_cast<int>(e), {}});
+        for (std::size_t i = 0; i < count; ++i) extend(all[first + i], &frame[i * static_cast<std::size_t>(D)]);
+      }
+      for (std::size_t i = 0; i < ensembles_[e]->size() && first + i < all.size(); ++i)
+        extend(all[first + i], ensembles_[e]->row(i));
+    }
+    return all;
+  }
+
+  // A particle that goes through a periodic wall leaves a gap in its track.
+  void extend(Tracks& track, double const* place) const {
+    int const D = box().dimension();
+    bool jump = false;
+    for (int a = 0; a < D; ++a)
+      if (box().periodic(a) && !track.position[a].empty())
+        jump = jump || std::abs(place[a] - track.position[a].back()) > box().length(a) / 2;
+    for (int a = 0; a < D; ++a) {
+      if (jump) track.position[a].push_back(no_value);
+      track.position[a].push_back(place[a]);
+    }
+  }
+
+  void draw_track(Canvas& canvas, Tracks const& track) const {
+    Colour const colour = with_alpha(ensembles_.size() == 1 && ensembles_[0]->size() <= 8
+                                         ? species_colour(static_cast<int>(track_number_++))
+                                         : species_colour(track.species),
+                                     0.7);
+    if (box().dimension() == 2) {
+      canvas.curve(track.position[0], track.position[1], colour, "", 1.4F);
+      return;
+    }
+    Projection const projection;
+    Values right, up;
+    for (std::size_t k = 0; k < track.position[0].size(); ++k) {
+      auto const place = projection(track.position[0][k], track.position[1][k], track.position[2][k]);
+      right.push_back(place.right);
+      up.push_back(place.up);
+    }
+    canvas.curve(right, up, colour, "", 1.4F);
+  }
+
+  Canvas phase_space(std::string x, std::string y) {
+    if (x.empty()) x = "position.x";
+    if (y.empty()) y = "velocity.x";
+    auto const mx = meaning(ensembles_, x), my = meaning(ensembles_, y);
+    auto const vx = values(x), vy = values(y);
+    std::vector<Series> series;
+    for (std::size_t e = 0; e < ensembles_.size(); ++e)
+      series.push_back({ensembles_.size() > 1 ? ensembles_[e]->name() : "", vx[e], vy[e]});
+    Axis x_axis{mx.label, unit(mx.dimension)};
+    if (x.starts_with("position.") && box().periodic(x.back() - 'x')) {
+      x_axis.low = box().low(x.back() - 'x');
+      x_axis.high = box().high(x.back() - 'x');
+    }
+    return draw_phase_space(series, x_axis, {my.label, unit(my.dimension)}, title());
+  }
+
+  Canvas spectrum_in_space() {
+    std::string const x = picture_.x.empty() ? "position.x" : picture_.x;
+    std::string const y = picture_.y.empty() ? "velocity.x" : picture_.y;
+    auto const mx = meaning(ensembles_, x), my = meaning(ensembles_, y);
+    if (!x.starts_with("position."))
+      throw Error("a spectrum is over position.x, position.y, position.z or time, not '" + x + "'");
+    if (needs_influence(y)) refresh_influence();
+    for (auto const* ensemble : ensembles_) {
+      if (!has_quantity(*ensemble, y)) continue;
+      auto const spectrum = spectrum_of(*ensemble, y, x.back() - 'x');
+      return draw_spectrum(spectrum.frequency, spectrum.density,
+                           {"wave number / 2π", unit(dimensions::none / mx.dimension)},
+                           {"power of " + my.label, unit(my.dimension * my.dimension * mx.dimension)}, true, title());
+    }
+    throw Error("no particles with '" + y + "' to draw a spectrum of");
+  }
+
+  CsvTable table() const {
+    auto table = read_csv(context_.folder + "/diagnoses.csv");
+    std::size_t rows = table.columns.empty() ? 0 : table.columns[0].size();
+    while (rows > 0 && table.columns[0][rows - 1] > static_cast<double>(context_.step)) --rows;
+    for (auto& column : table.columns) column.resize(rows);
+    return table;
+  }
+
+  // The columns of a table that were asked for; none: all of the unit of the first one.
+  std::vector<std::size_t> chosen(CsvTable const& table) const {
+    std::vector<std::string> names;
+    for (std::size_t c = 2; c < table.header.size(); ++c) names.push_back(heading(table.header[c]).name);
+    std::vector<std::size_t> columns;
+    for (auto const& word : split(picture_.y)) {
+      auto const found = std::find(names.begin(), names.end(), word);
+      if (found == names.end())
+        throw Error("diagnoses.csv has no column '" + word + "'; it has " + join(names) + did_you_mean(word, names));
+      columns.push_back(2 + static_cast<std::size_t>(found - names.begin()));
+    }
+    if (columns.empty())
+      for (std::size_t c = 2; c < table.header.size(); ++c)
+        if (heading(table.header[c]).unit == heading(table.header[2]).unit) columns.push_back(c);
+    if (columns.empty()) throw Error("diagnoses.csv has no column to draw");
+    return columns;
+  }
+
+  Canvas time_series() const {
+    auto const data = table();
+    auto const columns = chosen(data);
+    std::string const common = heading(data.header[columns[0]]).unit;
+    bool const same =
+        std::all_of(columns.begin(), columns.end(), [&](auto c) { return heading(data.header[c]).unit == common; });
+    std::vector<Series> series;
+    for (auto const c : columns)
+      series.push_back({columns.size() == 1 ? ""
+                        : same              ? heading(data.header[c]).name
+                                            : data.header[c],
+                        data.columns[1], data.columns[c]});
+    std::string const label = columns.size() == 1 ? heading(data.header[columns[0]]).name : "";
+    return draw_time_series(series, {"time", heading(data.header[1]).unit}, {label, same ? common : ""}, title(false));
+  }
+
+  Canvas spectrum_in_time() const {
+    auto const data = table();
+    auto const column = chosen(data)[0];
+    auto const& time = data.columns[1];
+    if (time.size() < 2) throw Error("a spectrum over time needs 2 or more rows of diagnoses.csv");
+    double const spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+    auto const spectrum = power_spectrum(data.columns[column], spacing, SpectrumMethod::welch, true);
+    return draw_spectrum(spectrum.frequency, spectrum.density, {"frequency", unit(dimensions::frequency)},
+                         {"power of " + heading(data.header[column]).name, ""}, true, title(false));
+  }
+
+  Picture const& picture_;
+  PictureContext const& context_;
+  std::vector<AnyEnsemble*> ensembles_;
+  bool fresh_ = false;
+  mutable std::size_t track_number_ = 0;
+};
+
+void check_drawing(Picture const& picture) {
+  auto const& names = drawing_names();
+  if (std::find(names.begin(), names.end(), picture.drawing) == names.end())
+    throw Error("unknown drawing '" + picture.drawing + "'; there are " + join(names) +
+                did_you_mean(picture.drawing, names));
+}
+
+}  // namespace
+
+std::vector<std::string> const& drawing_names() {
+  static std::vector<std::string> const names{"cartesian", "phase-space", "spectrum", "time-series"};
+  return names;
+}
+
+Canvas draw(Picture const& picture, PictureContext const& context) {
+  check_drawing(picture);
+  return Drawer(picture, context).draw();
+}
+
+void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles,
+           std::vector<std::string> const& columns) {
+  check_drawing(picture);
+  auto const dot = picture.file.rfind('.');
+  std::string const extension = dot == std::string::npos ? "" : picture.file.substr(dot);
+  if (extension != ".png" && extension != ".svg" && extension != ".pdf")
+    throw Error("the picture '" + picture.file + "' ends in none of .png, .svg, .pdf");
+  if (picture.file.find('/') != std::string::npos)
+    throw Error("the picture '" + picture.file + "' is a name in the run's folder, without '/'");
+  auto const known = [&](std::string const& name) {
+    if (!name.empty()) meaning(ensembles, name);
+  };
+  known(picture.colour);
+  known(picture.size);
+  if (picture.drawing == "phase-space") known(picture.x), known(picture.y);
+  if (picture.drawing == "spectrum" && picture.x != "time") known(picture.x), known(picture.y);
+  if (picture.drawing == "time-series" || (picture.drawing == "spectrum" && picture.x == "time")) {
+    if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
+    for (auto const& word : split(picture.y))
+      if (std::find(columns.begin(), columns.end(), word) == columns.end())
+        throw Error("no diagnosis gives a column '" + word + "'; there are " + join(columns) +
+                    did_you_mean(word, columns));
+  }
+}
+
+}  // namespace boltzmann

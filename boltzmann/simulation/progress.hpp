@@ -1,0 +1,27 @@
+// Running with a progress line: how far, how fast, how long still.
+#pragma once
+
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <cstdint>
+
+namespace boltzmann {
+
+struct ProgressOptions {
+  bool quiet = false;        ///< no progress line
+  std::int64_t planned = 0;  ///< the step number that counts as 100 %; 0: where this run ends
+};
+
+/// How a run went.
+struct RunReport {
+  std::int64_t steps = 0;      ///< done in this run
+  std::int64_t particles = 0;  ///< of all ensembles
+  double seconds = 0;          ///< of the loop, with all observers
+  bool interrupted = false;    ///< by Ctrl-C or SIGTERM
+};
+
+/// Runs with a progress line on standard error: on a terminal one that is rewritten five times a second, elsewhere one
+/// line for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
+RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});
+
+}  // namespace boltzmann

@@ -1,0 +1,461 @@
+// When what is written, and that nothing half written is left behind.
+#include <boltzmann/core/units.hpp>
+#include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/figure.hpp>
+#include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/simulation/run_loop.hpp>
+#include <boltzmann/simulation/version.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+namespace boltzmann {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+std::array<char const*, 4> constexpr result_files{"scenario.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5"};
+
+BoxEdges edges(Box const& box) {
+  BoxEdges edges;
+  edges.dimension = box.dimension();
+  for (int a = 0; a < box.dimension(); ++a) {
+    edges.low[a] = box.low(a);
+    edges.high[a] = box.high(a);
+    edges.periodic[a] = box.periodic(a);
+  }
+  return edges;
+}
+
+void need_interval(std::uint64_t every, char const* what) {
+  if (every == 0) throw Error(fmt::format("{} are recorded every 1 or more steps, not every 0", what));
+}
+
+std::int64_t next_multiple(std::int64_t step, std::int64_t every) {
+  return every > 0 ? (step / every + 1) * every : never;
+}
+
+}  // namespace
+
+struct Recording::State {
+  Simulation& simulation;
+  Base base;
+  std::string folder;
+  bool overwrite;
+  std::string title, scenario;
+  std::int64_t planned = -1;
+
+  std::int64_t every_diagnoses = 0, every_trajectory = 0, every_checkpoint = 0;  // 0: never
+  std::vector<std::unique_ptr<Diagnosis>> list;
+  std::vector<Picture> pictures;
+
+  bool open = false, finished = false;
+  std::int64_t next = 0;  // the next step at which something is written
+  std::int64_t checkpoint_step = -1;
+  std::optional<CsvFile> csv;
+  std::optional<Trajectory> frames;
+  std::vector<Checkpoint::Rows> last_rows;  // of the last recorded state
+  std::int64_t last_step = -1;
+  double last_time = 0;
+  double seconds = 0;
+
+  std::string path(std::string const& file) const { return folder + "/" + file; }
+
+  /// Also before Simulation::check() has collected them.
+  std::vector<AnyEnsemble*> ensembles() const {
+    std::vector<AnyEnsemble*> all;
+    for (auto* scheme : simulation.schemes())
+      for (auto* ensemble : scheme->ensembles())
+        if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+    return all;
+  }
+
+  std::vector<std::string> column_names() const {
+    std::vector<std::string> names;
+    for (auto const& diagnosis : list)
+      for (auto const& column : diagnosis->columns()) names.push_back(column.name);
+    return names;
+  }
+
+  std::vector<std::string> header() const {
+    auto const titled = [&](std::string const& name, Dimension dimension) {
+      auto const unit = base.unit_name(dimension);
+      return unit.empty() ? name : name + " (" + unit + ")";
+    };
+    std::vector<std::string> header{"step", titled("time", dimensions::time)};
+    for (auto const& diagnosis : list)
+      for (auto const& column : diagnosis->columns()) header.push_back(titled(column.name, column.dimension));
+    return header;
+  }
+
+  TrajectoryOptions trajectory_options() const {
+    TrajectoryOptions options;
+    options.version = program_version;
+    if (!base.is_reduced()) options.unit_name = [base = base](Dimension d) { return base.unit_name(d); };
+    return options;
+  }
+
+  void check_names() const {
+    auto const columns = column_names();
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (std::find(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(i), columns[i]) !=
+          columns.begin() + static_cast<std::ptrdiff_t>(i))
+        throw Error("two diagnoses give a column called '" + columns[i] + "'");
+    std::set<std::string> files;
+    for (auto const& picture : pictures) {
+      boltzmann::check(picture, ensembles(), columns);
+      if (!files.insert(picture.file).second) throw Error("two pictures are called '" + picture.file + "'");
+      if (picture.trace && every_trajectory == 0)
+        throw Error("the picture '" + picture.file + "' shows tracks, which needs a trajectory");
+    }
+  }
+
+  void check_folder() const {
+    std::error_code ignored;
+    fs::path const place(folder);
+    if (fs::exists(place, ignored)) {
+      if (!fs::is_directory(place, ignored))
+        throw Error("the results can't go into '" + folder + "', which is no folder");
+      if (!overwrite)
+        for (auto const* file : result_files)
+          if (fs::exists(place / file, ignored))
+            throw Error("'" + folder + "' already holds a run; choose another folder, or replace it with --force");
+    }
+    // The nearest folder that exists has to take new entries.
+    fs::path parent = fs::absolute(place);
+    while (!fs::exists(parent, ignored) && parent.has_relative_path()) parent = parent.parent_path();
+    if (!fs::is_directory(parent, ignored))
+      throw Error("the results can't go into '" + folder + "': '" + parent.string() + "' is no folder");
+    if (access(parent.c_str(), W_OK | X_OK) != 0)
+      throw Error("the results can't go into '" + folder + "': " + reason(errno));
+  }
+
+  void check() const {
+    check_names();
+    check_folder();
+  }
+
+  void start() {
+    check();
+    std::error_code error;
+    bool const there = fs::is_directory(folder, error);
+    fs::create_directories(folder, error);
+    if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
+    for (auto const* file : result_files) fs::remove(path(file), error);
+    fs::remove(path("checkpoint.h5.previous"), error);
+    for (auto const& picture : pictures) fs::remove(path(picture.file), error);
+    try {
+      if (!scenario.empty()) TextFile(path("scenario.toml"), TextFile::Mode::replace).write(scenario);
+      if (every_diagnoses > 0) csv.emplace(path("diagnoses.csv"), header());
+      if (every_trajectory > 0) frames.emplace(path("trajectory.h5"), trajectory_options());
+      open = true;
+      write_due(simulation.step(), true);
+    } catch (...) {
+      // Nothing of a run that could not start is left.
+      csv.reset();
+      frames.reset();
+      finished = true;
+      for (auto const* file : result_files) fs::remove(path(file), error);
+      fs::remove(path("checkpoint.h5.part"), error);
+      if (!there) fs::remove(folder, error);
+      throw;
+    }
+  }
+
+  void look() {
+    std::int64_t const step = simulation.step();
+    if (open && (step < next || finished)) return;
+    if (finished) return;
+    auto const since = Clock::now();
+    if (!open)
+      start();
+    else
+      write_due(step, false);
+    seconds += std::chrono::duration<double>(Clock::now() - since).count();
+  }
+
+  void write_due(std::int64_t step, bool first) {
+    auto const due = [&](std::int64_t every) { return every > 0 && step % every == 0; };
+    try {
+      remember();
+      if (due(every_diagnoses)) write_row();
+      if (due(every_trajectory)) write_frame();
+      if (first || due(every_checkpoint))
+        write_checkpoint();  // the last one, so that it holds the state after all looks
+    } catch (Error const& error) {
+      if (first) throw;
+      throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), intact()));
+    }
+    next = std::min({next_multiple(step, every_diagnoses), next_multiple(step, every_trajectory),
+                     next_multiple(step, every_checkpoint)});
+  }
+
+  std::string intact() const {
+    return fmt::format("the last checkpoint is intact: {} (step {})", path("checkpoint.h5"), checkpoint_step);
+  }
+
+  void remember() {
+    auto const all = ensembles();
+    last_rows.clear();
+    for (auto const* ensemble : all) last_rows.push_back(copy_rows(*ensemble));
+    last_step = simulation.step();
+    last_time = simulation.time();
+  }
+
+  void write_row() {
+    bool energies = false;
+    for (auto const& diagnosis : list) energies = energies || diagnosis->needs_energies();
+    Measures measures;
+    if (energies) measures = simulation.measure();
+    auto const all = ensembles();
+    Sample const sample{all,
+                        simulation.schemes().front()->box(),
+                        energies ? &measures : nullptr,
+                        base.is_reduced() ? 1.0 : base(constants::boltzmann),
+                        simulation.time(),
+                        simulation.step()};
+    std::vector<double> values{simulation.time()};
+    for (auto const& diagnosis : list) diagnosis->measure(sample, values);
+    csv->write(simulation.step(), values);
+  }
+
+  void write_frame() {
+    auto const all = ensembles();
+    std::vector<AnyEnsemble const*> const list_of(all.begin(), all.end());
+    frames->write(simulation.step(), simulation.time(), list_of, edges(simulation.schemes().front()->box()));
+  }
+
+  void write_checkpoint() {
+    Checkpoint checkpoint;
+    checkpoint.program_version = program_version;
+    checkpoint.scenario = scenario;
+    checkpoint.step = simulation.step();
+    checkpoint.time = simulation.time();
+    checkpoint.step_size = simulation.step_size();
+    checkpoint.seed = simulation.seed();
+    for (auto const* ensemble : ensembles()) checkpoint.ensembles.push_back(copy_rows(*ensemble));
+    checkpoint.state["simulation"] = simulation.state();
+    checkpoint.state["planned"] = {static_cast<double>(planned)};
+    for (std::size_t d = 0; d < list.size(); ++d) checkpoint.state[fmt::format("diagnosis {}", d)] = list[d]->state();
+    boltzmann::write_checkpoint(path("checkpoint.h5"), checkpoint);
+    checkpoint_step = simulation.step();
+  }
+
+  void resume() {
+    if (open) throw Error("a run that has begun can't be resumed");
+    check_names();
+    auto const checkpoint = read_checkpoint(path("checkpoint.h5"));
+    auto const all = ensembles();
+    if (all.size() != checkpoint.ensembles.size())
+      throw Error(fmt::format("'{}' holds {} ensembles, the simulation has {}", path("checkpoint.h5"),
+                              checkpoint.ensembles.size(), all.size()));
+    for (std::size_t e = 0; e < all.size(); ++e) restore_rows(checkpoint.ensembles[e], *all[e]);
+    auto const part = [&](std::string const& name) -> std::vector<double> const& {
+      auto const found = checkpoint.state.find(name);
+      if (found == checkpoint.state.end())
+        throw Error("'" + path("checkpoint.h5") + "' does not fit this simulation: it has no state of " + name);
+      return found->second;
+    };
+    simulation.restore(checkpoint.step, checkpoint.step_size, checkpoint.seed, part("simulation"));
+    for (std::size_t d = 0; d < list.size(); ++d) list[d]->restore(part(fmt::format("diagnosis {}", d)));
+    if (planned < 0 && !part("planned").empty()) planned = static_cast<std::int64_t>(part("planned")[0]);
+    scenario = checkpoint.scenario;
+    if (every_diagnoses > 0) csv.emplace(CsvFile::append_to(path("diagnoses.csv"), header(), checkpoint.step));
+    if (every_trajectory > 0)
+      frames.emplace(Trajectory::append_to(path("trajectory.h5"), checkpoint.step, trajectory_options()));
+    checkpoint_step = checkpoint.step;
+    open = true;
+    remember();
+    next = std::min({next_multiple(checkpoint.step, every_diagnoses), next_multiple(checkpoint.step, every_trajectory),
+                     next_multiple(checkpoint.step, every_checkpoint)});
+  }
+
+  void draw_pictures(std::int64_t step, double time, std::string const& note) {
+    for (auto const& picture : pictures) {
+      Canvas canvas = draw(picture, {simulation, base, title, step, time, folder});
+      if (!note.empty()) canvas.note(note);
+      write_picture(canvas, path(picture.file));
+    }
+  }
+
+  void close_files() {
+    if (frames) frames->close();
+    frames.reset();
+    csv.reset();
+  }
+
+  void finish() {
+    if (!open || finished) return;
+    finished = true;
+    auto const since = Clock::now();
+    try {
+      if (checkpoint_step != simulation.step()) write_checkpoint();
+      close_files();
+      draw_pictures(simulation.step(), simulation.time(), "");
+    } catch (Error const& error) {
+      throw RecordingFailure(fmt::format("{}; {}", error.what(), intact()));
+    }
+    seconds += std::chrono::duration<double>(Clock::now() - since).count();
+  }
+
+  void give_up() {
+    if (!open || finished) return;
+    finished = true;
+    try {
+      close_files();
+      auto const all = ensembles();
+      for (std::size_t e = 0; e < all.size(); ++e) restore_rows(last_rows[e], *all[e]);
+      draw_pictures(last_step, last_time,
+                    fmt::format("The run failed after this step ({}), the last recorded one.", last_step));
+    } catch (std::exception const& error) {
+      fmt::print(stderr, "the last recorded state could not be drawn: {}\n", error.what());
+    }
+  }
+};
+
+Recording::Recording(Simulation& simulation, Base const& base, std::string folder, bool overwrite)
+    : state_(std::make_shared<State>(simulation, base, std::move(folder), overwrite)) {
+  while (state_->folder.size() > 1 && state_->folder.back() == '/') state_->folder.pop_back();
+  if (state_->folder.empty()) throw Error("the folder of the results has no name");
+  state_->title = fs::path(state_->folder).filename().string();
+  simulation.observe(1, [state = state_](Simulation const&) { state->look(); });
+}
+
+Recording::~Recording() {
+  try {
+    if (std::uncaught_exceptions() > 0)
+      state_->give_up();
+    else
+      state_->finish();
+  } catch (std::exception const& error) {
+    fmt::print(stderr, "{}\n", error.what());
+  }
+  state_->finished = true;
+}
+
+void Recording::add(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis) {
+  need_interval(every, "diagnoses");
+  auto const interval = static_cast<std::int64_t>(every);
+  if (state_->every_diagnoses != 0 && state_->every_diagnoses != interval)
+    throw Error(fmt::format("all diagnoses share one table and so one interval: every {} steps, not also every {}",
+                            state_->every_diagnoses, every));
+  state_->every_diagnoses = interval;
+  state_->list.push_back(std::move(diagnosis));
+}
+
+void Recording::diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds) {
+  DiagnosisParameters parameters;
+  for (auto const* ensemble : state_->ensembles()) parameters.available.push_back(ensemble);
+  for (auto const* kind : kinds) add(every, make_diagnosis(kind, parameters));
+}
+
+void Recording::trajectory(std::uint64_t every) {
+  need_interval(every, "frames");
+  state_->every_trajectory = static_cast<std::int64_t>(every);
+}
+
+void Recording::checkpoint(std::uint64_t every) {
+  need_interval(every, "checkpoints");
+  state_->every_checkpoint = static_cast<std::int64_t>(every);
+}
+
+void Recording::picture(Picture picture) { state_->pictures.push_back(std::move(picture)); }
+void Recording::title(std::string title) { state_->title = std::move(title); }
+void Recording::scenario(std::string text) { state_->scenario = std::move(text); }
+void Recording::planned(std::int64_t last_step) { state_->planned = last_step; }
+void Recording::check() { state_->check(); }
+void Recording::resume() { state_->resume(); }
+void Recording::finish() { state_->finish(); }
+void Recording::give_up() { state_->give_up(); }
+Simulation& Recording::simulation() const { return state_->simulation; }
+Base const& Recording::base() const { return state_->base; }
+std::string const& Recording::folder() const { return state_->folder; }
+std::int64_t Recording::checkpoint_step() const { return state_->checkpoint_step; }
+double Recording::seconds() const { return state_->seconds; }
+
+std::vector<std::string> Recording::files() const {
+  std::vector<std::string> files;
+  if (!state_->scenario.empty()) files.emplace_back("scenario.toml");
+  if (state_->every_diagnoses > 0) files.emplace_back("diagnoses.csv");
+  if (state_->every_trajectory > 0) files.emplace_back("trajectory.h5");
+  files.emplace_back("checkpoint.h5");
+  for (auto const& picture : state_->pictures) files.push_back(picture.file);
+  return files;
+}
+
+namespace {
+
+std::string large(double number) {
+  if (number >= 1e9) return fmt::format("{:.3g} billion", number / 1e9);
+  if (number >= 1e6) return fmt::format("{:.3g} million", number / 1e6);
+  return fmt::format("{:.6g}", number);
+}
+
+void print_summary(Recording const& recording, RunReport const& report, Conserved const& start, double recorded) {
+  Simulation const& simulation = recording.simulation();
+  auto const unit = recording.base().unit_name(dimensions::time);
+  fmt::print("\n{} particles, {} steps to step {}, time {:.6g}{}\n\n", report.particles, report.steps,
+             simulation.step(), simulation.time(), unit.empty() ? "" : " " + unit);
+  if (report.steps > 0) {
+    for (auto const& line : conserved_table(start, conserved(simulation), recording.base())) fmt::print("{}\n", line);
+    double const work = std::max(report.seconds - recorded, 1e-9);
+    double const particle_steps = static_cast<double>(report.particles) * static_cast<double>(report.steps);
+    fmt::print("\n  speed    {} particle-steps/s, {:.3g} ns for a particle and step, {:.3g} s in all",
+               large(particle_steps / work), work / std::max(particle_steps, 1.0) * 1e9, report.seconds);
+    if (recorded > 0) fmt::print(" ({:.2g} s of it measuring and writing)", recorded);
+    fmt::print("\n");
+  }
+  for (auto const* scheme : simulation.schemes())
+    if (auto const line = scheme->report(); !line.empty()) fmt::print("  scheme   {}\n", line);
+  fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressOptions const& options) {
+  Simulation& simulation = recording.simulation();
+  Interrupt const interrupt(simulation);
+  simulation.check();
+  Conserved const start = conserved(simulation);
+  double const before = recording.seconds();
+  RunReport report;
+  try {
+    report = run_loop(simulation, steps, options, interrupt);
+  } catch (PhysicsFailure const& failure) {
+    recording.give_up();
+    if (recording.checkpoint_step() < 0) throw;
+    throw PhysicsFailure(fmt::format("{}\nlast good checkpoint: {}/checkpoint.h5 (step {})", failure.what(),
+                                     recording.folder(), recording.checkpoint_step()));
+  }
+  double const recorded = recording.seconds() - before;
+  recording.finish();
+  if (!options.quiet) print_summary(recording, report, start, recorded);
+  if (report.interrupted)
+    fmt::print(stderr, "stopped by a signal after step {}; its checkpoint is written: {}/checkpoint.h5\n",
+               simulation.step(), recording.folder());
+  return report;
+}
+
+int report(std::exception const& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  if (dynamic_cast<Error const*>(&error)) return 2;
+  if (dynamic_cast<PhysicsFailure const*>(&error)) return 3;
+  return 1;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,118 @@
+// Recording: the files of a run. What `bzm run` leaves in a folder, for C++ programs in a few lines:
+//
+//   Recording recording(simulation, base, "results/copper");
+//   recording.diagnoses(20, {"energies", "temperature"});
+//   recording.trajectory(100);
+//   recording.picture({.colour = "speed"});
+//   run_with_progress(recording, 2000);
+#pragma once
+
+#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/simulation/picture.hpp>
+#include <boltzmann/simulation/progress.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// A file could not be written while the simulation ran (disk full, folder gone). The line says which, and what is
+/// intact.
+struct RecordingFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes diagnoses.csv, trajectory.h5, checkpoint.h5 and pictures into one folder while the simulation runs. Say what
+/// is to be recorded, then run; nothing is written before the run starts. A simulation has one recording, which it must
+/// not outlive.
+class Recording {
+ public:
+  /// Error when the run starts, if the folder can't be made or written, or already holds a run and `overwrite` is
+  /// false.
+  Recording(Simulation& simulation, Base const& base, std::string folder, bool overwrite = false);
+  /// Finishes if that hasn't been done; failures go to standard error.
+  ~Recording();
+  Recording(Recording const&) = delete;
+  Recording& operator=(Recording const&) = delete;
+
+  /// A row of diagnoses.csv every so many steps: step, time and the columns of all these diagnoses. May be called
+  /// again, with the same interval. Diagnoses are given by value or as std::unique_ptr.
+  /// Kinds are words of the catalogue (diagnosis_kinds()), measured on the whole system.
+  void diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds);
+  template <class... D>
+  void diagnoses(std::uint64_t every, D... diagnosis) {
+    (add(every, own(std::move(diagnosis))), ...);
+  }
+  void diagnoses(std::uint64_t every, std::vector<std::unique_ptr<Diagnosis>> list) {
+    for (auto& diagnosis : list) add(every, std::move(diagnosis));
+  }
+  /// A frame of trajectory.h5 every so many steps.
+  void trajectory(std::uint64_t every);
+  /// checkpoint.h5 is written at the start and at the end, and every so many steps in between.
+  void checkpoint(std::uint64_t every);
+  /// A picture of the last state, drawn when the run ends.
+  void picture(Picture picture);
+  /// What stands above pictures; the folder's name unless told.
+  void title(std::string title);
+  /// Text that is stored as scenario.toml and in the checkpoint: the scenario from which the simulation was built.
+  void scenario(std::string text);
+  /// Stored in the checkpoint: the step at which the run is meant to end.
+  void planned(std::int64_t last_step);
+
+  /// Throws Error if the folder can't be used or the pictures can't be drawn. Writes nothing. The start of the run
+  /// calls it.
+  void check();
+
+  /// Continues the run in the folder: takes rows, state and diagnoses from its checkpoint, and cuts off what was
+  /// written after it. Then run on: the files become what they would be without a stop, to the last bit. Error if there
+  /// is no checkpoint or it belongs to another simulation.
+  void resume();
+
+  /// Writes the last checkpoint and the pictures, and closes the files.
+  void finish();
+  /// After a PhysicsFailure: puts the last recorded state back, draws it, closes the files; the checkpoint stays what
+  /// it was.
+  void give_up();
+
+  Simulation& simulation() const;
+  Base const& base() const;
+  std::string const& folder() const;
+  /// The step of checkpoint.h5; -1 before there is one.
+  std::int64_t checkpoint_step() const;
+  /// Seconds spent in measuring and writing so far.
+  double seconds() const;
+  /// The files written, as they are listed at the end: "diagnoses.csv", ...
+  std::vector<std::string> files() const;
+
+ private:
+  template <class D>
+  static std::unique_ptr<Diagnosis> own(D diagnosis) {
+    if constexpr (std::convertible_to<D, std::unique_ptr<Diagnosis>>)
+      return diagnosis;
+    else
+      return std::make_unique<D>(std::move(diagnosis));
+  }
+  void add(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis);
+
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+/// Runs and records with a progress line, and prints a table: what was conserved, how fast it was, where the results
+/// are. Ctrl-C finishes the step and writes the checkpoint. A PhysicsFailure names the last good checkpoint; the last
+/// recorded state is drawn. RecordingFailure if a file can't be written.
+RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressOptions const& options = {});
+
+/// Prints the one line of an error to standard error and gives the exit status for it: 2 for the user's mistakes
+/// (Error), 3 where the physics failed, 1 for anything else. `int main() try { ... } catch (std::exception const& e) {
+/// return boltzmann::report(e); }`
+int report(std::exception const& error);
+
+}  // namespace boltzmann

@@ -1,0 +1,31 @@
+// An isothermal atmosphere (section 5.1.3 of the 1990 thesis): loaded as exp(-m g h / k T), it stays so.
+#include <boltzmann/boltzmann.hpp>
+
+using namespace boltzmann;
+using namespace boltzmann::units;
+
+int main(int argc, char** argv) try {
+  Base const base(kilometer, amu, second);
+  double const k = base(constants::boltzmann), g = base(constants::standard_gravity), temperature = 288;
+
+  Box const box(Vector{0.0, 0.0}, Vector{20.0, 60.0}, {Boundary::periodic, Boundary::bounded});
+  Ensemble<Newton<2>> air("air", 4000);
+  set_field(air, "mass", base(28.97 * amu));
+  gravity_load(air, box, temperature, g, k, 1);
+  maxwellian_load(air, temperature, k, 1);
+  air.appearance.diameter = 0.2;
+
+  PairScheme sky(box);
+  sky.external(air, UniformGravity<2>{{0.0, -g}});
+
+  Simulation simulation(sky, 0.5);
+  simulation.integrate(air, Method::leap_frog);
+
+  Recording recording(simulation, base, argc > 1 ? argv[1] : "results/atmosphere-cpp", true);
+  recording.diagnoses(20, {"energies", "temperature", "extremes"});
+  recording.trajectory(100);
+  recording.picture({.colour = "speed"});
+  run_with_progress(recording, 400);
+} catch (std::exception const& error) {
+  return report(error);
+}

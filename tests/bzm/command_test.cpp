@@ -1,0 +1,379 @@
+// The command as a user meets it: exit statuses, messages, and what is left in the folder.
+#include "tests/bzm/command.hpp"
+
+#include <sys/mount.h>
+#include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/simulation/version.hpp>
+
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+using namespace boltzmann::test;
+
+bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+
+struct GasFolder : Folder {
+  GasFolder() { EXPECT_EQ(bzm({"new", "gas"}, string()).status, 0); }
+  Outcome run(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"run", "gas.toml"});
+    return bzm(more, string());
+  }
+};
+
+void expect_one_line(Outcome const& outcome, int status, std::vector<std::string> const& parts) {
+  EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
+  EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+  for (auto const& part : parts) EXPECT_TRUE(has(outcome.err, part)) << outcome.err << "\nlacks: " << part;
+}
+
+TEST(Bzm, VersionIsThatOfTheProject) {
+  Folder folder;
+  auto const outcome = bzm({"--version"}, folder.string());
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, std::string("bzm ") + program_version + "\n");
+  EXPECT_TRUE(has(text_of(fs::path(BOLTZMANN_SOURCE) / "CMakeLists.txt"), std::string("VERSION ") + program_version));
+}
+
+TEST(Bzm, EveryCommandHasHelp) {
+  Folder folder;
+  auto const all = bzm({"--help"}, folder.string());
+  EXPECT_EQ(all.status, 0);
+  EXPECT_TRUE(has(all.out, "Exit status"));
+  for (auto const* command :
+       {"run", "resume", "render", "list", "show", "check", "new", "build", "doctor", "completion"}) {
+    EXPECT_TRUE(has(all.out, std::string("  ") + command)) << command;
+    auto const help = bzm({command, "--help"}, folder.string());
+    EXPECT_EQ(help.status, 0) << command;
+    EXPECT_TRUE(has(help.out, "--help")) << command;
+    EXPECT_TRUE(help.err.empty()) << help.err;
+  }
+}
+
+TEST(Bzm, UnknownWordsGetTheNearestKnownOne) {
+  Folder folder;
+  expect_one_line(bzm({"rnu"}, folder.string()), 2, {"unknown command 'rnu'", "did you mean 'run'?"});
+  expect_one_line(bzm({"chek", "x"}, folder.string()), 2, {"did you mean 'check'?"});
+  expect_one_line(bzm({"run", "x.toml", "--stpes", "3"}, folder.string()), 2,
+                  {"unknown option '--stpes'", "did you mean '--steps'?"});
+  expect_one_line(bzm({"run"}, folder.string()), 2, {"scenario"});
+  expect_one_line(bzm({"run", "x.toml", "--steps", "many"}, folder.string()), 2, {"--steps"});
+  expect_one_line(bzm({"run", "x.toml", "--steps", "-3"}, folder.string()), 2, {"--steps"});
+  expect_one_line(bzm({"run", "x.toml", "--threads", "0"}, folder.string()), 2, {"--threads"});
+  expect_one_line(bzm({"show", "leapfrog"}, folder.string()), 2, {"did you mean 'leap-frog'?"});
+  expect_one_line(bzm({"list", "law"}, folder.string()), 2, {"did you mean 'laws'?"});
+  write_text(folder / "mine.toml", "");
+  expect_one_line(bzm({"mine.toml"}, folder.string()), 2, {"did you mean 'bzm run mine.toml'?"});
+}
+
+TEST(Run, MissingAndWrongScenariosLeaveNothing) {
+  GasFolder folder;
+  expect_one_line(bzm({"run", "nowhere.toml"}, folder.string()), 2, {"nowhere.toml"});
+  std::string const good = text_of(folder / "gas.toml");
+  std::string bad = good;
+  bad.replace(bad.find("mass = \"39.948 amu\""), 19, "mass = \"39.948 angstrom\"");
+  bad.replace(bad.find("law = \"lennard-jones\""), 21, "law = \"lenard-jones\"");
+  write_text(folder / "bad.toml", bad);
+  for (auto const* command : {"run", "check"}) {
+    auto const outcome = bzm({command, "bad.toml"}, folder.string());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(lines_in(outcome.err), 2U) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "bad.toml:") && has(outcome.err, "did you mean 'lennard-jones'?")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "a length, a mass is needed")) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "results"));
+}
+
+TEST(Run, LeavesItsFilesAndATable) {
+  GasFolder folder;
+  auto const outcome = folder.run({"--steps", "100", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (auto const* word : {"energy", "momentum", "particle-steps/s", "lists built", "out: scenario.toml"})
+    EXPECT_TRUE(has(outcome.out, word)) << outcome.out;
+  EXPECT_TRUE(has(outcome.err, "100 %")) << outcome.err;
+  EXPECT_LE(lines_in(outcome.err), 10U) << "a line for every 10 % where there is no terminal";
+  EXPECT_FALSE(has(outcome.err + outcome.out, "\033")) << "no control characters where there is no terminal";
+  for (auto const* file :
+       {"scenario.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5", "picture.png", "energies.png"})
+    EXPECT_GT(fs::file_size(folder / (std::string("out/") + file)), 0U) << file;
+
+  auto const table = read_csv((folder / "out/diagnoses.csv").string());
+  EXPECT_EQ(table.header[0], "step");
+  EXPECT_EQ(table.header[1], "time (ps)");
+  auto const& steps = table.column("step");
+  ASSERT_EQ(steps.size(), 6U);
+  EXPECT_EQ(steps.back(), 100);
+  EXPECT_NEAR(table.column("time (ps)").back(), 1.0, 1e-12);
+  // 256 atoms in two dimensions at the temperature that the scenario asks for, within its statistical error of 6 %.
+  EXPECT_NEAR(table.column("temperature (K)").front(), 120, 4 * 120 / std::sqrt(256.0));
+  // A cut-off Lennard-Jones gas conserves its energy.
+  auto const& energy = table.column("total energy (amu angstrom^2/ps^2)");
+  auto const& kinetic = table.column("kinetic energy (amu angstrom^2/ps^2)");
+  EXPECT_NEAR(energy.back(), energy.front(), 1e-3 * kinetic.front());
+
+  TrajectoryReader const reader((folder / "out/trajectory.h5").string());
+  EXPECT_EQ(reader.steps(), (std::vector<std::int64_t>{0, 50, 100}));
+  // What is stored is a scenario that gives the same run.
+  ASSERT_EQ(bzm({"run", "out/scenario.toml", "--out", "again", "--quiet"}, folder.string()).status, 0);
+  EXPECT_EQ(text_of(folder / "out/diagnoses.csv"), text_of(folder / "again/diagnoses.csv"));
+}
+
+TEST(Run, OverridesChangeTheScenario) {
+  GasFolder folder;
+  ASSERT_EQ(folder
+                .run({"--set", "run.steps=40", "--set", "run.step=5 fs", "--set", "output.diagnoses=10", "--seed", "7",
+                      "--out", "a", "--quiet"})
+                .status,
+            0);
+  auto const a = read_csv((folder / "a/diagnoses.csv").string());
+  EXPECT_EQ(a.column("step"), (std::vector<double>{0, 10, 20, 30, 40}));
+  EXPECT_NEAR(a.column("time (ps)").back(), 0.2, 1e-12);
+  ASSERT_EQ(
+      folder.run({"--set", "output.diagnoses=10", "--steps", "40", "--seed", "8", "--out", "b", "--quiet"}).status, 0);
+  auto const b = read_csv((folder / "b/diagnoses.csv").string());
+  EXPECT_NE(a.column("temperature (K)").front(), b.column("temperature (K)").front()) << "another seed";
+  expect_one_line(folder.run({"--set", "run.stpe=1", "--out", "c"}), 2, {"stpe", "did you mean 'step'?"});
+  EXPECT_FALSE(fs::exists(folder / "c"));
+}
+
+TEST(Run, QuietSaysNothing) {
+  GasFolder folder;
+  auto const outcome = folder.run({"--steps", "10", "--out", "out", "--quiet"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST(Run, ZeroStepsLeaveTheStart) {
+  GasFolder folder;
+  auto const outcome = folder.run({"--steps", "0", "--out", "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_csv((folder / "out/diagnoses.csv").string()).column("step"), (std::vector<double>{0}));
+}
+
+TEST(Run, AFolderWithARunIsKept) {
+  GasFolder folder;
+  ASSERT_EQ(folder.run({"--steps", "10", "--out", "out", "--quiet"}).status, 0);
+  auto const before = text_of(folder / "out/checkpoint.h5");
+  expect_one_line(folder.run({"--steps", "20", "--out", "out"}), 2, {"already holds a run", "--force"});
+  EXPECT_EQ(text_of(folder / "out/checkpoint.h5"), before);
+  EXPECT_EQ(folder.run({"--steps", "20", "--out", "out", "--force", "--quiet"}).status, 0);
+  EXPECT_NE(text_of(folder / "out/checkpoint.h5"), before);
+}
+
+TEST(Run, FoldersThatCannotBeWritten) {
+  GasFolder folder;
+  expect_one_line(folder.run({"--out", "gas.toml/out", "--quiet"}), 2, {"gas.toml", "is no folder"});
+  expect_one_line(folder.run({"--out", "gas.toml", "--quiet"}), 2, {"'gas.toml', which is no folder"});
+  expect_one_line(folder.run({"--out", "/proc/bzm", "--quiet"}), 2, {"/proc/bzm"});
+}
+
+// A file system of its own that is 1 MB large, where that is allowed.
+class SmallDisk {
+ public:
+  explicit SmallDisk(fs::path path, std::string const& size) : path_(std::move(path)) {
+    fs::create_directory(path_);
+    mounted_ = mount("tmpfs", path_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) umount(path_.c_str());
+  }
+  SmallDisk(SmallDisk const&) = delete;
+  SmallDisk& operator=(SmallDisk const&) = delete;
+  bool mounted() const { return mounted_; }
+
+ private:
+  fs::path path_;
+  bool mounted_;
+};
+
+TEST(Run, ADiskThatIsFullLaterLeavesAGoodCheckpoint) {
+  GasFolder folder;
+  SmallDisk const disk(folder / "disk", "1m");
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system is not allowed here";
+  auto const outcome = folder.run({"--steps", "100000", "--out", "disk/out", "--quiet", "--set", "output.trajectory=10",
+                                   "--set", "output.checkpoint=20"});
+  expect_one_line(outcome, 1,
+                  {"No space left on device", "the last checkpoint is intact: disk/out/checkpoint.h5 (step "});
+  fs::remove(folder / "disk/out/trajectory.h5");
+  fs::copy(folder / "disk/out", folder / "moved");
+  auto const at = outcome.err.find("(step ");
+  auto const resumed = bzm({"check", "moved/scenario.toml"}, folder.string());
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_GT(std::stol(outcome.err.substr(at + 6)), 0);
+}
+
+TEST(Run, ADiskThatIsFullAtTheStartLeavesNothing) {
+  GasFolder folder;
+  SmallDisk const disk(folder / "disk", "16k");
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system is not allowed here";
+  expect_one_line(folder.run({"--out", "disk/out", "--quiet"}), 2, {"No space left on device"});
+  EXPECT_FALSE(fs::exists(folder / "disk/out"));
+}
+
+TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {
+  GasFolder folder;
+  auto const outcome = folder.run({"--set", "run.step=10 ps", "--out", "out", "--quiet"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(lines_in(outcome.err), 2U) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "step 1: particle ")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "of 'atoms' moved")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "last good checkpoint: out/checkpoint.h5 (step 0)")) << outcome.err;
+  EXPECT_TRUE(fs::exists(folder / "out/picture.png")) << "the last recorded state is drawn";
+  EXPECT_EQ(read_csv((folder / "out/diagnoses.csv").string()).column("step"), (std::vector<double>{0}));
+  // The failed run goes on from its last good checkpoint, and fails again at the same step.
+  auto const again = bzm({"resume", "out", "--quiet"}, folder.string());
+  EXPECT_EQ(again.status, 3);
+  EXPECT_TRUE(has(again.err, "step 1: particle ")) << again.err;
+}
+
+TEST(Physics, AFailureInTheMiddleKeepsWhatWasGood) {
+  GasFolder folder;
+  // Two atoms driven at each other so fast that the step is too large when they meet.
+  std::string text = text_of(folder / "gas.toml");
+  auto const from = text.find("load = "), to = text.find("remove_drift");
+  text.replace(from, to - from,
+               "load = { kind = \"positions\", positions = [[20, 40], [60, 40]] }\n"
+               "mass = \"39.948 amu\"\nvelocity = [[100, 0], [-100, 0]]\n#");
+  write_text(folder / "gas.toml", text);
+  auto const outcome =
+      folder.run({"--out", "out", "--quiet", "--set", "output.checkpoint=5", "--set", "output.diagnoses=1"});
+  EXPECT_EQ(outcome.status, 3) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "of 'atoms'")) << outcome.err;
+  auto const steps = read_csv((folder / "out/diagnoses.csv").string()).column("step");
+  long const failed = std::stol(outcome.err.substr(outcome.err.find("step ") + 5));
+  EXPECT_GT(failed, 10);
+  EXPECT_EQ(steps.back(), failed - 1) << "every step before the failure is recorded";
+  EXPECT_TRUE(has(outcome.err, "(step " + std::to_string((failed - 1) / 5 * 5) + ")")) << outcome.err;
+}
+
+TEST(Physics, ANumberThatIsNoneIsRefusedAtTheStart) {
+  GasFolder folder;
+  auto const nan = folder.run({"--set", "ensembles.atoms.mass=nan", "--out", "out", "--quiet"});
+  EXPECT_EQ(nan.status, 2);
+  EXPECT_TRUE(has(nan.err, "mass")) << nan.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(Check, SaysOkAndRunsNothing) {
+  GasFolder folder;
+  auto const outcome = bzm({"check", "gas.toml"}, folder.string());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.substr(0, 17), "ok: 256 particles");
+  EXPECT_FALSE(fs::exists(folder / "results"));
+}
+
+TEST(Check, EveryShippedScenarioIsRight) {
+  Folder folder;
+  std::istringstream names(bzm({"list", "--names", "scenarios"}, folder.string()).out);
+  int count = 0;
+  for (std::string name; names >> name; ++count) {
+    auto const outcome = bzm({"check", name}, folder.string());
+    EXPECT_EQ(outcome.status, 0) << name << ": " << outcome.err;
+    auto const shown = bzm({"show", name}, folder.string());
+    EXPECT_EQ(shown.status, 0) << name << ": " << shown.err;
+    EXPECT_TRUE(has(shown.out, "scenario " + name + ": ")) << shown.out;
+  }
+  EXPECT_GE(count, 5);
+}
+
+TEST(New, KeepsWhatIsThere) {
+  GasFolder folder;
+  write_text(folder / "gas.toml", "mine");
+  expect_one_line(bzm({"new", "gas"}, folder.string()), 2, {"gas.toml", "is there already"});
+  EXPECT_EQ(text_of(folder / "gas.toml"), "mine");
+  EXPECT_EQ(bzm({"new", "other.toml"}, folder.string()).status, 0);
+  EXPECT_TRUE(has(text_of(folder / "other.toml"), "bzm run other.toml"));
+  expect_one_line(bzm({"new", "no/such/folder/x"}, folder.string()), 2, {"no/such/folder/x.toml"});
+}
+
+TEST(List, ShowsEveryKindAndShowExplainsEveryName) {
+  Folder folder;
+  auto const all = bzm({"list"}, folder.string()).out;
+  for (auto const* word : {"scenarios", "Newton", "lennard-jones", "leap-frog", "energies"})
+    EXPECT_TRUE(has(all, word)) << word;
+  std::istringstream names(bzm({"list", "--names"}, folder.string()).out +
+                           bzm({"list", "--names", "units"}, folder.string()).out);
+  int count = 0;
+  for (std::string name; names >> name; ++count) {
+    auto const outcome = bzm({"show", name}, folder.string());
+    EXPECT_EQ(outcome.status, 0) << name << ": " << outcome.err;
+    EXPECT_TRUE(has(outcome.out, name)) << outcome.out;
+  }
+  EXPECT_GT(count, 40);
+}
+
+TEST(Show, GivesTheBytesOfAParticle) {
+  Folder folder;
+  auto const newton = bzm({"show", "Newton"}, folder.string()).out;
+  // x y z m vx vy vz padded to 64 bytes, and a force of 24.
+  EXPECT_TRUE(has(newton, "in 3D       88 bytes")) << newton;
+  EXPECT_TRUE(has(newton, "velocity     3 numbers  velocity")) << newton;
+  auto const unit = bzm({"show", "eV"}, folder.string()).out;
+  EXPECT_TRUE(has(unit, "1.602176634e-19")) << unit;
+}
+
+TEST(Doctor, ComputesTheKnownEnergy) {
+  Folder folder;
+  auto const outcome = bzm({"doctor"}, folder.string());
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  for (auto const* word :
+       {"HDF5            1.", "FFTW            fftw-3", "Cairo           1.", "MB/s", "-6.7733680", "all is well"})
+    EXPECT_TRUE(has(outcome.out, word)) << outcome.out;
+  EXPECT_FALSE(has(outcome.out, "\033"));
+}
+
+TEST(Completion, IsABashScriptThatKnowsTheCommands) {
+  Folder folder;
+  auto const outcome = bzm({"completion", "bash"}, folder.string());
+  ASSERT_EQ(outcome.status, 0);
+  write_text(folder / "complete.sh", outcome.out +
+                                         "COMP_WORDS=(bzm re); COMP_CWORD=1; _bzm; echo ${COMPREPLY[@]}\n"
+                                         "COMP_WORDS=(bzm run --s); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n");
+  auto const bash = Process({"/bin/bash", "complete.sh"}, folder.string()).wait();
+  EXPECT_EQ(bash.status, 0);
+  EXPECT_EQ(bash.out, "resume render\n--set --steps --seed\n") << bash.err;
+  expect_one_line(bzm({"completion", "fish"}, folder.string()), 2, {"fish"});
+}
+
+TEST(Render, DrawsAnyFrame) {
+  GasFolder folder;
+  ASSERT_EQ(folder.run({"--steps", "100", "--out", "out", "--quiet"}).status, 0);
+  auto const last = bzm({"render", "out", "-o", "last.png"}, folder.string());
+  EXPECT_EQ(last.status, 0) << last.err;
+  EXPECT_EQ(last.out, "last.png: frame 2 (step 100)\n");
+  // The last frame is the state that the run has drawn at its end.
+  EXPECT_EQ(text_of(folder / "last.png"), text_of(folder / "out/picture.png"));
+  EXPECT_EQ(
+      bzm({"render", "out", "-o", "first.svg", "--frame", "0", "--colour", "kinetic-energy"}, folder.string()).status,
+      0);
+  EXPECT_TRUE(has(text_of(folder / "first.svg"), "<svg"));
+  for (auto const* drawing : {"phase-space", "spectrum", "time-series"})
+    EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--drawing", drawing}, folder.string()).status, 0) << drawing;
+  EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--trace"}, folder.string()).status, 0);
+  auto const frames = bzm({"render", "out", "-o", "frames/"}, folder.string());
+  EXPECT_EQ(frames.status, 0) << frames.err;
+  for (auto const* file : {"frames/000000.png", "frames/000001.png", "frames/000002.png"})
+    EXPECT_TRUE(fs::exists(folder / file));
+
+  expect_one_line(bzm({"render", "out", "-o", "x.png", "--frame", "3"}, folder.string()), 2, {"frame 3", "0 to 2"});
+  expect_one_line(bzm({"render", "out", "-o", "x.png", "--colour", "sped"}, folder.string()), 2,
+                  {"did you mean 'speed'?"});
+  expect_one_line(bzm({"render", "out", "-o", "x.png", "--drawing", "polar"}, folder.string()), 2, {"polar"});
+  expect_one_line(bzm({"render", "out", "-o", "x.jpg"}, folder.string()), 2, {".jpg", ".png"});
+  expect_one_line(bzm({"render", "nowhere", "-o", "x.png"}, folder.string()), 2, {"nowhere"});
+}
+
+TEST(Render, AMovieNeedsFfmpegAndSaysSo) {
+  GasFolder folder;
+  ASSERT_EQ(folder.run({"--steps", "100", "--out", "out", "--quiet"}).status, 0);
+  auto const movie = bzm({"render", "out", "-o", "movie.mp4"}, folder.string());
+  if (movie.status == 0)
+    EXPECT_GT(fs::file_size(folder / "movie.mp4"), 1000U);
+  else
+    expect_one_line(movie, 2, {"ffmpeg", "frames/"});
+}
+
+}  // namespace
+}  // namespace boltzmann

@@ -1,0 +1,190 @@
+// Restarts: a run that was killed and resumed leaves, to the last bit, what a run without a stop leaves.
+#include "tests/bzm/command.hpp"
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/trajectory.hpp>
+
+#include <bit>
+#include <cstring>
+
+namespace boltzmann {
+namespace {
+
+using namespace boltzmann::test;
+
+std::int64_t checkpoint_step(fs::path const& folder) {
+  try {
+    return read_checkpoint((folder / "checkpoint.h5").string()).step;
+  } catch (Error const&) {
+    return -1;  // not yet there
+  }
+}
+
+bool same_bits(std::vector<double> const& a, std::vector<double> const& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+void expect_same_checkpoint(fs::path const& one, fs::path const& other) {
+  auto const a = read_checkpoint((one / "checkpoint.h5").string());
+  auto const b = read_checkpoint((other / "checkpoint.h5").string());
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.time), std::bit_cast<std::uint64_t>(b.time));
+  EXPECT_EQ(a.seed, b.seed);
+  ASSERT_EQ(a.ensembles.size(), b.ensembles.size());
+  for (std::size_t e = 0; e < a.ensembles.size(); ++e) {
+    EXPECT_GT(a.ensembles[e].size, 0U);
+    EXPECT_TRUE(same_bits(a.ensembles[e].rows, b.ensembles[e].rows)) << "rows of " << a.ensembles[e].name;
+  }
+  ASSERT_EQ(a.state.size(), b.state.size());
+  for (auto const& [name, values] : a.state)
+    if (name != "planned") {
+      ASSERT_TRUE(b.state.contains(name));
+      EXPECT_TRUE(same_bits(values, b.state.at(name))) << "state of " << name;
+    }
+}
+
+void expect_same_trajectory(fs::path const& one, fs::path const& other) {
+  TrajectoryReader const a((one / "trajectory.h5").string()), b((other / "trajectory.h5").string());
+  ASSERT_GT(a.frames(), 1U);
+  ASSERT_EQ(a.steps(), b.steps());
+  ASSERT_TRUE(same_bits(a.times(), b.times()));
+  for (auto const& ensemble : a.ensembles())
+    for (auto const& field : ensemble.fields)
+      for (std::size_t frame = 0; frame < a.frames(); ++frame)
+        ASSERT_TRUE(same_bits(a.read(frame, ensemble.name, field.name), b.read(frame, ensemble.name, field.name)))
+            << field.name << " of " << ensemble.name << " in frame " << frame;
+}
+
+/// A folder with a scenario of its own, gas.toml.
+struct GasFolder : Folder {
+  GasFolder() { EXPECT_EQ(bzm({"new", "gas"}, string()).status, 0); }
+};
+
+class KilledAndResumed : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+
+TEST_P(KilledAndResumed, LeavesWhatARunWithoutAStopLeaves) {
+  auto const& [scenario, threads] = GetParam();
+  Folder folder;
+  std::vector<std::string> const plan{"--set",  "output.diagnoses=10",  "--set",     "output.trajectory=20",
+                                      "--set",  "output.checkpoint=50", "--threads", threads,
+                                      "--quiet"};
+  auto const with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), plan.begin(), plan.end());
+    return words;
+  };
+  Process process(bzm_words(with({"run", scenario, "--steps", "1000000000", "--out", "stopped"})), folder.string());
+  ASSERT_TRUE(process.wait_until([&] { return checkpoint_step(folder / "stopped") >= 100; })) << process.wait().err;
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().status, 128 + SIGKILL);
+  std::int64_t const stopped_at = checkpoint_step(folder / "stopped");
+  ASSERT_GE(stopped_at, 100);
+
+  auto const resumed = bzm({"resume", "stopped", "--steps", "70", "--threads", threads, "--quiet"}, folder.string());
+  ASSERT_EQ(resumed.status, 0) << resumed.err;
+  auto const whole =
+      bzm(with({"run", scenario, "--steps", std::to_string(stopped_at + 70), "--out", "whole"}), folder.string());
+  ASSERT_EQ(whole.status, 0) << whole.err;
+
+  expect_same_checkpoint(folder / "whole", folder / "stopped");
+  if (fs::exists(folder / "whole/diagnoses.csv")) {
+    EXPECT_EQ(text_of(folder / "whole/diagnoses.csv"), text_of(folder / "stopped/diagnoses.csv"));
+    EXPECT_EQ(lines_in(text_of(folder / "whole/diagnoses.csv")), 2 + static_cast<std::size_t>(stopped_at + 70) / 10);
+  }
+  expect_same_trajectory(folder / "whole", folder / "stopped");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, KilledAndResumed,
+                         testing::Combine(testing::Values("copper", "rod", "three-body", "cylinder", "atmosphere"),
+                                          testing::Values("1", "2")),
+                         [](auto const& info) {
+                           std::string name = std::get<0>(info.param) + "_" + std::get<1>(info.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(Threads, OneAndTwoGiveTheSameBits) {
+  GasFolder folder;
+  for (auto const* threads : {"1", "2"})
+    ASSERT_EQ(
+        bzm({"run", "gas.toml", "--steps", "40", "--threads", threads, "--out", threads, "--quiet"}, folder.string())
+            .status,
+        0);
+  expect_same_checkpoint(folder / "1", folder / "2");
+}
+
+TEST(Interrupt, FinishesTheStepWritesTheCheckpointAndCanBeResumed) {
+  for (int const signal : {SIGINT, SIGTERM}) {
+    GasFolder folder;
+    Process process(
+        bzm_words({"run", "gas.toml", "--steps", "1000000000", "--out", "out", "--set", "output.checkpoint=1000000"}),
+        folder.string());
+    ASSERT_TRUE(process.wait_until([&] { return lines_in(text_of(folder / "out/diagnoses.csv")) > 3; }));
+    process.signal(signal);
+    auto const outcome = process.wait();
+    EXPECT_EQ(outcome.status, 130);
+    std::int64_t const step = checkpoint_step(folder / "out");
+    EXPECT_GT(step, 0) << "the last step, not the checkpoint from the start";
+    EXPECT_NE(outcome.err.find("stopped by a signal after step " + std::to_string(step)), std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "out/picture.png"));
+    auto const resumed = bzm({"resume", "out", "--steps", "5"}, folder.string());
+    EXPECT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_EQ(checkpoint_step(folder / "out"), step + 5);
+  }
+}
+
+TEST(Resume, GoesToThePlannedStepAndSaysWhenItIsThere) {
+  GasFolder folder;
+  ASSERT_EQ(bzm({"run", "gas.toml", "--steps", "30", "--out", "out", "--quiet"}, folder.string()).status, 0);
+  auto const there = bzm({"resume", "out"}, folder.string());
+  EXPECT_EQ(there.status, 0);
+  EXPECT_NE(there.out.find("already at its last step, 30"), std::string::npos) << there.out;
+  EXPECT_EQ(checkpoint_step(folder / "out"), 30);
+  EXPECT_EQ(bzm({"resume", "out", "--steps", "12", "--quiet"}, folder.string()).status, 0);
+  EXPECT_EQ(checkpoint_step(folder / "out"), 42);
+}
+
+TEST(Resume, RefusesWhatIsNoWholeCheckpointOfOurs) {
+  GasFolder folder;
+  ASSERT_EQ(bzm({"run", "gas.toml", "--steps", "10", "--out", "out", "--quiet"}, folder.string()).status, 0);
+  auto const path = folder / "out/checkpoint.h5";
+  std::string const good = text_of(path);
+  auto const expect_refused = [&](std::string const& bytes) {
+    write_text(path, bytes);
+    auto const outcome = bzm({"resume", "out", "--steps", "5"}, folder.string());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("checkpoint.h5"), std::string::npos) << outcome.err;
+    EXPECT_EQ(text_of(path), bytes) << "a refused checkpoint stays as it is";
+  };
+  expect_refused(good.substr(0, good.size() / 2));
+  expect_refused(good.substr(0, 100));
+  expect_refused("");
+  expect_refused("no checkpoint at all\n");
+  std::string damaged = good;
+  damaged[damaged.size() - 100] ^= 1;
+  expect_refused(damaged);
+  std::string foreign = good;  // the same file, as another version of the format would begin
+  auto const digit = foreign.find_first_of("0123456789");
+  ASSERT_LT(digit, 200U);
+  foreign[digit] = '9';
+  expect_refused(foreign);
+  write_text(path, good);
+  EXPECT_EQ(bzm({"resume", "out", "--steps", "5", "--quiet"}, folder.string()).status, 0);
+}
+
+TEST(Resume, NeedsAFolderWithARun) {
+  Folder folder;
+  auto const missing = bzm({"resume", "nowhere"}, folder.string());
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_NE(missing.err.find("nowhere"), std::string::npos);
+  fs::create_directory(folder / "empty");
+  auto const empty = bzm({"resume", "empty"}, folder.string());
+  EXPECT_EQ(empty.status, 2);
+  EXPECT_NE(empty.err.find("empty/checkpoint.h5"), std::string::npos) << empty.err;
+}
+
+}  // namespace
+}  // namespace boltzmann

@@ -1,0 +1,97 @@
+// The catalogue of laws: every entry is complete, unambiguous and says what the law's own type says.
+#include <gtest/gtest.h>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/laws/catalogue.hpp>
+#include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/laws/morse.hpp>
+#include <boltzmann/laws/rydberg.hpp>
+#include <boltzmann/laws/spring.hpp>
+#include <boltzmann/laws/vortex.hpp>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+using namespace boltzmann;
+
+namespace {
+
+LawParameter const& parameter(std::string_view law, std::string_view name) {
+  for (auto const& p : law_info(law).parameters)
+    if (p.name == name) return p;
+  throw Error("no parameter " + std::string(name));
+}
+
+TEST(LawCatalogue, NamesAreUniqueWordsOfScenarios) {
+  std::set<std::string_view> names;
+  for (auto const& law : law_catalogue()) {
+    EXPECT_TRUE(names.insert(law.name).second) << law.name << " twice";
+    EXPECT_FALSE(law.name.empty());
+    EXPECT_EQ(law.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string_view::npos) << law.name;
+  }
+  EXPECT_EQ(names.size(), 12U);
+}
+
+TEST(LawCatalogue, EveryEntryIsDocumented) {
+  for (auto const& law : law_catalogue()) {
+    EXPECT_GT(law.doc.size(), 10U) << law.name;
+    EXPECT_EQ(law.doc.find('\n'), std::string_view::npos) << law.name;
+    EXPECT_FALSE(law.formula.empty()) << law.name;
+    EXPECT_FALSE(law.target.empty()) << law.name;
+    EXPECT_EQ(law.source.empty(), law.kind == LawKind::external) << law.name;
+    EXPECT_FALSE(law.type.empty()) << law.name;
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(BOLTZMANN_SOURCE) / law.header)) << law.header;
+    EXPECT_LE(1, law.least_dimension) << law.name;
+    EXPECT_LE(law.least_dimension, law.greatest_dimension) << law.name;
+    EXPECT_LE(law.greatest_dimension, 3) << law.name;
+    std::set<std::string_view> names;
+    for (auto const& p : law.parameters) {
+      EXPECT_TRUE(names.insert(p.name).second) << law.name << " " << p.name;
+      EXPECT_GT(p.doc.size(), 5U) << law.name << " " << p.name;
+      EXPECT_NE(law.formula.find(p.name), std::string_view::npos)
+          << law.name << ": " << p.name << " is not in the formula";
+    }
+  }
+}
+
+TEST(LawCatalogue, AgreesWithTheTypes) {
+  EXPECT_EQ(law_info("lennard-jones").symmetry, symmetry_of<LennardJones>());
+  EXPECT_EQ(law_info("morse").symmetry, symmetry_of<Morse>());
+  EXPECT_EQ(law_info("rydberg").symmetry, symmetry_of<Rydberg>());
+  EXPECT_EQ(law_info("spring").symmetry, symmetry_of<Spring>());
+  EXPECT_EQ(law_info("coulomb").symmetry, symmetry_of<LaplaceLaw>());
+  EXPECT_EQ(law_info("gravity").symmetry, symmetry_of<LaplaceLaw>());
+  EXPECT_EQ(law_info("biot-savart").symmetry, symmetry_of<BiotSavart>());
+  for (auto const& law : law_catalogue())
+    EXPECT_EQ(law.velocity_dependent, law.name == "drag" && depends_on_velocity<Drag>()) << law.name;
+}
+
+TEST(LawCatalogue, Dimensions) {
+  // A formula's energy must be an energy: written here by hand from the formulas.
+  using namespace dimensions;
+  EXPECT_EQ(parameter("lennard-jones", "depth").dimension, energy);
+  EXPECT_EQ(parameter("spring", "stiffness").dimension * length * length, energy);
+  EXPECT_EQ(parameter("morse", "a").dimension * length, none);
+  EXPECT_EQ(parameter("rydberg", "a").dimension, none);
+  EXPECT_EQ(parameter("coulomb", "k").dimension * charge * charge / length, energy);
+  EXPECT_EQ(parameter("gravity", "G").dimension * mass * mass / length, energy);
+  EXPECT_EQ(parameter("drag", "friction").dimension * velocity, force);
+  EXPECT_EQ(parameter("uniform-gravity", "acceleration").dimension * mass, force);
+  EXPECT_EQ(parameter("uniform-electric-field", "field").dimension * charge, force);
+  EXPECT_EQ(parameter("uniform-flow", "velocity").dimension, velocity);
+}
+
+TEST(LawCatalogue, UnknownNamesAreAnErrorThatHelps) {
+  EXPECT_EQ(law_info("gravity").type, "gravity");
+  try {
+    law_info("lenard-jones");
+    FAIL();
+  } catch (Error const& error) {
+    EXPECT_NE(std::string(error.what()).find("lennard-jones"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(law_info(""), Error);
+}
+
+}  // namespace

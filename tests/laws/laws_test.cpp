@@ -1,0 +1,671 @@
+// Laws: for each one and every dimension, force against the gradient of the energy, Newton's third law, packs against
+// scalars, limits and parameters; then values worked out by hand.
+#include <gtest/gtest.h>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/pack.hpp>
+#include <boltzmann/laws/catalogue.hpp>
+#include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/laws/morse.hpp>
+#include <boltzmann/laws/rydberg.hpp>
+#include <boltzmann/laws/spring.hpp>
+#include <boltzmann/laws/tether.hpp>
+#include <boltzmann/laws/uniform.hpp>
+#include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/particles/rows.hpp>
+#include <boltzmann/particles/tethered.hpp>
+#include <boltzmann/particles/vortex.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace boltzmann;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+// ---- what is generated for every pair law that has an energy ----
+
+enum class AtZero { singular, regular };
+
+/// One law in one dimension. `near` to `far` are the distances that are tried.
+template <int D, template <int, class> class ParticleClass>
+struct CaseBase {
+  static constexpr int dimension = D;
+  using P = ParticleClass<D, double>;
+  static constexpr double near = 0.8, far = 3;
+  static constexpr double conditioning = 1;  ///< how much the law magnifies the rounding error of a distance
+};
+template <int D>
+struct LennardJonesCase : CaseBase<D, Newton> {
+  static constexpr char const* name = "lennard-jones";
+  static constexpr AtZero at_zero = AtZero::singular;
+  static auto law() { return LennardJones{.depth = 1.7, .r0 = 1.2}; }
+  static auto wrong_laws() {
+    return std::vector<LennardJones>{{-1, 1}, {1, 0}, {1, -1}, {nan_value, 1}, {1, infinity}};
+  }
+};
+template <int D>
+struct MorseCase : CaseBase<D, Newton> {
+  static constexpr char const* name = "morse";
+  static constexpr double conditioning = 6;
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return Morse{.depth = 1.7, .r0 = 1.2, .a = 2.3}; }
+  static auto wrong_laws() {
+    return std::vector<Morse>{{-1, 1, 1}, {1, 0, 1}, {1, 1, 0}, {1, 1, -2}, {1, nan_value, 1}, {1, 1, infinity}};
+  }
+};
+template <int D>
+struct RydbergCase : CaseBase<D, Newton> {
+  static constexpr char const* name = "rydberg";
+  static constexpr double conditioning = 6;
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return Rydberg{.depth = 1.7, .r0 = 1.2, .a = 4.5}; }
+  static auto wrong_laws() {
+    return std::vector<Rydberg>{{-1, 1, 1}, {1, 0, 1}, {1, 1, 0}, {1, 1, -2}, {1, nan_value, 1}, {1, 1, infinity}};
+  }
+};
+template <int D>
+struct SpringCase : CaseBase<D, Newton> {
+  static constexpr char const* name = "spring";
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return Spring{.stiffness = 3.1, .rest_length = 1.4}; }
+  static auto wrong_laws() { return std::vector<Spring>{{-1, 1}, {1, -1}, {nan_value, 1}, {1, infinity}}; }
+};
+template <int D>
+struct SlackSpringCase : SpringCase<D> {
+  static auto law() { return Spring{.stiffness = 3.1}; }
+};
+template <int D>
+struct CoulombCase : CaseBase<D, Coulomb> {
+  static constexpr char const* name = "coulomb";
+  static constexpr AtZero at_zero = D == 1 ? AtZero::regular : AtZero::singular;  // in 1D the field is bounded
+  static auto law() { return coulomb(1.3); }
+  static auto wrong_laws() {
+    return std::vector<LaplaceLaw>{coulomb(nan_value), coulomb(infinity), coulomb(1, -0.1), coulomb(1, infinity)};
+  }
+};
+template <int D>
+struct SoftCoulombCase : CoulombCase<D> {
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return coulomb(1.3, 0.7); }
+};
+template <int D>
+struct GravityCase : CaseBase<D, Kepler> {
+  static constexpr char const* name = "gravity";
+  static constexpr AtZero at_zero = D == 1 ? AtZero::regular : AtZero::singular;
+  static auto law() { return gravity(0.9); }
+  static auto wrong_laws() { return std::vector<LaplaceLaw>{gravity(nan_value), gravity(1, -1)}; }
+};
+template <int D>
+struct SoftGravityCase : GravityCase<D> {
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return gravity(0.9, 0.4); }
+};
+
+template <template <int> class... Case>
+using InEveryDimension = testing::Types<Case<1>..., Case<2>..., Case<3>...>;
+using PairCases = InEveryDimension<LennardJonesCase, MorseCase, RydbergCase, SpringCase, SlackSpringCase, CoulombCase,
+                                   SoftCoulombCase, GravityCase, SoftGravityCase>;
+
+class Randomness {
+ public:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  template <int D>
+  Vector<D> direction() {
+    for (;;) {
+      Vector<D> v;
+      for (int k = 0; k < D; ++k) v[k] = uniform(-1, 1);
+      double const length = magnitude(v);
+      if (length > 0.1 && length < 1) return v / length;
+    }
+  }
+  /// A particle with every field filled, at the origin of nothing in particular.
+  template <class P>
+  P particle() {
+    std::array<double, row_doubles<P>> values;
+    for (double& x : values) x = uniform(0.5, 2);
+    return std::bit_cast<P>(values);
+  }
+
+ private:
+  std::mt19937_64 engine_{99};
+};
+
+/// A pair at a distance between near and far.
+template <class P>
+std::pair<P, P> random_pair(Randomness& random, double near, double far) {
+  P const p = random.particle<P>();
+  P q = random.particle<P>();
+  q.position = p.position + random.direction<P::dimension>() * random.uniform(near, far);
+  return {p, q};
+}
+
+/// -dE/dx by central differences of two step sizes: error of the fourth order.
+template <class Energy, int D>
+Vector<D> minus_gradient(Energy energy, Vector<D> const& x) {
+  double const h = 1e-3;
+  Vector<D> result;
+  for (int k = 0; k < D; ++k) {
+    auto const slope = [&](double step) {
+      Vector<D> forward = x, back = x;
+      forward[k] += step;
+      back[k] -= step;
+      return (energy(forward) - energy(back)) / (2 * step);
+    };
+    result[k] = -(4 * slope(h / 2) - slope(h)) / 3;
+  }
+  return result;
+}
+
+template <class Case>
+class PairLawOf : public testing::Test {};
+TYPED_TEST_SUITE(PairLawOf, PairCases);
+
+TYPED_TEST(PairLawOf, ForceIsMinusTheGradientOfTheEnergy) {
+  using P = typename TypeParam::P;
+  auto const law = TypeParam::law();
+  Randomness random;
+  for (int trial = 0; trial < 200; ++trial) {
+    auto [p, q] = random_pair<P>(random, TypeParam::near, TypeParam::far);
+    auto const force = law(p, q).force;
+    auto const expected = minus_gradient(
+        [&, p = p, q = q](auto const& x) mutable {
+          p.position = x;
+          return law(p, q).energy;
+        },
+        p.position);
+    EXPECT_LT(magnitude(force - expected), 1e-7 * (1 + magnitude(expected)));
+  }
+}
+
+TYPED_TEST(PairLawOf, NewtonsThirdLawHoldsToTheLastBit) {
+  using P = typename TypeParam::P;
+  auto const law = TypeParam::law();
+  static_assert(symmetry_of<decltype(TypeParam::law())>() == Symmetry::antisymmetric);
+  Randomness random;
+  for (int trial = 0; trial < 200; ++trial) {
+    auto const [p, q] = random_pair<P>(random, TypeParam::near, TypeParam::far);
+    auto const on_p = law(p, q), on_q = law(q, p);
+    EXPECT_EQ(on_p.force, -on_q.force);
+    EXPECT_EQ(on_p.energy, on_q.energy);
+    if constexpr (TypeParam::dimension > 1) {  // and the force is central
+      auto const r = q.position - p.position;
+      EXPECT_LT(magnitude(cross(r, on_p.force)), 1e-14 * magnitude(r) * magnitude(on_p.force));
+    }
+  }
+}
+
+template <class P, int W, class Law>
+void expect_packs_are_scalars(Law const& law, double near, double far, double conditioning = 1) {
+  Randomness random;
+  using Real = Pack<double, W>;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Row<P>> rows(W + 1);
+    static_cast<P&>(rows[W]) = random.particle<P>();
+    P const& p = rows[W];
+    for (int lane = 0; lane < W; ++lane) {
+      static_cast<P&>(rows[lane]) = random.particle<P>();
+      rows[lane].position = p.position + random.direction<P::dimension>() * random.uniform(near, far);
+    }
+    auto const* data = reinterpret_cast<double const*>(rows.data());
+    auto const result = law(broadcast<P, Real>(data + W * row_stride<P>),
+                            load_rows<P, W>([&](int lane) { return data + lane * row_stride<P>; }));
+    using Scalar = std::remove_cvref_t<decltype(law(p, p))>;
+    constexpr std::size_t numbers = sizeof(Scalar) / sizeof(double);
+    static_assert(sizeof(result) == numbers * sizeof(Real));
+    auto const columns = std::bit_cast<std::array<Real, numbers>>(result);
+    for (int lane = 0; lane < W; ++lane) {
+      P const& q = rows[lane];
+      auto const expected = std::bit_cast<std::array<double, numbers>>(law(p, q));
+      double size = 1;  // a component may cancel: the error is that of the largest, or of a typical number of the law
+      for (double x : expected) size = std::max(size, std::fabs(x));
+      for (std::size_t k = 0; k < numbers; ++k)
+        EXPECT_NEAR(columns[k][lane], expected[k], 4e-15 * conditioning * size) << k;
+    }
+  }
+}
+
+TYPED_TEST(PairLawOf, PacksAreScalars) {
+  using P = typename TypeParam::P;
+  expect_packs_are_scalars<P, 2>(TypeParam::law(), TypeParam::near, TypeParam::far, TypeParam::conditioning);
+  expect_packs_are_scalars<P, 4>(TypeParam::law(), TypeParam::near, TypeParam::far, TypeParam::conditioning);
+  expect_packs_are_scalars<P, 8>(TypeParam::law(), TypeParam::near, TypeParam::far, TypeParam::conditioning);
+}
+
+TYPED_TEST(PairLawOf, TwoParticlesAtOnePlace) {
+  using P = typename TypeParam::P;
+  Randomness random;
+  P p = random.particle<P>(), q = random.particle<P>();
+  q.position = p.position;
+  auto const result = TypeParam::law()(p, q);
+  Row<P> row_p{p}, row_q{q};
+  auto const packed = TypeParam::law()(broadcast<P, Pack<double, 8>>(&row_p.position[0]),
+                                       broadcast<P, Pack<double, 8>>(&row_q.position[0]));
+  for (int k = 0; k < TypeParam::dimension; ++k) {
+    if (TypeParam::at_zero == AtZero::singular) {
+      EXPECT_FALSE(std::isfinite(result.force[k]));
+      EXPECT_FALSE(std::isfinite(packed.force[k][3]));
+    } else {
+      EXPECT_EQ(result.force[k], 0);
+      EXPECT_EQ(packed.force[k][3], 0);
+    }
+  }
+  EXPECT_EQ(std::isfinite(result.energy), TypeParam::at_zero == AtZero::regular);
+}
+
+TYPED_TEST(PairLawOf, ChecksItsParameters) {
+  EXPECT_NO_THROW(TypeParam::law().check());
+  for (auto const& wrong : TypeParam::wrong_laws()) EXPECT_THROW(wrong.check(), Error);
+  EXPECT_GT(length_scale_of(TypeParam::law()), 0);
+}
+
+template <class Types>
+struct NamesOf;
+template <class... Case>
+struct NamesOf<testing::Types<Case...>> {
+  static std::set<std::string> names() { return {Case::name...}; }
+};
+
+TEST(Laws, EveryPairLawOfTheCatalogueIsTestedHere) {
+  auto tested = NamesOf<PairCases>::names();
+  tested.insert("biot-savart");
+  std::set<std::string> shipped;
+  for (auto const& law : law_catalogue())
+    if (law.kind == LawKind::pair) shipped.insert(std::string(law.name));
+  EXPECT_EQ(tested, shipped);
+}
+
+TEST(Laws, ParameterErrorsAreOneReadableLine) {
+  try {
+    Morse{.depth = 1, .r0 = -1, .a = 1}.check();
+    FAIL();
+  } catch (Error const& error) {
+    EXPECT_STREQ(error.what(), "morse: r0 = -1 must be positive");
+  }
+}
+
+// ---- values ----
+
+/// Two particles at a distance along the first axis, p left of q.
+template <class P>
+std::pair<P, P> at_distance(double r) {
+  P p{}, q{};
+  q.position[0] = r;
+  if constexpr (requires { p.mass; }) p.mass = q.mass = 1;
+  return {p, q};
+}
+template <class P, class Law>
+double energy_at(Law const& law, double r) {
+  auto const [p, q] = at_distance<P>(r);
+  return law(p, q).energy;
+}
+/// Towards q: positive if it attracts.
+template <class P, class Law>
+double attraction_at(Law const& law, double r) {
+  auto const [p, q] = at_distance<P>(r);
+  return law(p, q).force[0];
+}
+
+TEST(LennardJones, Values) {
+  LennardJones const law{.depth = 2, .r0 = 1.5};
+  using P = Newton<3>;
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 1.5), -2);
+  EXPECT_NEAR(attraction_at<P>(law, 1.5), 0, 1e-13);
+  EXPECT_NEAR(energy_at<P>(law, 1.5 / std::pow(2, 1.0 / 6)), 0, 1e-13);  // sigma
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 3), 2 * (1.0 / 4096 - 2.0 / 64));
+  EXPECT_DOUBLE_EQ(attraction_at<P>(law, 3), 0.123046875);  // 12 depth/r (2^-6 - 2^-12)
+  EXPECT_LT(attraction_at<P>(law, 1.4), 0);
+  EXPECT_EQ(law.length_scale(), 1.5);
+}
+
+TEST(Morse, Values) {
+  double const ln2 = std::log(2.0);
+  Morse const law{.depth = 2, .r0 = 1, .a = ln2};
+  using P = Newton<2>;
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 1), -2);
+  EXPECT_NEAR(attraction_at<P>(law, 1), 0, 1e-15);
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 2), -1.5);
+  EXPECT_DOUBLE_EQ(attraction_at<P>(law, 2), ln2);
+  EXPECT_NEAR(energy_at<P>(law, 0), 0, 1e-15);  // e = 2 at the centre of this one
+  EXPECT_LT(attraction_at<P>(law, 0.5), 0);
+  double const h = 1e-4;  // stiffness 2 depth a^2
+  EXPECT_NEAR((attraction_at<P>(law, 1 + h) - attraction_at<P>(law, 1 - h)) / (2 * h), 4 * ln2 * ln2, 1e-6);
+}
+
+TEST(Rydberg, Values) {
+  Rydberg const law{.depth = 3, .r0 = 2, .a = 4};
+  using P = Newton<3>;
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 2), -3);
+  EXPECT_DOUBLE_EQ(attraction_at<P>(law, 2), 0);
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 2.5), -6 / std::exp(1));  // x = 1
+  EXPECT_DOUBLE_EQ(attraction_at<P>(law, 2.5), 6 / std::exp(1));
+  EXPECT_NEAR(energy_at<P>(law, 1.5), 0, 1e-14);  // x = -1
+  double const h = 1e-4;                          // stiffness depth (a/r0)^2
+  EXPECT_NEAR((attraction_at<P>(law, 2 + h) - attraction_at<P>(law, 2 - h)) / (2 * h), 12, 1e-5);
+}
+
+TEST(Spring, Values) {
+  Spring const law{.stiffness = 5, .rest_length = 2};
+  EXPECT_DOUBLE_EQ(energy_at<Newton<3>>(law, 3), 2.5);
+  EXPECT_DOUBLE_EQ(attraction_at<Newton<3>>(law, 3), 5);
+  EXPECT_DOUBLE_EQ(attraction_at<Newton<1>>(law, 0.5), -7.5);  // compressed: pushes p to the left, away from q
+  EXPECT_DOUBLE_EQ(attraction_at<Newton<1>>(law, -0.5), 7.5);
+  EXPECT_EQ(law.length_scale(), 2);
+  EXPECT_EQ((Spring{.stiffness = 1}.length_scale()), infinity);
+}
+
+template <int D>
+Interaction<D, double> charges(LaplaceLaw const& law, double r) {
+  auto [p, q] = at_distance<Coulomb<D>>(r);
+  p.charge = 2;
+  q.charge = 3;
+  return law(p, q);
+}
+template <int D>
+Interaction<D, double> masses(LaplaceLaw const& law, double r) {
+  auto [p, q] = at_distance<Kepler<D>>(r);
+  p.mass = 3;
+  q.mass = 5;
+  return law(p, q);
+}
+
+TEST(Laplace, ChargesByTheGeneralRule) {
+  auto const law = coulomb(1);  // cgs: E = 2 pi e, 2 e/r, e/r^2
+  EXPECT_DOUBLE_EQ(charges<1>(law, 2).force[0], -12 * pi);
+  EXPECT_DOUBLE_EQ(charges<1>(law, 2).energy, -24 * pi);
+  EXPECT_DOUBLE_EQ(charges<2>(law, 2).force[0], -6);
+  EXPECT_DOUBLE_EQ(charges<2>(law, 2).energy, -12 * std::log(2.0));
+  EXPECT_DOUBLE_EQ(charges<3>(law, 2).force[0], -1.5);
+  EXPECT_DOUBLE_EQ(charges<3>(law, 2).energy, 3);
+  EXPECT_DOUBLE_EQ(charges<3>(LaplaceLaw{.constant = 1}, 2).force[0], -6 / (4 * pi * 4));
+}
+
+TEST(Laplace, MassesAttractByTheGeneralRule) {
+  auto const law = gravity(1);
+  EXPECT_DOUBLE_EQ(masses<1>(law, 2).force[0], 30 * pi);
+  EXPECT_DOUBLE_EQ(masses<1>(law, 2).energy, 60 * pi);
+  EXPECT_DOUBLE_EQ(masses<2>(law, 2).force[0], 15);
+  EXPECT_DOUBLE_EQ(masses<2>(law, 2).energy, 30 * std::log(2.0));
+  EXPECT_DOUBLE_EQ(masses<3>(law, 2).force[0], 3.75);
+  EXPECT_DOUBLE_EQ(masses<3>(law, 2).energy, -7.5);
+
+  auto [stone, earth] = at_distance<Kepler<3>>(6.371e6);
+  earth.mass = 5.9722e24;
+  EXPECT_NEAR(gravity(6.6743e-11)(stone, earth).force[0], 9.8203, 1e-3);
+}
+
+TEST(Laplace, OneConventionInEveryDimension) {
+  // A row of charges in 3D is one charge in 2D; a row of those is one in 1D.
+  auto const law = coulomb(1);
+  Coulomb<3> p3{};
+  p3.charge = 1;
+  p3.position = {1, 0, 0};
+  double const spacing = 0.05;
+  double field = 0;
+  for (int k = -20000; k <= 20000; ++k) {
+    Coulomb<3> q{};
+    q.charge = spacing;
+    q.position = {0, 0, k * spacing};
+    field += law(p3, q).force[0];
+  }
+  Coulomb<2> p2{}, q2{};
+  p2.charge = q2.charge = 1;
+  p2.position = {1, 0};
+  EXPECT_NEAR(field, law(p2, q2).force[0], 1e-5);
+
+  field = 0;
+  for (int k = -1000000; k <= 1000000; ++k) {
+    Coulomb<2> q{};
+    q.charge = spacing;
+    q.position = {0, k * spacing};
+    field += law(p2, q).force[0];
+  }
+  Coulomb<1> p1{}, q1{};
+  p1.charge = q1.charge = 1;
+  p1.position = {1};
+  EXPECT_NEAR(field, law(p1, q1).force[0], 4 / 5e4 + 1e-6);  // the ends of the row are missing: 2 * 2/L
+}
+
+TEST(Laplace, PlummerSoftening) {
+  auto const law = coulomb(1, 4);  // sqrt(3^2 + 4^2) = 5
+  EXPECT_DOUBLE_EQ(charges<3>(law, 3).force[0], -6 * 3.0 / 125);
+  EXPECT_DOUBLE_EQ(charges<3>(law, 3).energy, 6.0 / 5);
+  EXPECT_DOUBLE_EQ(charges<2>(law, 3).force[0], -12 * 3.0 / 25);
+  EXPECT_DOUBLE_EQ(charges<1>(law, 3).force[0], -12 * pi * 3 / 5);
+  EXPECT_EQ(law.length_scale(), 4);
+  EXPECT_EQ(coulomb(1).length_scale(), infinity);
+}
+
+TEST(Laplace, ClassesMayDiffer) {
+  Coulomb<3> p{};
+  Newton<3> plain{};
+  Tethered<3> tethered{};
+  p.position = {1.1, 0, 0};
+  LennardJones const law{.depth = 1, .r0 = 1};
+  EXPECT_GT(law(p, plain).energy, -1);
+  EXPECT_EQ(law(p, tethered).energy, law(p, plain).energy);
+  static_assert(!std::is_invocable_v<LaplaceLaw, Newton<3>, Newton<3>>, "particles without strength have no field");
+}
+
+// ---- vortices ----
+
+template <class P = Vortex<2>>
+P vortex2(double x, double y, double circulation, double core = 1e-3) {
+  P v{};
+  v.position = {x, y};
+  v.vorticity = {circulation};
+  v.core = core;
+  return v;
+}
+template <class P = Vortex<3>>
+P vortex3(Vector<3> position, Vector<3> vorticity, double core = 0) {
+  P v{};
+  v.position = position;
+  v.vorticity = vorticity;
+  v.core = core;
+  return v;
+}
+
+TEST(BiotSavart, PairsIn2D) {
+  BiotSavart const law;
+  double const gamma = 3, d = 2;
+  auto const p = vortex2(0, 0, gamma), q = vortex2(d, 0, -gamma);
+  // Opposite circulations: both move at Gamma / (2 pi d), in the same direction.
+  EXPECT_EQ(law(p, q), law(q, p));
+  EXPECT_DOUBLE_EQ(law(q, p)[1], gamma / (2 * pi * d));
+  EXPECT_DOUBLE_EQ(law(q, p)[0], 0);
+  // Equal ones circle each other at Gamma / (pi d^2), counterclockwise.
+  auto const r = vortex2(d, 0, gamma);
+  EXPECT_DOUBLE_EQ(law(r, p)[1] / (d / 2), gamma / (pi * d * d));
+  EXPECT_DOUBLE_EQ(law(p, r)[1], -law(r, p)[1]);
+  // A viscous vortex carries no other field into the law.
+  EXPECT_EQ(law(vortex2<Viscous<2>>(d, 0, 1), vortex2<Inviscid<2>>(0, 0, gamma)), law(r, p));
+}
+
+TEST(BiotSavart, CoreIn2D) {
+  BiotSavart const law;
+  double const gamma = 3, core = 0.5;
+  auto const q = vortex2(1, 1, gamma, core);
+  auto const speed = [&](double r) {
+    Euler<2> p{};
+    p.position = {1 + r * 0.6, 1 + r * 0.8};
+    auto const v = law(p, q);
+    EXPECT_NEAR(v[0] * 0.6 + v[1] * 0.8, 0, 1e-15);  // it circles
+    return magnitude(v);
+  };
+  EXPECT_EQ(speed(0), 0);
+  EXPECT_NEAR(speed(0.25), gamma / (2 * pi * core * core) * 0.25, 1e-14);
+  EXPECT_NEAR(speed(0.5 - 1e-12), speed(0.5 + 1e-12), 1e-10);
+  EXPECT_NEAR(speed(0.5), gamma / (2 * pi * 0.5), 1e-14);
+  EXPECT_NEAR(speed(2), gamma / (2 * pi * 2), 1e-14);
+  // Even a point vortex is finite at its centre.
+  Euler<2> p{};
+  p.position = {1, 1};
+  EXPECT_EQ(law(p, vortex2(1, 1, gamma, 0)), (Vector{0.0, 0.0}));
+}
+
+TEST(BiotSavart, StraightVortexIn3DIsOneIn2D) {
+  BiotSavart const law;
+  Euler<3> p{};
+  p.position = {0.6, 0.8, 0};
+  Vector<3> velocity{};
+  double const spacing = 0.02;
+  for (int k = -50000; k <= 50000; ++k) velocity += law(p, vortex3({0, 0, k * spacing}, {0, 0, 3 * spacing}));
+  EXPECT_NEAR(velocity[0], -0.8 * 3 / (2 * pi), 1e-6);  // counterclockwise about +z
+  EXPECT_NEAR(velocity[1], 0.6 * 3 / (2 * pi), 1e-6);
+  EXPECT_EQ(velocity[2], 0);
+}
+
+TEST(BiotSavart, RingIn3D) {
+  // At the centre of a ring of radius R the fluid moves at Gamma / (2 R); with a core, R^2 becomes R^2 + core^2 in the
+  // denominator: Gamma R^2 / (2 (R^2 + core^2)^(3/2)).
+  BiotSavart const law;
+  int const elements = 400;
+  double const radius = 2, gamma = 3;
+  for (double const core : {0.0, 1.5}) {
+    Vector<3> velocity{};
+    for (int k = 0; k < elements; ++k) {
+      double const phi = 2 * pi * k / elements, weight = gamma * 2 * pi * radius / elements;
+      velocity += law(Euler<3>{}, vortex3({radius * std::cos(phi), radius * std::sin(phi), 0},
+                                          {-weight * std::sin(phi), weight * std::cos(phi), 0}, core));
+    }
+    EXPECT_NEAR(velocity[2], gamma * radius * radius / (2 * std::pow(radius * radius + core * core, 1.5)), 1e-12);
+    EXPECT_NEAR(velocity[0], 0, 1e-13);
+  }
+}
+
+TEST(BiotSavart, StretchingIsTheGradientOfTheVelocityAlongTheVorticity) {
+  BiotSavart const law;
+  Randomness random;
+  for (int trial = 0; trial < 100; ++trial) {
+    auto p = random.particle<Inviscid<3>>();
+    auto q = random.particle<Viscous<3>>();
+    q.position = p.position + random.direction<3>() * random.uniform(0.5, 2);
+    auto const result = law(p, q);
+    static_assert(std::is_same_v<decltype(result), VortexInfluence<double> const>);
+    auto const velocity_at = [&](double s) {  // along the vorticity of p
+      Euler<3> e{};
+      e.position = p.position + p.vorticity * s;
+      return law(e, q);
+    };
+    EXPECT_EQ(result.velocity, velocity_at(0));
+    double const h = 1e-4;
+    auto const expected =
+        (8 * (velocity_at(h) - velocity_at(-h)) - (velocity_at(2 * h) - velocity_at(-2 * h))) / (12 * h);
+    EXPECT_LT(magnitude(result.stretching - expected), 1e-9 * (1 + magnitude(expected)));
+  }
+  // At one place: finite, without a core too.
+  auto p = vortex3<Inviscid<3>>({1, 2, 3}, {1, 0, 0}), q = vortex3<Inviscid<3>>({1, 2, 3}, {0, 1, 0});
+  EXPECT_EQ(law(p, q).velocity, (Vector{0.0, 0.0, 0.0}));
+  EXPECT_EQ(law(p, q).stretching, (Vector{0.0, 0.0, 0.0}));
+  q.core = 1;
+  EXPECT_EQ(law(p, q).velocity, (Vector{0.0, 0.0, 0.0}));
+  EXPECT_DOUBLE_EQ(law(p, q).stretching[2], -1 / (4 * pi));  // y x x = -z
+}
+
+TEST(BiotSavart, PacksAreScalars) {
+  BiotSavart const law;
+  expect_packs_are_scalars<Vortex<2>, 2>(law, 0.2, 3);
+  expect_packs_are_scalars<Vortex<2>, 4>(law, 0.2, 3);
+  expect_packs_are_scalars<Vortex<2>, 8>(law, 0.2, 3);
+  expect_packs_are_scalars<Viscous<2>, 8>(law, 0.2, 3);
+  expect_packs_are_scalars<Vortex<3>, 2>(law, 0.2, 3);
+  expect_packs_are_scalars<Inviscid<3>, 4>(law, 0.2, 3);
+  expect_packs_are_scalars<Viscous<3>, 8>(law, 0.2, 3);
+  static_assert(!std::is_invocable_v<BiotSavart, Vortex<2>, Euler<2>>, "a test particle moves nobody");
+  static_assert(std::is_invocable_v<decltype(one_way(BiotSavart{})), Euler<2>, Vortex<2>>);
+  static_assert(symmetry_of<decltype(one_way(BiotSavart{}))>() == Symmetry::one_way);
+}
+
+// ---- from outside ----
+
+template <int D>
+struct Dimension_ : std::integral_constant<int, D> {};
+template <class D>
+class ExternalLawIn : public testing::Test {};
+using Dimensions = testing::Types<Dimension_<1>, Dimension_<2>, Dimension_<3>>;
+TYPED_TEST_SUITE(ExternalLawIn, Dimensions);
+
+template <class P, class Law>
+void expect_minus_gradient(Law const& law) {
+  Randomness random;
+  for (int trial = 0; trial < 50; ++trial) {
+    P p = random.particle<P>();
+    auto const force = law(p).force;
+    auto const expected = minus_gradient(
+        [&, p](auto const& x) mutable {
+          p.position = x;
+          return law(p).energy;
+        },
+        p.position);
+    EXPECT_LT(magnitude(force - expected), 1e-9 * (1 + magnitude(expected)));
+    EXPECT_GT(magnitude(force), 0);
+  }
+}
+
+template <int D>
+Vector<D> some_vector() {
+  Vector<D> v;
+  for (int k = 0; k < D; ++k) v[k] = 1.5 - k;
+  return v;
+}
+
+TYPED_TEST(ExternalLawIn, ForceIsMinusTheGradientOfTheEnergy) {
+  constexpr int D = TypeParam::value;
+  expect_minus_gradient<Newton<D>>(UniformGravity<D>{some_vector<D>()});
+  expect_minus_gradient<Coulomb<D>>(UniformElectricField<D>{some_vector<D>()});
+  expect_minus_gradient<Tethered<D>>(Tether{});
+}
+
+TYPED_TEST(ExternalLawIn, Values) {
+  constexpr int D = TypeParam::value;
+  Tethered<D> p{};
+  p.mass = 2;
+  p.stiffness = 3;
+  p.position[0] = 5;
+  p.anchor[0] = 1;
+  p.velocity[0] = -7;
+  EXPECT_DOUBLE_EQ(Tether{}(p).force[0], -12);
+  EXPECT_DOUBLE_EQ(Tether{}(p).energy, 24);
+  EXPECT_DOUBLE_EQ(Drag{0.5}(p)[0], 3.5);
+  Vector<D> g{};
+  g[0] = -9.8;
+  EXPECT_DOUBLE_EQ(UniformGravity<D>{g}(p).force[0], -19.6);
+  EXPECT_DOUBLE_EQ(UniformGravity<D>{g}(p).energy, 98);  // m g h
+  Coulomb<D> electron{};
+  electron.charge = -1.5;
+  electron.position[0] = 4;
+  EXPECT_DOUBLE_EQ(UniformElectricField<D>{g}(electron).force[0], 14.7);
+  EXPECT_DOUBLE_EQ(UniformElectricField<D>{g}(electron).energy, -58.8);
+
+  auto const flow = UniformFlow<D>{some_vector<D>()};
+  EXPECT_EQ(flow(Euler<D>{}), some_vector<D>());
+  if constexpr (D == 2) {
+    EXPECT_EQ(flow(Viscous<2>{}), some_vector<D>());
+  }
+  if constexpr (D == 3) {
+    EXPECT_EQ(flow(Viscous<3>{}).velocity, some_vector<D>());
+    EXPECT_EQ(flow(Viscous<3>{}).stretching, (Vector{0.0, 0.0, 0.0}));
+  }
+
+  static_assert(depends_on_velocity<Drag>() && !depends_on_velocity<Tether>());
+  g[D - 1] = nan_value;
+  EXPECT_THROW((UniformGravity<D>{g}.check()), Error);
+  EXPECT_THROW((UniformElectricField<D>{g}.check()), Error);
+  EXPECT_THROW((UniformFlow<D>{g}.check()), Error);
+  EXPECT_THROW(Drag{-1}.check(), Error);
+  EXPECT_NO_THROW(Drag{0}.check());
+}
+
+}  // namespace

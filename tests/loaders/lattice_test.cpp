@@ -1,0 +1,181 @@
+// Lattices against geometry: nearest distances, coordination numbers, densities, the order of sites, periodic seams.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/particles/euler.hpp>
+#include <boltzmann/particles/newton.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+namespace boltzmann {
+namespace {
+
+/// How many sites are at the shortest distance of each site in the periodic block, and that distance.
+struct Shell {
+  double distance = INFINITY;
+  std::map<int, int> neighbours;  // number of neighbours -> number of sites
+};
+
+Shell nearest_shell(LatticeBlock const& block, int dimension) {
+  auto const lengths = repeat_lengths(block, dimension);
+  Box const box(dimension, {0, 0, 0}, lengths, {Boundary::periodic, Boundary::periodic, Boundary::periodic});
+  auto const sites = lattice_sites(block, dimension);
+  auto const distance = [&](std::size_t i, std::size_t j) {
+    std::array<double, 3> d{};
+    for (int a = 0; a < dimension; ++a) d[a] = sites[i][a] - sites[j][a];
+    box.nearest_image(d.data());
+    return std::hypot(d[0], d[1], d[2]);
+  };
+  Shell shell;
+  for (std::size_t i = 0; i < sites.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) shell.distance = std::min(shell.distance, distance(i, j));
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    int count = 0;
+    for (std::size_t j = 0; j < sites.size(); ++j)
+      if (i != j && distance(i, j) < shell.distance * (1 + 1e-9)) ++count;
+    ++shell.neighbours[count];
+  }
+  return shell;
+}
+
+TEST(Lattice, EverySiteHasItsCoordinationNumberAtTheSpacing) {
+  struct Case {
+    Lattice kind;
+    int dimension, neighbours;
+  };
+  for (auto const& [kind, dimension, neighbours] :
+       {Case{Lattice::square, 1, 2}, Case{Lattice::square, 2, 4}, Case{Lattice::square, 3, 6},
+        Case{Lattice::triangular, 2, 6}, Case{Lattice::fcc, 3, 12}, Case{Lattice::bcc, 3, 8}}) {
+    LatticeBlock const block{kind, 2.551, {4, 4, 4}, {0.3, -7, 1}};
+    Shell const shell = nearest_shell(block, dimension);
+    EXPECT_NEAR(shell.distance, 2.551, 1e-12) << to_string(kind) << dimension;
+    EXPECT_EQ(shell.neighbours, (std::map<int, int>{{neighbours, site_count(block, dimension)}}))
+        << to_string(kind) << dimension;
+  }
+}
+
+TEST(Lattice, DensitiesAreThoseOfCrystals) {
+  // Numbers of sites per spacing^D: square 1, triangular 2/sqrt(3), fcc sqrt(2), bcc 3 sqrt(3)/4.
+  struct Case {
+    Lattice kind;
+    int dimension;
+    double density;
+  };
+  for (auto const& [kind, dimension, density] :
+       {Case{Lattice::square, 2, 1}, Case{Lattice::triangular, 2, 2 / std::sqrt(3.0)},
+        Case{Lattice::fcc, 3, std::sqrt(2.0)}, Case{Lattice::bcc, 3, 3 * std::sqrt(3.0) / 4}}) {
+    LatticeBlock const block{kind, 1, {3, 5, 2}, {}};
+    auto const lengths = repeat_lengths(block, dimension);
+    double volume = 1;
+    for (int a = 0; a < dimension; ++a) volume *= lengths[a];
+    EXPECT_NEAR(static_cast<double>(site_count(block, dimension)) / volume, density, 1e-12) << to_string(kind);
+    EXPECT_NEAR(spacing_for_density(kind, dimension, density), 1, 1e-12) << to_string(kind);
+    EXPECT_NEAR(spacing_for_density(kind, dimension, density / std::pow(2.0, dimension)), 2, 1e-12);
+  }
+}
+
+TEST(Lattice, SitesRunAlongXFirst) {
+  Ensemble<Newton<2>> atoms("atoms", 6);
+  EXPECT_EQ(block_load(atoms, Lattice::square, 0.5, {3, 2, 1}, {10, 20, 0}), 6U);
+  EXPECT_EQ(atoms[0].position, (Vector<2>{10, 20}));
+  EXPECT_EQ(atoms[1].position, (Vector<2>{10.5, 20}));
+  EXPECT_EQ(atoms[2].position, (Vector<2>{11, 20}));
+  EXPECT_EQ(atoms[3].position, (Vector<2>{10, 20.5}));
+  EXPECT_EQ(atoms[5].mass, 1);
+
+  Ensemble<Newton<2>> metal("metal", 250);  // the copper of the 1990 listing A.3, triangular
+  EXPECT_EQ(block_load(metal, Lattice::triangular, 2.551, {25, 10, 1}), 250U);
+  EXPECT_DOUBLE_EQ(metal[25].position[0], 0.5 * 2.551);
+  EXPECT_DOUBLE_EQ(metal[25].position[1], std::sqrt(3.0) / 2 * 2.551);
+  EXPECT_DOUBLE_EQ(metal[50].position[0], 0);
+
+  Ensemble<Euler<3>> fluid("fluid", 4);  // the four sites of one fcc cube
+  block_load(fluid, Lattice::fcc, std::sqrt(0.5), {1, 1, 1});
+  EXPECT_EQ(fluid[0].position, (Vector<3>{0, 0, 0}));
+  for (int k = 1; k < 4; ++k) EXPECT_NEAR(norm2(fluid[k].position), 0.5, 1e-15);
+}
+
+TEST(Lattice, OneDimensionIgnoresFurtherCounts) {
+  Ensemble<Newton<1>> chain("chain", 3);
+  EXPECT_EQ(block_load(chain, Lattice::square, 2, {3, 7, 9}), 3U);
+  EXPECT_EQ(chain[2].position[0], 4);
+}
+
+TEST(Lattice, CentredLeavesTheSameMarginOnBothSides) {
+  Box const box(Vector<2>{-5, 0}, Vector<2>{15, 12});
+  LatticeBlock const block = centred({Lattice::triangular, 1.5, {6, 4, 1}, {99, 99, 0}}, box);
+  double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+  for (auto const& site : lattice_sites(block, 2))
+    for (int a = 0; a < 2; ++a) low[a] = std::min(low[a], site[a]), high[a] = std::max(high[a], site[a]);
+  EXPECT_NEAR(high[0] - low[0], 5.5 * 1.5, 1e-12);
+  for (int a = 0; a < 2; ++a) EXPECT_NEAR(low[a] - box.low(a), box.high(a) - high[a], 1e-12);
+
+  // A crystal that fills a periodic box, centred, stays inside of it.
+  LatticeBlock const crystal{Lattice::fcc, 1, {3, 3, 3}, {}};
+  Box const full(3, {0, 0, 0}, repeat_lengths(crystal, 3),
+                 {Boundary::periodic, Boundary::periodic, Boundary::periodic});
+  Ensemble<Newton<3>> atoms("atoms", 108);
+  block_load(atoms, centred(crystal, full));
+  for (auto const& p : atoms)
+    for (int a = 0; a < 3; ++a) EXPECT_TRUE(p.position[a] > 0 && p.position[a] < full.high(a));
+}
+
+TEST(Lattice, RefusesWhatDoesNotFit) {
+  Ensemble<Newton<2>> atoms("atoms", 10);
+  try {
+    block_load(atoms, Lattice::square, 1, {3, 4, 1});
+    FAIL() << "a lattice of 12 sites took 10 particles";
+  } catch (Error const& error) {
+    EXPECT_STREQ(error.what(), "ensemble 'atoms' has 10 particles, the square lattice of 3 x 4 cells has 12 sites");
+  }
+  EXPECT_EQ(block_load(atoms, Lattice::square, 1, {3, 4, 1}, {}, true), 12U);
+  EXPECT_EQ(atoms.size(), 12U);
+  EXPECT_EQ(atoms[11].position, (Vector<2>{2, 3}));
+  EXPECT_THROW(block_load(atoms, Lattice::fcc, 1, {3, 1, 1}), Error);
+  EXPECT_THROW(block_load(atoms, Lattice::square, 0, {3, 4, 1}), Error);
+  EXPECT_THROW(block_load(atoms, Lattice::square, NAN, {3, 4, 1}), Error);
+  EXPECT_THROW(block_load(atoms, Lattice::square, 1, {3, 4, 1}, {NAN, 0, 0}), Error);
+  EXPECT_THROW(site_count({Lattice::square, 1, {1U << 31, 1U << 31, 1}, {}}, 2), Error);
+  Ensemble<Newton<1>> chain("chain", 4);
+  EXPECT_THROW(block_load(chain, Lattice::triangular, 1, {4, 1, 1}), Error);
+  Ensemble<Newton<2>> none("none");
+  EXPECT_EQ(block_load(none, Lattice::triangular, 1, {0, 5, 1}), 0U);
+  EXPECT_EQ(lattice_named("bcc"), Lattice::bcc);
+  EXPECT_THROW(lattice_named("hexagonal"), Error);
+}
+
+TEST(Fields, AreSetByName) {
+  Ensemble<Newton<2>> atoms("atoms", 5);
+  set_field(atoms, "mass", 63.5);
+  std::uint32_t const which[] = {1, 4};
+  double const velocity[] = {0.4, -0.45};
+  set_field(atoms, "velocity", velocity, which);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(atoms[i].mass, 63.5);
+    EXPECT_EQ(atoms[i].velocity, i == 1 || i == 4 ? (Vector<2>{0.4, -0.45}) : (Vector<2>{0, 0}));
+  }
+  EXPECT_THROW(set_field(atoms, "velocity", 1.0), Error);
+  EXPECT_THROW(set_field(atoms, "mass", NAN), Error);
+  EXPECT_THROW(set_field(atoms, "charge", 1.0), Error);
+  std::uint32_t const beyond[] = {5};
+  EXPECT_THROW(set_field(atoms, "mass", 1.0, beyond), Error);
+}
+
+TEST(Fields, EdgeParticlesAreTheFrameOfABlock) {
+  // The boundary atoms of A.3: within 0.6 r0 of the bounding box. On a square lattice: the outermost rows and columns.
+  Ensemble<Newton<2>> atoms("atoms", 25 * 10);
+  block_load(atoms, Lattice::square, 2.551, {25, 10, 1}, {3, 4, 0});
+  auto const edge = edge_particles(atoms, 0.6 * 2.551);
+  EXPECT_EQ(edge.size(), 2U * 25 + 2U * 8);
+  for (auto const i : edge) EXPECT_TRUE(i % 25 == 0 || i % 25 == 24 || i < 25 || i >= 225) << i;
+  EXPECT_EQ(edge_particles(atoms, 1.1 * 2.551).size(), 250U - 21U * 6);
+  EXPECT_EQ(edge_particles(atoms, 0).size(), 0U);
+  EXPECT_THROW(edge_particles(atoms, -1), Error);
+  EXPECT_TRUE(edge_particles(Ensemble<Newton<3>>("none"), 1).empty());
+}
+
+}  // namespace
+}  // namespace boltzmann
