@@ -24,7 +24,7 @@ dependencies:
 	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
 
 bench: build
-	$(BUILD)/benchmarks/all
+	cmake --build $(BUILD) --target bench
 
 format:
 	clang-format -i $$(git ls-files '*.cpp' '*.hpp' '*.c')

@@ -216,9 +216,16 @@ double Base::from_si(double si, Dimension d) const { return static_cast<double>(
 double Base::to_si(double number, Dimension d) const { return static_cast<double>(number * unit(d)); }
 
 std::string Base::unit_name(Dimension d) const {
-  if (reduced_ || d == dimensions::none) return "";
+  auto const [unit, factor] = display(d);
+  if (factor == 1) return unit;
+  std::string const number = fmt::format("{:.6g}", factor);
+  return number + (unit.starts_with("1/") ? unit.substr(1) : " " + unit);
+}
+
+Base::Display Base::display(Dimension d) const {
+  if (reduced_ || d == dimensions::none) return {};
   double const size = to_si(1, d);
-  if (auto name = exact_name(size, d)) return *name;
+  if (auto name = exact_name(size, d)) return {*name};
 
   std::vector<Factor> factors;
   bool all_known = true;
@@ -233,21 +240,21 @@ std::string Base::unit_name(Dimension d) const {
   add(dimensions::charge, scale_.charge, d.charge);
   add(dimensions::time, scale_.time, d.time);
   add(dimensions::temperature, scale_.temperature, d.temperature);
-  if (all_known) return composed(factors);
+  if (all_known) return {composed(factors)};
 
-  // A number with a unit. Of all candidates: one whose six digits are the whole number, the shortest first; then the
-  // first with a handy number.
-  std::string best;
+  // A number with a unit. Of all candidates: a handy number before another, then one whose six digits are the whole
+  // number, the shortest first.
+  Display best;
   std::size_t best_cost = 0;
   auto const consider = [&](std::string const& name, double si) {
     double const ratio = size / si;
     std::string const number = fmt::format("{:.6g}", ratio);
     double rounded = 0;
     std::from_chars(number.data(), number.data() + number.size(), rounded);
-    bool const handy = ratio >= 0.1 && ratio < 1000;
-    std::size_t const cost = fits(rounded, ratio) ? number.size() : (handy ? 100 : 200);
-    if (!best.empty() && cost >= best_cost) return;
-    best = number + (name.starts_with("1/") ? name.substr(1) : " " + name);
+    bool const handy = ratio >= 0.01 && ratio < 1000;
+    std::size_t const cost = (handy ? 0 : 200) + (fits(rounded, ratio) ? number.size() : 100);
+    if (!best.unit.empty() && cost >= best_cost) return;
+    best = {name, ratio};
     best_cost = cost;
   };
   for (auto const& unit : printed_units())

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t grain = 1024;
 
 struct Part {
-  std::vector<std::uint32_t> index;
+  std::vector<std::uint32_t> index;  // its size is room, not content
+  std::size_t used = 0;
   std::vector<std::uint32_t> count;
 };
 
@@ -34,16 +35,23 @@ NeighbourList build(Mirror const& target, Mirror const& source, double reach, in
       Part& part = parts[begin / grain];
       for (std::size_t i = begin; i < std::min(begin + grain, last); ++i) {
         double const* x = target.rows() + i * target.stride();
-        std::size_t const before = part.index.size();
+        std::size_t const before = part.used;
+        auto const self = same ? static_cast<std::uint32_t>(i) : sentinel;
         cells.near(x, [&](std::size_t from, std::size_t to) {
+          if (part.index.size() < part.used + (to - from) + NeighbourList::padding)
+            part.index.resize(2 * (part.used + (to - from)) + 1024);
+          // Every candidate is written, and stays if it is near: no branch to mispredict.
+          std::uint32_t* next = part.index.data() + part.used;
           for (std::size_t k = from; k < to; ++k) {
             double square = 0;
             for (int a = 0; a < D; ++a) square += (near[k * D + a] - x[a]) * (near[k * D + a] - x[a]);
-            if (square < reach2 && !(same && items[k] == i)) part.index.push_back(items[k]);
+            *next = items[k];
+            next += static_cast<int>(square < reach2) & static_cast<int>(items[k] != self);
           }
+          part.used = static_cast<std::size_t>(next - part.index.data());
         });
-        while ((part.index.size() - before) % NeighbourList::padding != 0) part.index.push_back(sentinel);
-        part.count.push_back(static_cast<std::uint32_t>(part.index.size() - before));
+        while ((part.used - before) % NeighbourList::padding != 0) part.index[part.used++] = sentinel;
+        part.count.push_back(static_cast<std::uint32_t>(part.used - before));
       }
     }
   });
@@ -52,10 +60,11 @@ NeighbourList build(Mirror const& target, Mirror const& source, double reach, in
   list.start.reserve(target.owned() + 1);
   list.start.push_back(0);
   std::size_t entries = 0;
-  for (auto const& part : parts) entries += part.index.size();
+  for (auto const& part : parts) entries += part.used;
   list.index.reserve(entries);
   for (auto const& part : parts) {
-    list.index.insert(list.index.end(), part.index.begin(), part.index.end());
+    list.index.insert(list.index.end(), part.index.begin(),
+                      part.index.begin() + static_cast<std::ptrdiff_t>(part.used));
     for (auto const count : part.count) list.start.push_back(list.start.back() + count);
   }
   return list;

@@ -1,4 +1,5 @@
-// Scenario: a simulation as a file. TOML text in, a simulation that is ready to run out; every mistake of the file in one go.
+// Scenario: a simulation as a file. TOML text in, a simulation that is ready to run out; every mistake of the file in
+// one go.
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -15,7 +16,8 @@
 
 namespace boltzmann {
 
-/// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right word`.
+/// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right
+/// word`.
 struct ScenarioErrors : Error {
   explicit ScenarioErrors(std::vector<std::string> all);
   std::vector<std::string> lines;
@@ -23,7 +25,8 @@ struct ScenarioErrors : Error {
 
 /// What the command line changes in a scenario.
 struct Overrides {
-  std::vector<std::string> set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
+  std::vector<std::string>
+      set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
   std::optional<std::int64_t> steps;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
@@ -32,11 +35,12 @@ struct Overrides {
 /// A picture that a scenario asks for.
 struct PicturePlan {
   std::string drawing;  ///< "cartesian", "phase-space", "spectrum" or "time-series"
-  std::string x, y;     ///< fields ("position.x", "velocity.y") of phase space; the columns of a time series in y, separated by commas
+  std::string x, y;     ///< fields ("position.x", "velocity.y") of phase space; the columns of a time series in y,
+                        ///< separated by commas
   std::string colour;   ///< a field, "speed", "kinetic-energy", "potential-energy" or empty: by ensemble
   std::string size;     ///< the same for the diameter; empty: the ensemble's
   std::string file = "picture.png";
-  bool trace = false;   ///< draw the tracks of all frames, not the last state
+  bool trace = false;  ///< draw the tracks of all frames, not the last state
 };
 
 /// How often what is written.
@@ -62,7 +66,8 @@ struct ScenarioSimulation {
 /// Reads a scenario file. Throws ScenarioErrors with all its mistakes, or Error if the file can't be read.
 std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides = {});
 /// The same from text; `name` stands for the file in messages.
-std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name, Overrides const& overrides = {});
+std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name,
+                                                   Overrides const& overrides = {});
 
 /// The folder of shipped scenarios, and the names in it ("copper", ...), sorted.
 std::string scenario_folder();

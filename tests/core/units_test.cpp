@@ -218,10 +218,23 @@ TEST(Bases, The1990ExampleMakesAnElectronvoltOne) {
   EXPECT_NEAR(base(3.273_fs), 1, 1e-14);
   EXPECT_EQ(base.unit_name(dim::length), "1.804 angstrom");
   EXPECT_EQ(base.unit_name(dim::time), "3.273 fs");
-  EXPECT_EQ(base.unit_name(dim::mass), "5.275e-29 kg");
+  EXPECT_EQ(base.unit_name(dim::mass), "0.0317668 amu");
   EXPECT_EQ(base.unit_name(dim::energy), "1.00021 eV");
   EXPECT_EQ(base.unit_name(dim::velocity), "551.176 angstrom/ps");
   EXPECT_EQ(base.unit_name(dim::none), "");
+}
+
+TEST(Bases, AreShownInUnitsThatPeopleKnow) {
+  Base const base(1.804e-8 * units::centimeter, 5.275e-26 * units::gram, 3.273e-15 * units::second);
+  EXPECT_EQ(base.display(dimensions::length).unit, "angstrom");
+  EXPECT_NEAR(base.display(dimensions::length).factor, 1.804, 1e-12);
+  EXPECT_EQ(base.display(dimensions::time).unit, "fs");
+  EXPECT_NEAR(base.display(dimensions::time).factor, 3.273, 1e-12);
+  EXPECT_EQ(base.display(dimensions::energy).unit, "eV");
+  EXPECT_NEAR(base.display(dimensions::energy).factor, 1.00021, 1e-5);
+  EXPECT_EQ(Base::si().display(dimensions::energy).unit, "J");
+  EXPECT_EQ(Base::si().display(dimensions::energy).factor, 1);
+  EXPECT_EQ(Base::reduced().display(dimensions::energy).unit, "");
 }
 
 TEST(Bases, CgsHasACoulombConstantOfOne) {
