@@ -117,8 +117,8 @@ void Canvas::axes(Axis x, Axis y) {
   y_axis_ = std::move(y);
 }
 
-void Canvas::colour_bar(std::string label, std::string unit, double low, double high, ColourMap map) {
-  colour_bars_.push_back({std::move(label), std::move(unit), low, high, map});
+void Canvas::colour_bar(std::string label, std::string unit, double low, double high, ColourMap map, double factor) {
+  colour_bars_.push_back({std::move(label), std::move(unit), low, high, map, factor});
 }
 
 void Canvas::legend(std::string label, Colour colour) { legend_.push_back({std::move(label), colour}); }

@@ -23,6 +23,7 @@ struct Axis {
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
   bool logarithmic = false;
+  double factor = 1;  ///< the numbers at the ticks are coordinates times this, in `unit`
 };
 
 class Canvas {
@@ -78,6 +79,7 @@ class Canvas {
     std::string label, unit;
     double low, high;
     ColourMap map;
+    double factor = 1;  ///< the numbers at the ticks are values times this, in `unit`
   };
   struct LegendEntry {
     std::string label;
@@ -113,7 +115,8 @@ class Canvas {
   void grid(bool shown) { grid_ = shown; }
   /// Without a frame there are no ticks and axis titles either (projections).
   void frame(bool shown) { frame_ = shown; }
-  void colour_bar(std::string label, std::string unit, double low, double high, ColourMap map = ColourMap::viridis);
+  void colour_bar(std::string label, std::string unit, double low, double high, ColourMap map = ColourMap::viridis,
+                  double factor = 1);
   void legend(std::string label, Colour colour);
   void title(std::string title) { title_ = std::move(title); }
   /// A line below the drawing; each call adds one.

@@ -52,6 +52,11 @@ void check(std::size_t count, CartesianStyle const& style, std::size_t dimension
                   "; there are particles 0 to " + std::to_string(static_cast<long long>(count) - 1));
 }
 
+Colour colour_of(CartesianStyle const& style, int species) {
+  bool const own = species >= 0 && static_cast<std::size_t>(species) < style.species_colours.size();
+  return own ? style.species_colours[static_cast<std::size_t>(species)] : species_colour(species);
+}
+
 // The colour of each particle; adds the colour bar or the legend that explains it.
 std::vector<Colour> particle_colours(std::size_t count, CartesianStyle const& style, Canvas& canvas) {
   std::vector<Colour> colours(count, species_colour(0));
@@ -66,15 +71,15 @@ std::vector<Colour> particle_colours(std::size_t count, CartesianStyle const& st
       missing += std::isnan(style.value[i]);
       colours[i] = map_colour(style.map, place_between(limits.low, limits.high, style.value[i]));
     }
-    canvas.colour_bar(style.value_name, style.value_unit, limits.low, limits.high, style.map);
+    canvas.colour_bar(style.value_name, style.value_unit, limits.low, limits.high, style.map, style.value_factor);
     if (missing > 0)
       canvas.note(std::to_string(missing) + (missing == 1 ? " particle" : " particles") + " without a value (grey)");
   } else if (!style.species.empty()) {
-    for (std::size_t i = 0; i < count; ++i) colours[i] = species_colour(style.species[i]);
+    for (std::size_t i = 0; i < count; ++i) colours[i] = colour_of(style, style.species[i]);
   }
   if (style.value.empty())
     for (std::size_t s = 0; s < style.species_names.size(); ++s)
-      canvas.legend(style.species_names[s], species_colour(static_cast<int>(s)));
+      canvas.legend(style.species_names[s], colour_of(style, static_cast<int>(s)));
   return colours;
 }
 
@@ -156,6 +161,7 @@ Canvas draw_cartesian(std::span<double const> x, std::span<double const> y, Cart
   canvas.title(style.title);
   canvas.equal_aspect(true);
   Axis x_axis{style.axes[0], style.unit}, y_axis{style.axes[1], style.unit};
+  x_axis.factor = y_axis.factor = style.unit_factor;
   Limits wide(x), high(y);
   if (!style.box.empty()) {
     auto fit = [](Axis& axis, std::array<double, 2> const& side) {
@@ -257,10 +263,11 @@ class BoxOutline {
                     a.up + fraction * (b.up - a.up) + away * size * out_up, text, ink, font, align);
       };
       auto const along = static_cast<std::size_t>(axis);
-      Ticks const ticks = ticks_between(box_[along][0], box_[along][1], false, 5);
+      Ticks const ticks =
+          ticks_between(box_[along][0] * style_.unit_factor, box_[along][1] * style_.unit_factor, false, 5);
       double const width = box_[along][1] - box_[along][0];
       for (std::size_t i = 0; i < ticks.major.size(); ++i) {
-        double const fraction = (ticks.major[i] - box_[along][0]) / width;
+        double const fraction = (ticks.major[i] / style_.unit_factor - box_[along][0]) / width;
         double const r = a.right + fraction * (b.right - a.right), u = a.up + fraction * (b.up - a.up);
         canvas.line(r, u, r + 0.009 * size * out_right, u + 0.009 * size * out_up, with_alpha(ink, 0.6), 1.3F);
         write(fraction, 0.028, ticks.labels[i], 18);

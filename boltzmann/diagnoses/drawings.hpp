@@ -27,17 +27,20 @@ struct Projection {
 /// while drawing.
 struct CartesianStyle {
   std::string title;
-  std::string unit;  // of lengths
+  std::string unit;        // of lengths
+  double unit_factor = 1;  // lengths times this are in that unit
   std::array<std::string, 3> axes = {"x", "y", "z"};
 
   std::span<double const> value = {};  // colours the particles, with a colour bar
   std::string value_name, value_unit;
+  double value_factor = 1;                                      // values times this are in that unit
   double value_low = std::numeric_limits<double>::quiet_NaN();  // NaN: automatic (diverging: -a..a)
   double value_high = std::numeric_limits<double>::quiet_NaN();
   ColourMap map = ColourMap::viridis;
 
   std::span<int const> species = {};       // colours the particles if there is no value
   std::vector<std::string> species_names;  // makes a legend
+  std::vector<Colour> species_colours;     // of each species; the palette's where there is none
 
   std::span<double const> diameter = {};  // of each particle, in length units
   double common_diameter = 0;             // of all; 0 and no diameters: points of a fitting size

@@ -123,7 +123,10 @@ class Figure {
   // The most ticks whose labels don't touch.
   Ticks ticks_that_fit(AxisRange const& range, double extent, bool across, int at_most_exponent = 400) const {
     for (int most = 8;; --most) {
-      Ticks ticks = ticks_between(range.low, range.high, range.logarithmic, most, at_most_exponent);
+      Ticks ticks =
+          ticks_between(range.low * range.factor, range.high * range.factor, range.logarithmic, most, at_most_exponent);
+      for (auto* values : {&ticks.major, &ticks.minor})
+        for (double& value : *values) value /= range.factor;
       bool fits = true;
       double before_at = 0, before_width = 0;
       for (std::size_t i = 0; i < ticks.major.size(); ++i) {
@@ -163,6 +166,8 @@ class Figure {
       auto const ranges = axis_ranges(canvas_, box_.width / box_.height);
       x_ = ranges[0];
       y_ = ranges[1];
+      x_.factor = x_axis.factor;
+      y_.factor = y_axis.factor;
       bool const equal = canvas_.equal_aspect() && !x_.logarithmic && !y_.logarithmic;
       if (equal) widen_thin_ranges();
       choose_ticks(equal);
@@ -228,8 +233,8 @@ class Figure {
   }
 
   double plan_colour_bar(Canvas::ColourBar const& bar, Bar& plan) const {
-    plan.ticks = bar.high > bar.low ? ticks_that_fit({bar.low, bar.high}, box_.height, false)
-                                    : Ticks{{bar.low}, {}, {number_text(bar.low)}, ""};
+    plan.ticks = bar.high > bar.low ? ticks_that_fit({bar.low, bar.high, false, bar.factor}, box_.height, false)
+                                    : Ticks{{bar.low}, {}, {number_text(bar.low * bar.factor)}, ""};
     plan.labels = widest(plan.ticks);
     plan.width = length(size::bar_gap + size::bar + size::tick + size::tick_gap) + plan.labels;
     std::string const title = axis_title(bar.label, bar.unit);

@@ -11,6 +11,7 @@ namespace boltzmann {
 struct AxisRange {
   double low = 0, high = 1;
   bool logarithmic = false;
+  double factor = 1;  ///< of the numbers at the ticks
 
   /// 0 at low, 1 at high; NaN where a logarithmic axis has no such value.
   double place(double value) const;

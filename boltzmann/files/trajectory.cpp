@@ -62,6 +62,7 @@ struct StoredColumn {
   bool scalar;
   std::uint64_t checksum = 0;  // of a constant field
   Dataset values;
+  double factor = 1;  // numbers are written times this
 };
 
 struct StoredEnsemble {
@@ -78,6 +79,8 @@ std::vector<double> gather(AnyEnsemble const& ensemble, StoredColumn const& colu
   for (std::size_t i = 0; i < ensemble.size(); ++i)
     std::copy_n(ensemble.row(i) + column.field.offset, components,
                 values.begin() + static_cast<std::ptrdiff_t>(i * column.columns));
+  if (column.factor != 1)
+    for (double& value : values) value *= column.factor;
   return values;
 }
 
@@ -110,13 +113,16 @@ struct Trajectory::State {
   bool has_edges = false;
   std::array<bool, 3> periodic{};
   std::uint64_t frames = 0;
+  double time_factor = 1, length_factor = 1;
   bool laid_out = false;  // the groups and datasets are there
   bool open = false;      // the datasets are open and the ordered writes have begun
   std::string failure;    // why the trajectory has ended
 
+  double factor(Dimension dimension) const { return options.factor ? options.factor(dimension) : 1; }
   std::string unit(Dimension dimension) const { return options.unit_name ? options.unit_name(dimension) : ""; }
 
   void write_unit(std::string const& dataset, std::string const& element, Dimension dimension) {
+    if (factor(dimension) != 1) file->set(dataset, "boltzmann_factor", factor(dimension));
     std::string const name = unit(dimension);
     if (name.empty()) return;
     file->set(dataset, "boltzmann_unit", name);
@@ -200,7 +206,7 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
     bool const scalar = field.components == 1 && !is_spatial(field, ensemble.dimension());
     std::string values = element;
     if (declared_constant(field)) {
-      StoredColumn const column{field, columns, true, scalar, 0, {}};
+      StoredColumn const column{field, columns, true, scalar, 0, {}, factor(field.dimension)};
       Extents extents{size, columns};
       if (scalar) extents.pop_back();
       file->create(element, Number::real, extents)
@@ -268,6 +274,8 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
     throw Error(fmt::format("{}: its box has another dimension than {}", path, box.dimension));
   step = file->dataset("/particles/" + names[0] + "/position/step");
   time = file->dataset("/particles/" + names[0] + "/position/time");
+  time_factor = factor(dimensions::time);
+  length_factor = factor(dimensions::length);
   bounds = file->dataset(box_group + "/bounds/value");
   has_edges = file->has(box_group + "/edges");
   if (has_edges) edges = file->dataset(box_group + "/edges/value");
@@ -291,7 +299,7 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
       std::string const element = group + "/" + field.name;
       if (!file->has(element))
         throw Error(fmt::format("{}: its ensemble '{}' has no field '{}'", path, stored.name, field.name));
-      StoredColumn column{field, 1, file->is_dataset(element), true, 0, {}};
+      StoredColumn column{field, 1, file->is_dataset(element), true, 0, {}, factor(field.dimension)};
       std::string const values = column.constant ? element : element + "/value";
       column.values = file->dataset(values);
       Extents const extents = column.values.extents();
@@ -420,20 +428,22 @@ void Trajectory::State::write_frame(std::int64_t at_step, double at_time, std::s
   std::array<double, 6> low_high{};
   std::copy_n(box.low, d, low_high.begin());
   std::copy_n(box.high, d, low_high.begin() + box.dimension);
+  for (double& x : low_high) x *= length_factor;
   bounds.resize({frames + 1, 2, d});
   bounds.write(low_high.data(), {frames, 0, 0}, {1, 2, d});
   if (has_edges) {
     std::uint64_t const axes = edges.extents()[1];
     std::vector<double> matrix(axes * axes, 0.0);
     for (std::uint64_t axis = 0; axis < axes; ++axis) {
-      double const length = axis < d ? box.high[axis] - box.low[axis] : 1;
+      double const length = axis < d ? length_factor * (box.high[axis] - box.low[axis]) : 1;
       matrix[axis * (axes + 1)] = std::isfinite(length) ? length : 1;
     }
     edges.resize({frames + 1, axes, axes});
     edges.write(matrix.data(), {frames, 0, 0}, {1, axes, axes});
   }
+  double const shown_time = time_factor * at_time;
   time.resize({frames + 1});
-  time.write(&at_time, {frames}, {1});
+  time.write(&shown_time, {frames}, {1});
   step.resize({frames + 1});
   step.write(&at_step, {frames}, {1});
   file->flush();

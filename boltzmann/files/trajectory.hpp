@@ -30,6 +30,7 @@ struct TrajectoryOptions {
   std::string author = "unknown";
   std::string version;                              ///< of the program
   std::function<std::string(Dimension)> unit_name;  ///< empty: no units are written
+  std::function<double(Dimension)> factor;   ///< numbers are written times this, to be in that unit; empty: as they are
   std::vector<std::string> constant_fields;  ///< written once (for example mass, charge); never position or velocity
   bool three_columns = true;  ///< position and velocity get 3 columns in 1D and 2D too, as most readers want
 };

@@ -58,6 +58,11 @@ Frames frames(hdf5::File const& file) {
 
 struct TrajectoryReader::State {
   std::unique_ptr<hdf5::File> file;
+
+  /// Numbers in the file are those of the simulation times this.
+  double factor(std::string const& dataset) const {
+    return file->has(dataset, "boltzmann_factor") ? file->real(dataset, "boltzmann_factor") : 1;
+  }
 };
 
 TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<State>()) {
@@ -85,6 +90,8 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
   auto stored = layout::frames(file);
   steps_ = std::move(stored.steps);
   times_ = std::move(stored.times);
+  double const time_factor = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
+  for (double& time : times_) time /= time_factor;
   time_unit_ = unit("/particles/" + ensembles_[0].name + "/position/time");
 }
 
@@ -131,7 +138,8 @@ std::vector<double> TrajectoryReader::read(std::size_t frame, std::string const&
   StoredField const& stored = find(find(ensemble), field);
   std::size_t const n = size(frame, ensemble);
   auto const components = static_cast<std::size_t>(stored.components);
-  auto const values = state_->file->dataset("/particles/" + ensemble + "/" + field + (stored.constant ? "" : "/value"));
+  std::string const dataset = "/particles/" + ensemble + "/" + field + (stored.constant ? "" : "/value");
+  auto const values = state_->file->dataset(dataset);
   hdf5::Extents extents = values.extents(), start(extents.size(), 0);
   std::size_t const particles_at = stored.constant ? 0 : 1;
   if (extents.size() <= particles_at || n > extents[particles_at])
@@ -143,6 +151,9 @@ std::vector<double> TrajectoryReader::read(std::size_t frame, std::string const&
   if (vector) extents.back() = components;
   std::vector<double> result(n * components);
   values.read(result.data(), start, extents);
+  double const factor = state_->factor(dataset);
+  if (factor != 1)
+    for (double& value : result) value /= factor;
   return result;
 }
 
@@ -159,6 +170,8 @@ BoxEdges TrajectoryReader::box(std::size_t frame) const {
   box.dimension = static_cast<int>(d);
   values.read(box.low, {checked(frame), 0, 0}, {1, 1, d});
   values.read(box.high, {frame, 1, 0}, {1, 1, d});
+  double const factor = state_->factor(group + "/bounds/value");
+  for (std::size_t axis = 0; axis < d; ++axis) box.low[axis] /= factor, box.high[axis] /= factor;
   for (std::size_t axis = 0; axis < d; ++axis) box.periodic[axis] = boundary[axis] == "periodic";
   return box;
 }

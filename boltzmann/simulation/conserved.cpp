@@ -44,11 +44,15 @@ Conserved conserved(Simulation const& simulation) {
   Conserved total;
   auto const& ensembles = simulation.ensembles();
   Measures const measures = simulation.measure();
+  total.isolated = measures.external == 0;
   bool massive = !ensembles.empty();
   bool periodic = false;
   for (auto const* scheme : simulation.schemes()) {
     periodic = periodic || scheme->box().any_periodic();
     total.dimension = scheme->box().dimension();
+    total.isolated = total.isolated && scheme->box().regions().empty();
+    for (int a = 0; a < total.dimension; ++a)
+      total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::bounded;
   }
   for (auto const* ensemble : ensembles) {
     if (!carries_momentum(*ensemble)) {
@@ -71,6 +75,11 @@ Conserved conserved(Simulation const& simulation) {
   return total;
 }
 
+std::string quantity_text(double number, Dimension dimension, Base const& base, int digits) {
+  auto const unit = base.display(dimension);
+  return fmt::format("{:.{}g}{}{}", number * unit.factor, digits, unit.unit.empty() ? "" : " ", unit.unit);
+}
+
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));
@@ -78,7 +87,8 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   if (start.energy && end.energy) {
     bool const near_zero = std::abs(*start.energy) < 1e-3 * start.energy_scale;
     double const scale = near_zero ? start.energy_scale : std::abs(*start.energy);
-    lines.push_back(row(with_unit("energy", base.unit_name(dimensions::energy)), *start.energy, *end.energy,
+    auto const unit = base.display(dimensions::energy);
+    lines.push_back(row(with_unit("energy", unit.unit), *start.energy * unit.factor, *end.energy * unit.factor,
                         part(*end.energy - *start.energy, scale),
                         near_zero ? "of kinetic + |potential|" : "of itself"));
   } else if (!start.no_energy.empty()) {
@@ -86,7 +96,8 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   }
   auto const vector = [&](char const* name, Dimension dimension, std::array<double, 3> const& a,
                           std::array<double, 3> const& b, double scale, char const* relative_to) {
-    lines.push_back(row(with_unit(name, base.unit_name(dimension)), magnitude(a), magnitude(b),
+    auto const unit = base.display(dimension);
+    lines.push_back(row(with_unit(name, unit.unit), magnitude(a) * unit.factor, magnitude(b) * unit.factor,
                         part(magnitude(difference(b, a)), scale), relative_to));
   };
   if (start.momentum && end.momentum)
@@ -95,6 +106,8 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   if (start.angular_momentum && end.angular_momentum)
     vector("angular momentum", dimensions::angular_momentum, *start.angular_momentum, *end.angular_momentum,
            std::max(start.angular_momentum_scale, end.angular_momentum_scale), "of the sum of |m r x v|");
+  if (start.momentum && !(start.isolated && end.isolated))
+    lines.emplace_back("  (walls and influences from outside change momenta)");
   return lines;
 }
 

@@ -21,10 +21,15 @@ struct Conserved {
   double momentum_scale = 0;                              ///< sum of |m v|
   double angular_momentum_scale = 0;                      ///< sum of |m r x v|
   int dimension = 3;
+  bool isolated = true;  ///< no walls, and no energy in fields from outside: momentum can be conserved
 };
 
 /// Of the present state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
+
+/// A number of the base with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273 fs"),
+/// the product ("65.46 fs").
+std::string quantity_text(double number, Dimension dimension, Base const& base, int digits = 4);
 
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy: relative to its own
 /// start (to its scale if it starts near zero); momenta: relative to their scales, since totals are often zero.

@@ -2,9 +2,11 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/drawings.hpp>
 #include <boltzmann/diagnoses/spectrum_of.hpp>
+#include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/picture.hpp>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace boltzmann {
@@ -82,14 +85,26 @@ class Drawer {
   }
 
  private:
-  std::string unit(Dimension dimension) const { return context_.base.unit_name(dimension); }
+  Base::Display shown_in(Dimension dimension) const { return context_.base.display(dimension); }
+  Axis axis(std::string label, Dimension dimension) const {
+    auto const [unit, factor] = shown_in(dimension);
+    Axis result{std::move(label), unit};
+    result.factor = factor;
+    return result;
+  }
+
+  // The colour an ensemble was given, or the next of the palette.
+  Colour colour(int ensemble) const {
+    auto const& name = ensembles_[static_cast<std::size_t>(ensemble)]->appearance.colour;
+    return name.empty() ? species_colour(ensemble) : colour_named(name);
+  }
 
   std::string title(bool with_time = true) const {
     if (!with_time) return context_.title;
     std::string text = context_.title.empty() ? "" : context_.title + ", ";
-    text += fmt::format("step {}, time {:.4g}", context_.step, context_.time);
-    if (auto const t = unit(dimensions::time); !t.empty()) text += " " + t;
-    return text;
+    auto const time = quantity_text(context_.time, dimensions::time, context_.base);
+    return text + (time.find(' ') == std::string::npos ? fmt::format("step {}, time {}", context_.step, time)
+                                                       : fmt::format("step {} ({})", context_.step, time));
   }
 
   Box const& box() const { return context_.simulation.schemes().front()->box(); }
@@ -174,11 +189,14 @@ class Drawer {
 
     CartesianStyle style;
     style.title = title();
-    style.unit = unit(dimensions::length);
+    auto const length = shown_in(dimensions::length);
+    style.unit = length.unit;
+    style.unit_factor = length.factor;
     std::vector<int> species;
     for (std::size_t e = 0; e < ensembles_.size(); ++e) {
       species.insert(species.end(), ensembles_[e]->size(), static_cast<int>(e));
       if (ensembles_.size() > 1) style.species_names.push_back(ensembles_[e]->name());
+      style.species_colours.push_back(colour(static_cast<int>(e)));
     }
     style.species = species;
     Values value;
@@ -187,7 +205,9 @@ class Drawer {
       value = joined(values(picture_.colour));
       style.value = value;
       style.value_name = what.label;
-      style.value_unit = unit(what.dimension);
+      auto const shown = shown_in(what.dimension);
+      style.value_unit = shown.unit;
+      style.value_factor = shown.factor;
       style.value_low = picture_.low;
       style.value_high = picture_.high;
       bool const negative = std::any_of(value.begin(), value.end(), [](double v) { return v < 0; });
@@ -240,6 +260,7 @@ class Drawer {
   // The way of one particle through all frames.
   struct Tracks {
     int species;
+    std::size_t particle;
     std::array<Values, 3> position;
   };
 
@@ -253,7 +274,7 @@ class Drawer {
         if (reader.steps()[f] > context_.step) break;
         auto const frame = reader.read(f, ensembles_[e]->name(), "position");
         std::size_t const count = frame.size() / static_cast<std::size_t>(D);
-        while (all.size() < first + count) all.push_back({static_cast<int>(e), {}});
+        while (all.size() < first + count) all.push_back({static_cast<int>(e), all.size() - first, {}});
         for (std::size_t i = 0; i < count; ++i) extend(all[first + i], &frame[i * static_cast<std::size_t>(D)]);
       }
       for (std::size_t i = 0; i < ensembles_[e]->size() && first + i < all.size(); ++i)
@@ -276,10 +297,7 @@ class Drawer {
   }
 
   void draw_track(Canvas& canvas, Tracks const& track) const {
-    Colour const colour = with_alpha(ensembles_.size() == 1 && ensembles_[0]->size() <= 8
-                                         ? species_colour(static_cast<int>(track_number_++))
-                                         : species_colour(track.species),
-                                     0.7);
+    Colour const colour = track_colour(track.species, track.particle);
     if (box().dimension() == 2) {
       canvas.curve(track.position[0], track.position[1], colour, "", 1.4F);
       return;
@@ -302,12 +320,59 @@ class Drawer {
     std::vector<Series> series;
     for (std::size_t e = 0; e < ensembles_.size(); ++e)
       series.push_back({ensembles_.size() > 1 ? ensembles_[e]->name() : "", vx[e], vy[e]});
-    Axis x_axis{mx.label, unit(mx.dimension)};
+    Axis x_axis = axis(mx.label, mx.dimension);
     if (x.starts_with("position.") && box().periodic(x.back() - 'x')) {
       x_axis.low = box().low(x.back() - 'x');
       x_axis.high = box().high(x.back() - 'x');
     }
-    return draw_phase_space(series, x_axis, {my.label, unit(my.dimension)}, title());
+    Canvas canvas = draw_phase_space(series, x_axis, axis(my.label, my.dimension), title());
+    canvas.equal_aspect(x.starts_with("position") && y.starts_with("position"));
+    if (picture_.trace) trace(canvas, x, y);
+    return canvas;
+  }
+
+  // Two quantities of every particle through all frames. The ensembles show one frame after the other meanwhile.
+  void trace(Canvas& canvas, std::string const& x, std::string const& y) {
+    TrajectoryReader const reader(context_.folder + "/trajectory.h5");
+    std::vector<Checkpoint::Rows> now;
+    for (auto const* ensemble : ensembles_) now.push_back(copy_rows(*ensemble));
+    std::vector<std::vector<std::array<Values, 2>>> tracks(ensembles_.size());
+    auto const extend = [&] {
+      fresh_ = false;
+      auto const vx = values(x), vy = values(y);
+      for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+        tracks[e].resize(std::max(tracks[e].size(), vx[e].size()));
+        for (std::size_t i = 0; i < vx[e].size(); ++i) {
+          auto& [tx, ty] = tracks[e][i];
+          bool const jump =
+              !tx.empty() && (through_wall(x, vx[e][i] - tx.back()) || through_wall(y, vy[e][i] - ty.back()));
+          if (jump) tx.push_back(no_value), ty.push_back(no_value);
+          tx.push_back(vx[e][i]);
+          ty.push_back(vy[e][i]);
+        }
+      }
+    };
+    for (std::size_t f = 0; f < reader.frames() && reader.steps()[f] < context_.step; ++f) {
+      for (auto* ensemble : ensembles_) reader.load(f, *ensemble);
+      extend();
+    }
+    for (std::size_t e = 0; e < ensembles_.size(); ++e) restore_rows(now[e], *ensembles_[e]);
+    extend();
+    for (std::size_t e = 0; e < tracks.size(); ++e)
+      for (std::size_t i = 0; i < tracks[e].size(); ++i)
+        canvas.curve(tracks[e][i][0], tracks[e][i][1], track_colour(static_cast<int>(e), i), "", 1.4F);
+  }
+
+  bool through_wall(std::string const& name, double way) const {
+    if (!name.starts_with("position.")) return false;
+    int const axis = name.back() - 'x';
+    return box().periodic(axis) && std::abs(way) > box().length(axis) / 2;
+  }
+
+  // Few particles get a colour each, many that of their ensemble.
+  Colour track_colour(int ensemble, std::size_t particle) const {
+    bool const few = ensembles_.size() == 1 && ensembles_[0]->size() <= 8;
+    return with_alpha(few ? species_colour(static_cast<int>(particle)) : colour(ensemble), 0.7);
   }
 
   Canvas spectrum_in_space() {
@@ -321,8 +386,8 @@ class Drawer {
       if (!has_quantity(*ensemble, y)) continue;
       auto const spectrum = spectrum_of(*ensemble, y, x.back() - 'x');
       return draw_spectrum(spectrum.frequency, spectrum.density,
-                           {"wave number / 2π", unit(dimensions::none / mx.dimension)},
-                           {"power of " + my.label, unit(my.dimension * my.dimension * mx.dimension)}, true, title());
+                           axis("wave number / 2π", dimensions::none / mx.dimension),
+                           axis("power of " + my.label, my.dimension * my.dimension * mx.dimension), true, title());
     }
     throw Error("no particles with '" + y + "' to draw a spectrum of");
   }
@@ -376,7 +441,8 @@ class Drawer {
     if (time.size() < 2) throw Error("a spectrum over time needs 2 or more rows of diagnoses.csv");
     double const spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     auto const spectrum = power_spectrum(data.columns[column], spacing, SpectrumMethod::welch, true);
-    return draw_spectrum(spectrum.frequency, spectrum.density, {"frequency", unit(dimensions::frequency)},
+    std::string const unit = heading(data.header[1]).unit;
+    return draw_spectrum(spectrum.frequency, spectrum.density, {"frequency", unit.empty() ? "" : "1/" + unit},
                          {"power of " + heading(data.header[column]).name, ""}, true, title(false));
   }
 
@@ -384,7 +450,6 @@ class Drawer {
   PictureContext const& context_;
   std::vector<AnyEnsemble*> ensembles_;
   bool fresh_ = false;
-  mutable std::size_t track_number_ = 0;
 };
 
 void check_drawing(Picture const& picture) {

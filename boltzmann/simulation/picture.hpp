@@ -22,7 +22,7 @@ struct Picture {
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
-  bool trace = false;                ///< the tracks of all frames of trajectory.h5 instead of the last state alone
+  bool trace = false;                ///< also the tracks through all frames of trajectory.h5 (cartesian, phase-space)
   double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours; NaN: of the state
   double high = std::numeric_limits<double>::quiet_NaN();
 };

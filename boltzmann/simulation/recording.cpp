@@ -67,6 +67,7 @@ struct Recording::State {
   std::int64_t next = 0;  // the next step at which something is written
   std::int64_t checkpoint_step = -1;
   std::optional<CsvFile> csv;
+  std::vector<double> column_factors;
   std::optional<Trajectory> frames;
   std::vector<Checkpoint::Rows> last_rows;  // of the last recorded state
   std::int64_t last_step = -1;
@@ -93,7 +94,7 @@ struct Recording::State {
 
   std::vector<std::string> header() const {
     auto const titled = [&](std::string const& name, Dimension dimension) {
-      auto const unit = base.unit_name(dimension);
+      auto const unit = base.display(dimension).unit;
       return unit.empty() ? name : name + " (" + unit + ")";
     };
     std::vector<std::string> header{"step", titled("time", dimensions::time)};
@@ -102,10 +103,21 @@ struct Recording::State {
     return header;
   }
 
+  // What the numbers of diagnoses.csv are multiplied with, to be in the units of its header.
+  std::vector<double> factors() const {
+    std::vector<double> all{base.display(dimensions::time).factor};
+    for (auto const& diagnosis : list)
+      for (auto const& column : diagnosis->columns()) all.push_back(base.display(column.dimension).factor);
+    return all;
+  }
+
   TrajectoryOptions trajectory_options() const {
     TrajectoryOptions options;
     options.version = program_version;
-    if (!base.is_reduced()) options.unit_name = [base = base](Dimension d) { return base.unit_name(d); };
+    if (!base.is_reduced()) {
+      options.unit_name = [base = base](Dimension d) { return base.display(d).unit; };
+      options.factor = [base = base](Dimension d) { return base.display(d).factor; };
+    }
     return options;
   }
 
@@ -198,6 +210,9 @@ struct Recording::State {
         write_checkpoint();  // the last one, so that it holds the state after all looks
     } catch (Error const& error) {
       if (first) throw;
+      finished = true;  // nothing more is written: what is there stays whole
+      frames.reset();
+      csv.reset();
       throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), intact()));
     }
     next = std::min({next_multiple(step, every_diagnoses), next_multiple(step, every_trajectory),
@@ -230,6 +245,8 @@ struct Recording::State {
                         simulation.step()};
     std::vector<double> values{simulation.time()};
     for (auto const& diagnosis : list) diagnosis->measure(sample, values);
+    if (column_factors.empty()) column_factors = factors();
+    for (std::size_t c = 0; c < values.size(); ++c) values[c] *= column_factors[c];
     csv->write(simulation.step(), values);
   }
 
@@ -407,9 +424,8 @@ std::string large(double number) {
 
 void print_summary(Recording const& recording, RunReport const& report, Conserved const& start, double recorded) {
   Simulation const& simulation = recording.simulation();
-  auto const unit = recording.base().unit_name(dimensions::time);
-  fmt::print("\n{} particles, {} steps to step {}, time {:.6g}{}\n\n", report.particles, report.steps,
-             simulation.step(), simulation.time(), unit.empty() ? "" : " " + unit);
+  fmt::print("\n{} particles, {} steps to step {}, time {}\n\n", report.particles, report.steps, simulation.step(),
+             quantity_text(simulation.time(), dimensions::time, recording.base(), 6));
   if (report.steps > 0) {
     for (auto const& line : conserved_table(start, conserved(simulation), recording.base())) fmt::print("{}\n", line);
     double const work = std::max(report.seconds - recorded, 1e-9);

@@ -6,7 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -62,6 +64,7 @@ class Process {
   Process(std::vector<std::string> const& words, std::string const& folder) {
     out_ = folder + "/.stdout-" + std::to_string(count_);
     err_ = folder + "/.stderr-" + std::to_string(count_++);
+    std::fflush(nullptr);  // or the child would write it again
     process_ = fork();
     if (process_ != 0) return;
     if (chdir(folder.c_str()) != 0 || !std::freopen(out_.c_str(), "w", stdout) ||

@@ -1,0 +1,195 @@
+// Recording from a C++ program: totals against numbers worked out by hand, files, restarts, and mistakes.
+#include "tests/bzm/command.hpp"
+
+#include <boltzmann/files/csv.hpp>
+#include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/particles/newton.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/recording.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+using namespace boltzmann::test;
+
+// Two atoms of masses 2 and 3 at the distance of the minimum, in open space.
+struct Pair {
+  Ensemble<Newton<2>> atoms{"atoms", 2};
+  PairScheme scheme;
+  Simulation simulation;
+
+  explicit Pair(Boundary boundary = Boundary::open)
+      : scheme(Box(Vector{-5., -5.}, Vector{5., 5.}, boundary), 3.0), simulation(scheme, 0.001) {
+    atoms[0].mass = 2;
+    atoms[1].mass = 3;
+    atoms[0].position = {1., 0.};
+    atoms[1].position = {1., 1.5};
+    atoms[0].velocity = {0.1, 0.2};
+    atoms[1].velocity = {-0.3, 0.};
+    scheme.internal(atoms, LennardJones{0.7, 1.5});
+    scheme.shifted(false);
+    simulation.integrate(atoms, Method::leap_frog);
+  }
+};
+
+std::string error_of(std::function<void()> const& call) {
+  try {
+    call();
+  } catch (Error const& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Conserved, TotalsOfTwoAtomsByHand) {
+  Pair pair;
+  pair.simulation.check();
+  auto const total = conserved(pair.simulation);
+  // 2 (0.01 + 0.04)/2 + 3 0.09/2 - 0.7
+  ASSERT_TRUE(total.energy);
+  EXPECT_NEAR(*total.energy, 0.05 + 0.135 - 0.7, 1e-14);
+  EXPECT_NEAR(total.energy_scale, 0.185 + 0.7, 1e-14);
+  ASSERT_TRUE(total.momentum);
+  EXPECT_NEAR((*total.momentum)[0], 0.2 - 0.9, 1e-15);
+  EXPECT_NEAR((*total.momentum)[1], 0.4, 1e-15);
+  EXPECT_NEAR(total.momentum_scale, 2 * std::sqrt(0.05) + 0.9, 1e-15);
+  // 2 (1 0.2 - 0 0.1) + 3 (1 0 - 1.5 (-0.3))
+  ASSERT_TRUE(total.angular_momentum);
+  double const spin = 0.4 + 1.35;
+  auto const& components = *total.angular_momentum;
+  EXPECT_NEAR(std::abs(components[0] + components[1] + components[2]), spin, 1e-14);
+  EXPECT_TRUE(total.isolated);
+}
+
+TEST(Conserved, NoAngularMomentumOnPeriodicAxesAndWallsAreNamed) {
+  Pair periodic(Boundary::periodic), walls(Boundary::bounded);
+  periodic.simulation.check();
+  walls.simulation.check();
+  EXPECT_FALSE(conserved(periodic.simulation).angular_momentum);
+  auto const total = conserved(walls.simulation);
+  EXPECT_FALSE(total.isolated);
+  EXPECT_NE(conserved_table(total, total, Base::reduced()).back().find("walls"), std::string::npos);
+}
+
+TEST(Conserved, TheTableShowsTheDrift) {
+  Conserved start, end;
+  start.energy = -2.0;
+  end.energy = -2.002;
+  start.energy_scale = end.energy_scale = 5;
+  auto const lines = conserved_table(start, end, Base::reduced());
+  EXPECT_NE(lines[1].find("-1.00e-03  of itself"), std::string::npos) << lines[1];
+  start.energy = 0.0;
+  end.energy = 0.01;
+  EXPECT_NE(conserved_table(start, end, Base::reduced())[1].find("2.00e-03  of kinetic"), std::string::npos);
+}
+
+TEST(QuantityText, MultipliesUnitsThatAreNumbers) {
+  EXPECT_EQ(quantity_text(1.5, dimensions::time, Base::reduced()), "1.5");
+  EXPECT_EQ(quantity_text(1.5, dimensions::time, Base::si()), "1.5 s");
+  Base const thesis(1.804 * units::angstrom, 5.275e-26 * units::gram, 3.273 * units::femtosecond);
+  EXPECT_EQ(quantity_text(20, dimensions::time, thesis), "65.46 fs");
+}
+
+TEST(Recording, LeavesFilesThatGoOnWhereTheyEnded) {
+  Folder folder;
+  auto const record = [&](std::string const& name, std::uint64_t steps, bool resume) {
+    Pair pair;
+    Recording recording(pair.simulation, Base::reduced(), folder / name);
+    recording.diagnoses(5, {"energies", "momentum"});
+    recording.trajectory(10);
+    recording.picture({.drawing = "phase-space", .x = "position.x", .y = "position.y", .trace = true});
+    if (resume) recording.resume();
+    auto const report = run_with_progress(recording, steps, {.quiet = true});
+    EXPECT_EQ(report.steps, static_cast<std::int64_t>(steps));
+    EXPECT_EQ(report.particles, 2);
+    EXPECT_FALSE(report.interrupted);
+    return recording.files();
+  };
+  auto const files = record("parts", 30, false);
+  EXPECT_EQ(files, (std::vector<std::string>{"diagnoses.csv", "trajectory.h5", "checkpoint.h5", "picture.png"}));
+  for (auto const& file : files) EXPECT_GT(fs::file_size(folder / "parts" / file), 0U) << file;
+  record("parts", 20, true);
+  record("whole", 50, false);
+  EXPECT_EQ(text_of(folder / "parts/diagnoses.csv"), text_of(folder / "whole/diagnoses.csv"));
+  auto const table = read_csv((folder / "whole/diagnoses.csv").string());
+  EXPECT_EQ(table.column("step").size(), 11U);
+  EXPECT_NEAR(table.column("total energy").front(), -0.515, 1e-14);
+  EXPECT_NEAR(table.column("total energy").back(), -0.515, 1e-6);
+  EXPECT_NE(error_of([&] { record("whole", 5, false); }).find("already holds a run"), std::string::npos);
+}
+
+TEST(Recording, TheDestructorFinishesAndNothingIsWrittenBeforeTheRun) {
+  Folder folder;
+  {
+    Pair pair;
+    Recording recording(pair.simulation, Base::reduced(), folder / "out");
+    EXPECT_FALSE(fs::exists(folder / "out"));
+    pair.simulation.run(7);
+    EXPECT_EQ(recording.checkpoint_step(), 0);
+  }
+  Pair pair;
+  Recording recording(pair.simulation, Base::reduced(), folder / "out");
+  recording.resume();
+  EXPECT_EQ(pair.simulation.step(), 7);
+}
+
+TEST(Recording, RefusesPlansThatCannotBe) {
+  Folder folder;
+  Pair pair;
+  auto const plan = [&](std::function<void(Recording&)> const& say) {
+    return error_of([&] {
+      Recording recording(pair.simulation, Base::reduced(), folder / "out");
+      say(recording);
+      recording.check();
+    });
+  };
+  EXPECT_EQ(plan([](Recording&) {}), "no error");
+  EXPECT_NE(plan([](Recording& r) { r.diagnoses(0, {"energies"}); }).find("not every 0"), std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.trajectory(0); }).find("not every 0"), std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.diagnoses(5, {"energy"}); }).find("energies"), std::string::npos);
+  EXPECT_NE(
+      plan([](Recording& r) { r.diagnoses(5, {"energies"}), r.diagnoses(6, {"momentum"}); }).find("every 5 steps"),
+      std::string::npos);
+  EXPECT_NE(plan([](Recording& r) {
+              r.diagnoses(5, {"energies", "energies"});
+            }).find("two diagnoses"),
+            std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.picture({.colour = "sped"}); }).find("did you mean 'speed'"), std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.picture({.drawing = "cartesien"}); }).find("did you mean 'cartesian'"),
+            std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.picture({.drawing = "time-series"}); }).find("needs diagnoses"),
+            std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.picture({.file = "p.jpg"}); }).find("none of .png"), std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.picture({.trace = true}); }).find("needs a trajectory"), std::string::npos);
+  EXPECT_NE(plan([](Recording& r) { r.picture({}), r.picture({}); }).find("two pictures"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
+  Folder folder;
+  Pair pair;
+  Recording recording(pair.simulation, Base::reduced(), folder / "out");
+  recording.diagnoses(1, {"energies"});
+  recording.picture({});
+  pair.simulation.observe(1, [&](Simulation const& now) {
+    if (now.step() == 4) pair.atoms[1].velocity = {std::numeric_limits<double>::quiet_NaN(), 0.};
+  });
+  try {
+    run_with_progress(recording, 10, {.quiet = true});
+    FAIL() << "a velocity that is no number was not noticed";
+  } catch (PhysicsFailure const& failure) {
+    std::string const line = failure.what();
+    EXPECT_NE(line.find("step 5: particle 1 of 'atoms'"), std::string::npos) << line;
+    EXPECT_NE(line.find("(step 0)"), std::string::npos) << line;
+  }
+  EXPECT_TRUE(fs::exists(folder / "out/picture.png"));
+  EXPECT_EQ(read_csv((folder / "out/diagnoses.csv").string()).column("step"), (std::vector<double>{0, 1, 2, 3, 4}));
+  EXPECT_TRUE(std::isfinite(pair.atoms[1].velocity[0])) << "the recorded state is back";
+}
+
+}  // namespace
+}  // namespace boltzmann
