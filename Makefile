@@ -3,7 +3,7 @@ BUILD := build/release
 PACKAGES := $(shell cat dependencies.txt)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: run test build dependencies bench format clean
+.PHONY: run test build install dependencies bench format clean
 
 run: build
 	$(BUILD)/bzm run copper --out results/copper
@@ -22,6 +22,10 @@ dependencies:
 	@missing=$$(for p in $(PACKAGES); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then echo "installing" $$missing; \
 	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
+
+PREFIX := /usr/local
+install: build
+	$(SUDO) cmake --install $(BUILD) --prefix $(PREFIX)
 
 bench: build
 	cmake --build $(BUILD) --target bench

@@ -22,7 +22,7 @@ int main(int argc, char** argv) try {
   simulation.integrate(air, Method::leap_frog);
 
   Recording recording(simulation, base, argc > 1 ? argv[1] : "results/atmosphere-cpp", true);
-  recording.diagnoses(20, {"energies", "temperature", "extremes"});
+  recording.diagnoses(20, {"energies", "temperature"});
   recording.trajectory(100);
   recording.picture({.colour = "speed"});
   run_with_progress(recording, 400);

@@ -70,6 +70,11 @@ double Box::volume() const {
   return product;
 }
 
+void Box::check_dimension(int of_region) const {
+  if (of_region != dimension_)
+    throw Error(fmt::format("region: it has {} dimensions, the box has {}", of_region, dimension_));
+}
+
 void Box::install(Region const& region) {
   for (int a = 0; a < dimension_; ++a)
     if (!(region.low[a] < region.high[a]) || !std::isfinite(region.low[a]) || !std::isfinite(region.high[a]))
@@ -104,9 +109,22 @@ void Box::check(AnyEnsemble const& particles) const {
   }
 }
 
+void Box::wrap(AnyEnsemble& particles) const {
+  for (int a = 0; a < dimension_; ++a) {
+    if (!periodic(a)) continue;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      double& x = particles.row(i)[a];
+      if (x >= low_[a] && x < high_[a]) continue;
+      x -= length(a) * std::floor((x - low_[a]) / length(a));
+      if (!(x >= low_[a] && x < high_[a])) x = low_[a];
+    }
+  }
+}
+
 void Box::apply(AnyEnsemble& particles) const {
   if (all_open_ && regions_.empty()) return;
   Field const* velocity = particles.find_field("velocity");
+  if (velocity && velocity->components != dimension_) velocity = nullptr;  // a class' own, of another meaning
   auto const fail = [&](std::size_t i, int a, double x) {
     if (!std::isfinite(x)) throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles, i)));
     throw PhysicsFailure(fmt::format(
@@ -121,12 +139,14 @@ void Box::apply(AnyEnsemble& particles) const {
       if (*x >= low && *x < high) continue;
       double const before = *x;
       if (boundary(a) == Boundary::periodic) {
-        if (*x < low)
+        // Within a rounding error of an edge the sum may land on or beyond the other edge: that is `low`.
+        if (*x < low) {
           *x += length;
-        else if (*x >= high)
+          if (*x >= high) *x = low;
+        } else if (*x >= high) {
           *x -= length;
-        // A particle a rounding error below `low` lands on `high`: that is `low`.
-        if (*x == high) *x = low;
+          if (*x < low) *x = low;
+        }
       } else if (*x != high) {
         reflect(*x < low ? low : high, x, velocity ? particles.row(i) + velocity->offset + a : nullptr);
       }

@@ -55,6 +55,7 @@ class Box {
   void install(Region const& region);
   template <int D>
   void install(Vector<D> const& low, Vector<D> const& high, Region::Side side) {
+    check_dimension(D);
     install(Region{widen(low), widen(high), side});
   }
   std::vector<Region> const& regions() const { return regions_; }
@@ -62,6 +63,9 @@ class Box {
   /// Throws Error for the first particle that is not finite, is outside a bounded axis, or on the wrong side of a
   /// region.
   void check(AnyEnsemble const& particles) const;
+
+  /// Puts every particle into the box along periodic axes, however far outside it is: the start of a run.
+  void wrap(AnyEnsemble& particles) const;
 
   /// Brings every particle that has left back: periodic axes wrap, bounded axes and regions reflect position and
   /// velocity. PhysicsFailure if a particle has moved so far that one reflection does not bring it back, or is not
@@ -87,6 +91,8 @@ class Box {
     for (std::size_t i = 0; i < D; ++i) wide[i] = a[i];
     return wide;
   }
+
+  void check_dimension(int of_region) const;
 
   int dimension_;
   std::array<double, 3> low_, high_;

@@ -7,6 +7,7 @@
 #include <boltzmann/laws/catalogue.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
 
@@ -106,15 +107,17 @@ void show_scenario(std::string const& name) {
   fmt::print("scenario {}{}{}\n", scenario->name, scenario->title.empty() ? "" : ": ", scenario->title);
   if (!scenario->description.empty()) fmt::print("\n{}\n", scenario->description);
   fmt::print("\n  file        {}\n", path);
-  auto const unit = scenario->base.unit_name(dimensions::time);
-  fmt::print("  steps       {} of {:.6g}{}\n", scenario->steps, scenario->simulation->step_size(),
-             unit.empty() ? "" : " " + unit);
+  auto const shown = [&](double number, Dimension dimension) {
+    return quantity_text(number, dimension, scenario->base, 6);
+  };
+  fmt::print("  steps       {} of {}\n", scenario->steps, shown(scenario->simulation->step_size(), dimensions::time));
   for (auto const& ensemble : scenario->ensembles)
     fmt::print("  ensemble    {}: {} of class {}, {}D\n", ensemble->name(), ensemble->size(), ensemble->class_name(),
                ensemble->dimension());
   Box const& box = scenario->scheme->box();
   for (int a = 0; a < box.dimension(); ++a)
-    fmt::print("  {}           {:.6g} to {:.6g}, {}\n", "xyz"[a], box.low(a), box.high(a), to_string(box.boundary(a)));
+    fmt::print("  {}           {} to {}, {}\n", "xyz"[a], shown(box.low(a), dimensions::length),
+               shown(box.high(a), dimensions::length), to_string(box.boundary(a)));
   fmt::print("\nbzm run {}\n", name);
 }
 

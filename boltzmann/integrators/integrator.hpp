@@ -11,7 +11,9 @@
 
 namespace boltzmann {
 
-/// How an ensemble is advanced.
+/// How an ensemble is advanced. The orders hold where all ensembles that influence each other have the same method, and
+/// for the leap-frogs where influences depend on positions (and time) only; otherwise the result is first order in the
+/// step.
 enum class Method {
   euler,                 ///< first order
   leap_frog,             ///< kick, drift, kick (velocity Verlet); second order, symplectic

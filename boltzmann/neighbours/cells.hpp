@@ -24,8 +24,9 @@ class Cells {
     std::array<int, 3> low{0, 0, 0}, high{0, 0, 0};
     for (int a = 0; a < dimension_; ++a) {
       double const c = (x[a] - low_[a]) * inverse_edge_[a];
-      low[a] = clamp(c - 1, a);
-      high[a] = clamp(c + 1, a);
+      double const one = 1 + 1e-15 * (count_[a] + 1.0);  // c is rounded, and so is that of the neighbour
+      low[a] = clamp(c - one, a);
+      high[a] = clamp(c + one, a);
     }
     for (int k = low[2]; k <= high[2]; ++k)
       for (int j = low[1]; j <= high[1]; ++j) {
@@ -36,7 +37,8 @@ class Cells {
 
  private:
   int clamp(double c, int axis) const {
-    return c <= 0 ? 0 : c >= count_[axis] ? count_[axis] - 1 : static_cast<int>(c);
+    // Not c <= 0: where the extent or its inverse is not finite, c is NaN, and there is one cell.
+    return !(c > 0) ? 0 : c >= count_[axis] ? count_[axis] - 1 : static_cast<int>(c);
   }
   std::size_t cell_of(double const* x) const;
 

@@ -17,7 +17,7 @@ NeighbourList connected_pairs(std::span<Connection const> connections, std::size
     if (c.last >= size)
       throw Error(fmt::format("connection {}:{}:{} names particle {}, but there are {} (0 to {})", c.first, c.last,
                               c.interval, c.last, size, size == 0 ? 0 : size - 1));
-    for (std::size_t i = c.first; i + c.interval <= c.last; i += c.interval) {
+    for (std::size_t i = c.first; c.last - i >= c.interval; i += c.interval) {
       partners[i].push_back(static_cast<std::uint32_t>(i + c.interval));
       partners[i + c.interval].push_back(static_cast<std::uint32_t>(i));
     }

@@ -16,7 +16,7 @@ AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, int dimension
 void AnyEnsemble::attach(double* data, std::size_t size) {
   data_ = data;
   size_ = size;
-  influence_.assign(size * influence_size_, 0.0);
+  influence_.resize(size * influence_size_, 0.0);
 }
 
 Field const* AnyEnsemble::find_field(std::string_view name) const {

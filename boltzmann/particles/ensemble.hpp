@@ -100,9 +100,10 @@ class Ensemble final : public AnyEnsemble {
   Influence const& influence_on(std::size_t i) const { return *reinterpret_cast<Influence const*>(influence(i)); }
 
   void add(P const& particle) {
+    P const copy = particle;  // it may be one of ours, which resizing moves
     std::size_t const i = size();
     resize(i + 1);
-    (*this)[i] = particle;
+    (*this)[i] = copy;
   }
 
   void resize(std::size_t size) override {

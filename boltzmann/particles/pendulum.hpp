@@ -17,9 +17,7 @@ struct Pendulum : Newton<D, Real> {
   Vector<2, Real> pivot;
 
   /// From the pivot to the bob: l (sin angle, -cos angle).
-  Vector<2, Real> arm() const {
-    return {length * sin(this->position[0]), -length * cos(this->position[0])};
-  }
+  Vector<2, Real> arm() const { return {length * sin(this->position[0]), -length * cos(this->position[0])}; }
 
   template <class Self>
   static FieldTable<Self> fields() {

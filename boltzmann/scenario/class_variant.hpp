@@ -8,14 +8,13 @@ namespace boltzmann::detail {
 
 template <class P>
 ClassVariant variant_of() {
-  return {P::dimension,
-          [](std::string name, std::size_t size) -> std::unique_ptr<AnyEnsemble> {
-            return std::make_unique<Ensemble<P>>(std::move(name), size);
-          },
-          [](AnyEnsemble& ensemble, Method method) {
-            return make_integrator(static_cast<Ensemble<P>&>(ensemble), method);
-          },
-          P::template fields<P>().fields, sizeof(Row<P>) + sizeof(typename P::Influence)};
+  return {
+      P::dimension,
+      [](std::string name, std::size_t size) -> std::unique_ptr<AnyEnsemble> {
+        return std::make_unique<Ensemble<P>>(std::move(name), size);
+      },
+      [](AnyEnsemble& ensemble, Method method) { return make_integrator(static_cast<Ensemble<P>&>(ensemble), method); },
+      P::template fields<P>().fields, sizeof(Row<P>) + sizeof(typename P::Influence)};
 }
 
 }  // namespace boltzmann::detail

@@ -24,9 +24,9 @@ struct ClassVariant {
 /// A particle class.
 struct ParticleClass {
   std::string name;
-  std::string doc;        ///< one line
-  Method usual_method;    ///< the integrator unless told otherwise
-  bool classical;         ///< moved by forces (has mass and velocity); else moved along by a flow
+  std::string doc;      ///< one line
+  Method usual_method;  ///< the integrator unless told otherwise
+  bool classical;       ///< moved by forces (has mass and velocity); else moved along by a flow
   std::vector<ClassVariant> variants;
 
   ClassVariant const* in(int dimension) const;

@@ -7,11 +7,20 @@
 namespace boltzmann::detail {
 
 std::vector<ParticleClass> newton_classes() {
-  return {{"Newton", "a classical particle: mass and velocity", Method::leap_frog, true,
+  return {{"Newton",
+           "a classical particle: mass and velocity",
+           Method::leap_frog,
+           true,
            {variant_of<Newton<1>>(), variant_of<Newton<2>>(), variant_of<Newton<3>>()}},
-          {"Tethered", "a classical particle that may be tethered to an anchor of its own", Method::leap_frog, true,
+          {"Tethered",
+           "a classical particle that may be tethered to an anchor of its own",
+           Method::leap_frog,
+           true,
            {variant_of<Tethered<1>>(), variant_of<Tethered<2>>(), variant_of<Tethered<3>>()}},
-          {"Pendulum", "a bob on an arm; its position is the angle from the vertical", Method::leap_frog, true,
+          {"Pendulum",
+           "a bob on an arm; its position is the angle from the vertical",
+           Method::leap_frog,
+           true,
            {variant_of<Pendulum<1>>()}}};
 }
 

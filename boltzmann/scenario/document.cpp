@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -31,9 +32,10 @@ std::vector<std::string> Mistakes::lines() const {
   });
   std::vector<std::string> lines;
   for (auto const& [place, message] : sorted) {
-    std::string line = place.override_number < 0
-                           ? fmt::format("{}:{}:{}: {}", file_, place.line, place.column, message)
-                           : fmt::format("{}: {}", overrides_[static_cast<std::size_t>(place.override_number)], message);
+    std::string line =
+        place.override_number < 0
+            ? fmt::format("{}:{}:{}: {}", file_, place.line, place.column, message)
+            : fmt::format("{}: {}", overrides_[static_cast<std::size_t>(place.override_number)], message);
     std::replace(line.begin(), line.end(), '\n', ' ');
     if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
   }
@@ -141,7 +143,12 @@ std::optional<std::size_t> not_utf8(std::string const& text) {
   auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   for (std::size_t i = 0; i < text.size();) {
     unsigned char const first = byte(i);
-    std::size_t const length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+    std::size_t const length = first < 0x80   ? 1
+                               : first < 0xC2 ? 0
+                               : first < 0xE0 ? 2
+                               : first < 0xF0 ? 3
+                               : first < 0xF5 ? 4
+                                              : 0;
     if (length == 0 || i + length > text.size()) return i;
     for (std::size_t k = 1; k < length; ++k)
       if ((byte(i + k) & 0xC0) != 0x80) return i;
@@ -178,6 +185,12 @@ std::string syntax_message(std::string description) {
   }
   if (description.find("could not determine value type") != std::string::npos)
     return "this is no value; a text needs quotes, e.g. \"2.5 angstrom\", an array [ ]";
+  std::string const prefix = "Error while parsing ";
+  if (description.rfind(prefix, 0) == 0) description.erase(0, prefix.size());
+  for (auto const& [from, to] : {std::pair<std::string, std::string>{"'\n'", "the end of the line"},
+                                 {"'\r'", "the end of the line"},
+                                 {"'\\n'", "the end of the line"}})
+    if (auto const at = description.find(from); at != std::string::npos) description.replace(at, from.size(), to);
   return "this is not TOML: " + description;
 }
 
@@ -189,9 +202,8 @@ Item parse_document(std::string const& text, Mistakes& mistakes) {
     return {};
   }
   if (auto const at = not_utf8(text)) {
-    mistakes.add(place_at(text, *at),
-                 fmt::format("byte 0x{:02x} is not UTF-8; a scenario is a text file in UTF-8",
-                             static_cast<unsigned char>(text[*at])));
+    mistakes.add(place_at(text, *at), fmt::format("byte 0x{:02x} is not UTF-8; a scenario is a text file in UTF-8",
+                                                  static_cast<unsigned char>(text[*at])));
     return {};
   }
   try {
@@ -251,9 +263,9 @@ Item* element_of(Item& array, std::string const& step) {
 
 void apply_override(Item& document, std::string const& assignment, std::string const& option, Mistakes& mistakes) {
   Place place;
-  place.override_number = mistakes.add_override(option + (option == "--set" ? " " : "=") +
-                                                (option == "--set" ? assignment
-                                                                   : assignment.substr(assignment.find('=') + 1)));
+  place.override_number =
+      mistakes.add_override(option + (option == "--set" ? " " : "=") +
+                            (option == "--set" ? assignment : assignment.substr(assignment.find('=') + 1)));
   auto const equals = assignment.find('=');
   if (equals == std::string::npos || trimmed(assignment.substr(0, equals)).empty())
     return mistakes.add(place, "key=value is needed, e.g. run.step=0.1");
@@ -319,11 +331,10 @@ namespace {
 std::string quoted(std::string const& text, bool long_text = false) {
   std::string result = long_text ? "\"\"\"\n" : "\"";
   for (char const c : text) {
+    bool const control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
     if (c == '"' || c == '\\')
       (result += '\\') += c;
-    else if (c == '\n' && long_text)
-      result += c;
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+    else if (control && !(c == '\n' && long_text))
       result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
     else
       result += c;

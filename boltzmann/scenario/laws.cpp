@@ -34,8 +34,8 @@ std::string missing(LawInfo const& law, std::string_view least, AnyEnsemble cons
   int const dimension = ensemble.dimension();
   if (dimension < law.least_dimension || dimension > law.greatest_dimension)
     return law.least_dimension == law.greatest_dimension
-               ? fmt::format("law '{}' exists in {}D only; the box has {}", law.name, law.least_dimension, dimension)
-               : fmt::format("law '{}' exists in {}D to {}D; the box has {}", law.name, law.least_dimension,
+               ? fmt::format("law '{}' exists in {}D only; the box is {}D", law.name, law.least_dimension, dimension)
+               : fmt::format("law '{}' exists in {}D to {}D; the box is {}D", law.name, law.least_dimension,
                              law.greatest_dimension, dimension);
   if (!wanted || !actual) return "";
   if (is_target && wanted->classical != actual->classical)
@@ -55,8 +55,8 @@ std::string missing(LawInfo const& law, std::string_view least, AnyEnsemble cons
       if (ClassVariant const* in_space = candidate.in(dimension))
         for (auto const& f : in_space->fields)
           if (f.name == field.name && f.dimension == field.dimension) with.push_back(candidate.name);
-    return fmt::format("law '{}' needs {}; class {} has none; classes with one: {}", law.name,
-                       with_article(field.name), ensemble.class_name(), with.empty() ? "none" : join(with));
+    return fmt::format("law '{}' needs {}; class {} has none; classes with one: {}", law.name, with_article(field.name),
+                       ensemble.class_name(), with.empty() ? "none" : join(with));
   }
   return "";
 }
@@ -147,8 +147,8 @@ void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& 
   install_one_way(scheme, law, bound, a, use == LawUse::internal ? a : b, cutoff);
 }
 
-void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters,
-                         AnyEnsemble& ensemble, std::vector<Connection> const& connections) {
+void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
+                         std::vector<Connection> const& connections) {
   require(law, ensemble, true);
   require(law, ensemble, false);
   BoundLaw const bound = bind(law, parameters, ensemble.dimension());
@@ -163,8 +163,7 @@ void install_external(PairScheme& scheme, LawInfo const& law, LawParameters cons
   require(law, ensemble, true);
   BoundLaw const bound = bind(law, parameters, ensemble.dimension());
   for (auto const& choice : bound.externals)
-    if (choice.ensemble(ensemble))
-      return scheme.add_external(ensemble, choice.kernels, bound.law, bound.traits, only);
+    if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law, bound.traits, only);
   throw unfit(law, ensemble);
 }
 

@@ -23,13 +23,13 @@ using LawParameters = std::vector<std::pair<std::string, std::vector<double>>>;
 /// How a pair law acts.
 enum class LawUse { internal, between, one_way };
 
-/// Installs a pair law in a scheme: within `a` (internal), between two ensembles, or of `b` on `a` (one_way). Error, "law
-/// 'coulomb' needs a charge; class Newton has none; classes with one: Coulomb", if the classes can't have it.
+/// Installs a pair law in a scheme: within `a` (internal), between two ensembles, or of `b` on `a` (one_way). Error,
+/// "law 'coulomb' needs a charge; class Newton has none; classes with one: Coulomb", if the classes can't have it.
 void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, LawUse use, AnyEnsemble& a,
                    AnyEnsemble& b, double cutoff);
 /// A pair law over fixed pairs of one ensemble. Errors as above, and those of connected_pairs().
-void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters,
-                         AnyEnsemble& ensemble, std::vector<Connection> const& connections);
+void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
+                         std::vector<Connection> const& connections);
 /// An external law on all particles or the chosen ones. Errors as above.
 void install_external(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
                       std::vector<std::uint32_t> const* only);

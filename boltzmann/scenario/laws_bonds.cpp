@@ -7,8 +7,13 @@
 namespace boltzmann::detail {
 
 std::vector<LawBinder> bond_laws() {
-  return {{"rydberg", [](LawValues const& v) { return bind_between_newton(Rydberg{v("depth"), v("r0"), v("a")}); }},
-          {"spring", [](LawValues const& v) { return bind_between_newton(Spring{v("stiffness"), v("rest_length")}); }}};
+  return {{"rydberg",
+           [](LawValues const& v) {
+             return bind_between_newton(Rydberg{v("depth"), v("r0"), v("a")});
+           }},
+          {"spring", [](LawValues const& v) {
+             return bind_between_newton(Spring{v("stiffness"), v("rest_length")});
+           }}};
 }
 
 }  // namespace boltzmann::detail

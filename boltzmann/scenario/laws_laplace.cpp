@@ -20,8 +20,8 @@ std::vector<LawBinder> laplace_laws() {
              bind_pairs<LaplaceLaw>(bound, Layouts<Kepler<1>, LongKepler<1>>{});
              bind_pairs<LaplaceLaw>(bound, Layouts<Kepler<2>>{});
              bind_pairs<LaplaceLaw>(bound, Layouts<Kepler<3>, LongKepler<3>>{});
-             bind_connections<LaplaceLaw>(
-                 bound, Layouts<Kepler<1>, LongKepler<1>, Kepler<2>, Kepler<3>, LongKepler<3>>{});
+             bind_connections<LaplaceLaw>(bound,
+                                          Layouts<Kepler<1>, LongKepler<1>, Kepler<2>, Kepler<3>, LongKepler<3>>{});
              return bound;
            }}};
 }

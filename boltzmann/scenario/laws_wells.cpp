@@ -7,8 +7,13 @@
 namespace boltzmann::detail {
 
 std::vector<LawBinder> well_laws() {
-  return {{"lennard-jones", [](LawValues const& v) { return bind_between_newton(LennardJones{v("depth"), v("r0")}); }},
-          {"morse", [](LawValues const& v) { return bind_between_newton(Morse{v("depth"), v("r0"), v("a")}); }}};
+  return {{"lennard-jones",
+           [](LawValues const& v) {
+             return bind_between_newton(LennardJones{v("depth"), v("r0")});
+           }},
+          {"morse", [](LawValues const& v) {
+             return bind_between_newton(Morse{v("depth"), v("r0"), v("a")});
+           }}};
 }
 
 }  // namespace boltzmann::detail

@@ -79,7 +79,9 @@ std::vector<std::uint32_t> everyone(AnyEnsemble const& particles) {
 }
 
 /// What so many particles take, with their influences, the schemes' copies and lists.
-double memory_of(double count, ClassVariant const& variant) { return count * (3.0 * variant.row_bytes + 200); }
+double memory_of(double count, ClassVariant const& variant) {
+  return count * (3.0 * static_cast<double>(variant.row_bytes) + 200);
+}
 
 bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
   double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
@@ -97,8 +99,9 @@ class Loader {
   Loader(Item const& table, Reading& reading, ClassVariant const* variant)
       : reading_(reading), variant_(variant), section_(table, "load", reading.context), place_(table.place) {}
 
-  /// Reads the table. `number` is what the ensemble says, 0 if nothing; afterwards count() particles are to be made.
-  bool read(std::size_t number, Place const& number_place) {
+  /// Reads the table. `number` is what the ensemble says (0: what can't be read); afterwards count() particles are to
+  /// be made.
+  bool read(std::optional<std::size_t> number, Place const& number_place) {
     std::size_t const before = reading_.context.mistakes.count();
     Item const* word = section_.need("kind", "kind = \"block\"");
     if (!word) return false;
@@ -107,33 +110,33 @@ class Loader {
     kind_ = *kind;
     double own_count = 0;  // from what is loaded
     if (kind_ == "block") own_count = read_block();
-    if (kind_ == "random") distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
+    if (kind_ == "random")
+      distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
     if (kind_ == "gravity") {
-      temperature_ =
-          section_.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive).value_or(1);
-      acceleration_ = section_
-                          .need_quantity("acceleration", dimensions::acceleration, "acceleration = \"9.81 m/s^2\"")
-                          .value_or(0);
+      temperature_ = section_.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive)
+                         .value_or(1);
+      acceleration_ =
+          section_.need_quantity("acceleration", dimensions::acceleration, "acceleration = \"9.81 m/s^2\"").value_or(0);
     }
     if (kind_ == "positions") own_count = read_positions();
     if (kind_ == "file") own_count = read_file();
     section_.finish();
     if (reading_.context.mistakes.count() != before) return false;
     if (kind_ == "random" || kind_ == "gravity") {
-      if (number == 0) {
+      if (!number) {
         reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", kind_));
         return false;
       }
-      own_count = static_cast<double>(number);
-    } else if (number != 0 && static_cast<double>(number) != own_count) {
+      own_count = static_cast<double>(*number);
+    } else if (number.value_or(0) != 0 && static_cast<double>(*number) != own_count) {
       reading_.mistake(number_place, fmt::format("number: {} particles, but load \"{}\" has places for {:.0f}; leave "
                                                  "'number' out",
-                                                 number, kind_, own_count));
+                                                 *number, kind_, own_count));
       return false;
     }
-    if (variant_ && !fits_memory(own_count, *variant_, number != 0 ? number_place : place_, reading_)) return false;
+    if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
     count_ = static_cast<std::size_t>(own_count);
-    return true;
+    return count_ > 0;
   }
   std::size_t count() const { return count_; }
 
@@ -165,11 +168,13 @@ class Loader {
         section_.need_quantity("spacing", dimensions::length, "spacing = \"2.551 angstrom\"", positive).value_or(1);
     double count = 1;
     if (Item const* counts = section_.need("counts", "counts = [25, 10]")) {
-      if (!counts->is(Item::Kind::array) || (dimension > 0 && counts->elements.size() != static_cast<std::size_t>(dimension))) {
-        reading_.mistake(counts->place,
-                         fmt::format("counts: an array of {} whole numbers is needed, one for each axis, not {}{}",
-                                     dimension, found(*counts),
-                                     counts->is(Item::Kind::array) ? fmt::format(" of {}", counts->elements.size()) : ""));
+      if (!counts->is(Item::Kind::array) ||
+          (dimension > 0 && counts->elements.size() != static_cast<std::size_t>(dimension))) {
+        reading_.mistake(
+            counts->place,
+            fmt::format("counts: an array of {} whole numbers is needed, one for each axis, not {}{}", dimension,
+                        found(*counts),
+                        counts->is(Item::Kind::array) ? fmt::format(" of {}", counts->elements.size()) : ""));
       } else {
         for (std::size_t a = 0; a < counts->elements.size() && a < 3; ++a)
           if (auto const n = read_integer(counts->elements[a], "counts", 1, 1'000'000'000'000, reading_.context)) {
@@ -197,8 +202,8 @@ class Loader {
     Item const* list = section_.need("positions", "positions = [[0, 0], [1, 0]]");
     if (!list) return 0;
     if (!list->is(Item::Kind::array) || list->elements.empty()) {
-      reading_.mistake(list->place,
-                       fmt::format("positions: an array of positions is needed, [[0, 0], [1, 0]], not {}", found(*list)));
+      reading_.mistake(list->place, fmt::format("positions: an array of positions is needed, [[0, 0], [1, 0]], not {}",
+                                                found(*list)));
       return 0;
     }
     Dimension dimension = dimensions::length;
@@ -221,7 +226,8 @@ class Loader {
     options_.velocity = section_.quantity("velocity", dimensions::velocity, positive).value_or(1);
     if (!path) return 0;
     std::filesystem::path full = *path;
-    if (full.is_relative() && !reading_.context.folder.empty()) full = std::filesystem::path(reading_.context.folder) / full;
+    if (full.is_relative() && !reading_.context.folder.empty())
+      full = std::filesystem::path(reading_.context.folder) / full;
     file_ = std::filesystem::absolute(full).lexically_normal().string();
     guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); });
     if (options_.species.empty()) return static_cast<double>(frame_.size());
@@ -292,9 +298,9 @@ void read_ensemble(Item const& table, Reading& reading) {
   if (kind && !variant && reading.dimension > 0) {
     std::vector<std::string> spaces;
     for (auto const& v : kind->variants) spaces.push_back(std::to_string(v.dimension) + "D");
-    reading.mistake(class_item->place, fmt::format("class {} lives in {}; the box has {} dimension{}", kind->name,
-                                                   join(spaces, " or "), reading.dimension,
-                                                   reading.dimension == 1 ? "" : "s"));
+    reading.mistake(class_item->place,
+                    fmt::format("class {} lives in {}; the box has {} dimension{}", kind->name, join(spaces, " or "),
+                                reading.dimension, reading.dimension == 1 ? "" : "s"));
   }
 
   Item const* method_item = section.find("integrator");
@@ -302,7 +308,7 @@ void read_ensemble(Item const& table, Reading& reading) {
       method_item ? read_word(*method_item, "integrator", method_names(), reading.context) : std::nullopt;
   Place const method_place = method_item ? method_item->place : table.place;
 
-  std::size_t number = 0;
+  std::optional<std::size_t> number;
   if (Item const* item = section.find("number"))
     number = static_cast<std::size_t>(
         read_integer(*item, "number", 1, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0));
@@ -335,7 +341,7 @@ void read_ensemble(Item const& table, Reading& reading) {
       reading.mistake(table.find("position")->place,
                       "positions are loaded: load = { kind = \"positions\", positions = [...] }");
     fields = read_fields(section, fields_of(*kind, reading.dimension), false, count, reading);
-    section.allow("position");
+    section.know("position");
     for (auto const& value : fields)
       if (value.field.name == "mass")
         for (double const mass : value.values)
@@ -356,8 +362,9 @@ void read_ensemble(Item const& table, Reading& reading) {
     if (section.has(key) && !temperature_item)
       reading.mistake(section.place(key), fmt::format("{}: it belongs to 'temperature', which is missing", key));
   if (temperature_item && section.has("velocity"))
-    reading.mistake(section.place("velocity"), "velocity: 'temperature' gives the velocities; for a common one on top "
-                                               "write 'drift'");
+    reading.mistake(section.place("velocity"),
+                    "velocity: 'temperature' gives the velocities; for a common one on top "
+                    "write 'drift'");
 
   // From here on there are particles, if everything so far is right.
   AnyEnsemble* particles = nullptr;
@@ -385,10 +392,12 @@ void read_ensemble(Item const& table, Reading& reading) {
     Section set(*set_table, "[[ensembles.set]]", reading.context);
     auto const which = read_particles(set, particles, reading);
     if (!set.has("particles"))
-      reading.mistake(set.place(), "[[ensembles.set]] has no 'particles'; add e.g. particles = [0], \"edge\" or \"all\"");
+      reading.mistake(set.place(),
+                      "[[ensembles.set]] has no 'particles'; add e.g. particles = [0], \"edge\" or \"all\"");
     bool const freeze = set.boolean("freeze");
-    auto const values = kind ? read_fields(set, fields_of(*kind, reading.dimension), true, which ? which->size() : 0, reading)
-                             : std::vector<FieldValue>{};
+    auto const values =
+        kind ? read_fields(set, fields_of(*kind, reading.dimension), true, which ? which->size() : 0, reading)
+             : std::vector<FieldValue>{};
     if (kind) set.finish();
     if (!particles || !which || reading.context.mistakes.count() != before) continue;
     for (auto const& value : values) apply(value, *particles, *which);
@@ -412,15 +421,14 @@ void read_ensemble(Item const& table, Reading& reading) {
       for (auto const i : frozen) std::fill_n(particles->row(i) + velocity->offset, velocity->components, 0.0);
     ensemble.integrator = std::make_unique<Frozen>(*particles, frozen, std::move(ensemble.integrator));
   }
-  if (particles)
-    guarded(reading, ensemble.load_place, [&] { reading.box->check(*particles); });
+  if (particles) guarded(reading, ensemble.load_place, [&] { reading.box->check(*particles); });
   ensemble.particles = reading.context.mistakes.count() == before ? particles : nullptr;
   if (loader && !loader->file().empty()) {
     // The stored scenario must find the file from any folder.
     Item& load = const_cast<Item&>(*load_item);
     load.find("path")->item.text = loader->file();
   }
-  if (name) reading.ensembles.push_back(std::move(ensemble));
+  reading.ensembles.push_back(std::move(ensemble));
 }
 
 }  // namespace
@@ -432,22 +440,22 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   Item const* item = section.find("particles");
   if (!item) return std::nullopt;
   bool const edge = item->is(Item::Kind::text) && item->text == "edge";
-  if (margin_item && !edge)
-    reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");
+  if (margin_item && !edge) reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");
   if (item->is(Item::Kind::text)) {
     auto const word = read_word(*item, "particles", {"all", "edge"}, reading.context);
     if (!word) return std::nullopt;
     if (edge && !margin_item) {
-      reading.mistake(item->place, "particles = \"edge\" needs a 'margin': those nearer than it to a face of the block "
-                                   "that encloses all, e.g. margin = \"1.5 angstrom\"");
+      reading.mistake(item->place,
+                      "particles = \"edge\" needs a 'margin': those nearer than it to a face of the block "
+                      "that encloses all, e.g. margin = \"1.5 angstrom\"");
       return std::nullopt;
     }
     if (!ensemble || (edge && !margin)) return std::nullopt;
     return edge ? edge_particles(*ensemble, *margin) : everyone(*ensemble);
   }
   if (!item->is(Item::Kind::array)) {
-    reading.mistake(item->place, fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}",
-                                             found(*item)));
+    reading.mistake(item->place,
+                    fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}", found(*item)));
     return std::nullopt;
   }
   std::vector<std::uint32_t> which;
@@ -455,8 +463,9 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
     auto const i = read_integer(element, "particles", 0, 4'000'000'000, reading.context);
     if (!i) return std::nullopt;
     if (ensemble && static_cast<std::size_t>(*i) >= ensemble->size()) {
-      reading.mistake(element.place, fmt::format("particles: there is no particle {}; '{}' has {}, numbered from 0 to {}",
-                                                 *i, ensemble->name(), ensemble->size(), ensemble->size() - 1));
+      reading.mistake(element.place,
+                      fmt::format("particles: there is no particle {}; '{}' has {}, numbered from 0 to {}", *i,
+                                  ensemble->name(), ensemble->size(), ensemble->size() - 1));
       return std::nullopt;
     }
     which.push_back(static_cast<std::uint32_t>(*i));
@@ -466,7 +475,10 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
 
 void read_ensembles(Section& document, Reading& reading) {
   if (!document.has("ensembles")) reading.mistake({}, "there are no [[ensembles]]; a scenario needs particles");
-  for (Item const* table : find_tables(document, "ensembles")) read_ensemble(*table, reading);
+  auto const tables = find_tables(document, "ensembles");
+  if (Item const* item = document.find("ensembles"); item && item->is(Item::Kind::array) && item->elements.empty())
+    reading.mistake(item->place, "there are no [[ensembles]]; a scenario needs particles");
+  for (Item const* table : tables) read_ensemble(*table, reading);
 }
 
 }  // namespace boltzmann

@@ -20,17 +20,17 @@ std::optional<LawParameters> read_parameters(Section& section, LawInfo const& la
   LawParameters parameters;
   for (auto const& parameter : law.parameters) {
     std::string const name(parameter.name);
-    bool const has_default = !parameter.default_text.empty() &&
-                             (parameter.in_reduced_base || !reading.context.base.is_reduced());
+    bool const has_default =
+        !parameter.default_text.empty() && (parameter.in_reduced_base || !reading.context.base.is_reduced());
     auto const units = example_units(parameter.dimension);
-    std::string const example =
-        parameter.vector ? fmt::format("{} = [0, -1]", name)
-        : reading.context.base.is_reduced() || units.empty() ? fmt::format("{} = 1", name)
-                                                              : fmt::format("{} = \"1 {}\"", name, units[0]);
+    std::string const example = parameter.vector ? fmt::format("{} = [0, -1]", name)
+                                : reading.context.base.is_reduced() || units.empty()
+                                    ? fmt::format("{} = 1", name)
+                                    : fmt::format("{} = \"1 {}\"", name, units[0]);
     Item const* item = section.find(name);
     if (!item && !has_default) {
-      reading.mistake(section.place(), fmt::format("law '{}' needs '{}', {}; add e.g. {}", law.name, name,
-                                                   parameter.doc, example));
+      reading.mistake(section.place(),
+                      fmt::format("law '{}' needs '{}', {}; add e.g. {}", law.name, name, parameter.doc, example));
       continue;
     }
     if (!item) {
@@ -62,7 +62,7 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
   for (auto const& triple : item.elements) {
     if (!triple.is(Item::Kind::array) || triple.elements.size() < 2 || triple.elements.size() > 3) {
       wrong(triple);
-      continue;
+      return {};
     }
     std::array<std::size_t, 3> numbers{0, 0, 1};
     bool good = true;
@@ -105,10 +105,10 @@ void read_influence(Item const& table, Reading& reading) {
   int const given = (on != nullptr) + (between != nullptr) + (one_way != nullptr);
   ReadEnsemble *a = nullptr, *b = nullptr;
   if (external ? on == nullptr && !section.has("between") && !section.has("one_way") : given == 0) {
-    reading.mistake(table.place, external ? fmt::format("law '{}' comes from outside and needs 'on', e.g. on = \"atoms\"",
-                                                        *name)
-                                          : "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
-                                            "\"b\"] or one_way = [\"on\", \"by\"]");
+    reading.mistake(table.place,
+                    external ? fmt::format("law '{}' comes from outside and needs 'on', e.g. on = \"atoms\"", *name)
+                             : "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
+                               "\"b\"] or one_way = [\"on\", \"by\"]");
   } else if (given > 1) {
     reading.mistake((between ? between : one_way)->place,
                     "[[influences]] needs one of 'on', 'between' and 'one_way', not more");
@@ -118,10 +118,10 @@ void read_influence(Item const& table, Reading& reading) {
     Item const& pair = between ? *between : *one_way;
     char const* key = between ? "between" : "one_way";
     if (!pair.is(Item::Kind::array) || pair.elements.size() != 2) {
-      reading.mistake(pair.place, fmt::format("{}: the names of two ensembles are needed, {}, not {}{}", key,
-                                              between ? "[\"a\", \"b\"]" : "[\"on\", \"by\"]", found(pair),
-                                              pair.is(Item::Kind::array) ? fmt::format(" of {}", pair.elements.size())
-                                                                         : ""));
+      reading.mistake(pair.place,
+                      fmt::format("{}: the names of two ensembles are needed, {}, not {}{}", key,
+                                  between ? "[\"a\", \"b\"]" : "[\"on\", \"by\"]", found(pair),
+                                  pair.is(Item::Kind::array) ? fmt::format(" of {}", pair.elements.size()) : ""));
     } else {
       a = reading.ensemble(pair.elements[0], key);
       b = reading.ensemble(pair.elements[1], key);
@@ -147,7 +147,8 @@ void read_influence(Item const& table, Reading& reading) {
       connect = section.find("connect");
       if (connect) {
         connections = read_connections(*connect, a ? a->particles : nullptr, reading);
-        if (!on && given == 1) reading.mistake(connect->place, "connect: connections are within one ensemble; write 'on'");
+        if (!on && given == 1)
+          reading.mistake(connect->place, "connect: connections are within one ensemble; write 'on'");
         if (section.has("cutoff")) reading.mistake(section.place("cutoff"), "cutoff: connections have none");
       }
     }
@@ -158,13 +159,13 @@ void read_influence(Item const& table, Reading& reading) {
     return;
   PairScheme& scheme = *reading.result->scheme;
   if (external) {
-    guarded(reading, law_item->place, [&] {
-      install_external(scheme, *law, *parameters, *a->particles, only ? &*only : nullptr);
-    });
+    guarded(reading, law_item->place,
+            [&] { install_external(scheme, *law, *parameters, *a->particles, only ? &*only : nullptr); });
   } else if (connect) {
     guarded(reading, law_item->place,
             [&] { install_connections(scheme, *law, *parameters, *a->particles, connections); });
   } else {
+    if (!cutoff && !reading.run.cutoff_known) return;
     double const reach = cutoff ? *cutoff : reading.run.cutoff.value_or(no_cutoff);
     for (int axis = 0; axis < reading.dimension; ++axis) {
       if (!reading.box->periodic(axis)) continue;
@@ -172,7 +173,7 @@ void read_influence(Item const& table, Reading& reading) {
       if (reach == no_cutoff)
         return reading.mistake(table.place, fmt::format("axis {} is periodic: law '{}' needs a cut-off there, in [run] "
                                                         "or here, of at most {}",
-                                                        "xyz"[axis], law->name, most));
+                                                        "xyz"[axis], law -> name, most));
       if (reach > most)
         return reading.mistake(section.place("cutoff"),
                                fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}",
@@ -180,8 +181,10 @@ void read_influence(Item const& table, Reading& reading) {
     }
     guarded(reading, law_item->place, [&] {
       install_pairs(scheme, *law, *parameters,
-                    on ? LawUse::internal : between ? LawUse::between : LawUse::one_way, *a->particles, *b->particles,
-                    reach);
+                    on        ? LawUse::internal
+                    : between ? LawUse::between
+                              : LawUse::one_way,
+                    *a->particles, *b->particles, reach);
     });
   }
 }

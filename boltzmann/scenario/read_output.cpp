@@ -55,14 +55,16 @@ void read_diagnosis(Item const& table, Reading& reading) {
     auto const which = read_particles(section, one ? one->particles : nullptr, reading);
     if (which) parameters.particles = *which;
     if (which && !one)
-      reading.mistake(section.place("particles"), "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
+      reading.mistake(section.place("particles"),
+                      "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
   }
   if (has("similar_velocity") && reading.dimension > 0)
     if (auto const v = section.vector("similar_velocity", reading.dimension, dimensions::velocity)) {
       parameters.similar_velocity.emplace();
       std::copy(v->begin(), v->end(), parameters.similar_velocity->begin());
     }
-  if (has("tolerance")) parameters.tolerance = section.quantity("tolerance", dimensions::velocity, not_negative).value_or(0);
+  if (has("tolerance"))
+    parameters.tolerance = section.quantity("tolerance", dimensions::velocity, not_negative).value_or(0);
   if (has("subtract_drift")) parameters.subtract_drift = section.boolean("subtract_drift");
   if (has("about_centre_of_mass")) parameters.about_centre_of_mass = section.boolean("about_centre_of_mass");
   if (has("quantity")) {
@@ -99,7 +101,8 @@ void read_picture(Item const& table, Reading& reading) {
   section.finish();
   for (auto const& other : reading.result->output.pictures)
     if (other.file == plan.file)
-      reading.mistake(section.place("file"), fmt::format("file: there is a picture '{}' already; names must differ", plan.file));
+      reading.mistake(section.place("file"),
+                      fmt::format("file: there is a picture '{}' already; names must differ", plan.file));
   if (reading.context.mistakes.count() == before && all_loaded(reading)) {
     std::vector<AnyEnsemble*> ensembles;
     for (auto const& ensemble : reading.ensembles) ensembles.push_back(ensemble.particles);

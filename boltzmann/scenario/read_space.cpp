@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
+#include <limits>
 
 namespace boltzmann {
 namespace {
@@ -66,9 +66,12 @@ ReadEnsemble* Reading::ensemble(Item const& word, std::string_view key) {
   for (auto& e : ensembles)
     if (e.name == *name) return &e;
   auto const names = ensemble_names();
-  mistake(word.place, fmt::format("{}: there is no ensemble '{}'; there {} {}{}", key, *name,
-                                  names.size() == 1 ? "is" : "are", names.empty() ? "none" : join(names),
-                                  did_you_mean(*name, names)));
+  // One whose own name could not be read may be the one that is meant.
+  for (auto const& e : ensembles)
+    if (e.name.empty()) return nullptr;
+  mistake(word.place,
+          fmt::format("{}: there is no ensemble '{}'; there {} {}{}", key, *name, names.size() == 1 ? "is" : "are",
+                      names.empty() ? "none" : join(names), did_you_mean(*name, names)));
   return nullptr;
 }
 
@@ -78,6 +81,7 @@ double Reading::boltzmann_constant() const {
 
 void read_units(Section& document, Reading& reading) {
   Item const* table = find_table(document, "units");
+  reading.base_known = !document.has("units");
   if (!table) return;
   Section units(*table, "[units]", reading.context);
   std::size_t const before = reading.context.mistakes.count();
@@ -85,9 +89,10 @@ void read_units(Section& document, Reading& reading) {
   auto const name = word ? read_word(*word, "base", base_names, reading.context) : std::nullopt;
   Base base;
   if (name) guarded(reading, units.place(), [&] { base = read_base(units, *name); });
+  reading.base_known = reading.context.mistakes.count() == before;
   // Without a base nobody knows which keys it would have had.
   if (name) units.finish();
-  if (reading.context.mistakes.count() == before) {
+  if (reading.base_known) {
     reading.context.base = base;
     reading.result->base = base;
     reading.result->reduced = base.is_reduced();
@@ -107,11 +112,11 @@ void read_box(Section& document, Reading& reading) {
   for (auto const& [item, key] : {std::pair(low_item, "low"), std::pair(high_item, "high")}) {
     if (!item) continue;
     if (!item->is(Item::Kind::array) || item->elements.empty() || item->elements.size() > 3) {
-      reading.mistake(item->place, fmt::format("{}: an array of 1, 2 or 3 lengths is needed, not {}{}", key,
-                                               found(*item),
-                                               item->is(Item::Kind::array) && !item->elements.empty()
-                                                   ? fmt::format(" of {}", item->elements.size())
-                                                   : ""));
+      reading.mistake(item->place,
+                      fmt::format("{}: an array of 1, 2 or 3 lengths is needed, not {}{}", key, found(*item),
+                                  item->is(Item::Kind::array) && !item->elements.empty()
+                                      ? fmt::format(" of {}", item->elements.size())
+                                      : ""));
       continue;
     }
     if (reading.dimension == 0) reading.dimension = static_cast<int>(item->elements.size());
@@ -139,7 +144,10 @@ void read_box(Section& document, Reading& reading) {
     for (std::size_t a = 0; a < v.size() && a < 3; ++a) w[a] = v[a];
     return w;
   };
-  if (reading.context.mistakes.count() == before && !low.empty() && !high.empty())
+  if (low_item && high_item && low_item->is(Item::Kind::array) && high_item->is(Item::Kind::array) &&
+      low_item->elements.size() != high_item->elements.size())
+    reading.dimension = 0;  // nobody knows which of the two is meant
+  if (reading.context.mistakes.count() == before && reading.base_known && !low.empty() && !high.empty())
     guarded(reading, high_item->place,
             [&] { reading.box.emplace(reading.dimension, wide(low), wide(high), boundaries); });
   for (Item const* region_table : find_tables(section, "regions")) {
@@ -147,7 +155,8 @@ void read_box(Section& document, Reading& reading) {
     Item const* first = region.need("low", "low = [2, 2]");
     Item const* second = region.need("high", "high = [4, 4]");
     Item const* side_item = region.need("side", "side = \"keep-out\"");
-    auto const side = side_item ? read_word(*side_item, "side", {"keep-out", "keep-in"}, reading.context) : std::nullopt;
+    auto const side =
+        side_item ? read_word(*side_item, "side", {"keep-out", "keep-in"}, reading.context) : std::nullopt;
     region.finish();
     if (!first || !second || reading.dimension == 0) continue;
     auto const from = read_vector(*first, "low", reading.dimension, dimensions::length, reading.context);
@@ -164,16 +173,18 @@ void read_box(Section& document, Reading& reading) {
 void read_run(Section& document, Reading& reading) {
   Item const* table = find_table(document, "run");
   if (!document.has("run")) reading.mistake({}, "there is no [run]; add e.g. [run] step = 0.01, steps = 1000");
+  ReadRun& run = reading.run;
+  run.cutoff_known = table && (!table->find("cutoff"));
   if (!table) return;
   Section section(*table, "[run]", reading.context);
-  ReadRun& run = reading.run;
   run.place = table->place;
   run.step = section.need_quantity("step", dimensions::time, "step = 0.01", positive);
   if (Item const* steps = section.need("steps", "steps = 1000"))
-    run.steps = read_integer(*steps, "steps", 0, 1'000'000'000'000'000, reading.context).value_or(0);
+    run.steps = read_integer(*steps, "steps", 0, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0);
   run.seed = static_cast<std::uint64_t>(section.integer("seed", 0).value_or(1));
   run.threads = static_cast<int>(section.integer("threads", 0, 4096).value_or(0));
   run.cutoff = section.quantity("cutoff", dimensions::length, positive);
+  run.cutoff_known = run.cutoff_known || run.cutoff;
   run.cutoff_place = section.place("cutoff");
   run.skin = section.quantity("skin", dimensions::length, not_negative);
   section.finish();

@@ -27,6 +27,7 @@ struct ReadRun {
   std::int64_t steps = 0;
   std::uint64_t seed = 1;
   int threads = 0;
+  bool cutoff_known = true;  ///< false: there is one, but it could not be read
   Place place, cutoff_place;
 };
 
@@ -34,6 +35,7 @@ struct ReadRun {
 struct Reading {
   ReadContext context;
   std::unique_ptr<ScenarioSimulation> result = std::make_unique<ScenarioSimulation>();
+  bool base_known = true;
   int dimension = 0;  ///< of the box; 0: unknown
   std::optional<Box> box;
   ReadRun run;

@@ -10,16 +10,12 @@
 namespace boltzmann {
 namespace {
 
-/// "a length, e.g. 1.5 or "1.5 m"".
+/// "a number or a text with a unit of length is needed (e.g. "1.5 m")".
 std::string wanted(Dimension dimension, Base const& base) {
-  if (dimension == dimensions::none) return "a number";
-  std::string text = "a number";
-  if (!base.is_reduced()) {
-    auto const units = example_units(dimension);
-    text += units.empty() ? fmt::format(" or a text with a unit of {}", name_of(dimension))
-                          : fmt::format(" or a text with a unit of {}, e.g. \"1.5 {}\"", name_of(dimension), units[0]);
-  }
-  return text;
+  if (dimension == dimensions::none || base.is_reduced()) return "a number is needed";
+  auto const units = example_units(dimension);
+  return fmt::format("a number or a text with a unit of {} is needed{}", name_of(dimension),
+                     units.empty() ? "" : fmt::format(" (e.g. \"1.5 {}\")", units[0]));
 }
 
 }  // namespace
@@ -46,8 +42,7 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
       return std::nullopt;
     }
   } else {
-    context.mistakes.add(item.place,
-                         fmt::format("{}: {} is needed, not {}", name, wanted(dimension, context.base), found(item)));
+    context.mistakes.add(item.place, fmt::format("{}: {}, not {}", name, wanted(dimension, context.base), found(item)));
     return std::nullopt;
   }
   if (!std::isfinite(value)) {
@@ -70,9 +65,9 @@ std::optional<std::vector<double>> read_vector(Item const& item, std::string_vie
     return std::nullopt;
   }
   if (item.elements.size() != static_cast<std::size_t>(components)) {
-    context.mistakes.add(item.place, fmt::format("{}: it has {} component{}, here {} {} needed", name,
-                                                 item.elements.size(), item.elements.size() == 1 ? "" : "s", components,
-                                                 components == 1 ? "is" : "are"));
+    context.mistakes.add(item.place,
+                         fmt::format("{}: it has {} component{}, here {} {} needed", name, item.elements.size(),
+                                     item.elements.size() == 1 ? "" : "s", components, components == 1 ? "is" : "are"));
     return std::nullopt;
   }
   std::vector<double> values;
@@ -84,7 +79,8 @@ std::optional<std::vector<double>> read_vector(Item const& item, std::string_vie
 
 std::optional<std::int64_t> read_integer(Item const& item, std::string_view name, std::int64_t low, std::int64_t high,
                                          ReadContext& context) {
-  bool const whole = item.is(Item::Kind::number) && std::abs(item.number) < 9e15 && std::trunc(item.number) == item.number;
+  bool const whole =
+      item.is(Item::Kind::number) && std::abs(item.number) < 9e15 && std::trunc(item.number) == item.number;
   if (!item.is(Item::Kind::integer) && !whole) {
     context.mistakes.add(item.place, fmt::format("{}: a whole number is needed, not {}", name, found(item)));
     return std::nullopt;
@@ -108,12 +104,12 @@ std::optional<std::string> read_text(Item const& item, std::string_view name, Re
 
 std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,
                                      ReadContext& context) {
-  auto const text = read_text(item, name, context);
+  auto text = read_text(item, name, context);
   if (!text) return std::nullopt;
   if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
-  context.mistakes.add(item.place, fmt::format("unknown {} '{}'; there {} {}{}", name, *text,
-                                               words.size() == 1 ? "is" : "are", words.empty() ? "none" : join(words),
-                                               did_you_mean(*text, words)));
+  context.mistakes.add(item.place,
+                       fmt::format("unknown {} '{}'; there {} {}{}", name, *text, words.size() == 1 ? "is" : "are",
+                                   words.empty() ? "none" : join(words), did_you_mean(*text, words)));
   return std::nullopt;
 }
 
@@ -121,7 +117,8 @@ std::vector<std::string> read_texts(Item const& item, std::string_view name, Rea
   std::vector<std::string> texts;
   if (item.is(Item::Kind::text)) return {item.text};
   if (!item.is(Item::Kind::array)) {
-    context.mistakes.add(item.place, fmt::format("{}: a text or an array of texts is needed, not {}", name, found(item)));
+    context.mistakes.add(item.place,
+                         fmt::format("{}: a text or an array of texts is needed, not {}", name, found(item)));
     return {};
   }
   for (auto const& element : item.elements)
@@ -187,10 +184,11 @@ Place Section::place(std::string_view key) const {
 
 void Section::finish() {
   for (auto const& entry : table_.entries)
-    if (std::find(allowed_.begin(), allowed_.end(), entry.key) == allowed_.end())
-      mistake(entry.place, fmt::format("unknown {} '{}' in {}; allowed are {}{}",
-                                       entry.item.is(Item::Kind::table) ? "table" : "key", entry.key, title_,
-                                       join(allowed_), did_you_mean(entry.key, allowed_)));
+    if (std::find(allowed_.begin(), allowed_.end(), entry.key) == allowed_.end() &&
+        std::find(known_.begin(), known_.end(), entry.key) == known_.end())
+      mistake(entry.place,
+              fmt::format("unknown {} '{}' in {}; allowed are {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
+                          entry.key, title_, join(allowed_), did_you_mean(entry.key, allowed_)));
 }
 
 Item const* find_table(Section& document, std::string_view key) {

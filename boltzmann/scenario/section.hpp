@@ -19,8 +19,8 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  Base base;          ///< of the numbers to come
-  std::string folder; ///< of the scenario file: where its other files are
+  Base base;           ///< of the numbers to come
+  std::string folder;  ///< of the scenario file: where its other files are
 };
 
 /// What a number must be.
@@ -63,6 +63,8 @@ class Section {
   /// The same; a mistake with an example if it is missing.
   Item const* need(std::string_view key, std::string_view example);
   bool has(std::string_view key) const { return table_.find(key) != nullptr; }
+  /// Names a key that is known here, but not one to be proposed.
+  void know(std::string_view key) { known_.emplace_back(key); }
   /// Names a key that is allowed but read elsewhere.
   void allow(std::string_view key) { find(key); }
 
@@ -90,7 +92,7 @@ class Section {
   Item const& table_;
   std::string title_;
   ReadContext& context_;
-  std::vector<std::string> allowed_;
+  std::vector<std::string> allowed_, known_;
 };
 
 /// A table under `key` of the document: nullptr (and a mistake) if it is something else, nullptr if it is missing.

@@ -25,7 +25,8 @@ std::vector<std::string> shipped_scenarios() {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
   std::error_code failure;
-  for (fs::directory_iterator entry(scenario_folder(), failure), end; !failure && entry != end; entry.increment(failure))
+  for (fs::directory_iterator entry(scenario_folder(), failure), end; !failure && entry != end;
+       entry.increment(failure))
     if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

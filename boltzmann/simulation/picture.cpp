@@ -226,17 +226,28 @@ class Drawer {
       for (auto const& track : tracks)
         for (int a = 0; a < D; ++a) reach[a].insert(reach[a].end(), track.position[a].begin(), track.position[a].end());
     }
-    style.box = shown_box(reach);
+    auto const shown = shown_box(reach);
+    if (D == 3) style.box = shown;
+    for (int a = 0; a < D && D == 2; ++a) style.box.push_back({box().low(a), box().high(a)});
     for (int a = 0; a < D; ++a) style.periodic[a] = box().periodic(a);
     auto const connections = bonds();
     style.connections = connections;
     Canvas canvas = D == 2 ? draw_cartesian(position[0], position[1], style)
                            : draw_cartesian(position[0], position[1], position[2], style);
+    if (D == 2) {
+      Axis axes[2] = {canvas.x_axis(), canvas.y_axis()};
+      for (int a = 0; a < D; ++a) {
+        double const margin = 0.03 * (shown[a][1] - shown[a][0]);
+        axes[a].low = shown[a][0] - margin;
+        axes[a].high = shown[a][1] + margin;
+      }
+      canvas.axes(axes[0], axes[1]);
+    }
     for (auto const& track : tracks) draw_track(canvas, track);
     std::size_t outside = 0;
     for (std::size_t i = 0; i < position[0].size(); ++i)
       for (int a = 0; a < D; ++a)
-        if (position[a][i] < style.box[a][0] || position[a][i] > style.box[a][1]) {
+        if (position[a][i] < shown[a][0] || position[a][i] > shown[a][1]) {
           ++outside;
           break;
         }

@@ -60,6 +60,7 @@ void Simulation::check() {
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
       scheme->box().check(*ensemble);
+      scheme->box().wrap(*ensemble);
       if (std::find(ensembles_.begin(), ensembles_.end(), ensemble) == ensembles_.end()) ensembles_.push_back(ensemble);
     }
   stages_ = 0;

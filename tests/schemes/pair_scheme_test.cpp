@@ -231,6 +231,31 @@ TEST(PairScheme, ExternalLawsActOnTheChosen) {
   EXPECT_EQ(atoms.influence(3)[1], 1);
 }
 
+TEST(PairScheme, ChosenParticlesMustStayThere) {
+  Ensemble<Newton<2>> atoms("atoms", 4);
+  PairScheme scheme(Box(Vector{0., 0.}, Vector{1., 1.}));
+  auto const push = [](auto const&) { return Vector{1.0, 0.0}; };
+  EXPECT_THROW(scheme.external(atoms, push, {4}), Error);
+  scheme.external(atoms, push, {1, 3});
+  atoms.resize(3);
+  EXPECT_THROW(scheme.calculate(), Error);
+}
+
+TEST(PairScheme, WithoutSkinListsAreStillRight) {
+  Box const box = make_box<2>({8, 7, 0}, Boundary::periodic);
+  Ensemble<Newton<2>> atoms("atoms", 120);
+  scatter(atoms, box, 1);
+  PairScheme scheme(box, 1.5);
+  scheme.skin(0);
+  scheme.internal(atoms, smooth_law);
+  for (int k = 0; k < 3; ++k) {
+    for (auto& p : atoms) p.position[0] += 0.01 * p.mass;
+    box.apply(atoms);
+    scheme.calculate();
+    EXPECT_LT(difference(atoms, oracle::influences(atoms, atoms, smooth_law, box, 1.5)), 1e-13);
+  }
+}
+
 // Lennard-Jones in closed form: a pair at distance r has phi(r), and its virial is -r phi'(r).
 TEST(PairScheme, EnergyAndVirialOfAPair) {
   double const r = 1.3, depth = 0.7, r0 = 1.1;

@@ -195,6 +195,19 @@ TEST(Simulation, BoundedBoxReflectsElastically) {
   EXPECT_EQ(ball[0].velocity[0], -1);
 }
 
+TEST(Simulation, PeriodicPositionsAreWrappedAtTheStart) {
+  Ensemble<Newton<1>> ball("ball", 2);
+  ball[0].position = {37.25};
+  ball[1].position = {-12.5};
+  PairScheme scheme(Box(Vector{0.}, Vector{1.}, Boundary::periodic), 0.5);
+  scheme.load(ball);
+  Simulation simulation(scheme, 0.1);
+  simulation.integrate(ball, Method::leap_frog);
+  simulation.run(1);
+  EXPECT_EQ(ball[0].position[0], 0.25);
+  EXPECT_EQ(ball[1].position[0], 0.5);
+}
+
 TEST(Simulation, RegionsKeepOutAndIn) {
   Ensemble<Newton<2>> ball("ball", 1), caged("caged", 1);
   ball[0].position = {1, 5};

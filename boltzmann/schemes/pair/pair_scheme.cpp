@@ -68,6 +68,9 @@ struct PairScheme::Connected {
   NeighbourList list;
 
   PairTask task(Box const& box) const {
+    if (list.start.size() != ensemble->size() + 1)
+      throw Error(fmt::format("ensemble '{}' had {} particles when it was connected, now it has {}", ensemble->name(),
+                              list.start.size() - 1, ensemble->size()));
     PairTask t;
     t.influence = ensemble->influence(0);
     t.same = true;
@@ -91,9 +94,13 @@ struct PairScheme::External {
   LawTraits traits;
   bool everyone;
   std::vector<std::uint32_t> only;
+  std::size_t last = 0;  // the largest number in it
 
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
   ExternalTask task(double time) const {
+    if (!only.empty() && ensemble->size() <= last)
+      throw Error(fmt::format("an external influence acts on particle {} of '{}', which has {} now", last,
+                              ensemble->name(), ensemble->size()));
     ExternalTask t;
     t.rows = ensemble->row(0);
     t.only = everyone ? nullptr : only.data();
@@ -114,6 +121,7 @@ void PairScheme::skin(double length) {
   if (!(length >= 0) || !std::isfinite(length))
     throw Error(fmt::format("the skin is a length of zero or more, not {}", length));
   skin_ = length;
+  skin_chosen_ = true;
   lists_stale_ = true;
 }
 
@@ -152,7 +160,7 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
   if (std::isfinite(cutoff)) {
     near->target_mirror = &mirror(target);
     near->source_mirror = &mirror(source);
-    if (skin_ == 0) skin_ = skin_of_cutoff * cutoff;
+    if (!skin_chosen_) skin_ = std::max(skin_, skin_of_cutoff * std::min(cutoff, cutoff_));
   }
   lists_stale_ = true;
   near_.push_back(std::move(near));
@@ -180,10 +188,12 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
   external->traits = traits;
   external->everyone = only == nullptr;
   if (only) external->only = *only;
-  for (auto const i : external->only)
+  for (auto const i : external->only) {
+    external->last = std::max<std::size_t>(external->last, i);
     if (i >= ensemble.size())
       throw Error(
           fmt::format("external influence on particle {} of '{}', which has {}", i, ensemble.name(), ensemble.size()));
+  }
   external_.push_back(std::move(external));
 }
 

@@ -139,7 +139,7 @@ class PairScheme final : public Scheme {
   double skin_;
   double reach_ = 0;  // of the longest list
   double quantum_ = 0;
-  bool lists_stale_ = true, shifted_ = true;
+  bool lists_stale_ = true, shifted_ = true, skin_chosen_ = false;
   std::size_t calculations_ = 0, builds_ = 0;
   std::vector<std::unique_ptr<Mirror>> mirrors_;
   std::vector<std::unique_ptr<Near>> near_;

@@ -1,0 +1,275 @@
+// The examples, run as a user runs them: each in a folder of its own, with the files it promises and the physics it
+// shows.
+#include "../bzm/command.hpp"
+
+#include <boltzmann/core/vector.hpp>
+#include <boltzmann/files/trajectory.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// diagnoses.csv: its columns by name, without the units in brackets.
+struct Table {
+  std::map<std::string, std::vector<double>> columns;
+  std::size_t rows = 0;
+
+  explicit Table(std::string const& text) {
+    std::istringstream lines(text);
+    std::string line, cell;
+    std::getline(lines, line);
+    std::vector<std::string> names;
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      names.push_back(cell.substr(0, cell.find(" (")));
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      for (auto const& name : names) {
+        std::getline(cells, cell, ',');
+        columns[name].push_back(std::stod(cell));
+      }
+      ++rows;
+    }
+  }
+  std::vector<double> const& operator[](std::string const& name) const {
+    auto const found = columns.find(name);
+    if (found != columns.end()) return found->second;
+    throw std::runtime_error("diagnoses.csv has no column '" + name + "'");
+  }
+  /// The largest distance of a column from its first value.
+  double drift(std::string const& name) const {
+    double largest = 0;
+    for (double const x : (*this)[name]) largest = std::max(largest, std::abs(x - (*this)[name].front()));
+    return largest;
+  }
+};
+
+/// An example that has been run, in a folder that goes away with it.
+class Example {
+ public:
+  explicit Example(std::string const& name) {
+    std::string const program = std::string(BOLTZMANN_BUILD) + "/examples/" + name;
+    built_ = test::fs::exists(program);
+    if (!built_) return;
+    outcome_ = test::Process({program, "results"}, folder_.string()).wait();
+    EXPECT_EQ(outcome_.status, 0) << name << ": " << outcome_.err;
+    for (char const* file : {"trajectory.h5", "checkpoint.h5", "picture.png"})
+      EXPECT_TRUE(test::fs::exists(path(file)) && test::fs::file_size(path(file)) > 1000) << name << ": " << file;
+  }
+  bool built() const { return built_; }
+  bool good() const { return outcome_.status == 0; }
+  std::string path(std::string const& file) const { return (folder_ / "results" / file).string(); }
+  Table diagnoses() const { return Table(test::text_of(path("diagnoses.csv"))); }
+  TrajectoryReader trajectory() const { return TrajectoryReader(path("trajectory.h5")); }
+  std::string const& out() const { return outcome_.out; }
+
+ private:
+  test::Folder folder_;
+  test::Outcome outcome_{};
+  bool built_ = false;
+};
+
+// 2000 mass units at (0.4, -0.45): 362.5 units of energy are knocked in. From there on the total is conserved.
+TEST(Examples, CopperConservesTheEnergyOfTheKnock) {
+  Example const example("copper");
+  if (!example.built()) GTEST_SKIP() << "examples/copper is not built";
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  EXPECT_EQ(table.rows, 101u);
+  double const energy_unit = 5.275e-29 * (1.804e-10 / 3.273e-15) * (1.804e-10 / 3.273e-15) / 1.602176634e-19;  // eV
+  EXPECT_NEAR(table["kinetic energy"].front(), 0.5 * 2000 * (0.4 * 0.4 + 0.45 * 0.45) * energy_unit, 1e-9);
+  EXPECT_LT(table.drift("total energy"), 2e-3 * 362.5);
+  // It does something: a third of the energy has gone over to the lattice.
+  EXPECT_LT(table["kinetic energy"].back(), 0.8 * 362.5);
+  auto const trajectory = example.trajectory();
+  EXPECT_EQ(trajectory.frames(), 21u);
+  EXPECT_EQ(trajectory.size(20, "atoms"), 250u);
+}
+
+TEST(Examples, ThreeBodiesComeBackAfterOnePeriod) {
+  Example const example("three_body");
+  if (!example.built()) GTEST_SKIP() << "examples/three_body is not built";
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  EXPECT_NEAR(table["total energy"].front(), -1.287141991766, 1e-11);  // published
+  EXPECT_LT(table.drift("total energy"), 1e-8);
+  EXPECT_LT(table.drift("angular momentum z"), 1e-10);
+  auto const trajectory = example.trajectory();
+  EXPECT_NEAR(trajectory.times().back(), 6.32591398, 1e-9);
+  auto const first = trajectory.read(0, "bodies", "position");
+  auto const last = trajectory.read(trajectory.frames() - 1, "bodies", "position");
+  auto const half = trajectory.read(trajectory.frames() / 2, "bodies", "position");
+  ASSERT_EQ(first.size(), 9u);
+  double apart = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_NEAR(last[k], first[k], 2e-7);
+    apart = std::max(apart, std::abs(half[k] - first[k]));
+  }
+  EXPECT_GT(apart, 0.5);
+  EXPECT_NE(example.out().find("after one period"), std::string::npos);
+}
+
+TEST(Examples, PendulumsConserveEnergyAndExchangeIt) {
+  Example const example("pendulums");
+  if (!example.built()) GTEST_SKIP() << "examples/pendulums is not built";
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  EXPECT_EQ(table["kinetic energy"].front(), 0);
+  // At the start, by hand: m g l (1 - cos 0.3 pi), and the spring from (7, -5) to the raised bob.
+  double const angle = 0.3 * pi, gravity = 100 * (1 - std::cos(angle));
+  EXPECT_NEAR(table["external energy"].front(), gravity, 1e-9 * gravity);
+  double const dx = 4 - 10 * std::sin(angle), dy = 10 * std::cos(angle) - 10;
+  double const stretch = std::sqrt(dx * dx + dy * dy) - 4;
+  EXPECT_NEAR(table["potential energy"].front(), 0.5 * 0.8 * stretch * stretch, 1e-9);
+  EXPECT_LT(table.drift("total energy"), 2e-3 * table["total energy"].front());
+  // The second pendulum rests at first, and takes over more than half of the amplitude.
+  auto const trajectory = example.trajectory();
+  double largest = 0;
+  for (std::size_t f = 0; f < trajectory.frames(); ++f)
+    largest = std::max(largest, std::abs(trajectory.read(f, "pendulums", "position")[1]));
+  EXPECT_EQ(trajectory.read(0, "pendulums", "position")[1], 0);
+  EXPECT_GT(largest, 0.5 * angle);
+  EXPECT_LT(largest, 1.05 * angle);
+}
+
+TEST(Examples, RodConservesEnergyAndFollowsItsModes) {
+  Example const example("rod");
+  if (!example.built()) GTEST_SKIP() << "examples/rod is not built";
+  ASSERT_TRUE(example.good());
+  double const spacing = 0.05, mass = spacing * 8.96e3, stiffness = 120e9 / spacing;
+  auto const trajectory = example.trajectory();
+  ASSERT_EQ(trajectory.frames(), 11u);
+  std::size_t const count = 100;
+  double first = 0;
+  for (std::size_t f = 0; f < trajectory.frames(); ++f) {
+    auto position = trajectory.read(f, "rod", "position");
+    auto const velocity = trajectory.read(f, "rod", "velocity");
+    ASSERT_EQ(position.size(), count - 1);
+    position.push_back(trajectory.read(f, "wall", "position").at(0));
+    double energy = 0;
+    for (double const v : velocity) energy += 0.5 * mass * v * v;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      double const stretch = position[i + 1] - position[i] - spacing;
+      energy += 0.5 * stiffness * stretch * stretch;
+    }
+    if (f == 0) first = energy;
+    EXPECT_NEAR(energy / first, 1, 1e-4) << "frame " << f;
+  }
+  EXPECT_NEAR(first, 0.5 * stiffness * 1e-4, 1e-6 * first);  // one spring, compressed by 1 cm
+
+  // The exact solution of the chain with one free and one fixed end: modes cos(q (i + 1/2)) with q = pi (k + 1/2) /
+  // (n + 1/2), n the moving lumps, of frequency 2 sqrt(kappa/m) sin(q/2); the start is lump 0 displaced by 1 cm.
+  double const n = static_cast<double>(count - 1), t = trajectory.times().back();
+  EXPECT_NEAR(t, 1e-3, 1e-12);
+  auto const last = trajectory.read(trajectory.frames() - 1, "rod", "position");
+  double furthest = 0;
+  for (std::size_t i = 0; i < count - 1; ++i) {
+    double displacement = 0;
+    for (std::size_t k = 0; k < count - 1; ++k) {
+      double const q = pi * (static_cast<double>(k) + 0.5) / (n + 0.5);
+      double const frequency = 2 * std::sqrt(stiffness / mass) * std::sin(0.5 * q);
+      displacement += 0.01 * std::cos(0.5 * q) * std::cos(q * (static_cast<double>(i) + 0.5)) *
+                      std::cos(frequency * t) * 2 / (n + 0.5);
+    }
+    double const found = last[i] - (2 + spacing * static_cast<double>(i));
+    EXPECT_NEAR(found, displacement, 1e-6) << "lump " << i;
+    furthest = std::max(furthest, std::abs(displacement));
+  }
+  EXPECT_GT(furthest, 1e-3);
+}
+
+TEST(Examples, AtmosphereStaysIsothermalAndExponential) {
+  Example const example("atmosphere");
+  if (!example.built()) GTEST_SKIP() << "examples/atmosphere is not built";
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  double const energy = table["kinetic energy"].front() + table["external energy"].front();
+  auto const trajectory = example.trajectory();
+  std::size_t const count = trajectory.size(0, "air");
+  ASSERT_EQ(count, 4000u);
+  double const errors = 4 / std::sqrt(static_cast<double>(count));
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    EXPECT_NEAR((table["kinetic energy"][row] + table["external energy"][row]) / energy, 1, 1e-3);
+    // k T of two degrees of freedom has a relative standard error of 1 / sqrt(N).
+    EXPECT_NEAR(table["temperature"][row] / 288, 1, errors);
+  }
+  // Mean and variance of exp(-h/H) cut off at 60 km, with H = k T / (m g) in km.
+  double const H = 1.380649e-23 * 288 / (28.97 * 1.66053906660e-27 * 9.80665) / 1e3, top = 60;
+  double const tail = std::exp(-top / H) / (1 - std::exp(-top / H));
+  double const mean = H - top * tail;
+  double const variance = H * H - top * top * tail * (1 + tail);
+  for (std::size_t f = 0; f < trajectory.frames(); ++f) {
+    auto const position = trajectory.read(f, "air", "position");
+    ASSERT_EQ(position.size(), 2 * count);
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      sum += position[2 * i + 1];
+      ASSERT_GE(position[2 * i], 0);
+      ASSERT_LE(position[2 * i], 20);
+      ASSERT_GE(position[2 * i + 1], 0);
+      ASSERT_LE(position[2 * i + 1], top);
+    }
+    EXPECT_NEAR(sum / static_cast<double>(count), mean, errors * std::sqrt(variance)) << "frame " << f;
+  }
+}
+
+// Circle theorem: w(z) = sum of Gamma/(2 pi i) ln of z less each line; the stream function is constant on every track.
+TEST(Examples, CylinderHasSymmetricalTracksThatDoNotEnterIt) {
+  Example const example("cylinder");
+  if (!example.built()) GTEST_SKIP() << "examples/cylinder is not built";
+  ASSERT_TRUE(example.good());
+  auto const trajectory = example.trajectory();
+  int const rows = 6, columns = 20;
+  ASSERT_EQ(trajectory.size(0, "tracers"), 120u);
+  ASSERT_EQ(trajectory.ensembles().size(), 2u);
+  auto const start = trajectory.read(0, "tracers", "position");
+  auto const vortices = trajectory.read(0, "vortices", "position");
+  auto const circulation = trajectory.read(0, "vortices", "vorticity");
+  auto const stream = [&](double x, double y) {
+    double sum = 0;
+    for (std::size_t k = 0; k < circulation.size(); ++k) {
+      double const dx = x - vortices[2 * k], dy = y - vortices[2 * k + 1];
+      sum -= circulation[k] / (4 * pi) * std::log(dx * dx + dy * dy);
+    }
+    return sum;
+  };
+  double furthest = 0;
+  for (std::size_t f = 0; f < trajectory.frames(); ++f) {
+    auto const now = trajectory.read(f, "tracers", "position");
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < columns; ++j) {
+        std::size_t const k = i * columns + j, mirrored = (rows - 1 - i) * columns + j;
+        double const x = now[2 * k], y = now[2 * k + 1];
+        // The rows are y = -2 + 4 (i + 0.05) / 5.1, which is symmetrical.
+        EXPECT_NEAR(x, now[2 * mirrored], 1e-6);
+        EXPECT_NEAR(y, -now[2 * mirrored + 1], 1e-6);
+        double const from = start[2 * k] * start[2 * k] + start[2 * k + 1] * start[2 * k + 1];
+        if (from > 1.05) {
+          EXPECT_GT(x * x + y * y, 1) << "tracer " << k << " has entered the cylinder";
+          EXPECT_NEAR(stream(x, y), stream(start[2 * k], start[2 * k + 1]), 1e-4);
+        }
+        furthest = std::max(furthest, std::abs(x - start[2 * k]));
+      }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(furthest, 12);  // through the whole picture
+}
+
+TEST(ExampleSources, CopperFitsOnAPage) {
+  auto const text = test::text_of(std::string(BOLTZMANN_SOURCE) + "/examples/copper.cpp");
+  ASSERT_FALSE(text.empty());
+  EXPECT_LE(test::lines_in(text), 60u);
+}
+
+}  // namespace
+}  // namespace boltzmann

@@ -1,0 +1,580 @@
+// Cells, lists, connections and mirrors against brute force: random, clustered, equal and far-off points in 1D to 3D.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/neighbours/cells.hpp>
+#include <boltzmann/neighbours/connection.hpp>
+#include <boltzmann/neighbours/mirror.hpp>
+#include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/particles/newton.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <new>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+std::size_t largest_allocation = 0;
+}
+
+// Watches how much memory is asked for at once.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  largest_allocation = std::max(largest_allocation, size);
+  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace boltzmann {
+namespace {
+
+// ---- cells --------------------------------------------------------------------------------------------------------
+
+std::vector<double> points(int dimension, std::size_t count, double extent, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::vector<double> x(count * dimension);
+  for (double& v : x) v = std::uniform_real_distribution(-0.3 * extent, 0.7 * extent)(random);
+  return x;
+}
+
+/// Every point within `edge` of each point must be among those that near() visits. Returns the number visited in all.
+std::size_t expect_all_near_are_visited(int dimension, std::vector<double> const& x, double edge,
+                                        std::string const& what) {
+  std::size_t const count = x.size() / dimension;
+  Cells const cells(dimension, x.data(), dimension, count, edge);
+  auto const& items = cells.items();
+  std::vector<std::uint32_t> sorted(items);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> everyone(count);
+  std::iota(everyone.begin(), everyone.end(), 0u);
+  EXPECT_EQ(sorted, everyone) << what << ": items are not each point once";
+  std::size_t all = 0, missed = 0, outside = 0;
+  std::vector<char> seen(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::fill(seen.begin(), seen.end(), 0);
+    cells.near(x.data() + i * dimension, [&](std::size_t begin, std::size_t end) {
+      if (begin > end || end > count) return void(++outside);
+      for (std::size_t k = begin; k < end; ++k) {
+        EXPECT_FALSE(seen[items[k]]) << what << ": a point is visited twice";
+        seen[items[k]] = 1;
+        ++all;
+      }
+    });
+    for (std::size_t j = 0; j < count; ++j) {
+      double square = 0;
+      for (int a = 0; a < dimension; ++a)
+        square += (x[j * dimension + a] - x[i * dimension + a]) * (x[j * dimension + a] - x[i * dimension + a]);
+      if (square < edge * edge && !seen[j]) ++missed;
+    }
+  }
+  EXPECT_EQ(missed, 0u) << what;
+  EXPECT_EQ(outside, 0u) << what;
+  return all;
+}
+
+TEST(Cells, NearFindsAllOfRandomPoints) {
+  for (int const dimension : {1, 2, 3})
+    for (std::size_t const count : {0, 1, 2, 3, 50, 600})
+      for (double const edge : {0.05, 0.4, 1.0, 3.0, 40.0})
+        expect_all_near_are_visited(
+            dimension, points(dimension, count, 10, 3), edge,
+            std::to_string(dimension) + "D N " + std::to_string(count) + " edge " + std::to_string(edge));
+  // And not everybody is asked: in 2D about 9 cells' worth of points.
+  std::size_t const visited = expect_all_near_are_visited(2, points(2, 2000, 10, 4), 0.5, "2000 in 2D");
+  EXPECT_LT(visited, 2000u * 9 * 2000 / 400 * 2);
+}
+
+TEST(Cells, NearFindsAllOfClusteredAndEqualPoints) {
+  for (int const dimension : {1, 2, 3}) {
+    auto clustered = points(dimension, 400, 10, 5);
+    for (std::size_t i = 0; i < clustered.size() * 3 / 4; ++i) clustered[i] *= 1e-3;
+    expect_all_near_are_visited(dimension, clustered, 0.1, "clustered");
+    for (double const at : {0.0, -0.0, 1e-310, 7.25, -1e200})
+      EXPECT_EQ(expect_all_near_are_visited(dimension, std::vector<double>(60 * dimension, at), 0.5, "equal"),
+                60u * 60);
+    // On a line and on a plane inside the space, also where the third coordinate is all but zero.
+    auto flat = points(dimension, 300, 10, 6);
+    for (std::size_t i = 0; i < 300; ++i) flat[i * dimension + dimension - 1] = 1;
+    expect_all_near_are_visited(dimension, flat, 0.7, "flat");
+    for (std::size_t i = 0; i < 300; ++i) flat[i * dimension + dimension - 1] = i % 3 == 0 ? 1e-310 : 0;
+    expect_all_near_are_visited(dimension, flat, 0.7, "flat but for a denormal number");
+  }
+}
+
+// Neighbours at the edge's length but for a rounding error, over many cells: both sides of a cell's face round alone.
+TEST(Cells, NearFindsLatticeNeighboursAtTheEdge) {
+  std::mt19937_64 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    double const edge = std::uniform_real_distribution(0.5, 1.5)(random);
+    double const start = std::uniform_real_distribution(-100.0, 100.0)(random);
+    std::vector<double> x(std::uniform_int_distribution(20, 300)(random));
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = start + static_cast<double>(i) * edge;
+    expect_all_near_are_visited(1, x, edge, "lattice " + std::to_string(trial));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Cells, FarPointsMakeCellsLargerAndNotMemory) {
+  for (int const dimension : {1, 2, 3})
+    for (double const far : {1e3, 1e9, 1e100, 1e307}) {
+      auto x = points(dimension, 500, 10, 8);
+      for (int a = 0; a < dimension; ++a) x[3 * dimension + a] = a % 2 ? far : -far;
+      largest_allocation = 0;
+      Cells const cells(dimension, x.data(), dimension, 500, 0.5);
+      EXPECT_LE(largest_allocation, (4 * 500 + 66) * sizeof(std::uint32_t)) << dimension << "D " << far;
+      expect_all_near_are_visited(dimension, x, 0.5, "outlier");
+    }
+}
+
+TEST(Cells, PointsOfOneCellKeepTheirOrder) {
+  auto const x = points(2, 300, 1, 9);
+  Cells const cells(2, x.data(), 2, 300, 5.0);  // one cell
+  EXPECT_TRUE(std::is_sorted(cells.items().begin(), cells.items().end()));
+}
+
+// ---- mirrors ------------------------------------------------------------------------------------------------------
+
+template <int D>
+Box make_box(std::array<double, 3> length, std::array<Boundary, 3> kinds) {
+  std::array<double, 3> low{}, high{};
+  for (int a = 0; a < D; ++a) low[a] = -0.25 * length[a], high[a] = low[a] + length[a];
+  return Box(D, low, high, kinds);
+}
+
+/// Random particles; the mass is the particle's number, so that a copied row says whose it is.
+template <int D>
+void scatter(Ensemble<Newton<D>>& e, Box const& box, unsigned seed) {
+  std::mt19937_64 random(seed);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    for (int a = 0; a < D; ++a) {
+      e[i].position[a] = std::uniform_real_distribution(box.low(a), box.high(a))(random);
+      e[i].velocity[a] = std::normal_distribution()(random);
+    }
+    e[i].mass = static_cast<double>(i);
+  }
+}
+
+constexpr int mass_column(int D) { return D; }
+
+/// A row of a mirror: which particle, and by how many lengths it is moved.
+using Image = std::array<int, 4>;
+
+template <int D>
+Image image_of(Mirror const& mirror, Box const& box, std::size_t row) {
+  double const* x = mirror.rows() + row * mirror.stride();
+  int const particle = static_cast<int>(x[mass_column(D)]);
+  Image image{particle, 0, 0, 0};
+  for (int a = 0; a < D; ++a)
+    if (box.periodic(a))
+      image[a + 1] = static_cast<int>(std::lround((x[a] - mirror.reference()[particle * D + a]) / box.length(a)));
+  return image;
+}
+
+/// The images, by brute force, of the positions at the last build that are within reach of the box.
+template <int D>
+std::set<Image> expected_ghosts(Mirror const& mirror, Box const& box, double reach) {
+  std::set<Image> ghosts;
+  int range[3] = {0, 0, 0};
+  for (int a = 0; a < D; ++a)
+    if (box.periodic(a)) range[a] = static_cast<int>(reach / box.length(a)) + 2;
+  for (std::size_t i = 0; i < mirror.owned(); ++i)
+    for (int x = -range[0]; x <= range[0]; ++x)
+      for (int y = -range[1]; y <= range[1]; ++y)
+        for (int z = -range[2]; z <= range[2]; ++z) {
+          int const n[3] = {x, y, z};
+          bool inside = x != 0 || y != 0 || z != 0;
+          for (int a = 0; a < D; ++a) {
+            double const at = mirror.reference()[i * D + a] + n[a] * box.length(a);
+            if (box.periodic(a) && !(at >= box.low(a) - reach && at <= box.high(a) + reach)) inside = false;
+          }
+          if (inside) ghosts.insert({static_cast<int>(i), x, y, z});
+        }
+  return ghosts;
+}
+
+template <int D>
+void expect_rows_are_images(Mirror const& mirror, Ensemble<Newton<D>> const& e, Box const& box, double reach) {
+  ASSERT_EQ(mirror.owned(), e.size());
+  std::vector<char> seen(e.size(), 0);
+  std::vector<std::size_t> row_of(e.size());
+  for (std::size_t k = 0; k < mirror.owned(); ++k) {
+    std::uint32_t const i = mirror.order()[k];
+    ASSERT_LT(i, e.size());
+    ASSERT_FALSE(seen[i]) << "a particle stands twice in the order";
+    seen[i] = 1;
+    row_of[i] = k;
+    double const* row = mirror.rows() + k * mirror.stride();
+    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(row) % 32, 0u);
+    ASSERT_EQ(row[mass_column(D)], static_cast<double>(i));
+    for (int a = 0; a < D; ++a) {
+      ASSERT_EQ(row[D + 1 + a], e[i].velocity[a]);
+      double const turns = (e[i].position[a] - row[a]) / box.length(a);
+      if (box.periodic(a))
+        ASSERT_NEAR(turns, std::nearbyint(turns), 1e-14);
+      else
+        ASSERT_EQ(row[a], e[i].position[a]);
+    }
+    ASSERT_EQ(image_of<D>(mirror, box, k), (Image{static_cast<int>(i), 0, 0, 0})) << "it stays where it was built";
+  }
+  // The ghosts: exactly those within reach, each the owned row moved by whole lengths, bit by bit.
+  std::set<Image> ghosts;
+  for (std::size_t k = mirror.owned(); k < mirror.total(); ++k) {
+    Image const image = image_of<D>(mirror, box, k);
+    ASSERT_TRUE(ghosts.insert(image).second) << "a ghost stands twice";
+    double const* ghost = mirror.rows() + k * mirror.stride();
+    double const* owned = mirror.rows() + row_of[image[0]] * mirror.stride();
+    for (std::size_t c = 0; c < mirror.stride(); ++c) {
+      bool const moved = c < D && image[c + 1] != 0;
+      // Rounded as a length of its own, not fused with the sum.
+      double const volatile shift = moved ? image[c + 1] * box.length(static_cast<int>(c)) : 0;
+      ASSERT_EQ(ghost[c], moved ? owned[c] + shift : owned[c]);
+    }
+  }
+  ASSERT_EQ(ghosts, (expected_ghosts<D>(mirror, box, reach)));
+  for (std::size_t c = 0; c < mirror.stride(); ++c)
+    ASSERT_TRUE(std::isnan(mirror.rows()[mirror.total() * mirror.stride() + c])) << "the sentinel has a position";
+}
+
+template <int D>
+void mirror_follows(std::array<double, 3> length, std::array<Boundary, 3> kinds, double reach, std::size_t count) {
+  SCOPED_TRACE(std::to_string(D) + "D, reach " + std::to_string(reach) + ", N " + std::to_string(count));
+  Box const box = make_box<D>(length, kinds);
+  Ensemble<Newton<D>> e("e", count);
+  scatter(e, box, 11);
+  if (count > 3)  // on edges and corners, and outside, as after an intermediate stage
+    for (int a = 0; a < D; ++a) {
+      e[0].position[a] = box.low(a);
+      e[1].position[a] = box.high(a);
+      e[2].position[a] = box.high(a) + 0.137;
+      e[3].position[a] = box.low(a) - 0.137;
+    }
+  Mirror mirror(e, box);
+  mirror.build(reach);
+  Displacements moved = mirror.refresh(1);
+  EXPECT_LT(moved.largest, 1e-28);
+  ASSERT_NO_FATAL_FAILURE(expect_rows_are_images(mirror, e, box, reach));
+  for (std::size_t k = 0; k < mirror.owned(); ++k)
+    for (int a = 0; a < D; ++a)
+      if (box.periodic(a)) {
+        ASSERT_GE(mirror.rows()[k * mirror.stride() + a], box.low(a));
+        ASSERT_LE(mirror.rows()[k * mirror.stride() + a], box.high(a));
+      }
+
+  // Particles move, some over an edge, and are wrapped: the mirror must not see the jump.
+  std::mt19937_64 random(13);
+  std::vector<Vector<D>> path(count, Vector<D>{});
+  for (int step = 0; step < 5; ++step) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (int a = 0; a < D; ++a) {
+        double const d = std::uniform_real_distribution(-0.05, 0.05)(random);
+        e[i].position[a] += d;
+        path[i][a] += d;
+        if (box.periodic(a)) {
+          if (e[i].position[a] >= box.high(a)) e[i].position[a] -= box.length(a);
+          if (e[i].position[a] < box.low(a)) e[i].position[a] += box.length(a);
+        }
+      }
+    moved = mirror.refresh(1 + step % 3);
+    ASSERT_NO_FATAL_FAILURE(expect_rows_are_images(mirror, e, box, reach));
+    std::vector<double> squares{0, 0};
+    for (auto const& d : path) squares.push_back(norm2(d));
+    std::sort(squares.rbegin(), squares.rend());
+    EXPECT_NEAR(moved.largest, squares[0], 1e-14);
+    EXPECT_NEAR(moved.second, squares[1], 1e-14);
+  }
+
+  // Built again from the reference alone, at another state: the same rows in the same order.
+  Mirror again(e, box);
+  auto const reference = mirror.reference();
+  again.rebuild(reach, reference);
+  again.refresh(1);
+  ASSERT_EQ(again.owned(), mirror.owned());
+  ASSERT_EQ(again.total(), mirror.total());
+  EXPECT_EQ(again.reference(), reference);
+  EXPECT_TRUE(std::equal(again.order(), again.order() + again.owned(), mirror.order()));
+  EXPECT_TRUE(std::equal(again.rows(), again.rows() + again.total() * again.stride(), mirror.rows()));
+}
+
+constexpr std::array<Boundary, 3> all_periodic{Boundary::periodic, Boundary::periodic, Boundary::periodic};
+constexpr std::array<Boundary, 3> mixed{Boundary::periodic, Boundary::open, Boundary::periodic};
+constexpr std::array<Boundary, 3> none_periodic{Boundary::open, Boundary::bounded, Boundary::open};
+
+TEST(Mirror, GhostsAreExactImagesAndFollowTheParticles) {
+  for (auto const& kinds : {all_periodic, mixed, none_periodic})
+    for (std::size_t const count : {0, 1, 2, 40})
+      for (double const reach : {0.3, 1.0, 2.7}) {  // 2.7: further than the box is long, several images
+        mirror_follows<1>({1.3, 0, 0}, kinds, reach, count);
+        mirror_follows<2>({1.3, 2, 0}, kinds, reach, count);
+        mirror_follows<3>({1.3, 2, 1.6}, kinds, reach, count);
+      }
+  mirror_follows<3>({6, 5, 7}, all_periodic, 1.2, 5000);
+}
+
+TEST(Mirror, NeighboursInTheOrderAreNearInSpace) {
+  Box const box = make_box<3>({10, 10, 10}, all_periodic);
+  Ensemble<Newton<3>> e("e", 3000);
+  scatter(e, box, 1);
+  Mirror mirror(e, box);
+  mirror.build(1.0);
+  mirror.refresh(1);
+  double sorted = 0, given = 0;
+  for (std::size_t k = 1; k < 3000; ++k) {
+    Vector<3> d;
+    for (int a = 0; a < 3; ++a)
+      d[a] = mirror.rows()[k * mirror.stride() + a] - mirror.rows()[(k - 1) * mirror.stride() + a];
+    sorted += magnitude(d);
+    given += magnitude(e[k].position - e[k - 1].position);
+  }
+  EXPECT_LT(sorted, 0.3 * given);
+}
+
+TEST(Mirror, RefusesPositionsThatAreNotFinite) {
+  for (double const x : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Box const box = make_box<2>({3, 3, 0}, all_periodic);
+    Ensemble<Newton<2>> e("gas", 5);
+    scatter(e, box, 1);
+    Mirror mirror(e, box);
+    mirror.build(1.0);
+    e[4].position[1] = x;
+    auto const message = [&](auto const& call) -> std::string {
+      try {
+        call();
+      } catch (PhysicsFailure const& failure) {
+        return failure.what();
+      }
+      return "";
+    };
+    EXPECT_NE(message([&] { mirror.refresh(1); }).find("particle 4 of 'gas'"), std::string::npos);
+    EXPECT_NE(message([&] { mirror.build(1.0); }).find("particle 4 of 'gas'"), std::string::npos);
+  }
+}
+
+TEST(Displacements, AreTheTwoLargest) {
+  std::mt19937_64 random(2);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> d(random() % 6);
+    Displacements two;
+    for (double& x : d) two.take(x = static_cast<double>(random() % 4));
+    d.insert(d.end(), {0, 0});
+    std::sort(d.rbegin(), d.rend());
+    EXPECT_EQ(two.largest, d[0]);
+    EXPECT_EQ(two.second, d[1]);
+  }
+}
+
+// ---- lists --------------------------------------------------------------------------------------------------------
+
+/// Number of sources (all images) within reach of each target, by brute force and without mirrors; not itself.
+template <int D>
+std::vector<std::size_t> neighbours_of(Ensemble<Newton<D>> const& target, Ensemble<Newton<D>> const& source,
+                                       Box const& box, double reach) {
+  std::vector<std::size_t> count(target.size(), 0);
+  int range[3] = {0, 0, 0};
+  for (int a = 0; a < D; ++a)
+    if (box.periodic(a)) range[a] = static_cast<int>(reach / box.length(a)) + 2;
+  for (std::size_t i = 0; i < target.size(); ++i)
+    for (std::size_t j = 0; j < source.size(); ++j)
+      for (int x = -range[0]; x <= range[0]; ++x)
+        for (int y = -range[1]; y <= range[1]; ++y)
+          for (int z = -range[2]; z <= range[2]; ++z) {
+            if (&target == &source && i == j && x == 0 && y == 0 && z == 0) continue;
+            int const n[3] = {x, y, z};
+            double square = 0;
+            for (int a = 0; a < D; ++a) {
+              double const d = source[j].position[a] + n[a] * box.length(a) - target[i].position[a];
+              square += d * d;
+            }
+            if (square < reach * reach) ++count[i];
+          }
+  return count;
+}
+
+template <int D>
+void compare_list(std::array<double, 3> length, std::array<Boundary, 3> kinds, double reach, std::size_t targets,
+                  std::size_t sources, double cluster = 1) {
+  SCOPED_TRACE(std::to_string(D) + "D, reach " + std::to_string(reach) + ", N " + std::to_string(targets) + " and " +
+               std::to_string(sources));
+  Box const box = make_box<D>(length, kinds);
+  Ensemble<Newton<D>> e("e", targets), other("other", sources);
+  scatter(e, box, 21);
+  scatter(other, box, 22);
+  for (auto* ensemble : {&e, &other})
+    for (std::size_t i = 0; i < ensemble->size() * 2 / 3; ++i) (*ensemble)[i].position *= cluster;
+  Mirror mirror(e, box), other_mirror(other, box);
+  for (auto* m : {&mirror, &other_mirror}) {
+    m->build(reach);
+    m->refresh(1);
+  }
+  for (Mirror const* from : {&mirror, &other_mirror}) {
+    NeighbourList const list = near_pairs(mirror, *from, reach, 1);
+    auto const expected = neighbours_of(e, from == &mirror ? e : other, box, reach);
+    ASSERT_EQ(list.start.size(), targets + 1);
+    ASSERT_EQ(list.start.front(), 0u);
+    ASSERT_EQ(list.start.back(), list.index.size());
+    for (std::size_t i = 0; i < targets; ++i) {
+      auto const begin = list.index.begin() + static_cast<std::ptrdiff_t>(list.start[i]);
+      auto const end = list.index.begin() + static_cast<std::ptrdiff_t>(list.start[i + 1]);
+      ASSERT_EQ((end - begin) % NeighbourList::padding, 0);
+      auto const padding = std::find(begin, end, from->total());
+      ASSERT_LT(end - padding, static_cast<std::ptrdiff_t>(NeighbourList::padding)) << "more padding than needed";
+      ASSERT_TRUE(std::all_of(padding, end, [&](auto j) { return j == from->total(); })) << "padding stands last";
+      std::set<std::uint32_t> rows(begin, padding), near;
+      ASSERT_EQ(rows.size(), static_cast<std::size_t>(padding - begin)) << "a neighbour stands twice";
+      for (std::size_t j = 0; j < from->total(); ++j) {
+        double square = 0;
+        for (int a = 0; a < D; ++a) {
+          double const d = from->rows()[j * from->stride() + a] - mirror.rows()[i * mirror.stride() + a];
+          square += d * d;
+        }
+        if (square < reach * reach && !(from == &mirror && i == j)) near.insert(static_cast<std::uint32_t>(j));
+      }
+      ASSERT_EQ(rows, near);
+      ASSERT_EQ(rows.size(), expected[mirror.order()[i]]) << "images are missing";
+    }
+    for (int const threads : {2, 3}) {
+      NeighbourList const same = near_pairs(mirror, *from, reach, threads);
+      EXPECT_EQ(same.start, list.start);
+      EXPECT_EQ(same.index, list.index);
+    }
+  }
+  // From the reference, after everybody has moved: the same list, in the same order.
+  auto const list = near_pairs(mirror, mirror, reach, 1);
+  auto const reference = mirror.reference();
+  for (auto& p : e) p.position = p.position + 0.01;
+  mirror.refresh(1);
+  Mirror again(e, box);
+  again.rebuild(reach, reference);
+  auto const rebuilt = near_pairs(again, again, reach, 2);
+  EXPECT_EQ(rebuilt.start, list.start);
+  EXPECT_EQ(rebuilt.index, list.index);
+}
+
+TEST(NearPairs, AreThoseWithinReach) {
+  for (auto const& kinds : {all_periodic, mixed, none_periodic}) {
+    for (std::size_t const count : {0, 1, 2, 7, 120})
+      for (double const reach : {0.4, 1.3, 3.1}) {
+        compare_list<1>({4, 0, 0}, kinds, reach, count, 50);
+        compare_list<2>({4, 3, 0}, kinds, reach, count, 50);
+        if (reach < 3) compare_list<3>({4, 3, 3.5}, kinds, reach, count, 50);
+      }
+    compare_list<1>({1.3, 0, 0}, kinds, 2.9, 30, 20);  // several images
+    compare_list<2>({1.3, 1.1, 0}, kinds, 2.9, 20, 10);
+    compare_list<3>({1.3, 1.1, 1.4}, kinds, 2.2, 10, 10);
+    compare_list<2>({9, 9, 0}, kinds, 0.3, 150, 60, 1e-2);  // clustered
+    compare_list<3>({9, 9, 9}, kinds, 0.3, 150, 60, 1e-2);
+    compare_list<2>({9, 9, 0}, kinds, 0.3, 40, 30, 0);  // most of them at one place
+  }
+  compare_list<2>({60, 60, 0}, all_periodic, 0.9, 2500, 10);  // more than one range of a thread
+}
+
+TEST(NearPairs, AFarParticleOfAnOpenBoxCostsNoMemory) {
+  Box const box = make_box<3>({10, 10, 10}, none_periodic);
+  Ensemble<Newton<3>> e("e", 400);
+  scatter(e, box, 5);
+  e[17].position = {1e12, -1e12, 1e12};
+  Mirror mirror(e, box);
+  largest_allocation = 0;
+  mirror.build(1.0);
+  mirror.refresh(1);
+  auto const list = near_pairs(mirror, mirror, 1.0, 1);
+  EXPECT_LT(largest_allocation, 200000u);
+  auto const expected = neighbours_of(e, e, box, 1.0);
+  for (std::size_t k = 0; k < e.size(); ++k) {
+    std::size_t count = 0;
+    for (std::size_t n = list.start[k]; n < list.start[k + 1]; ++n) count += list.index[n] != mirror.total();
+    EXPECT_EQ(count, expected[mirror.order()[k]]);
+  }
+  EXPECT_EQ(expected[17], 0u);
+}
+
+// ---- connections --------------------------------------------------------------------------------------------------
+
+using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// The pairs of a full list, each as (smaller, larger); checks that the list is sorted, symmetric and padded.
+Pairs pairs_of(NeighbourList const& list) {
+  Pairs pairs;
+  std::multiset<std::pair<std::uint32_t, std::uint32_t>> both;
+  for (std::uint32_t i = 0; i + 1 < list.start.size(); ++i) {
+    EXPECT_EQ((list.start[i + 1] - list.start[i]) % NeighbourList::padding, 0u);
+    bool padding = false;
+    std::uint32_t last = 0;
+    bool first = true;
+    for (std::size_t k = list.start[i]; k < list.start[i + 1]; ++k) {
+      std::uint32_t const j = list.index[k];
+      if (j == i) {
+        padding = true;
+        continue;
+      }
+      EXPECT_FALSE(padding) << "a partner behind the padding";
+      EXPECT_TRUE(first || j > last) << "partners are not in order";
+      first = false;
+      last = j;
+      pairs.insert(std::minmax(i, j));
+      both.insert({i, j});
+    }
+  }
+  EXPECT_EQ(both.size(), 2 * pairs.size()) << "each pair stands once on either side";
+  for (auto const& [i, j] : both) EXPECT_EQ(both.count({j, i}), 1u);
+  return pairs;
+}
+
+TEST(Connections, AreThePairsOfSection43) {
+  auto const pairs = [](Connection c, std::size_t size) { return pairs_of(connected_pairs(std::span(&c, 1), size)); };
+  EXPECT_EQ(pairs({0, 5, 2}, 6), (Pairs{{0, 2}, {2, 4}}));
+  EXPECT_EQ(pairs({0, 4, 1}, 25), (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
+  EXPECT_EQ(pairs({1, 21, 5}, 25), (Pairs{{1, 6}, {6, 11}, {11, 16}, {16, 21}}));
+  EXPECT_EQ(pairs({3, 3, 1}, 4), Pairs{});
+  EXPECT_EQ(pairs({0, 3, 4}, 4), Pairs{});
+  EXPECT_EQ(pairs({0, 3, 3}, 4), (Pairs{{0, 3}}));
+  EXPECT_EQ(pairs({1, 3, std::numeric_limits<std::size_t>::max()}, 4), Pairs{});
+  EXPECT_EQ(pairs_of(connected_pairs({}, 3)), Pairs{});
+  EXPECT_EQ(connected_pairs({}, 0).start, (std::vector<std::size_t>{0}));
+}
+
+TEST(Connections, UnionsHaveEachPairOnce) {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::size_t const size = 1 + random() % 40;
+    std::vector<Connection> connections(random() % 6);
+    Pairs expected;
+    for (auto& c : connections) {
+      c.first = random() % size;
+      c.last = c.first + random() % (size - c.first);
+      c.interval = 1 + random() % 7;
+      // {(i, i + k), ..., (i + (floor((j - i) / k) - 1) k, i + floor((j - i) / k) k)}
+      for (std::size_t m = 0; m < (c.last - c.first) / c.interval; ++m)
+        expected.insert({static_cast<std::uint32_t>(c.first + m * c.interval),
+                         static_cast<std::uint32_t>(c.first + (m + 1) * c.interval)});
+    }
+    auto const list = connected_pairs(connections, size);
+    ASSERT_EQ(list.start.size(), size + 1);
+    ASSERT_EQ(pairs_of(list), expected);
+  }
+}
+
+TEST(Connections, MistakesAreNamed) {
+  auto const message = [](Connection c, std::size_t size) -> std::string {
+    try {
+      connected_pairs(std::span(&c, 1), size);
+    } catch (Error const& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_EQ(message({0, 5, 0}, 9), "connection 0:5:0: the interval is at least 1");
+  EXPECT_EQ(message({5, 2, 1}, 9), "connection 5:2:1 runs backwards");
+  EXPECT_EQ(message({0, 9, 1}, 9), "connection 0:9:1 names particle 9, but there are 9 (0 to 8)");
+  EXPECT_NE(message({0, 0, 1}, 0).find("names particle 0, but there are 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace boltzmann
