@@ -14,6 +14,8 @@ Picture picture_of(PicturePlan const& plan) {
   picture.size = plan.size;
   if (!plan.file.empty()) picture.file = plan.file;
   picture.trace = plan.trace;
+  picture.low = plan.low;
+  picture.high = plan.high;
   return picture;
 }
 

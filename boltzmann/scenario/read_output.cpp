@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -97,6 +98,17 @@ void read_picture(Item const& table, Reading& reading) {
   plan.colour = section.text("colour").value_or("");
   plan.size = section.text("size").value_or("");
   plan.trace = section.boolean("trace");
+  Dimension colour_dimension = dimensions::none;
+  for (auto const& ensemble : reading.ensembles)
+    if (ensemble.particles)
+      for (auto const& quantity : quantities(*ensemble.particles))
+        if (quantity.name == plan.colour) colour_dimension = quantity.dimension;
+  for (auto const& [key, end] : {std::pair{"low", &plan.low}, std::pair{"high", &plan.high}}) {
+    if (section.has(key) && plan.colour.empty())
+      reading.mistake(section.place(key),
+                      fmt::format("{}: an end of the colours, but the picture has no 'colour'", key));
+    if (auto const value = section.quantity(key, colour_dimension)) *end = *value;
+  }
   if (auto const file = section.text("file")) plan.file = *file;
   section.finish();
   for (auto const& other : reading.result->output.pictures)

@@ -9,6 +9,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,8 @@ struct PicturePlan {
   std::string colour;   ///< a field, "speed", "kinetic-energy", "potential-energy" or empty: by ensemble
   std::string size;     ///< the same for the diameter; empty: the ensemble's
   std::string file = "picture.png";
+  double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours, in the base;
+  double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN: those of the state
   bool trace = false;  ///< draw the tracks of all frames, not the last state
 };
 
