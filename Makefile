@@ -6,7 +6,7 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 .PHONY: run test build install dependencies bench format clean
 
 run: build
-	$(BUILD)/bzm run copper --out results/copper
+	$(BUILD)/bzm run copper --out results/copper --force
 	@echo "Results are in $(CURDIR)/results/copper (start with picture.png)"
 
 test: build
