@@ -68,7 +68,7 @@ void Mirror::add_ghosts(double reach) {
       for (int n = -images; n <= images; ++n) {
         double const x = rows_[k * stride() + a] + n * length;
         if (n != 0 && x >= low - reach && x <= high + reach) {
-          ghosts_.push_back({static_cast<std::uint32_t>(k), static_cast<std::int8_t>(a), n * length});
+          ghosts_.push_back({static_cast<std::uint32_t>(k), a, n * length});
           rows_.resize(rows_.size() + stride());
           std::copy_n(rows_.data() + k * stride(), box_->dimension(), rows_.data() + rows_.size() - stride());
           rows_[rows_.size() - stride() + a] = x;
@@ -120,7 +120,7 @@ void Mirror::move_ghosts() {
     Ghost const& ghost = ghosts_[g];
     double* to = rows_.data() + (owned() + g) * stride;
     std::memcpy(to, rows_.data() + ghost.source * stride, stride * sizeof(double));
-    to[static_cast<int>(ghost.axis)] += ghost.shift;
+    to[ghost.axis] += ghost.shift;
   }
 }
 

@@ -66,7 +66,7 @@ class Mirror {
  private:
   struct Ghost {
     std::uint32_t source;  // row in this mirror, owned or an earlier ghost
-    std::int8_t axis;
+    std::int32_t axis;
     double shift;
   };
 
