@@ -9,6 +9,7 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -18,15 +19,6 @@
 
 namespace boltzmann {
 namespace {
-
-std::string message_of(auto const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 /// Two atoms and a fluid particle in 2D, and everything that a diagnosis wants.
 class Diagnoses : public testing::Test {
@@ -161,7 +153,7 @@ TEST_F(Diagnoses, SimilarParticlesAreChosenAtTheFirstLookAndRemembered) {
   double const wrong[] = {2, 0};
   EXPECT_THROW(restored->restore(wrong), Error);
   with.similar_velocity = {50, 0, 0};
-  EXPECT_EQ(message_of([&] { look("drag", with); }), "no particle of atoms starts within 0.1 of the velocity (50, 0)");
+  EXPECT_EQ(message([&] { look("drag", with); }), "no particle of atoms starts within 0.1 of the velocity (50, 0)");
 }
 
 TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
@@ -183,30 +175,30 @@ TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
 
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
-      message_of([&] { make_diagnosis("energy", parameters()); }),
+      message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
       "drag, velocity-diffusion, extremes; did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
-  EXPECT_EQ(message_of([&] { make_diagnosis("drag", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
             "there is no ensemble 'atom'; there are atoms, fluid; did you mean 'atoms'?");
-  EXPECT_EQ(message_of([&] { make_diagnosis("number", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("number", with); }),
             "there is no ensemble 'atom'; there are atoms, fluid; did you mean 'atoms'?");
-  EXPECT_EQ(message_of([&] { make_diagnosis("pressure", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("pressure", with); }),
             "diagnosis pressure has no option ensembles; it has none");
   with.ensembles = {"fluid"};
-  EXPECT_EQ(message_of([&] { make_diagnosis("temperature", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("temperature", with); }),
             "ensemble 'fluid' of class Euler has no temperature: it needs a mass and a velocity");
   with.quantity = "mass";
-  EXPECT_NE(message_of([&] { make_diagnosis("extremes", with); }).find("'fluid' of class Euler has no quantity 'mass'"),
+  EXPECT_NE(message([&] { make_diagnosis("extremes", with); }).find("'fluid' of class Euler has no quantity 'mass'"),
             std::string::npos);
   with = parameters();
   with.particles = {0};
-  EXPECT_EQ(message_of([&] { make_diagnosis("drag", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
             "a group of chosen particles belongs to one ensemble; say which of atoms, fluid");
   with.ensembles = {"atoms"};
   with.particles = {2};
-  EXPECT_EQ(message_of([&] { make_diagnosis("drag", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
             "ensemble 'atoms' has 2 particles, numbered from 0; there is no particle 2");
   with.particles = {1};
   with.similar_velocity = {0, 0, 0};
@@ -279,10 +271,10 @@ TEST(Derived, QuantitiesOfAClass) {
   EXPECT_EQ(quantity_meaning(ions, "velocity.y").dimension, dimensions::velocity);
   EXPECT_EQ(quantity_meaning(ions, "influence.x").dimension, dimensions::force);
   EXPECT_EQ(
-      message_of([&] { quantity(ions, "sped"); }),
+      message([&] { quantity(ions, "sped"); }),
       "ensemble 'ions' of class Coulomb has no quantity 'sped'; it has position.x, position.y, mass, velocity.x, "
       "velocity.y, charge, influence.x, influence.y, speed, kinetic-energy, potential-energy; did you mean 'speed'?");
-  EXPECT_NE(message_of([&] { quantity(ions, "position"); }).find("did you mean 'position.x'?"), std::string::npos);
+  EXPECT_NE(message([&] { quantity(ions, "position"); }).find("did you mean 'position.x'?"), std::string::npos);
   EXPECT_THROW(quantity(ions, "position.z"), Error);
   EXPECT_THROW(quantity(ions, ""), Error);
 }

@@ -11,6 +11,7 @@
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <tests/message.hpp>
 
 #include <bit>
 #include <filesystem>
@@ -23,15 +24,6 @@
 using namespace boltzmann;
 
 namespace {
-
-std::string message(auto call) {
-  try {
-    call();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 void put(std::string const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <tests/message.hpp>
 
 #include <bit>
 #include <cmath>
@@ -14,15 +15,6 @@
 using namespace boltzmann;
 
 namespace {
-
-std::string message(auto call) {
-  try {
-    call();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 void put(std::string const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
 

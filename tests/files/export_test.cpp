@@ -6,6 +6,7 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/vortex.hpp>
+#include <tests/message.hpp>
 
 #include <cstring>
 #include <limits>
@@ -15,15 +16,6 @@
 using namespace boltzmann;
 
 namespace {
-
-std::string message(auto call) {
-  try {
-    call();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 BoxEdges box_2d() {
   BoxEdges box;

@@ -10,6 +10,7 @@
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <tests/message.hpp>
 
 #include <chrono>
 #include <random>
@@ -19,15 +20,6 @@
 using namespace boltzmann;
 
 namespace {
-
-std::string message(auto call) {
-  try {
-    call();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // Position and velocity of particle i at a step.
 double position_at(std::int64_t step, std::size_t i) {

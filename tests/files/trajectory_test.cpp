@@ -7,6 +7,7 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/vortex.hpp>
+#include <tests/message.hpp>
 
 #include <bit>
 #include <cmath>
@@ -19,15 +20,6 @@
 using namespace boltzmann;
 
 namespace {
-
-std::string message(auto call) {
-  try {
-    call();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 std::vector<std::uint64_t> bits(std::vector<double> const& values) {
   std::vector<std::uint64_t> result;
