@@ -42,7 +42,7 @@ template <class P, class Law>
     return law(p);
 }
 
-template <Pass pass, class P, class Law>
+template <Pass pass, int W, class P, class Law>
 [[gnu::flatten]] void over_particles(void const* the_law, ExternalTask const& task, std::size_t begin,
                                      std::size_t end) {
   Held<Law> law = *static_cast<Law const*>(the_law);
@@ -66,11 +66,11 @@ template <Pass pass, class P, class Law>
 
 }  // namespace detail
 
-template <class P, class Law>
+template <class P, class Law, int W = native_width<double>>
 ExternalKernels external_kernels() {
   using detail::Pass;
   using Result = decltype(detail::external_result(std::declval<Law const&>(), std::declval<P const&>(), 0.0));
-  return {detail::over_particles<Pass::influence, P, Law>, detail::over_particles<Pass::measure, P, Law>,
+  return {detail::over_particles<Pass::influence, W, P, Law>, detail::over_particles<Pass::measure, W, P, Law>,
           detail::has_energy<Result>};
 }
 

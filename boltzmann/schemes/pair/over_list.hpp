@@ -1,0 +1,29 @@
+// The traversal of neighbour lists.
+#pragma once
+
+#include <boltzmann/schemes/pair/pair_sum.hpp>
+
+namespace boltzmann {
+
+namespace detail {
+
+template <Pass pass, int W, class P, class Q, class Law>
+[[gnu::flatten]] void over_list(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
+  using S = Sum<pass, W, P, Q, Law>;
+  Held<Law> law = *static_cast<Law const*>(the_law);
+  typename S::Real const cutoff2 = task.cutoff2, rounding = task.rounding;
+  for (std::size_t i = begin; i < end; ++i) {
+    auto const p = broadcast<P, Pack<double, W>>(task.target + i * row_stride<P>);
+    S sum;
+    std::uint32_t const* const last = task.index + task.start[i + 1];
+    for (std::uint32_t const* j = task.index + task.start[i]; j != last; j += W) {
+      auto const q = load_rows<Q, W>([&](int lane) { return task.source + j[lane] * row_stride<Q>; });
+      sum.add(law, p, q, norm2(q.position - p.position) < cutoff2, rounding, task.zero_at);
+    }
+    sum.store(task, task.order ? task.order[i] : i);
+  }
+}
+
+}  // namespace detail
+
+}  // namespace boltzmann

@@ -1,0 +1,42 @@
+// What a pair kernel is given, as plain memory: one law between two ensembles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boltzmann {
+
+/// One law between two ensembles, as plain memory. Outputs are indexed by the target's particle number.
+struct PairTask {
+  double const* target = nullptr;  ///< rows of those that are influenced
+  std::size_t targets = 0;
+  std::uint32_t const* order = nullptr;  ///< row -> particle number; null: they are the same
+  double const* source = nullptr;        ///< rows of those that influence
+  std::size_t sources = 0;
+  bool overwrite = false;              ///< the influence is stored, not added (the scalar path only)
+  bool same = false;                   ///< target and source are one ensemble: nobody influences itself
+  std::size_t const* start = nullptr;  ///< neighbour list (lists and connections)
+  std::uint32_t const* index = nullptr;
+  double cutoff2 = 0;                    ///< square of the cut-off (lists)
+  double rounding = 0;                   ///< 3/2 2^52 times the quantum of the reversible form (lists)
+  double zero_at = 0;                    ///< measuring: the distance at which energies are counted as zero; 0: infinity
+  double period[3] = {0, 0, 0};          ///< length of periodic axes (connections)
+  double inverse_period[3] = {0, 0, 0};  ///< its inverse, 0 on other axes
+  double* influence = nullptr;
+  double* reaction = nullptr;  ///< the source's influence, where the traversal visits each pair once
+  double* energy = nullptr;    ///< measuring: half of each pair's energy
+  double* virial = nullptr;    ///< measuring: 9 numbers a particle, half of each pair's -r_a F_b
+};
+
+using PairKernel = void (*)(void const* law, PairTask const& task, std::size_t begin, std::size_t end);
+
+/// The kernels of one law; null where the law can't be traversed that way.
+struct PairKernels {
+  PairKernel list = nullptr, list_reversible = nullptr, list_measure = nullptr;
+  PairKernel all = nullptr, all_measure = nullptr;
+  PairKernel connected = nullptr, connected_measure = nullptr;
+  PairKernel few = nullptr;  ///< every pair once, by scalars: the fastest for a handful of particles
+  bool has_energy = false;
+};
+
+}  // namespace boltzmann
