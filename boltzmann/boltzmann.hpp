@@ -1,6 +1,7 @@
 // Everything that a program needs: particles, laws, schemes, integrators, loaders, diagnoses, recordings.
 #pragma once
 
+#include <boltzmann/core/dual.hpp>
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/core/tensor.hpp>
@@ -8,13 +9,16 @@
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/laws/mixing.hpp>
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/pendulum.hpp>
 #include <boltzmann/laws/rydberg.hpp>
 #include <boltzmann/laws/spring.hpp>
+#include <boltzmann/laws/table.hpp>
 #include <boltzmann/laws/tether.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/laws/vortex.hpp>
@@ -24,6 +28,7 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/pendulum.hpp>
+#include <boltzmann/particles/species.hpp>
 #include <boltzmann/particles/tethered.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>

@@ -52,6 +52,13 @@ int build(BuildOptions const& options);
 
 int doctor(std::string const& folder);
 
+struct BenchOptions {
+  double seconds = 20;         ///< for all problems together
+  std::optional<int> threads;  ///< the most that are tried [all]
+  std::string json;            ///< a file for the figures; empty: none
+};
+int bench(BenchOptions const& options);
+
 /// The completion script of a shell ("bash"); `commands` and their options come from the parser.
 struct CommandWords {
   std::string name;

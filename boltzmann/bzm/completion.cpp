@@ -37,6 +37,7 @@ _bzm() {
         $(compgen -f -X '!*.toml' -- "$word") $(compgen -d -- "$word")) ;;
     show) COMPREPLY=($(compgen -W "$(bzm list --names 2>/dev/null)" -- "$word")) ;;
     resume | render | doctor) COMPREPLY=($(compgen -d -- "$word")) ;;
+    bench) COMPREPLY=($(compgen -f -- "$word")) ;;
     build) COMPREPLY=($(compgen -f -X '!*.cpp' -- "$word") $(compgen -d -- "$word")) ;;
     completion) COMPREPLY=($(compgen -W bash -- "$word")) ;;
   esac

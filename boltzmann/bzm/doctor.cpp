@@ -1,12 +1,13 @@
 // bzm doctor: is this machine fit to run, and does it compute right?
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
-#include <boltzmann/core/pack.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/core/threads.hpp>
-#include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -24,6 +25,8 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <string>
+#include <vector>
 
 // Their headers are not needed for a version.
 extern "C" {
@@ -72,20 +75,13 @@ std::string cpu_name() {
   return "unknown";
 }
 
-constexpr char const* instruction_set() {
-#if defined(__AVX512F__)
-  return "AVX-512";
-#elif defined(__AVX2__)
-  return "AVX2";
-#elif defined(__AVX__)
-  return "AVX";
-#elif defined(__SSE2__)
-  return "SSE2";
-#elif defined(__ARM_NEON)
-  return "NEON";
-#else
-  return "no vector instructions";
-#endif
+// Which kernels run, which could, and how to choose.
+std::string instructions() {
+  std::vector<std::string> words;
+  for (auto const set : instruction_sets()) words.push_back(to_string(set));
+  std::string const used = to_string(instruction_set());
+  if (words.size() == 1) return used;
+  return fmt::format("{} of {} (BOLTZMANN_INSTRUCTIONS={} forces one)", used, join(words), words.front());
 }
 
 std::string first_line(std::string const& text) { return text.substr(0, text.find('\n')); }
@@ -138,7 +134,9 @@ void check_physics(Findings& findings) {
   block_load(atoms, block, true);
   maxwellian_load(atoms, 1.44, 1, 87287, {.remove_drift = true});
   PairScheme scheme(Box(Vector{0., 0., 0.}, Vector{edge, edge, edge}, Boundary::periodic), 2.5);
-  scheme.internal(atoms, LennardJones{1, std::pow(2, 1.0 / 6)});
+  // As scenarios do: the kernels of the instruction set in use.
+  install_pairs(scheme, *find_law("lennard-jones"), {{"depth", {1}}, {"r0", {std::pow(2, 1.0 / 6)}}}, LawUse::internal,
+                atoms, atoms, scheme.cutoff());
   Simulation simulation(scheme, 0.005);
   simulation.integrate(atoms, Method::leap_frog);
   scheme.shifted(false);  // the known energy is that of the law as it stands
@@ -173,7 +171,7 @@ int doctor(std::string const& folder) {
   Findings findings;
   findings.ok("bzm", fmt::format("{} ({})", program_version, own_path()));
   findings.ok("processor", cpu_name());
-  findings.ok("instructions", fmt::format("{}: {} numbers at a time", instruction_set(), native_width<double>));
+  findings.ok("instructions", instructions());
   findings.ok("threads", fmt::format("{}", default_threads()));
   check_compiler(findings);
   unsigned major = 0, minor = 0, release = 0;

@@ -1,6 +1,7 @@
 // bzm: the command line. Parses, calls a command, and turns every failure into its line and exit status.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/version.hpp>
@@ -147,6 +148,15 @@ int command_line(int argc, char** argv) {
   sub = command("doctor", "look at this machine and compute a known answer", [&] { return doctor(folder); });
   sub->add_option("folder", folder, "where results will go [results]");
 
+  BenchOptions bench_options;
+  sub = command("bench", "how fast are some standard problems on this machine?", [&] { return bench(bench_options); });
+  sub->add_option("--seconds", bench_options.seconds, "time for all of them together")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  sub->add_option("--threads", bench_options.threads, "each runs on one thread and on so many [all]")
+      ->check(CLI::Range(1, 4096));
+  sub->add_option("--json", bench_options.json, "write the figures into this file too")->type_name("FILE");
+
   std::string shell = "bash";
   sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"", [&] {
     std::vector<CommandWords> words;
@@ -166,6 +176,7 @@ int command_line(int argc, char** argv) {
     fmt::print("{}", app.help());
     return 0;
   }
+  instruction_set();  // a wrong BOLTZMANN_INSTRUCTIONS is said once, not at each law of a scenario
   return action();
 }
 

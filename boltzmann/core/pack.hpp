@@ -89,8 +89,32 @@ struct Pack {
 
   /// a where the condition holds, else b.
   friend Pack select(Mask<Real, W> condition, Pack a, Pack b) { return condition.native ? a.native : b.native; }
-  friend Pack min(Pack a, Pack b) { return select(b < a, b, a); }
-  friend Pack max(Pack a, Pack b) { return select(a < b, b, a); }
+  friend Pack min(Pack a, Pack b) {  // the instructions give the second operand where one is NaN: here a
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
+      return __builtin_ia32_minpd512_mask(b.native, a.native, a.native, -1, 4);
+    else
+#endif
+#if defined(__AVX__)
+        if constexpr (sizeof(Native) == 32 && sizeof(Real) == 8)
+      return __builtin_ia32_minpd256(b.native, a.native);
+    else
+#endif
+      return select(b < a, b, a);
+  }
+  friend Pack max(Pack a, Pack b) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
+      return __builtin_ia32_maxpd512_mask(b.native, a.native, a.native, -1, 4);
+    else
+#endif
+#if defined(__AVX__)
+        if constexpr (sizeof(Native) == 32 && sizeof(Real) == 8)
+      return __builtin_ia32_maxpd256(b.native, a.native);
+    else
+#endif
+      return select(a < b, b, a);
+  }
   friend Pack abs(Pack a) {  // also of -0 and of NaN: the sign bit goes
     using Bits = typename Mask<Real, W>::Native;
     return (Native)((Bits)a.native & (Bits{} + std::numeric_limits<typename detail::integer_of<Real>::type>::max()));

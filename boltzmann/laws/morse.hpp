@@ -17,9 +17,10 @@ struct Morse {
 
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
-    auto const [direction, distance] = separation(p, q);
-    auto const e = exp(-a * (distance - r0));
-    return Interaction{direction * (2 * depth * a * e * (1.0 - e)), depth * e * (e - 2.0)};
+    auto const r = q.position - p.position;
+    auto const [distance, inverse] = distance_of_square(dot(r, r));
+    auto const e = exp(a * r0 - a * distance);
+    return Interaction{r * (2 * depth * a * inverse * e * (1.0 - e)), depth * e * (e - 2.0)};
   }
 
   double length_scale() const { return 1 / a; }

@@ -9,7 +9,7 @@
 
 namespace boltzmann {
 
-NeighbourList connected_pairs(std::span<Connection const> connections, std::size_t size) {
+PartnerList connected_pairs(std::span<Connection const> connections, std::size_t size) {
   std::vector<std::vector<std::uint32_t>> partners(size);
   for (auto const& c : connections) {
     if (c.interval == 0) throw Error(fmt::format("connection {}:{}:0: the interval is at least 1", c.first, c.last));
@@ -22,14 +22,14 @@ NeighbourList connected_pairs(std::span<Connection const> connections, std::size
       partners[i + c.interval].push_back(static_cast<std::uint32_t>(i));
     }
   }
-  NeighbourList list;
+  PartnerList list;
   list.start.push_back(0);
   for (std::size_t i = 0; i < size; ++i) {
     auto& mine = partners[i];
     std::sort(mine.begin(), mine.end());
     mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
     list.index.insert(list.index.end(), mine.begin(), mine.end());
-    while (list.index.size() % NeighbourList::padding != 0) list.index.push_back(static_cast<std::uint32_t>(i));
+    while (list.index.size() % PartnerList::padding != 0) list.index.push_back(static_cast<std::uint32_t>(i));
     list.start.push_back(list.index.size());
   }
   return list;

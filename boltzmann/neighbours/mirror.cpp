@@ -3,11 +3,12 @@
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
-#include <boltzmann/neighbours/cells.hpp>
+#include <boltzmann/neighbours/neighbour_kernels.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,113 +16,358 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t refresh_grain = 4096;
+constexpr std::size_t block = 256;           // rows that share a largest displacement
+constexpr std::size_t refresh_grain = 4096;  // a multiple of it
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
   throw PhysicsFailure(
       fmt::format("particle {} of '{}' is at a position that is not finite", particle, ensemble.name()));
 }
 
+/// x inside a periodic axis.
+double wrapped(double x, Box const& box, int axis) {
+  double const length = box.length(axis), low = box.low(axis);
+  return x < low || x >= low + length ? x - length * std::floor((x - low) / length) : x;
+}
+
+/// x in steps, modulo 2^32.
+std::int32_t in_steps(double x, double reach) {
+  double steps = std::floor(x / reach * steps_of_reach + 0.5);
+  if (std::abs(steps) > 0x1p62) steps = std::fmod(steps, 0x1p32);
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(steps)));
+}
+/// As far away as can be.
+std::int32_t opposite(std::int32_t steps) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps) + (1U << 31U));
+}
+
 }  // namespace
 
-void Mirror::build(double reach) {
+void Mirror::build(double reach, int threads) {
   int const dimension = box_->dimension();
-  std::vector<double> positions(ensemble_->size() * dimension);
-  for (std::size_t i = 0; i < ensemble_->size(); ++i)
-    for (int a = 0; a < dimension; ++a) {
-      double x = ensemble_->row(i)[a];
-      if (!std::isfinite(x)) not_finite(*ensemble_, i);
-      if (box_->periodic(a)) {
-        double const length = box_->length(a), low = box_->low(a);
-        if (x < low || x >= low + length) x -= length * std::floor((x - low) / length);
-      }
-      positions[i * dimension + a] = x;
-    }
-  rebuild(reach, positions);
-}
-
-void Mirror::rebuild(double reach, std::span<double const> reference) {
-  reference_.assign(reference.begin(), reference.end());
-  sort(reach);
-  rows_.assign(owned() * stride(), 0.0);
-  int const dimension = box_->dimension();
-  for (std::size_t k = 0; k < owned(); ++k)
-    std::copy_n(reference_.data() + static_cast<std::size_t>(order_[k]) * dimension, dimension,
-                rows_.data() + k * stride());
-  add_ghosts(reach);
-}
-
-void Mirror::sort(double reach) {
-  int const dimension = box_->dimension();
-  order_ = Cells(dimension, reference_.data(), dimension, ensemble_->size(), reach).items();
-}
-
-void Mirror::add_ghosts(double reach) {
-  ghosts_.clear();
-  for (int a = 0; a < box_->dimension(); ++a) {
-    if (!box_->periodic(a)) continue;
-    double const length = box_->length(a), low = box_->low(a), high = box_->high(a);
-    int const images = static_cast<int>(std::ceil(reach / length));
-    std::size_t const present = total();
-    rows_.resize(present * stride());
-    for (std::size_t k = 0; k < present; ++k)
-      for (int n = -images; n <= images; ++n) {
-        double const x = rows_[k * stride() + a] + n * length;
-        if (n != 0 && x >= low - reach && x <= high + reach) {
-          ghosts_.push_back({static_cast<std::uint32_t>(k), a, n * length});
-          rows_.resize(rows_.size() + stride());
-          std::copy_n(rows_.data() + k * stride(), box_->dimension(), rows_.data() + rows_.size() - stride());
-          rows_[rows_.size() - stride() + a] = x;
-        }
-      }
-  }
-  rows_.resize((total() + 1) * stride());
-  for (std::size_t k = 0; k < stride(); ++k) rows_[total() * stride() + k] = std::numeric_limits<double>::quiet_NaN();
-}
-
-Displacements Mirror::refresh(int threads) {
-  int const dimension = box_->dimension();
-  std::size_t const stride = this->stride();
-  std::vector<Displacements> parts((owned() + refresh_grain - 1) / refresh_grain + 1);
-  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    Displacements part;
-    for (std::size_t k = begin; k < end; ++k) {
-      std::size_t const particle = order_[k];
-      double* to = rows_.data() + k * stride;
-      std::memcpy(to, ensemble_->row(particle), stride * sizeof(double));
-      double const* reference = reference_.data() + particle * dimension;
-      double square = 0;
+  std::vector<double> references(ensemble_->size() * dimension);
+  for_ranges(ensemble_->size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
       for (int a = 0; a < dimension; ++a) {
-        double moved = to[a] - reference[a];
-        if (box_->periodic(a)) {
-          double const shift = box_->length(a) * std::nearbyint(moved / box_->length(a));
-          to[a] -= shift;
-          moved -= shift;
-        }
-        square += moved * moved;
+        double const x = ensemble_->row(i)[a];
+        if (!std::isfinite(x)) not_finite(*ensemble_, i);
+        references[i * dimension + a] = box_->periodic(a) ? wrapped(x, *box_, a) : x;
       }
-      if (!(square < std::numeric_limits<double>::infinity())) not_finite(*ensemble_, particle);
-      part.take(square);
-    }
-    parts[begin / refresh_grain] = part;
   });
-  move_ghosts();
-  Displacements all;
-  for (auto const& part : parts) {
-    all.take(part.largest);
-    all.take(part.second);
-  }
-  return all;
+  build(reach, references, threads);
 }
 
-void Mirror::move_ghosts() {
-  std::size_t const stride = this->stride();
-  for (std::size_t g = 0; g < ghosts_.size(); ++g) {
-    Ghost const& ghost = ghosts_[g];
-    double* to = rows_.data() + (owned() + g) * stride;
-    std::memcpy(to, rows_.data() + ghost.source * stride, stride * sizeof(double));
-    to[ghost.axis] += ghost.shift;
+void Mirror::build(double reach, std::span<double const> references, int threads) {
+  reach_ = reach;
+  moved_.clear();
+  built_.clear();
+  images_.clear();
+  free_.clear();
+  sort(reach, references);
+  add_ghosts();
+  capacity_ = 0;
+  make_room(total() + 1);
+  largest2_.assign(owned() / block + 1, 0.0);
+  sort_all();
+  for (auto& column : moved_position_) column.assign(candidate_padding, 0);
+  moved_item_.assign(candidate_padding, 0);
+  // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
+  for (std::size_t b = 0; b < blocks(); ++b)
+    std::fill_n(rows_.data() + b * block_stride(), row_block * (owned() + 1), nowhere);
+  (void)threads;
+}
+
+void Mirror::sort(double reach, std::span<double const> references) {
+  int const dimension = box_->dimension();
+  // Cells that are not all but empty, or their order would be that of distant particles.
+  double const spacing = std::pow(box_->volume() / static_cast<double>(ensemble_->size() + 1), 1.0 / dimension);
+  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), std::max(reach, 2.5 * spacing)).items();
+  references_.assign(4 * owned(), 0.0);
+  for (std::size_t k = 0; k < owned(); ++k)
+    for (int a = 0; a < dimension; ++a) references_[4 * k + a] = references[order_[k] * dimension + a];
+  steps_.assign(4 * owned(), 0);
+  for (std::size_t k = 0; k < owned(); ++k)
+    for (int a = 0; a < dimension; ++a) steps_[4 * k + a] = in_steps(references_[4 * k + a], reach_);
+}
+
+template <class Function>
+void Mirror::each_image(double const* x, Function const& function) const {
+  std::array<int, 3> most{0, 0, 0};
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->periodic(a)) {
+      double const low = box_->low(a) + reach_, high = box_->high(a) - reach_;
+      if (x[a] <= low || x[a] >= high) most[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
+    }
+  std::array<std::int8_t, 3> turns{};
+  std::array<double, 3> at{};
+  auto const along = [&](int a, int n) {
+    turns[a] = static_cast<std::int8_t>(n);
+    if (a < box_->dimension()) at[a] = n == 0 ? x[a] : x[a] + n * box_->length(a);
+    return n == 0 || (at[a] >= box_->low(a) - reach_ && at[a] <= box_->high(a) + reach_);
+  };
+  for (int k = -most[2]; k <= most[2]; ++k) {
+    if (!along(2, k)) continue;
+    for (int j = -most[1]; j <= most[1]; ++j) {
+      if (!along(1, j)) continue;
+      for (int i = -most[0]; i <= most[0]; ++i)
+        if (along(0, i)) function(turns, at);
+    }
   }
+}
+
+void Mirror::add_ghosts() {
+  ghosts_.clear();
+  if (!box_->any_periodic()) return;
+  for (std::size_t k = 0; k < owned(); ++k)
+    each_image(references_.data() + 4 * k, [&](std::array<std::int8_t, 3> turns, std::array<double, 3> const&) {
+      if (turns[0] != 0 || turns[1] != 0 || turns[2] != 0) ghosts_.push_back({static_cast<std::uint32_t>(k), turns});
+    });
+}
+
+void Mirror::make_room(std::size_t rows) {
+  if (rows <= capacity_) return;
+  std::size_t const spare = 64 + rows / 64, before = block_stride();
+  capacity_ = rows + spare;
+  AlignedVector<double> moved;
+  auto& target = before == 0 ? rows_ : moved;
+  target.resize(blocks() * block_stride());
+  if (before == 0) return;
+  for (std::size_t b = 0; b < blocks(); ++b)
+    std::copy_n(rows_.data() + b * before, before, moved.data() + b * block_stride());
+  rows_ = std::move(moved);
+}
+
+void Mirror::copy_image(std::size_t source, std::array<std::int8_t, 3> turns, std::size_t row) {
+  double const* from = rows_.data() + row_block * source;
+  double* to = rows_.data() + row_block * row;
+  for (std::size_t b = 0; b < blocks(); ++b)
+    std::memcpy(to + b * block_stride(), from + b * block_stride(), row_block * sizeof(double));
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (turns[a] != 0) to[a] += turns[a] * box_->length(a);
+}
+
+void Mirror::sort_all() {
+  int const dimension = box_->dimension();
+  std::vector<double> at(total() * dimension);
+  for (std::size_t k = 0; k < owned(); ++k)
+    std::copy_n(references_.data() + 4 * k, dimension, at.data() + k * dimension);
+  for (std::size_t g = 0; g < ghosts_.size(); ++g)
+    for (int a = 0; a < dimension; ++a) {
+      Ghost const& ghost = ghosts_[g];
+      double const x = references_[4 * ghost.source + a];
+      at[(owned() + g) * dimension + a] = ghost.turns[a] == 0 ? x : x + ghost.turns[a] * box_->length(a);
+    }
+  cells_ = Cells(dimension, at.data(), dimension, total(), reach_);
+  auto const& items = cells_.items();
+  for (int a = 0; a < 3; ++a) {
+    position_[a].assign(total() + candidate_padding, 0);
+    if (a < dimension)
+      for (std::size_t k = 0; k < total(); ++k) position_[a][k] = in_steps(at[items[k] * dimension + a], reach_);
+  }
+  item_.assign(total() + candidate_padding, 0);
+  for (std::size_t k = 0; k < total(); ++k) {
+    bool const ghost = items[k] >= owned();
+    item_[k] = item_of_row(items[k] + (ghost ? 1 : 0));
+  }
+}
+
+bool Mirror::refresh(int threads) {
+  RefreshTask task;
+  task.ensemble = ensemble_->row(0);
+  task.order = order_.data();
+  task.stride = ensemble_->stride();
+  task.mirror = rows_.data();
+  task.block_stride = block_stride();
+  task.reference = references_.data();
+  task.dimension = box_->dimension();
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->periodic(a)) {
+      task.period[a] = box_->length(a);
+      task.inverse_period[a] = 1 / box_->length(a);
+    }
+  RefreshKernel const kernel = neighbour_kernels().refresh;
+  std::atomic<bool> changed{false}, finite{true};
+  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += block) {
+      Refreshed const part = kernel(task, first, std::min(first + block, end));
+      largest2_[first / block] = part.largest2;
+      if (part.changed) changed.store(true, std::memory_order_relaxed);
+      if (!part.finite) finite.store(false, std::memory_order_relaxed);
+    }
+  });
+  if (!finite)
+    for (std::size_t k = 0; k < owned(); ++k)
+      for (int a = 0; a < box_->dimension(); ++a)
+        if (!(std::abs(ensemble_->row(order_[k])[a] - references_[4 * k + a]) <=
+              std::sqrt(std::numeric_limits<double>::max())))
+          not_finite(*ensemble_, order_[k]);
+  refresh_ghosts(threads);
+  return changed;
+}
+
+void Mirror::refresh_ghosts(int threads) {
+  for_ranges(ghosts_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) copy_image(ghosts_[g].source, ghosts_[g].turns, owned() + 1 + g);
+  });
+}
+
+bool Mirror::is_current() const {
+  if (owned() != ensemble_->size()) return false;
+  for (std::size_t k = 0; k < owned(); ++k)
+    for (int a = 0; a < box_->dimension(); ++a) {
+      double x = ensemble_->row(order_[k])[a];
+      if (box_->periodic(a))
+        x -= box_->length(a) * std::nearbyint((x - references_[4 * k + a]) * (1 / box_->length(a)));
+      if (x != rows_[row_block * k + a]) return false;
+    }
+  return true;
+}
+
+double Mirror::largest2() const {
+  double largest = 0;
+  for (double const square : largest2_) largest = std::max(largest, square);
+  return largest;
+}
+
+std::vector<std::uint32_t> Mirror::beyond(double square, std::size_t most) const {
+  std::vector<std::uint32_t> rows;
+  for (std::size_t b = 0; b < largest2_.size(); ++b) {
+    if (largest2_[b] <= square) continue;
+    for (std::size_t k = b * block; k < std::min((b + 1) * block, owned()); ++k) {
+      double moved2 = 0;
+      for (int a = 0; a < box_->dimension(); ++a) {
+        double const d = rows_[row_block * k + a] - references_[4 * k + a];
+        moved2 += d * d;
+      }
+      if (moved2 <= square * (1 - 1e-12)) continue;
+      rows.push_back(static_cast<std::uint32_t>(k));
+      if (rows.size() == most) return rows;
+    }
+  }
+  return rows;
+}
+
+void Mirror::move(std::span<std::uint32_t const> rows) {
+  std::vector<double> references(3 * rows.size(), 0.0);
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    for (int a = 0; a < box_->dimension(); ++a) {
+      double const x = rows_[row_block * rows[n] + a];
+      references[3 * n + a] = box_->periodic(a) ? wrapped(x, *box_, a) : x;
+    }
+  move(rows, references);
+}
+
+void Mirror::move(std::span<std::uint32_t const> rows, std::span<double const> references) {
+  int const dimension = box_->dimension();
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    std::uint32_t const k = rows[n];
+    double* const reference = references_.data() + 4 * k;
+    auto const known = std::find(moved_.begin(), moved_.end(), k);
+    auto const m = static_cast<std::size_t>(known - moved_.begin());
+    if (known == moved_.end()) {
+      // Out of the cells, with all images.
+      each_image(reference, [&](std::array<std::int8_t, 3>, std::array<double, 3> const& at) {
+        std::size_t const cell = cells_.grid().cell_of(at.data());
+        for (std::uint32_t s = cells_.start()[cell]; s < cells_.start()[cell + 1]; ++s) {
+          std::size_t const row = row_of_item(item_[s]);
+          if ((row < owned() ? row : ghosts_[row - owned() - 1].source) == k)
+            position_[0][s] = opposite(in_steps(at[0], reach_));
+        }
+      });
+      moved_.push_back(k);
+      built_.push_back({reference[0], reference[1], reference[2]});
+      images_.emplace_back();
+    }
+    for (auto const& image : images_[m])
+      if (image.row != k) free_.push_back(image.row - static_cast<std::uint32_t>(owned()) - 1);
+    images_[m].clear();
+    for (int a = 0; a < dimension; ++a) {
+      reference[a] = references[3 * n + a];
+      steps_[4 * k + a] = in_steps(reference[a], reach_);
+      double& x = rows_[row_block * k + a];
+      if (box_->periodic(a)) x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
+    }
+    each_image(reference, [&](std::array<std::int8_t, 3> turns, std::array<double, 3> const& at) {
+      if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) {
+        images_[m].push_back({k, at});
+        return;
+      }
+      if (free_.empty()) {
+        free_.push_back(static_cast<std::uint32_t>(ghosts_.size()));
+        ghosts_.push_back({k, turns});
+        make_room(total() + 1);
+      }
+      std::uint32_t const g = free_.back();
+      free_.pop_back();
+      ghosts_[g] = {k, turns};
+      std::size_t const row = owned() + 1 + g;
+      images_[m].push_back({static_cast<std::uint32_t>(row), at});
+      copy_image(k, turns, row);
+    });
+  }
+  for (auto& column : moved_position_) column.clear();
+  moved_item_.clear();
+  for (std::size_t m = 0; m < moved_.size(); ++m)
+    for (auto const& image : images_[m]) {
+      moved_item_.push_back(item_of_row(image.row));
+      for (std::size_t a = 0; a < 3; ++a) moved_position_[a].push_back(in_steps(image.position[a], reach_));
+    }
+  moved_item_.resize(moved_item_.size() + candidate_padding, 0);
+  for (auto& column : moved_position_) column.resize(moved_item_.size(), 0);
+}
+
+void Mirror::owned_near(double const* x, double reach, std::vector<std::uint32_t>& rows) const {
+  std::array<std::int32_t, 3> steps{};
+  for (int a = 0; a < box_->dimension(); ++a) steps[a] = in_steps(x[a], reach_);
+  double const furthest = reach / reach_ * steps_of_reach * (1 + 1e-6) + 4;
+  auto const take = [&](auto const& position, std::size_t s, std::uint32_t item) {
+    double square = 0;
+    for (int a = 0; a < box_->dimension(); ++a) {
+      double const d =
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(position[a][s]) - static_cast<std::uint32_t>(steps[a]));
+      square += d * d;
+    }
+    if (square > furthest * furthest) return;
+    std::size_t const row = row_of_item(item);
+    rows.push_back(row < owned() ? static_cast<std::uint32_t>(row) : ghosts_[row - owned() - 1].source);
+  };
+  cells_.near(x, reach, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) take(position_, s, item_[s]);
+  });
+  for (std::size_t s = 0; s + candidate_padding < moved_item_.size(); ++s) take(moved_position_, s, moved_item_[s]);
+}
+
+std::vector<double> Mirror::built_references() const {
+  int const dimension = box_->dimension();
+  std::vector<double> references(owned() * dimension);
+  for (std::size_t k = 0; k < owned(); ++k)
+    for (int a = 0; a < dimension; ++a) references[order_[k] * dimension + a] = references_[4 * k + a];
+  for (std::size_t m = 0; m < moved_.size(); ++m)
+    for (int a = 0; a < dimension; ++a) references[order_[moved_[m]] * dimension + a] = built_[m][a];
+  return references;
+}
+
+NearTask Mirror::near_task() const {
+  NearTask task;
+  task.grid = &cells_.grid();
+  task.start = cells_.start().data();
+  task.steps_per_length = steps_of_reach / reach_;
+  for (int a = 0; a < 3; ++a) {
+    task.sorted.position[a] = position_[a].data();
+    task.moved.position[a] = moved_position_[a].data();
+  }
+  task.sorted.item = item_.data();
+  task.moved.item = moved_item_.data();
+  task.moved_count = static_cast<std::uint32_t>(moved_item_.size() - candidate_padding);
+  task.sentinel = item_of_row(sentinel());
+  return task;
+}
+
+std::size_t Mirror::bytes() const {
+  auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
+  return of(order_) + of(rows_) + of(references_) + of(steps_) + of(ghosts_) + of(largest2_) + of(cells_.items()) +
+         of(cells_.start()) + of(position_[0]) + of(position_[1]) + of(position_[2]) + of(item_);
 }
 
 }  // namespace boltzmann

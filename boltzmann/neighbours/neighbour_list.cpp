@@ -1,86 +1,116 @@
-// List building: cells of the source, one pass over the targets.
+// List building: chunks of targets, each with memory of its own, which it keeps from build to build.
 #include <boltzmann/neighbours/neighbour_list.hpp>
 
 #include <boltzmann/core/threads.hpp>
-#include <boltzmann/neighbours/cells.hpp>
+#include <boltzmann/neighbours/neighbour_kernels.hpp>
 
 #include <algorithm>
+#include <atomic>
 
 namespace boltzmann {
 namespace {
 
 constexpr std::size_t grain = 1024;
+constexpr std::size_t first_guess = 48;  // entries a row
 
-struct Part {
-  std::vector<std::uint32_t> index;  // its size is room, not content
-  std::size_t used = 0;
-  std::vector<std::uint32_t> count;
+NearTask task_of(Mirror const& target, Mirror const& source, double cutoff, double skin) {
+  NearTask task = source.near_task();
+  task.reference = target.references();
+  task.reference_steps = target.reference_steps();
+  task.same = &target == &source;
+  task.reach = cutoff + skin;
+  for (int r = 0; r < list_rings; ++r) task.ring[r] = cutoff + skin * (r + 1) / list_rings;
+  return task;
+}
+
+struct Scratch {
+  std::array<std::vector<float>, 3> positions;
+  std::array<std::vector<std::uint32_t>, list_rings> items;
+  std::vector<std::size_t> offset;
+
+  void lend(NearRows& out, std::size_t size) {
+    for (auto& column : positions) column.resize(size);
+    for (auto& column : items) column.resize(size);
+    for (std::size_t a = 0; a < 3; ++a) out.near_position[a] = positions[a].data();
+    out.near_item = items[0].data();
+    for (std::size_t r = 1; r < list_rings; ++r) out.shell_item[r - 1] = items[r].data();
+    out.scratch = size;
+  }
 };
 
-template <int D>
-NeighbourList build(Mirror const& target, Mirror const& source, double reach, int threads) {
-  Cells const cells(D, source.rows(), source.stride(), source.total(), reach);
-  auto const& items = cells.items();
-  // Positions in cell order: candidates are read one after the other.
-  std::vector<double> near(items.size() * D);
-  for (std::size_t k = 0; k < items.size(); ++k)
-    for (int a = 0; a < D; ++a) near[k * D + a] = source.rows()[items[k] * source.stride() + a];
-
-  bool const same = &target == &source;
-  double const reach2 = reach * reach;
-  auto const sentinel = static_cast<std::uint32_t>(source.total());
-  std::vector<Part> parts((target.owned() + grain - 1) / grain);
-  for_ranges(target.owned(), grain, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t begin = first; begin < last; begin += grain) {
-      Part& part = parts[begin / grain];
-      for (std::size_t i = begin; i < std::min(begin + grain, last); ++i) {
-        double const* x = target.rows() + i * target.stride();
-        std::size_t const before = part.used;
-        auto const self = same ? static_cast<std::uint32_t>(i) : sentinel;
-        cells.near(x, [&](std::size_t from, std::size_t to) {
-          if (part.index.size() < part.used + (to - from) + NeighbourList::padding)
-            part.index.resize(2 * (part.used + (to - from)) + 1024);
-          // Every candidate is written, and stays if it is near: no branch to mispredict.
-          std::uint32_t* next = part.index.data() + part.used;
-          for (std::size_t k = from; k < to; ++k) {
-            double square = 0;
-            for (int a = 0; a < D; ++a) square += (near[k * D + a] - x[a]) * (near[k * D + a] - x[a]);
-            *next = items[k];
-            next += static_cast<int>(square < reach2) & static_cast<int>(items[k] != self);
-          }
-          part.used = static_cast<std::size_t>(next - part.index.data());
-        });
-        while ((part.used - before) % NeighbourList::padding != 0) part.index[part.used++] = sentinel;
-        part.count.push_back(static_cast<std::uint32_t>(part.used - before));
-      }
-    }
-  });
-
-  NeighbourList list;
-  list.start.reserve(target.owned() + 1);
-  list.start.push_back(0);
-  std::size_t entries = 0;
-  for (auto const& part : parts) entries += part.used;
-  list.index.reserve(entries);
-  for (auto const& part : parts) {
-    list.index.insert(list.index.end(), part.index.begin(),
-                      part.index.begin() + static_cast<std::ptrdiff_t>(part.used));
-    for (auto const count : part.count) list.start.push_back(list.start.back() + count);
+/// Runs the kernel over [begin, end), making room in `index` as it is wanted.
+void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_t end, NearRows& out,
+          std::vector<std::uint32_t>& index, Scratch& scratch) {
+  for (;;) {
+    out.index = index.data();
+    out.room = index.size();
+    begin = kernel(task, begin, end, out);
+    if (begin == end) return;
+    if (out.used + out.wanted > index.size())
+      index.resize(std::max(out.used + out.wanted, index.size() + index.size() / 4));
+    if (out.wanted_scratch > out.scratch) scratch.lend(out, out.wanted_scratch + out.wanted_scratch / 2);
   }
-  return list;
 }
 
 }  // namespace
 
-NeighbourList near_pairs(Mirror const& target, Mirror const& source, double reach, int threads) {
-  switch (target.ensemble().dimension()) {
-    case 1:
-      return build<1>(target, source, reach, threads);
-    case 2:
-      return build<2>(target, source, reach, threads);
-    default:
-      return build<3>(target, source, reach, threads);
+void NeighbourList::build(Mirror const& target, Mirror const& source, double cutoff, double skin, int threads) {
+  cutoff_ = cutoff;
+  skin_ = skin;
+  std::size_t const rows = target.owned();
+  NearTask const task = task_of(target, source, cutoff, skin);
+  NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
+  row_.resize(rows);
+  length_.resize(list_rings * rows);
+  chunks_.resize((rows + grain - 1) / grain);
+  replaced_.clear();
+  std::atomic<std::size_t> entries{0};
+  for_ranges(rows, grain, threads, [&](std::size_t first, std::size_t last) {
+    Scratch scratch;
+    scratch.offset.resize(grain);
+    for (std::size_t begin = first; begin < last; begin += grain) {
+      std::size_t const end = std::min(begin + grain, last);
+      auto& index = chunks_[begin / grain].index;
+      if (index.empty()) index.resize(first_guess * (end - begin));
+      NearRows out;
+      out.offset = scratch.offset.data() - begin;
+      out.length = length_.data();
+      out.rows = rows;
+      find(kernel, task, begin, end, out, index, scratch);
+      for (std::size_t i = begin; i < end; ++i) row_[i] = index.data() + scratch.offset[i - begin];
+      entries += out.used;
+    }
+  });
+  entries_ = entries;
+}
+
+void NeighbourList::rebuild(Mirror const& target, Mirror const& source, std::span<std::uint32_t const> rows) {
+  NearTask const task = task_of(target, source, cutoff_, skin_);
+  NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
+  auto const padded = [](std::size_t n) { return (n + list_padding - 1) / list_padding * list_padding; };
+  std::vector<std::uint32_t> index;
+  Scratch scratch;
+  for (std::uint32_t const i : rows) {
+    std::uint32_t const before = lengths(list_rings - 1)[i];
+    std::size_t offset = 0;
+    NearRows out;
+    out.offset = &offset - i;
+    out.length = length_.data();
+    out.rows = size();
+    find(kernel, task, i, i + 1, out, index, scratch);
+    if (out.used > padded(before)) {
+      replaced_.emplace_back(out.used);
+      row_[i] = replaced_.back().data();
+    }
+    std::copy_n(index.data(), out.used, row_[i]);
   }
+}
+
+std::size_t NeighbourList::bytes() const {
+  std::size_t total = row_.capacity() * sizeof(row_[0]) + length_.capacity() * sizeof(length_[0]);
+  for (auto const& chunk : chunks_) total += chunk.index.capacity() * sizeof(chunk.index[0]);
+  for (auto const& row : replaced_) total += row.capacity() * sizeof(row[0]) + sizeof(row);
+  return total;
 }
 
 }  // namespace boltzmann

@@ -3,22 +3,47 @@
 
 #include <boltzmann/neighbours/mirror.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <span>
 #include <vector>
 
 namespace boltzmann {
 
-/// Row i's neighbours are index[start[i]] ... index[start[i + 1] - 1]; each row is padded to a multiple of `padding`
-/// with an index that its user masks.
-struct NeighbourList {
-  static constexpr std::size_t padding = 8;
-  std::vector<std::size_t> start;
-  std::vector<std::uint32_t> index;
-};
+/// The full list: for every owned row of a target mirror the rows of a source mirror, owned and ghosts, that were
+/// within cutoff + skin of it, by the references of both; not itself. An entry is item_of_row() of a source row. A row
+/// begins with those within cutoff + skin / 4, then come rings to cutoff + 2 skin / 4, ... (ascending; `list_rings` in
+/// all): while nothing has moved further than half a ring's share of the skin, what lies behind that ring can't be
+/// within the cut-off, and isn't read. Rows are padded with the source's sentinel.
+class NeighbourList {
+ public:
+  /// Finds everybody's neighbours.
+  void build(Mirror const& target, Mirror const& source, double cutoff, double skin, int threads);
+  /// Finds those of the given target rows anew, after references have been changed (Mirror::move).
+  void rebuild(Mirror const& target, Mirror const& source, std::span<std::uint32_t const> rows);
 
-/// The full list: for every owned row of `target` the rows of `source`, owned and ghosts, within `reach` at the last
-/// build; not itself. Padded with the source's sentinel.
-NeighbourList near_pairs(Mirror const& target, Mirror const& source, double reach, int threads);
+  std::size_t size() const { return row_.size(); }
+  /// Where each row starts.
+  std::uint32_t const* const* rows() const { return row_.data(); }
+  /// Of each row, how many entries there are up to a ring (0 to list_rings - 1).
+  std::uint32_t const* lengths(int ring) const { return length_.data() + static_cast<std::size_t>(ring) * size(); }
+  /// Entries of all rows at the last build, padding included.
+  std::size_t entries() const { return entries_; }
+  std::size_t bytes() const;
+
+ private:
+  struct Chunk {
+    std::vector<std::uint32_t> index;  // its size is room, not content
+  };
+
+  double cutoff_ = 0, skin_ = 0;
+  std::size_t entries_ = 0;
+  std::vector<std::uint32_t*> row_;
+  std::vector<std::uint32_t> length_;
+  std::vector<Chunk> chunks_;
+  std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place
+};
 
 }  // namespace boltzmann

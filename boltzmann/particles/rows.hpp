@@ -42,14 +42,17 @@ struct rebind<P<D, Old>, Real> {
 template <class P, class Real>
 using rebind_t = typename detail::rebind<P, Real>::type;
 
-/// One particle, the same in every lane.
+/// Doubles of a block: rows consist of blocks, one behind the other, or each in an array of its own.
+inline constexpr std::size_t row_block = 4;
+
+/// One particle, the same in every lane; `stride` doubles from one block of the row to the next.
 template <class P, class Real = Pack<double>>
-[[gnu::always_inline]] inline rebind_t<P, Real> broadcast(double const* row) {
+[[gnu::always_inline]] inline rebind_t<P, Real> broadcast(double const* row, std::size_t stride = row_block) {
   using Packed = rebind_t<P, Real>;
   static_assert(sizeof(Packed) == row_doubles<P> * sizeof(Real),
                 "a particle class holds nothing but Real and Vector<D, Real>");
   std::array<Real, row_doubles<P>> columns;
-  for (std::size_t k = 0; k < row_doubles<P>; ++k) columns[k] = row[k];
+  for (std::size_t k = 0; k < row_doubles<P>; ++k) columns[k] = row[k / row_block * stride + k % row_block];
   return std::bit_cast<Packed>(columns);
 }
 
@@ -102,18 +105,20 @@ template <int W, class RowOf>
 
 }  // namespace detail
 
-/// W particles as one particle of packs; `row(lane)` points to a row (32-byte aligned). Fields that are not used cost
-/// nothing.
+/// W particles as one particle of packs; `row(lane)` points to a row (32-byte aligned), `stride` doubles from one block
+/// of the row to the next. Fields that are not used cost nothing.
 template <class P, int W = native_width<double>, class RowOf>
-[[gnu::always_inline]] inline rebind_t<P, Pack<double, W>> load_rows(RowOf row) {
+[[gnu::always_inline]] inline rebind_t<P, Pack<double, W>> load_rows(RowOf row, std::size_t stride = row_block) {
   using Packed = rebind_t<P, Pack<double, W>>;
   static_assert(sizeof(Packed) == row_doubles<P> * sizeof(Pack<double, W>),
                 "a particle class holds nothing but Real and Vector<D, Real>");
   std::array<Pack<double, W>, row_doubles<P>> columns;
   [&]<std::size_t... Block>(std::index_sequence<Block...>) {
-    (detail::transpose_block<W>(row, 4 * Block, columns.data() + 4 * Block, row_doubles<P> - 4 * Block), ...);
+    (detail::transpose_block<W>(row, stride * Block, columns.data() + row_block * Block,
+                                row_doubles<P> - row_block * Block),
+     ...);
   }
-  (std::make_index_sequence<(row_doubles<P> + 3) / 4>{});
+  (std::make_index_sequence<(row_doubles<P> + row_block - 1) / row_block>{});
   return std::bit_cast<Packed>(columns);
 }
 

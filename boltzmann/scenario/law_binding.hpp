@@ -1,8 +1,7 @@
-// Law binding: kernels of a law for the memory layouts that particle classes have, so that a law is compiled once per
-// layout and not once per class. Private to this room.
+// Law binding: from the word of a law and its parameters to the law with its kernels. Private to this room.
 #pragma once
 
-#include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/scenario/law_rows.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <string>
@@ -57,40 +56,27 @@ bool has_layout(AnyEnsemble const& ensemble) {
   return has_rows<P>(ensemble) && ensemble.influence_size() == sizeof(typename P::Influence) / sizeof(double);
 }
 
-/// Newton particles in rows of 8 numbers in 1D and 12 in 3D (in 2D plain Newton rows have 8 and room for 3 more).
-template <int D, class Real = double>
-struct LongNewton : Newton<D, Real> {
-  Vector<2, Real> more;
-};
+namespace detail {
+template <class Law, class... P, class... Q, class... Connected, class... Outside>
+void bind_kernels(BoundLaw& bound, LawRows<Layouts<On<P, Q>...>, Layouts<Connected...>, Layouts<Outside...>> rows) {
+  LawKernels const kernels =
+      for_instruction_set([&](auto set) { return law_kernels<decltype(set)::value, Law, decltype(rows)>(); });
+  [[maybe_unused]] PairKernels const* pair = kernels.pairs;
+  (bound.pairs.push_back({has_layout<P>, has_rows<Q>, *pair++}), ...);
+  [[maybe_unused]] PairKernels const* connection = kernels.connections;
+  (bound.connections.push_back({has_layout<Connected>, *connection++}), ...);
+  [[maybe_unused]] ExternalKernels const* external = kernels.externals;
+  (bound.externals.push_back({has_layout<Outside>, *external++}), ...);
+}
+}  // namespace detail
 
-template <int D, class Real = double>
-struct LongKepler : Kepler<D, Real> {
-  Vector<2, Real> more;
-};
-
-/// A list of classes.
-template <class... P>
-struct Layouts {};
-
-/// The rows that classical particles of the shipped classes have.
-template <int D>
-struct NewtonLayouts;
-template <>
-struct NewtonLayouts<1> {
-  using type = Layouts<Newton<1>, LongNewton<1>>;
-};
-template <>
-struct NewtonLayouts<2> {
-  using type = Layouts<Newton<2>>;
-};
-template <>
-struct NewtonLayouts<3> {
-  using type = Layouts<Newton<3>, LongNewton<3>>;
-};
-
-template <class Law>
+/// The law with its kernels for these rows, in the instruction set in use.
+template <class Rows, class Law>
 BoundLaw bind_law(Law const& law) {
-  return {PairScheme::keep(law), PairScheme::traits_of(law), symmetry_of<Law>() == Symmetry::one_way, {}, {}, {}};
+  BoundLaw bound{
+      PairScheme::keep(law), PairScheme::traits_of(law), symmetry_of<Law>() == Symmetry::one_way, {}, {}, {}};
+  detail::bind_kernels<Law>(bound, Rows{});
+  return bound;
 }
 
 /// The parameters of a law in the simulation's base.
@@ -112,78 +98,11 @@ struct LawValues {
   }
 };
 
-/// The word of a law and how it is made. One table per source file, so that they compile side by side.
+/// The word of a law and how it is made.
 struct LawBinder {
   std::string_view name;
   BoundLaw (*bind)(LawValues const& values);
 };
-namespace detail {
-std::vector<LawBinder> well_laws();
-std::vector<LawBinder> bond_laws();
-std::vector<LawBinder> laplace_laws();
-std::vector<LawBinder> flow_laws();
-std::vector<LawBinder> external_laws();
-std::vector<LawBinder> pendulum_laws();
-}  // namespace detail
-
-/// Kernels between every two of the layouts.
-template <class Law, class... P>
-void bind_pairs(BoundLaw& bound, Layouts<P...> layouts) {
-  (bind_sources<Law, P>(bound, layouts), ...);
-}
-template <class Law, class P, class... Q>
-void bind_sources(BoundLaw& bound, Layouts<Q...>) {
-  (bound.pairs.push_back({has_layout<P>, has_rows<Q>, near_kernels<P, Q, Law>()}), ...);
-}
-/// Kernels of targets by sources.
-template <class Law, class... P, class Sources>
-void bind_pairs(BoundLaw& bound, Layouts<P...>, Sources sources) {
-  (bind_sources<Law, P>(bound, sources), ...);
-}
-template <class Law, class... P>
-void bind_connections(BoundLaw& bound, Layouts<P...>) {
-  (bound.connections.push_back({has_layout<P>, connection_kernels<P, Law>()}), ...);
-}
-template <class Law, class... P>
-void bind_externals(BoundLaw& bound, Layouts<P...>) {
-  (bound.externals.push_back({has_layout<P>, external_kernels<P, Law>()}), ...);
-}
-
-/// The classical particle in any class that derives from it.
-template <int D, class Real>
-Newton<D, Real> const& newton_in(Newton<D, Real> const& particle) {
-  return particle;
-}
-
-/// A law that sees two classical particles of one type, whatever rows they come from.
-template <class Law>
-struct BetweenNewton : Law {
-  template <class P, class Q>
-  auto operator()(P const& p, Q const& q) const {
-    return Law::operator()(newton_in(p), newton_in(q));
-  }
-};
-
-/// A law between classical particles, and over connections, in one, two and three dimensions.
-template <class PlainLaw>
-BoundLaw bind_between_newton(PlainLaw const& plain) {
-  using Law = BetweenNewton<PlainLaw>;
-  BoundLaw bound = bind_law(Law{plain});
-  bind_pairs<Law>(bound, NewtonLayouts<1>::type{});
-  bind_pairs<Law>(bound, NewtonLayouts<2>::type{});
-  bind_pairs<Law>(bound, NewtonLayouts<3>::type{});
-  bind_connections<Law>(bound, NewtonLayouts<1>::type{});
-  bind_connections<Law>(bound, NewtonLayouts<2>::type{});
-  bind_connections<Law>(bound, NewtonLayouts<3>::type{});
-  return bound;
-}
-
-/// An external law on classical particles.
-template <class Law>
-void bind_on_newton(BoundLaw& bound) {
-  bind_externals<Law>(bound, NewtonLayouts<1>::type{});
-  bind_externals<Law>(bound, NewtonLayouts<2>::type{});
-  bind_externals<Law>(bound, NewtonLayouts<3>::type{});
-}
+std::vector<LawBinder> const& law_binders();
 
 }  // namespace boltzmann

@@ -11,14 +11,7 @@ namespace boltzmann {
 namespace {
 
 BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension) {
-  static std::vector<LawBinder> const binders = [] {
-    std::vector<LawBinder> all;
-    for (auto const& family : {detail::well_laws(), detail::bond_laws(), detail::laplace_laws(), detail::flow_laws(),
-                               detail::external_laws(), detail::pendulum_laws()})
-      all.insert(all.end(), family.begin(), family.end());
-    return all;
-  }();
-  for (auto const& binder : binders)
+  for (auto const& binder : law_binders())
     if (binder.name == law.name) return binder.bind({dimension, parameters});
   throw Error(fmt::format("law '{}' can be used in programs only, not in scenarios", law.name));
 }

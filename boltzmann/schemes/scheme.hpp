@@ -38,7 +38,7 @@ class Scheme {
 
   /// The influence on every particle at this time, into the ensembles' influence arrays. PhysicsFailure naming the
   /// particle if a position is not finite.
-  void calculate(double time = 0) {
+  virtual void calculate(double time = 0) {
     for (auto* ensemble : ensembles_) ensemble->clear_influence();
     add_influences(time);
   }
@@ -63,6 +63,8 @@ class Scheme {
   /// Makes influences a function of the positions alone, whatever happened before: every contribution is rounded to a
   /// multiple of `quantum`, so that sums are exact in any order. Error if a law can't be reversed in time.
   virtual void make_reversible(double quantum) = 0;
+  /// Memory that the scheme itself holds (not the ensembles), in bytes.
+  virtual std::size_t bytes() const { return 0; }
   /// One line about the work done, for the end of a run.
   virtual std::string report() const { return ""; }
 

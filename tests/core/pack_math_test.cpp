@@ -295,6 +295,16 @@ TEST(PackMathWidths, TheSameBitsInEveryWidth) {
   }
 }
 
+TEST(PackMathWidths, ThePowerOfTwoOfExpHasTheSameBitsInEveryWidth) {
+  // The widest packs may have an instruction for it: from underflow over subnormal results to overflow.
+  auto const bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  for (double x = -760; x < 720; x += 0.0137) {
+    auto const eight = bits(exp(Pack<double, 8>(x))[7]);
+    EXPECT_EQ(bits(exp(Pack<double, 2>(x))[1]), eight) << x;
+    EXPECT_EQ(bits(exp(Pack<double, 4>(x))[3]), eight) << x;
+  }
+}
+
 TEST(PackMathFloat, IsTheRoundedDouble) {
   std::mt19937 random(9);
   std::uniform_real_distribution<float> uniform(-9, 9);

@@ -67,7 +67,7 @@ template <Pass pass, int W, class P, class Law>
 }  // namespace detail
 
 template <class P, class Law, int W = native_width<double>>
-ExternalKernels external_kernels() {
+constexpr ExternalKernels external_kernels() {
   using detail::Pass;
   using Result = decltype(detail::external_result(std::declval<Law const&>(), std::declval<P const&>(), 0.0));
   return {detail::over_particles<Pass::influence, W, P, Law>, detail::over_particles<Pass::measure, W, P, Law>,

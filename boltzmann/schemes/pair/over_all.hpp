@@ -1,34 +1,53 @@
-// The traversal of all pairs.
+// The traversal of all pairs: lanes are targets, and every source goes past them.
 #pragma once
 
-#include <boltzmann/schemes/pair/pair_sum.hpp>
+#include <boltzmann/schemes/pair/lane_sum.hpp>
 
 namespace boltzmann {
 
 namespace detail {
 
+/// Packs of targets that share one load of a source: two keep the arithmetic units of 32 registers busy, and of 16 one.
 template <int W>
-[[gnu::always_inline]] inline Pack<double, W> lanes_from(double first) {
-  Pack<double, W> lanes;
-  for (int lane = 0; lane < W; ++lane) lanes.native[lane] = first + lane;
-  return lanes;
-}
+inline constexpr int target_packs = W == 8 ? 2 : 1;
 
+/// Sources whose influences are summed before they are added to the total: rounding errors grow with this number and
+/// with that of such groups, not with their product.
+inline constexpr std::size_t source_group = 1024;
+
+/// Every target sums the sources in their order, in groups, whatever targets stand beside it: the result has the same
+/// bits for every division into ranges. Blocks of targets begin at multiples of their size, so that a range which does
+/// not begin there computes up to a block that is not its own; ranges of several blocks lose nothing.
 template <Pass pass, int W, class P, class Q, class Law>
 [[gnu::flatten]] void over_all(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
-  using S = Sum<pass, W, P, Q, Law>;
+  constexpr int packs = pass == Pass::measure ? 1 : target_packs<W>;
+  constexpr std::size_t block = packs * W;
+  using Real = Pack<double, W>;
   Held<Law> law = *static_cast<Law const*>(the_law);
-  typename S::Real const sources = static_cast<double>(task.sources);
-  for (std::size_t i = begin; i < end; ++i) {
-    auto const p = broadcast<P, Pack<double, W>>(task.target + i * row_stride<P>);
-    typename S::Real const self = task.same ? static_cast<double>(i) : -1.0;
-    S sum;
-    for (std::size_t j = 0; j < task.sources; j += W) {
-      auto const q = load_rows<Q, W>([&](int lane) { return task.source + (j + lane) * row_stride<Q>; });
-      auto const number = lanes_from<W>(static_cast<double>(j));
-      sum.add(law, p, q, (number < sources) & (number != self), 0.0);
-    }
-    sum.store(task, i);
+  for (std::size_t first = begin / block * block; first < end; first += block) {
+    rebind_t<P, Real> p[packs];
+    for (int t = 0; t < packs; ++t) p[t] = load_neighbouring_rows<P, W>(task.target, first + t * W, task.targets);
+    std::size_t j = 0;
+    do {
+      bool const overwrite = task.overwrite && j == 0;
+      std::size_t const group_end = task.sources - j < source_group ? task.sources : j + source_group;
+      std::size_t const self_begin = task.same && first < group_end ? first : group_end;
+      std::size_t const self_end = task.same && first + block < group_end ? first + block : group_end;
+      LaneSum<pass, W, P, Q, Law> sum[packs];
+      // Up to the block's own particles without a mask, past them with one, and on without.
+      for (std::size_t const pause : {self_begin, group_end}) {
+        for (; j < pause; ++j) {
+          auto const q = broadcast<Q, Real>(task.source + j * row_stride<Q>);
+          for (int t = 0; t < packs; ++t) sum[t].add(law, p[t], q, every_lane<W>());
+        }
+        for (; j < self_end; ++j) {
+          auto const q = broadcast<Q, Real>(task.source + j * row_stride<Q>);
+          for (int t = 0; t < packs; ++t)
+            sum[t].add(law, p[t], q, lanes_from<W>(static_cast<double>(first + t * W)) != static_cast<double>(j));
+        }
+      }
+      for (int t = 0; t < packs; ++t) sum[t].store(task, first + t * W, begin, end, overwrite);
+    } while (j < task.sources);
   }
 }
 

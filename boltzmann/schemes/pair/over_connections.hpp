@@ -1,7 +1,10 @@
-// The traversal of fixed connections, over the nearest periodic image.
+// The traversal of fixed connections, over the nearest periodic image: lanes are particles, and all of them meet their
+// first partner, then all their second, ...
 #pragma once
 
-#include <boltzmann/schemes/pair/pair_sum.hpp>
+#include <boltzmann/schemes/pair/lane_sum.hpp>
+
+#include <cstdint>
 
 namespace boltzmann {
 
@@ -18,25 +21,41 @@ template <int D, int W>
   }
 }
 
+/// A particle without a k-th partner meets itself, which is masked. A list ends before its own particle's number, if
+/// that stands in it. Every lane adds its own partners in their order: the result has the same bits for every division
+/// into ranges.
 template <Pass pass, int W, class P, class Law>
 [[gnu::flatten]] void over_connections(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
-  using S = Sum<pass, W, P, P, Law>;
+  using Real = Pack<double, W>;
   Held<Law> law = *static_cast<Law const*>(the_law);
-  for (std::size_t i = begin; i < end; ++i) {
-    auto const p = broadcast<P, Pack<double, W>>(task.target + i * row_stride<P>);
-    typename S::Real const self = static_cast<double>(i);
-    S sum;
-    std::uint32_t const* const last = task.index + task.start[i + 1];
-    for (std::uint32_t const* j = task.index + task.start[i]; j != last; j += W) {
-      auto q = load_rows<P, W>([&](int lane) { return task.source + j[lane] * row_stride<P>; });
+  for (std::size_t first = begin; first < end; first += W) {
+    std::size_t next[W], last[W];
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      std::size_t const i = first + lane;
+      next[lane] = i < end ? task.start[i] : 0;
+      last[lane] = i < end ? task.start[i + 1] : 0;
+    }
+    auto const p = load_neighbouring_rows<P, W>(task.target, first, task.targets);
+    LaneSum<pass, W, P, P, Law> sum;
+    for (;;) {
+      std::size_t partner[W];
+      Real away;
+      std::size_t somebody = 0;
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        std::size_t const i = first + lane < task.targets ? first + lane : task.targets - 1;
+        std::size_t const j = next[lane] < last[lane] ? task.index[next[lane]++] : i;
+        partner[lane] = j;
+        somebody |= j ^ i;
+        away.native[lane] = j != i ? 1.0 : 0.0;
+      }
+      if (somebody == 0) break;
+      auto q = load_rows<P, W>([&](int lane) { return task.source + partner[lane] * row_stride<P>; });
       auto d = q.position - p.position;
       nearest_image(d, task);
       q.position = p.position + d;
-      typename S::Real number;
-      for (int lane = 0; lane < W; ++lane) number.native[lane] = j[lane];
-      sum.add(law, p, q, number != self, 0.0);
+      sum.add(law, p, q, away != 0.0);
     }
-    sum.store(task, i);
+    sum.store(task, first, first, end, task.overwrite);
   }
 }
 

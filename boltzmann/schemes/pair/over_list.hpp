@@ -12,12 +12,14 @@ template <Pass pass, int W, class P, class Q, class Law>
   using S = Sum<pass, W, P, Q, Law>;
   Held<Law> law = *static_cast<Law const*>(the_law);
   typename S::Real const cutoff2 = task.cutoff2, rounding = task.rounding;
+  double const* const source = task.source;
+  std::size_t const stride = task.source_stride;
   for (std::size_t i = begin; i < end; ++i) {
-    auto const p = broadcast<P, Pack<double, W>>(task.target + i * row_stride<P>);
+    auto const p = broadcast<P, Pack<double, W>>(task.target + row_block * i, task.target_stride);
     S sum;
-    std::uint32_t const* const last = task.index + task.start[i + 1];
-    for (std::uint32_t const* j = task.index + task.start[i]; j != last; j += W) {
-      auto const q = load_rows<Q, W>([&](int lane) { return task.source + j[lane] * row_stride<Q>; });
+    std::uint32_t const* j = task.row[i];
+    for (std::uint32_t const* const last = j + task.length[i]; j < last; j += W) {
+      auto const q = load_rows<Q, W>([&](int lane) { return source + j[lane]; }, stride);
       sum.add(law, p, q, norm2(q.position - p.position) < cutoff2, rounding, task.zero_at);
     }
     sum.store(task, task.order ? task.order[i] : i);

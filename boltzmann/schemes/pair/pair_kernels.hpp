@@ -25,7 +25,7 @@ concept PairLaw = requires(Law const& law, rebind_t<P, Pack<double>> const& p, r
 };
 
 template <class P, class Q, class Law, int W = native_width<double>>
-PairKernels near_kernels() {
+constexpr PairKernels near_kernels() {
   using detail::Pass;
   PairKernels kernels;
   kernels.list = detail::over_list<Pass::influence, W, P, Q, Law>;
@@ -39,7 +39,7 @@ PairKernels near_kernels() {
 }
 
 template <class P, class Law, int W = native_width<double>>
-PairKernels connection_kernels() {
+constexpr PairKernels connection_kernels() {
   using detail::Pass;
   PairKernels kernels;
   kernels.connected = detail::over_connections<Pass::influence, W, P, Law>;

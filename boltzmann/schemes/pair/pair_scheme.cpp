@@ -17,6 +17,11 @@ constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pai
 // Below, one thread is faster than the start of two (some 10 us, and milliseconds where others use the cores too).
 constexpr std::size_t pairs_worth_threads = 1U << 18U;
 constexpr std::size_t particles_worth_threads = 1U << 15U;
+// Around particles that have moved further than all others neighbours are found anew, as long as that takes no more
+// than these shares of finding everybody's: at any time, so that lists are read less far, and when the lists would not
+// hold.
+constexpr double share_of_few = 0.005, share_of_some = 0.25;
+constexpr std::size_t most_moved = 256;
 constexpr char const* axis_name = "xyz";
 
 }  // namespace
@@ -35,7 +40,7 @@ struct PairScheme::Near {
   bool all_pairs() const { return cutoff == no_cutoff; }
 
   /// Sets the task to where memory is now (ensembles may have been resized, mirrors rebuilt).
-  void locate(double quantum) {
+  void locate(double quantum, int ring) {
     task.influence = target->influence(0);
     if (all_pairs()) {
       task.target = target->row(0);
@@ -48,15 +53,18 @@ struct PairScheme::Near {
       task.targets = target_mirror->owned();
       task.sources = source_mirror->total();
       task.order = target_mirror->order();
-      task.start = list.start.data();
-      task.index = list.index.data();
+      task.target_stride = target_mirror->block_stride();
+      task.source_stride = source_mirror->block_stride();
+      task.row = list.rows();
+      task.length = list.lengths(ring);
       task.rounding = 1.5 * 4503599627370496.0 * quantum;
     }
     few = all_pairs() && task.same && task.targets <= few_particles ? kernels.few : nullptr;
   }
-  std::size_t pairs() const { return all_pairs() ? task.targets * task.sources : list.index.size(); }
+  std::size_t pairs() const { return all_pairs() ? task.targets * task.sources : list.entries(); }
   std::size_t grain() const {
-    return all_pairs() ? std::max<std::size_t>(8, pairs_grain / (source->size() + 1)) : particle_grain;
+    // Of all pairs, whole blocks of targets: kernels take up to 16 together.
+    return all_pairs() ? std::max<std::size_t>(64, pairs_grain / (source->size() + 1) / 64 * 64) : particle_grain;
   }
 };
 
@@ -65,7 +73,7 @@ struct PairScheme::Connected {
   PairKernels kernels;
   LawPointer law;
   LawTraits traits;
-  NeighbourList list;
+  PartnerList list;
 
   PairTask task(Box const& box) const {
     if (list.start.size() != ensemble->size() + 1)
@@ -199,41 +207,140 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
 
 int PairScheme::worth(std::size_t work, std::size_t least) const { return work < least ? 1 : threads(); }
 
+std::size_t PairScheme::rows() const {
+  std::size_t rows = 0;
+  for (auto const& mirror : mirrors_) rows += mirror->owned();
+  return rows;
+}
+
+double PairScheme::rows_to_find(std::size_t moved) const {
+  std::size_t entries = 0, targets = 0;
+  for (auto const& near : near_)
+    if (!near->all_pairs()) {
+      entries += near->list.entries();
+      targets += near->list.size();
+    }
+  // The neighbours at the old place and at the new one, and what it costs to know who they are.
+  return static_cast<double>(moved) * (2.0 * static_cast<double>(entries) / static_cast<double>(targets + 1) + 20);
+}
+
 void PairScheme::build_lists() {
   reach_ = 0;
   for (auto& near : near_)
     if (!near->all_pairs()) reach_ = std::max(reach_, near->cutoff + skin_);
-  for (auto& mirror : mirrors_) mirror->build(reach_);
+  for (auto& mirror : mirrors_) mirror->build(reach_, worth(mirror->ensemble().size(), particles_worth_threads));
+  find_neighbours();
+}
+
+void PairScheme::find_neighbours() {
   for (auto& near : near_)
     if (!near->all_pairs())
-      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_,
-                              worth(near->target->size(), particles_worth_threads / 8));
+      near->list.build(*near->target_mirror, *near->source_mirror, near->cutoff, skin_,
+                       worth(near->target->size(), particles_worth_threads / 8));
   lists_stale_ = false;
+  ring_ = 0;
+  found_again_ = 0;
   ++builds_;
+}
+
+void PairScheme::move(std::vector<Moved> const& moved) {
+  std::vector<std::vector<std::uint32_t>> affected(near_.size());
+  // Whose lists name a moved particle, or ought to: those near its reference, before and after.
+  auto const look_around = [&] {
+    for (std::size_t n = 0; n < near_.size(); ++n) {
+      Near const& near = *near_[n];
+      if (near.all_pairs()) continue;
+      for (auto const& [mirror, rows] : moved)
+        if (mirror == near.source_mirror)
+          for (auto const row : rows)
+            near.target_mirror->owned_near(mirror->references() + 4 * row, near.cutoff + skin_, affected[n]);
+    }
+  };
+  look_around();
+  for (auto const& [mirror, rows] : moved) mirror->move(rows);
+  look_around();
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    Near& near = *near_[n];
+    if (near.all_pairs()) continue;
+    auto& rows = affected[n];
+    for (auto const& [mirror, own] : moved)
+      if (mirror == near.target_mirror) rows.insert(rows.end(), own.begin(), own.end());
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    near.list.rebuild(*near.target_mirror, *near.source_mirror, rows);
+    found_again_ += static_cast<double>(rows.size());
+  }
+  ++moves_;
+}
+
+/// Gives those that are further than sqrt(square) from their references new ones, if they are no more than `most`.
+bool PairScheme::move_beyond(double square, std::size_t most) {
+  std::vector<Moved> moved;
+  std::size_t count = 0;
+  for (auto& mirror : mirrors_) {
+    moved.push_back({mirror.get(), mirror->beyond(square, most + 1 - count)});
+    count += moved.back().rows.size();
+    if (count > most) return false;
+  }
+  if (count > 0) move(moved);
+  return true;
+}
+
+/// Chooses how far lists are read, for the displacements of now; finds neighbours anew around a few particles that are
+/// ahead of all others (a knock-on atom). False if the lists don't hold any more.
+bool PairScheme::lists_hold() {
+  double largest2 = 0;
+  for (auto const& mirror : mirrors_) largest2 = std::max(largest2, mirror->largest2());
+  double const all = static_cast<double>(rows());
+  std::size_t moved_before = 0;
+  for (auto const& mirror : mirrors_) moved_before += mirror->moved().size();
+  // Everybody pays for particles that have moved: some, until a build is cheaper.
+  bool const may_move = moved_before < most_moved && found_again_ < all;
+  auto const affordable = [&](double share) {
+    return may_move ? std::min(static_cast<std::size_t>(share * all / rows_to_find(1)), most_moved - moved_before) : 0;
+  };
+  std::size_t const few = affordable(share_of_few);
+  for (int ring = 0; ring < list_rings; ++ring) {
+    // A pair that is not in this part of the lists has come no closer than the cut-off if neither moved further.
+    double const allowed = 0.5 * skin_ * (ring + 1) / list_rings;
+    if (largest2 <= allowed * allowed || (few > 0 && move_beyond(allowed * allowed, few))) {
+      ring_ = ring;
+      return true;
+    }
+  }
+  ring_ = list_rings - 1;
+  std::size_t const some = affordable(share_of_some);
+  double const soon = 0.35 * skin_;
+  return some > few && move_beyond(soon * soon, some);
 }
 
 void PairScheme::refresh() {
   for (auto& mirror : mirrors_)
     if (mirror->owned() != mirror->ensemble().size()) lists_stale_ = true;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    if (lists_stale_) build_lists();
-    Displacements moved;
-    for (auto& mirror : mirrors_) {
-      auto const d = mirror->refresh(worth(mirror->owned(), particles_worth_threads));
-      moved.take(d.largest);
-      moved.take(d.second);
-    }
-    // A pair outside the lists has come no closer than reach minus the two largest displacements.
-    if (std::sqrt(moved.largest) + std::sqrt(moved.second) <= skin_) return;
-    lists_stale_ = true;
-  }
+  auto const follow = [&] {
+    bool changed = false;
+    for (auto& mirror : mirrors_)
+      if (mirror->refresh(worth(mirror->owned(), particles_worth_threads))) changed = true;
+    return changed;
+  };
+  if (!lists_stale_ && (!follow() || lists_hold())) return;
+  build_lists();
+  follow();
 }
 
-void PairScheme::add_influences(double time) {
+void PairScheme::calculate(double time) { calculate(time, true); }
+void PairScheme::add_influences(double time) { calculate(time, false); }
+
+void PairScheme::calculate(double time, bool overwrite) {
   ++calculations_;
   if (!mirrors_.empty()) refresh();
+  // The first law on an ensemble stores, further ones add.
+  std::vector<AnyEnsemble*> clear;
+  if (overwrite) clear = ensembles();
+  auto const first_on = [&](AnyEnsemble* ensemble) { return std::erase(clear, ensemble) > 0; };
   for (auto const& near : near_) {
-    near->locate(quantum_);
+    near->locate(quantum_, ring_);
+    near->task.overwrite = first_on(near->target);
     PairTask const& task = near->task;
     if (near->few) {
       near->few(near->law.get(), task, 0, task.targets);
@@ -245,6 +352,7 @@ void PairScheme::add_influences(double time) {
     for_ranges(task.targets, near->grain(), worth(near->pairs(), pairs_worth_threads),
                [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
   }
+  for (auto* ensemble : clear) ensemble->clear_influence();
   for (auto const& connected : connected_) {
     PairTask const task = connected->task(box());
     for_ranges(task.targets, 4 * particle_grain, worth(connected->list.index.size(), pairs_worth_threads),
@@ -264,7 +372,7 @@ void PairScheme::add_influences(double time) {
 Scheme::Shortcut PairScheme::shortcut() {
   if (near_.size() != 1 || !connected_.empty() || !external_.empty() || ensembles().size() != 1) return {};
   Near& only = *near_.front();
-  only.locate(quantum_);
+  only.locate(quantum_, ring_);
   if (!only.few) return {};
   only.overwriting = only.task;
   only.overwriting.overwrite = true;
@@ -298,7 +406,7 @@ Measures PairScheme::measure(double time) {
   };
   for (auto const& near : near_) {
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
-    near->locate(0);
+    near->locate(0, ring_);
     near->task.zero_at = shifted_ && !near->all_pairs() ? near->cutoff : 0;
     run(near->task, near->target, near->grain(),
         near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
@@ -369,11 +477,21 @@ void PairScheme::make_reversible(double quantum) {
   quantum_ = quantum;
 }
 
+std::size_t PairScheme::bytes() const {
+  std::size_t bytes = 0;
+  for (auto const& mirror : mirrors_) bytes += mirror->bytes();
+  for (auto const& near : near_) bytes += near->list.bytes();
+  for (auto const& connected : connected_)
+    bytes += connected->list.index.capacity() * sizeof(std::uint32_t) +
+             connected->list.start.capacity() * sizeof(std::size_t);
+  return bytes;
+}
+
 std::string PairScheme::report() const {
   if (mirrors_.empty()) return "";
-  std::size_t pairs = 0;
-  for (auto const& near : near_) pairs += near->list.index.size();
-  return fmt::format("{} influence calculations, lists built {} times", calculations_, builds_);
+  return moves_ == 0 ? fmt::format("{} influence calculations, lists built {} times", calculations_, builds_)
+                     : fmt::format("{} influence calculations, lists built {} times, around fast particles {} times",
+                                   calculations_, builds_, moves_);
 }
 
 std::vector<PairScheme::Bond> PairScheme::bonds() const {
@@ -385,33 +503,62 @@ std::vector<PairScheme::Bond> PairScheme::bonds() const {
   return bonds;
 }
 
+// quantum, whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows
+// found anew; then of each mirror the references at its build, and the particles that were moved since: number and
+// reference of each.
 std::vector<double> PairScheme::state() const {
-  std::vector<double> state{quantum_, lists_stale_ ? 1.0 : 0.0};
-  for (auto const& mirror : mirrors_) state.insert(state.end(), mirror->reference().begin(), mirror->reference().end());
+  bool decided = true;
+  for (auto const& mirror : mirrors_) decided = decided && mirror->is_current();
+  std::vector<double> state{quantum_, lists_stale_ ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_),
+                            found_again_};
+  for (auto const& mirror : mirrors_) {
+    auto const built = mirror->built_references();
+    state.insert(state.end(), built.begin(), built.end());
+    state.push_back(static_cast<double>(mirror->moved().size()));
+    for (auto const row : mirror->moved()) {
+      state.push_back(mirror->order()[row]);
+      double const* reference = mirror->references() + 4 * row;
+      state.insert(state.end(), reference, reference + 3);
+    }
+  }
   return state;
 }
 
 void PairScheme::restore(std::span<double const> state) {
-  std::size_t expected = 2;
-  for (auto const& mirror : mirrors_) expected += mirror->ensemble().size() * box().dimension();
-  bool const never_built = state.size() == 2;
-  if (state.size() != expected && !never_built)
-    throw Error(
-        fmt::format("the checkpoint's pair scheme has {} numbers, this simulation's has {}", state.size(), expected));
-  quantum_ = state[0];
-  lists_stale_ = state[1] != 0 || never_built;
-  if (lists_stale_) return;
-  build_lists();
-  std::size_t at = 2;
-  for (auto& mirror : mirrors_) {
-    std::size_t const count = mirror->ensemble().size() * box().dimension();
-    mirror->rebuild(reach_, state.subspan(at, count));
+  std::size_t at = 0;
+  auto const next = [&](std::size_t count) {
+    if (at + count > state.size())
+      throw Error(
+          fmt::format("the checkpoint's pair scheme has {} numbers, too few for this simulation", state.size()));
     at += count;
+    return state.subspan(at - count, count);
+  };
+  auto const head = next(5);
+  quantum_ = head[0];
+  lists_stale_ = head[1] != 0;
+  if (!lists_stale_ && !mirrors_.empty()) {
+    build_lists();
+    for (auto& mirror : mirrors_) {
+      mirror->build(reach_, next(mirror->ensemble().size() * box().dimension()));
+      std::vector<std::uint32_t> row_of(mirror->owned()), rows;
+      for (std::uint32_t k = 0; k < mirror->owned(); ++k) row_of[mirror->order()[k]] = k;
+      std::vector<double> references;
+      for (auto count = static_cast<std::size_t>(next(1)[0]); count > 0; --count) {
+        auto const moved = next(4);
+        if (!(moved[0] >= 0 && moved[0] < static_cast<double>(row_of.size())))
+          throw Error(fmt::format("the checkpoint's pair scheme names particle {} of '{}', which has {}", moved[0],
+                                  mirror->ensemble().name(), row_of.size()));
+        rows.push_back(row_of[static_cast<std::size_t>(moved[0])]);
+        references.insert(references.end(), moved.begin() + 1, moved.end());
+      }
+      mirror->move(rows, references);
+    }
+    find_neighbours();
+    if (head[2] != 0)
+      for (auto& mirror : mirrors_) mirror->refresh(1);
+    ring_ = static_cast<int>(head[3]);
+    found_again_ = head[4];
   }
-  for (auto& near : near_)
-    if (!near->all_pairs())
-      near->list = near_pairs(*near->target_mirror, *near->source_mirror, near->cutoff + skin_,
-                              worth(near->target->size(), particles_worth_threads / 8));
 }
 
 }  // namespace boltzmann

@@ -91,12 +91,14 @@ class PairScheme final : public Scheme {
   };
   std::vector<Bond> bonds() const;
 
+  void calculate(double time = 0) override;
   void add_influences(double time) override;
   Shortcut shortcut() override;
   Measures measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
@@ -130,9 +132,21 @@ class PairScheme final : public Scheme {
   struct Connected;
   struct External;
 
+  struct Moved {  // rows of a mirror that need new references
+    Mirror* mirror;
+    std::vector<std::uint32_t> rows;
+  };
+
   Mirror& mirror(AnyEnsemble& ensemble);
   void refresh();
+  bool lists_hold();
   void build_lists();
+  void find_neighbours();
+  bool move_beyond(double square, std::size_t most);
+  void move(std::vector<Moved> const& moved);
+  double rows_to_find(std::size_t moved) const;
+  std::size_t rows() const;
+  void calculate(double time, bool overwrite);
   int worth(std::size_t work, std::size_t least) const;
 
   double cutoff_;
@@ -140,7 +154,9 @@ class PairScheme final : public Scheme {
   double reach_ = 0;  // of the longest list
   double quantum_ = 0;
   bool lists_stale_ = true, shifted_ = true, skin_chosen_ = false;
-  std::size_t calculations_ = 0, builds_ = 0;
+  int ring_ = 0;            // how far lists are read
+  double found_again_ = 0;  // rows found anew since the lists were built
+  std::size_t calculations_ = 0, builds_ = 0, moves_ = 0;
   std::vector<std::unique_ptr<Mirror>> mirrors_;
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;

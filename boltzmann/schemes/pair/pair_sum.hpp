@@ -97,7 +97,11 @@ class Sum {
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) task.virial[9 * particle + 3 * a + b] -= 0.5 * sum(virial_[a * D + b]);
     } else {
-      for (std::size_t c = 0; c < components; ++c) task.influence[particle * components + c] += sum(influence_[c]);
+      double* const influence = task.influence + particle * components;
+      if (task.overwrite)
+        for (std::size_t c = 0; c < components; ++c) influence[c] = sum(influence_[c]);
+      else
+        for (std::size_t c = 0; c < components; ++c) influence[c] += sum(influence_[c]);
     }
   }
 

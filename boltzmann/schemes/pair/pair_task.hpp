@@ -13,9 +13,12 @@ struct PairTask {
   std::uint32_t const* order = nullptr;  ///< row -> particle number; null: they are the same
   double const* source = nullptr;        ///< rows of those that influence
   std::size_t sources = 0;
-  bool overwrite = false;              ///< the influence is stored, not added (the scalar path only)
-  bool same = false;                   ///< target and source are one ensemble: nobody influences itself
-  std::size_t const* start = nullptr;  ///< neighbour list (lists and connections)
+  bool overwrite = false;                     ///< the influence is stored, not added
+  bool same = false;                          ///< target and source are one ensemble: nobody influences itself
+  std::uint32_t const* const* row = nullptr;  ///< neighbour list: where each row starts; its entries are 4 times a row
+  std::size_t target_stride = 4, source_stride = 4;  ///< from one block of a row to the next (lists)
+  std::uint32_t const* length = nullptr;             ///< and how far it is read
+  std::size_t const* start = nullptr;                ///< connections
   std::uint32_t const* index = nullptr;
   double cutoff2 = 0;                    ///< square of the cut-off (lists)
   double rounding = 0;                   ///< 3/2 2^52 times the quantum of the reversible form (lists)

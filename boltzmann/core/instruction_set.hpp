@@ -1,0 +1,32 @@
+// The instruction sets that one library serves, and which of them is in use.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// What kernels are compiled for: levels of the x86-64 psABI, or one machine.
+enum class InstructionSet {
+  native,     ///< whatever the library was compiled for: the only set where it was compiled once
+  x86_64,     ///< every 64-bit x86: SSE2, 2 doubles at a time
+  x86_64_v3,  ///< AVX2 and FMA, 4 at a time
+  x86_64_v4,  ///< AVX-512 F, BW, CD, DQ and VL, 8 at a time
+};
+
+/// "native", "x86-64", "x86-64-v3", "x86-64-v4".
+std::string to_string(InstructionSet set);
+
+/// The sets that this library has kernels for and this processor can run, the best last.
+std::vector<InstructionSet> instruction_sets();
+
+/// The set whose kernels run: the best one, or the one that the environment variable BOLTZMANN_INSTRUCTIONS names.
+/// Chosen at the first call. Error with the allowed words if there is no such set or this processor can't run it.
+InstructionSet instruction_set();
+
+namespace detail {
+/// The same for any word (null or empty: the best) and any processor.
+InstructionSet choose_instruction_set(char const* word, std::vector<InstructionSet> const& available);
+}  // namespace detail
+
+}  // namespace boltzmann

@@ -1,0 +1,153 @@
+// Laws from tables: a pair energy that is known as numbers, or is too dear to compute for every pair.
+#pragma once
+
+#include <boltzmann/core/pack_math.hpp>
+#include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/particles/rows.hpp>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace boltzmann {
+
+/// A measured or computed energy of a pair at a distance.
+struct TablePoint {
+  double distance, energy;
+};
+
+/// How the spline through points ends: with a given slope dU/dr (clamped), or without curvature (natural).
+struct SplineEnds {
+  std::optional<double> first_slope, last_slope;
+};
+
+/// How fine a table is: by the number of intervals in every doubling of r^2, a power of two, or by the error that is
+/// allowed (see TableError::relative).
+struct PerOctave {
+  std::size_t intervals;
+};
+struct Tolerance {
+  double relative;
+};
+
+/// The largest errors of a table, measured at several places between all its knots (the force against central
+/// differences of fourth order where only U is known), with 5 % added.
+struct TableError {
+  double energy = 0;  ///< |U_table - U|
+  double force = 0;   ///< |F_table - F|
+  /// The larger of |U_table - U| / (|U| + U*) and |F_table - F| / (|F| + F*), where half of the range of distances has
+  /// |U| above U*, and |F| above F*: relative where the law is strong, absolute where it passes through zero.
+  double relative = 0;
+};
+
+/// The pair law of an energy U(r): a cubic spline in r^2, with two continuous derivatives; the force is the exact
+/// derivative of that spline, so that energy is conserved whatever the error is. The knots are evenly spaced in every
+/// doubling of r^2, so that a steep core and a long tail both have enough of them, and the number of an interval stands
+/// in the leading bits of r^2: no root, no division, no search. Copies of a Table share its numbers.
+/// Nearer than the first distance, U goes on as a straight line in r^2: the force falls in proportion to r, and two
+/// particles at one place don't push each other. Beyond the last distance there is no force, and U stays what it was.
+class Table {
+ public:
+  static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  using Energy = std::function<double(double)>;
+
+  /// U(r) for 0 <= first <= r <= last; it must be finite there. (A first distance below a thousandth of the last one
+  /// counts as that.) Error if it is not, and if the tolerance asks for more than 200000 intervals.
+  Table(Energy const& energy, double first, double last, Tolerance tolerance);
+  Table(Energy const& energy, double first, double last, PerOctave fineness);
+
+  /// The cubic spline in r through points, at least two and in the order of their distances. Error for wrong points.
+  explicit Table(std::span<TablePoint const> points, SplineEnds ends = {}, Tolerance tolerance = {1e-5});
+  Table(std::span<TablePoint const> points, SplineEnds ends, PerOctave fineness);
+
+  /// The points of a text file: a distance and an energy in every line, in the simulation's units; empty lines and what
+  /// follows a '#' don't count. Error, "file:line: what is wrong", for anything else.
+  static Table from_file(std::string const& path, SplineEnds ends = {}, Tolerance tolerance = {1e-5});
+
+  TableError error() const { return data_->error; }
+  std::size_t intervals() const { return data_->rows.size(); }
+  double first() const { return data_->first; }
+  double last() const { return data_->last; }
+  /// The smallest distance at which the law is known.
+  double length_scale() const { return data_->first; }
+
+  /// U and dU/d(r^2) at r^2; `Real` is double or a Pack. Whatever the argument, NaN too, only the table is read.
+  template <class Real>
+  struct Value {
+    Real energy, slope;
+  };
+  template <class Real>
+  [[gnu::always_inline]] inline Value<Real> at(Real const& square) const {
+    // Not min(square, ...): where the square is NaN, the limit is taken.
+    Real const inside = max(Real(least_), min(Real(greatest_), square));
+    auto const [knot, c] = interval(inside);
+    Real const d = inside - knot;
+    Real const slope = c[1] + d * (2.0 * c[2] + d * (3.0 * c[3]));
+    Real const energy = c[0] + d * (c[1] + d * (c[2] + d * c[3])) + min(square - least_, Real(0.0)) * slope;
+    return {energy, select(square > greatest_, Real(0.0), slope)};
+  }
+
+  template <class P, class Q>
+  auto operator()(P const& p, Q const& q) const {
+    auto const r = q.position - p.position;
+    auto const [energy, slope] = at(dot(r, r));
+    return Interaction{r * (2.0 * slope), energy};
+  }
+
+ private:
+  /// U = c0 + c1 d + c2 d^2 + c3 d^3, d = r^2 - knot.
+  struct alignas(32) Row {
+    double c[4];
+  };
+  struct Data {
+    std::vector<Row> rows;
+    double first, last;
+    TableError error;
+  };
+  template <class Real>
+  struct Interval {
+    Real knot;
+    std::array<Real, 4> c;
+  };
+  struct Source;
+
+  Table(Source const& source, PerOctave fineness);
+  static Table within(Source const& source, Tolerance tolerance);
+  static TableError measured(Table const& table, Source const& source);
+
+  // A double without its last `shift_` bits is the knot below it; those that are left, counted from the first knot, are
+  // the number of the row.
+  Interval<double> interval(double square) const {
+    auto const row = static_cast<std::size_t>((std::bit_cast<std::int64_t>(square) >> shift_) - first_row_);
+    double const* const c = rows_ + 4 * row;
+    return {knot(first_row_ + static_cast<std::int64_t>(row)), {c[0], c[1], c[2], c[3]}};
+  }
+  template <int W>
+  [[gnu::always_inline]] inline Interval<Pack<double, W>> interval(Pack<double, W> square) const {
+    using Unsigned = typename detail::register_of<std::uint64_t, W>::type;
+    auto const number = (detail::Bits<W>)((Unsigned)detail::bits_of(square) >> shift_);
+    auto const offsets = std::bit_cast<std::array<std::int64_t, W>>((number - first_row_) << 2);
+    Interval<Pack<double, W>> result;
+    result.knot = detail::from_bits<W>((detail::Bits<W>)((Unsigned)number << shift_));
+    detail::transpose_block<W>([&](int lane) { return rows_ + offsets[static_cast<std::size_t>(lane)]; }, 0,
+                               result.c.data(), 4);
+    return result;
+  }
+  double knot(std::int64_t row) const { return std::bit_cast<double>(row << shift_); }
+
+  double const* rows_;
+  std::int64_t first_row_;
+  int shift_;
+  double least_, greatest_;  ///< squares of distances
+  std::shared_ptr<Data const> data_;
+};
+
+}  // namespace boltzmann

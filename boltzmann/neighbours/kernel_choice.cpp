@@ -1,0 +1,11 @@
+// Which set's kernels search for neighbours.
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/neighbours/neighbour_kernels.hpp>
+
+namespace boltzmann {
+
+NeighbourKernels const& neighbour_kernels() {
+  return for_instruction_set([](auto set) -> NeighbourKernels const& { return neighbour_kernels_of<set>(); });
+}
+
+}  // namespace boltzmann

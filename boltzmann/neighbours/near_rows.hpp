@@ -1,0 +1,228 @@
+// Near rows: the search for the neighbours of particles, W candidates at a time. Kernels and plain memory only.
+#pragma once
+
+#include <boltzmann/core/compress.hpp>
+#include <boltzmann/neighbours/near_task.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boltzmann {
+
+namespace detail {
+
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> load_pack(double const* from) {
+  Pack<double, W> pack;
+  __builtin_memcpy(&pack, from, sizeof(pack));
+  return pack;
+}
+
+template <int W>
+[[gnu::always_inline]] inline Pack<float, W> load_pack(float const* from) {
+  Pack<float, W> pack;
+  __builtin_memcpy(&pack, from, sizeof(pack));
+  return pack;
+}
+
+/// W steps.
+template <int W>
+using Steps = typename register_of<std::int32_t, W>::type;
+template <int W>
+[[gnu::always_inline]] inline Steps<W> load_steps(std::int32_t const* from) {
+  Steps<W> steps;
+  __builtin_memcpy(&steps, from, sizeof(steps));
+  return steps;
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<float, W> to_float(Steps<W> steps) {
+  return __builtin_convertvector(steps, typename Pack<float, W>::Native);
+}
+
+/// The first `count` lanes of W.
+template <int W>
+[[gnu::always_inline]] inline LaneBits first_lanes(std::uint32_t count) {
+  return count >= W ? (1U << W) - 1U : (1U << count) - 1U;
+}
+
+/// a - b modulo 2^32.
+[[gnu::always_inline]] inline std::int32_t wrapped_difference(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+/// Consecutive targets, which are near each other, share the search: those within reach of the block around them are
+/// copied side by side, in single precision from the block's corner; each target then looks at these. Radii are widened
+/// by what the rounding to steps may be wrong.
+template <int W, int D>
+[[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end, NearRows& out) {
+  constexpr std::size_t group_size = 16;
+  constexpr int most_ranges = 128;
+  double const longest[3] = {1.5 * task.reach, 0.6 * task.reach, 0.6 * task.reach};
+  Grid const grid = *task.grid;
+  float ring2[list_rings];
+  for (int r = 0; r < list_rings; ++r) {
+    double const radius = task.ring[r] * task.steps_per_length * (1 + 1e-6) + 4;
+    ring2[r] = static_cast<float>(radius * radius);
+  }
+  // Known to nobody else, so that they stay in registers.
+  float* const near_position[3] = {out.near_position[0], out.near_position[1], out.near_position[2]};
+  std::uint32_t* const near_item = out.near_item;
+  std::uint32_t* shell_item[list_rings];
+  for (int r = 0; r + 1 < list_rings; ++r) shell_item[r] = out.shell_item[r];
+  std::uint32_t const* const start = task.start;
+  for (std::size_t first = begin; first < end;) {
+    // A group, and the block around it.
+    double least[3], greatest[3];
+    for (int a = 0; a < D; ++a) least[a] = greatest[a] = task.reference[4 * first + a];
+    std::size_t last = first + 1;
+    for (; last < end && last < first + group_size; ++last) {
+      double low[3], high[3];
+      bool fits = true;
+      for (int a = 0; a < D; ++a) {
+        double const x = task.reference[4 * last + a];
+        low[a] = x < least[a] ? x : least[a];
+        high[a] = x > greatest[a] ? x : greatest[a];
+        fits = fits && high[a] - low[a] <= longest[a];
+      }
+      if (!fits) break;
+      for (int a = 0; a < D; ++a) least[a] = low[a], greatest[a] = high[a];
+    }
+    std::uint32_t from[most_ranges], to[most_ranges], ranges = 0, candidates = task.moved_count;
+    grid.near(least, greatest, task.reach, [&](std::size_t first_cell, std::size_t last_cell) {
+      from[ranges] = start[first_cell];
+      to[ranges] = start[last_cell + 1];
+      candidates += to[ranges] - from[ranges];
+      ranges += from[ranges] != to[ranges] ? 1 : 0;
+    });
+    out.wanted_scratch = candidates + 2 * W;
+    out.wanted = (last - first) * (candidates + 2 * W);
+    if (out.wanted_scratch > out.scratch || out.used + out.wanted > out.room) return first;
+
+    // In steps, from the corner.
+    std::int32_t corner[3], extent[3];
+    for (int a = 0; a < D; ++a) {
+      std::int32_t const* steps = task.reference_steps + a;
+      corner[a] = steps[4 * first];
+      extent[a] = 0;
+      for (std::size_t i = first + 1; i < last; ++i) {
+        std::int32_t const d = wrapped_difference(steps[4 * i], corner[a]);
+        if (d < 0) {
+          extent[a] -= d;
+          corner[a] = steps[4 * i];
+        } else if (d > extent[a]) {
+          extent[a] = d;
+        }
+      }
+    }
+    std::uint32_t near = 0;
+    auto const gather = [&](Candidates const& among, std::uint32_t k, std::uint32_t end_of_range) {
+      for (; k < end_of_range; k += W) {
+        Pack<float, W> relative[D], square = 0.0F;
+        for (int a = 0; a < D; ++a) {
+          auto const steps = load_steps<W>(among.position[a] + k) - corner[a];
+          relative[a] = to_float<W>(steps);
+          auto const beyond = steps - extent[a], before = -steps;
+          auto out_of = beyond > before ? beyond : before;
+          out_of = out_of > 0 ? out_of : Steps<W>{};
+          auto const distance = to_float<W>(out_of);
+          square += distance * distance;
+        }
+        LaneBits const bits = lanes_below(square, ring2[list_rings - 1]) & first_lanes<W>(end_of_range - k);
+        for (int a = 0; a < D; ++a) store_selected<W>(near_position[a] + near, relative[a], bits);
+        store_selected<W>(near_item + near, load_words<W>(among.item + k), bits);
+        near += count_of(bits);
+      }
+    };
+    for (std::uint32_t n = 0; n < ranges; ++n) gather(task.sorted, from[n], to[n]);
+    gather(task.moved, 0, task.moved_count);
+
+    for (std::size_t i = first; i < last; ++i) {
+      Pack<float, W> at[D];
+      for (int a = 0; a < D; ++a)
+        at[a] = static_cast<float>(wrapped_difference(task.reference_steps[4 * i + a], corner[a]));
+      auto const self = task.same ? item_of_row(i) : 0xffffffffU;
+      std::uint32_t* const row = out.index + out.used;
+      std::uint32_t* ring_end[list_rings];
+      ring_end[0] = row;
+      for (int r = 1; r < list_rings; ++r) ring_end[r] = shell_item[r - 1];
+      for (std::uint32_t k = 0; k < near; k += W) {
+        auto d = load_pack<W>(near_position[0] + k) - at[0];
+        auto square = d * d;
+        for (int a = 1; a < D; ++a) {
+          d = load_pack<W>(near_position[a] + k) - at[a];
+          square += d * d;
+        }
+        auto const items = load_words<W>(near_item + k);
+        LaneBits left = first_lanes<W>(near - k) & ~lanes_equal<W>(items, self);
+        for (int r = 0; r < list_rings; ++r) {
+          LaneBits const ring = lanes_below(square, ring2[r]) & left;
+          left &= ~ring;
+          store_selected<W>(ring_end[r], items, ring);
+          ring_end[r] += count_of(ring);
+        }
+      }
+      std::uint32_t* next = ring_end[0];
+      std::uint32_t* length = out.length + i;
+      *length = static_cast<std::uint32_t>(next - row);
+      for (int r = 1; r < list_rings; ++r) {
+        auto const count = static_cast<std::size_t>(ring_end[r] - shell_item[r - 1]);
+        for (std::size_t k = 0; k < count; k += W) {
+          auto const words = load_words<W>(shell_item[r - 1] + k);
+          __builtin_memcpy(next + k, &words, sizeof(words));
+        }
+        next += count;
+        length += out.rows;
+        *length = static_cast<std::uint32_t>(next - row);
+      }
+      auto const used = (static_cast<std::size_t>(next - row) + list_padding - 1) / list_padding * list_padding;
+      for (std::size_t k = 0; k < list_padding; ++k) next[k] = task.sentinel;
+      out.offset[i] = out.used;
+      out.used += used;
+    }
+    first = last;
+  }
+  return end;
+}
+
+template <int W>
+[[gnu::flatten]] Refreshed refresh_rows(RefreshTask const& task, std::size_t begin, std::size_t end) {
+  using Four = Pack<double, 4>;
+  constexpr double to_integer =
+      6755399441055744.0;  // 3/2 2^52: adding and subtracting it rounds to the nearest integer
+  constexpr std::size_t ahead = 12;
+  Four const period = load_pack<4>(task.period), inverse = load_pack<4>(task.inverse_period);
+  Mask<double, 4> coordinate, changed;
+  for (int a = 0; a < 4; ++a) coordinate.native[a] = a < task.dimension ? -1 : 0, changed.native[a] = 0;
+  Four const zero = 0.0;
+  Refreshed result;
+  double largest = 0;
+  bool finite = true;
+  for (std::size_t k = begin; k < end; ++k) {
+    if (k + ahead < end) __builtin_prefetch(task.ensemble + task.order[k + ahead] * task.stride);
+    double const* from = task.ensemble + task.order[k] * task.stride;
+    double* to = task.mirror + 4 * k;
+    Four const reference = load_pack<4>(task.reference + 4 * k);
+    Four row = load_pack<4>(from);
+    Four const turns = ((row - reference) * inverse + to_integer) - to_integer;
+    row = select(coordinate, row - turns * period, row);
+    Four const moved = select(coordinate, row - reference, zero);
+    changed = changed | (row != load_pack<4>(to));
+    __builtin_memcpy(to, &row, sizeof(row));
+    for (std::size_t c = 4; c < task.stride; c += 4) {
+      to += task.block_stride;
+      Four const more = load_pack<4>(from + c);
+      __builtin_memcpy(to, &more, sizeof(more));
+    }
+    Four const squares = moved * moved;
+    double const square = squares.native[0] + squares.native[1] + squares.native[2];
+    largest = square > largest ? square : largest;
+    finite = finite && square < __builtin_inf();
+  }
+  result.largest2 = largest;
+  result.finite = finite;
+  result.changed = any(changed);
+  return result;
+}
+
+}  // namespace detail
+}  // namespace boltzmann

@@ -1,0 +1,30 @@
+// Law kernels: the tables of a law's kernels for its rows. For kernel units only (see core/kernel_unit.hpp), which
+// instantiate law_kernels<this_set, Law, Rows>. Private to this room.
+#pragma once
+
+#include <boltzmann/core/pack_math.hpp>
+#include <boltzmann/scenario/law_rows.hpp>
+#include <boltzmann/schemes/pair/pair_kernels.hpp>
+
+namespace boltzmann {
+namespace detail {
+
+template <InstructionSet set, class Law, class Rows>
+struct LawTables;
+template <InstructionSet set, class Law, class... P, class... Q, class... Connected, class... Outside>
+struct LawTables<set, Law, LawRows<Layouts<On<P, Q>...>, Layouts<Connected...>, Layouts<Outside...>>> {
+  // An empty entry stands at the end: there are no arrays without any.
+  static constexpr PairKernels pairs[] = {near_kernels<P, Q, Law>()..., {}};
+  static constexpr PairKernels connections[] = {connection_kernels<Connected, Law>()..., {}};
+  static constexpr ExternalKernels externals[] = {external_kernels<Outside, Law>()..., {}};
+};
+
+}  // namespace detail
+
+template <InstructionSet set, class Law, class Rows>
+LawKernels law_kernels() {
+  using Tables = detail::LawTables<set, Law, Rows>;
+  return {Tables::pairs, Tables::connections, Tables::externals};
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,184 @@
+// Instruction sets: the choice among them, and what the build has put into which object: nothing that an old processor
+// can't run where it could come to it.
+#include "tests/message.hpp"
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/instruction_set.hpp>
+
+#include <cxxabi.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+using enum InstructionSet;
+
+TEST(InstructionSet, TheBestOneUnlessTheEnvironmentNamesAnother) {
+  EXPECT_EQ(detail::choose_instruction_set(nullptr, {x86_64, x86_64_v3, x86_64_v4}), x86_64_v4);
+  EXPECT_EQ(detail::choose_instruction_set("", {x86_64, x86_64_v3}), x86_64_v3);
+  EXPECT_EQ(detail::choose_instruction_set(nullptr, {x86_64}), x86_64);
+  EXPECT_EQ(detail::choose_instruction_set("x86-64", {x86_64, x86_64_v3, x86_64_v4}), x86_64);
+  EXPECT_EQ(detail::choose_instruction_set("x86-64-v3", {x86_64, x86_64_v3, x86_64_v4}), x86_64_v3);
+  EXPECT_EQ(detail::choose_instruction_set("native", {native}), native);
+}
+
+TEST(InstructionSet, WrongWordsAreSaidWithTheAllowedOnes) {
+  EXPECT_EQ(message([] {
+              detail::choose_instruction_set("x86-64-v5", {x86_64, x86_64_v3});
+            }),
+            "BOLTZMANN_INSTRUCTIONS is 'x86-64-v5', which is no instruction set of this library; there are x86-64, "
+            "x86-64-v3; did you mean 'x86-64-v3'?");
+  EXPECT_EQ(message([] {
+              detail::choose_instruction_set("x86-64-v4", {x86_64, x86_64_v3});
+            }),
+            "BOLTZMANN_INSTRUCTIONS asks for x86-64-v4, which this processor can't run; it can run x86-64, x86-64-v3");
+  EXPECT_EQ(message([] { detail::choose_instruction_set("sse", {native}); }),
+            "BOLTZMANN_INSTRUCTIONS is 'sse', which is no instruction set of this library; the only one is native");
+}
+
+TEST(InstructionSet, TheOneInUseIsAmongThoseThatThisProcessorHas) {
+  auto const sets = instruction_sets();
+  ASSERT_FALSE(sets.empty());
+  if (!std::getenv("BOLTZMANN_INSTRUCTIONS")) {
+    EXPECT_EQ(instruction_set(), sets.back());
+  }
+#if defined(__AVX512F__) && defined(__AVX512VL__)  // tests are compiled for this machine
+  EXPECT_TRUE(sets.back() == x86_64_v4 || sets.back() == native);
+#elif defined(__AVX2__) && defined(__FMA__)
+  EXPECT_TRUE(sets.back() == x86_64_v3 || sets.back() == native);
+#endif
+}
+
+/// The objects of CMake's target; none if the library was built for one machine.
+std::vector<std::string> objects_of(std::string const& target) {
+  std::vector<std::string> objects;
+  std::ifstream list(std::string(BOLTZMANN_BUILD) + "/objects/" + target + ".txt");
+  for (std::string line; std::getline(list, line);) objects.push_back(line);
+  return objects;
+}
+
+/// Calls take(line) for each line that the command prints about the objects.
+void each_line(std::string command, std::vector<std::string> const& objects,
+               std::function<void(std::string const&)> const& take) {
+  for (auto const& object : objects) command += " '" + object + "'";
+  FILE* const pipe = popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  char* line = nullptr;
+  std::size_t room = 0;
+  for (ssize_t length; (length = getline(&line, &room, pipe)) > 0;)
+    take(std::string(line, static_cast<std::size_t>(length - 1)));
+  std::free(line);
+  EXPECT_EQ(pclose(pipe), 0) << command;
+}
+
+/// Names that the linker may take for the same name in other objects.
+std::set<std::string> symbols_of(std::vector<std::string> const& objects) {
+  std::set<std::string> names;
+  each_line("nm -P -g --defined-only", objects, [&](std::string const& line) {  // "name type value size", "file:"
+    auto const end = line.find(' ');
+    if (end != std::string::npos) names.insert(line.substr(0, end));
+  });
+  return names;
+}
+
+std::string readable(std::string const& symbol) {
+  int status = 0;
+  char* const text = abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status);
+  std::string const result = status == 0 ? text : symbol;
+  std::free(text);
+  return result;
+}
+
+std::string common(std::set<std::string> const& a, std::set<std::string> const& b) {
+  std::string lines;
+  for (auto const& name : a)
+    if (b.contains(name)) lines += "\n  " + readable(name);
+  return lines;
+}
+
+class Objects : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (objects_of("kernels_x86_64").empty()) GTEST_SKIP() << "this library was built for one machine";
+  }
+};
+
+// A function that two objects define is taken from either: from the one with AVX-512, and a processor without dies.
+TEST_F(Objects, KernelUnitsShareNoFunctionWithOtherSetsNorWithOrdinaryUnits) {
+  std::map<std::string, std::set<std::string>> symbols;
+  for (std::string const set : {"x86_64", "x86_64_v3", "x86_64_v4"}) {
+    symbols[set] = symbols_of(objects_of("kernels_" + set));
+    EXPECT_GT(symbols[set].size(), 100U) << set;
+  }
+  auto ordinary = symbols_of(objects_of("boltzmann"));
+  EXPECT_GT(ordinary.size(), 1000U);
+  ordinary.merge(symbols_of(objects_of("bzm")));
+  EXPECT_EQ(common(symbols["x86_64"], symbols["x86_64_v3"]), "");
+  EXPECT_EQ(common(symbols["x86_64"], symbols["x86_64_v4"]), "");
+  EXPECT_EQ(common(symbols["x86_64_v3"], symbols["x86_64_v4"]), "");
+  EXPECT_EQ(common(symbols["x86_64_v3"], ordinary), "");
+  EXPECT_EQ(common(symbols["x86_64_v4"], ordinary), "");
+}
+
+/// Functions with AVX in any of its forms (xmm under a mnemonic with v is AVX too), FMA, BMI or MOVBE, and how many
+/// instructions name a register of 512 bits.
+struct Advanced {
+  std::set<std::string> functions;
+  std::size_t lines = 0, zmm = 0;
+};
+Advanced advanced_in(std::vector<std::string> const& objects) {
+  Advanced found;
+  std::string file, function;
+  static std::regex const bits(
+      "^(andn|bextr|blsi|blsmsk|blsr|bzhi|mulx|pdep|pext|rorx|sarx|shlx|shrx|lzcnt|movbe)[lqw]?$");
+  each_line("objdump -d --no-show-raw-insn", objects, [&](std::string const& line) {
+    if (line.empty()) return;
+    if (auto const at = line.find(":     file format"); at != std::string::npos)
+      file = line.substr(line.rfind('/', at) + 1, at - line.rfind('/', at) - 1);
+    if (line.back() == ':') {
+      auto const from = line.find('<');
+      if (from != std::string::npos) function = line.substr(from + 1, line.size() - from - 3);
+      return;
+    }
+    auto const tab = line.find('\t');
+    if (tab == std::string::npos) return;
+    ++found.lines;
+    std::string const instruction = line.substr(tab + 1);
+    bool const vector = instruction.find("mm") != std::string::npos && instruction.find('%') != std::string::npos;
+    bool const avx = vector && (instruction[0] == 'v' || instruction.find("%ymm") != std::string::npos ||
+                                instruction.find("%zmm") != std::string::npos);
+    if (avx || std::regex_match(instruction.substr(0, instruction.find(' ')), bits))
+      found.functions.insert(file + ": " + readable(function));
+    if (instruction.find("%zmm") != std::string::npos) ++found.zmm;
+  });
+  return found;
+}
+
+TEST_F(Objects, OnlyKernelsOfASetHaveItsInstructions) {
+  for (auto const* target : {"boltzmann", "bzm", "kernels_x86_64"}) {
+    auto const objects = objects_of(target);
+    ASSERT_FALSE(objects.empty()) << target;
+    auto const found = advanced_in(objects);
+    EXPECT_GT(found.lines, 10000U) << target;
+    std::string names;
+    for (auto const& name : found.functions) names += "\n  " + name;
+    EXPECT_EQ(names, "") << target;
+  }
+  auto const v3 = advanced_in(objects_of("kernels_x86_64_v3")), v4 = advanced_in(objects_of("kernels_x86_64_v4"));
+  EXPECT_GT(v3.functions.size(), 100U);
+  EXPECT_EQ(v3.zmm, 0U);
+  EXPECT_GT(v4.zmm, 10000U);
+}
+
+}  // namespace
+}  // namespace boltzmann
