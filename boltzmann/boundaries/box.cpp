@@ -1,16 +1,19 @@
 // Wrapping and reflecting, and the refusals of particles that can't be where they are.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace boltzmann {
 namespace {
 
 constexpr char const* axis_name = "xyz";
+constexpr std::size_t grain = 8192, worth_threads = 1U << 15U;  // particles
 
 std::string who(AnyEnsemble const& particles, std::size_t i) {
   return fmt::format("particle {} of '{}'", i, particles.name());
@@ -121,7 +124,7 @@ void Box::wrap(AnyEnsemble& particles) const {
   }
 }
 
-void Box::apply(AnyEnsemble& particles) const {
+void Box::apply(AnyEnsemble& particles, int threads) const {
   if (all_open_ && regions_.empty()) return;
   Field const* velocity = particles.find_field("velocity");
   if (velocity && velocity->components != dimension_) velocity = nullptr;  // a class' own, of another meaning
@@ -131,28 +134,38 @@ void Box::apply(AnyEnsemble& particles) const {
         "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
         who(particles, i), axis_name[a], x, low_[a], high_[a]));
   };
-  for (int a = 0; a < dimension_; ++a) {
-    if (boundary(a) == Boundary::open) continue;
+  auto const bring_back = [&](std::size_t i, int a) {
     double const low = low_[a], high = high_[a], length = high - low;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      double* x = particles.row(i) + a;
-      if (*x >= low && *x < high) continue;
-      double const before = *x;
-      if (boundary(a) == Boundary::periodic) {
-        // Within a rounding error of an edge the sum may land on or beyond the other edge: that is `low`.
-        if (*x < low) {
-          *x += length;
-          if (*x >= high) *x = low;
-        } else if (*x >= high) {
-          *x -= length;
-          if (*x < low) *x = low;
-        }
-      } else if (*x != high) {
-        reflect(*x < low ? low : high, x, velocity ? particles.row(i) + velocity->offset + a : nullptr);
+    double* x = particles.row(i) + a;
+    double const before = *x;
+    if (boundary(a) == Boundary::periodic) {
+      // Within a rounding error of an edge the sum may land on or beyond the other edge: that is `low`.
+      if (*x < low) {
+        *x += length;
+        if (*x >= high) *x = low;
+      } else if (*x >= high) {
+        *x -= length;
+        if (*x < low) *x = low;
       }
-      if (!(*x >= low && *x <= high)) fail(i, a, before);
+    } else if (*x != high) {
+      reflect(*x < low ? low : high, x, velocity ? particles.row(i) + velocity->offset + a : nullptr);
     }
-  }
+    if (!(*x >= low && *x <= high)) fail(i, a, before);
+  };
+  std::array<double, 3> low = low_, high = high_;
+  for (int a = 0; a < dimension_; ++a)
+    if (boundary(a) == Boundary::open) {
+      low[a] = -std::numeric_limits<double>::infinity();
+      high[a] = std::numeric_limits<double>::infinity();
+    }
+  for_ranges(particles.size(), grain, particles.size() < worth_threads ? 1 : threads,
+             [&](std::size_t begin, std::size_t end) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 double const* x = particles.row(i);
+                 for (int a = 0; a < dimension_; ++a)
+                   if (!(x[a] >= low[a] && x[a] < high[a]) && boundary(a) != Boundary::open) bring_back(i, a);
+               }
+             });
   for (auto const& region : regions_)
     for (std::size_t i = 0; i < particles.size(); ++i) {
       double* x = particles.row(i);

@@ -70,7 +70,7 @@ class Box {
   /// Brings every particle that has left back: periodic axes wrap, bounded axes and regions reflect position and
   /// velocity. PhysicsFailure if a particle has moved so far that one reflection does not bring it back, or is not
   /// finite.
-  void apply(AnyEnsemble& particles) const;
+  void apply(AnyEnsemble& particles, int threads = 1) const;
 
   /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog.
   void on_grid(double quantum);

@@ -64,31 +64,36 @@ void Mirror::build(double reach, std::span<double const> references, int threads
   built_.clear();
   images_.clear();
   free_.clear();
-  sort(reach, references);
+  sort(reach, references, threads);
   add_ghosts();
   capacity_ = 0;
   make_room(total() + 1);
   largest2_.assign(owned() / block + 1, 0.0);
-  sort_all();
+  sort_all(threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
   for (std::size_t b = 0; b < blocks(); ++b)
     std::fill_n(rows_.data() + b * block_stride(), row_block * (owned() + 1), nowhere);
-  (void)threads;
 }
 
-void Mirror::sort(double reach, std::span<double const> references) {
+void Mirror::sort(double reach, std::span<double const> references, int threads) {
   int const dimension = box_->dimension();
   // Cells that are not all but empty, or their order would be that of distant particles.
-  double const spacing = std::pow(box_->volume() / static_cast<double>(ensemble_->size() + 1), 1.0 / dimension);
-  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), std::max(reach, 2.5 * spacing)).items();
-  references_.assign(4 * owned(), 0.0);
-  for (std::size_t k = 0; k < owned(); ++k)
-    for (int a = 0; a < dimension; ++a) references_[4 * k + a] = references[order_[k] * dimension + a];
-  steps_.assign(4 * owned(), 0);
-  for (std::size_t k = 0; k < owned(); ++k)
-    for (int a = 0; a < dimension; ++a) steps_[4 * k + a] = in_steps(references_[4 * k + a], reach_);
+  double const size = static_cast<double>(ensemble_->size() + 1);
+  double const spacing = std::pow(box_->volume() / size, 1.0 / dimension);
+  double const edge = std::max(reach, 2.5 * spacing);
+  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), edge).items();
+  references_.resize(4 * owned());
+  steps_.resize(4 * owned());
+  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (int a = 0; a < 4; ++a) {
+        double const x = a < dimension ? references[order_[k] * dimension + a] : 0;
+        references_[4 * k + a] = x;
+        steps_[4 * k + a] = in_steps(x, reach_);
+      }
+  });
 }
 
 template <class Function>
@@ -99,10 +104,10 @@ void Mirror::each_image(double const* x, Function const& function) const {
       double const low = box_->low(a) + reach_, high = box_->high(a) - reach_;
       if (x[a] <= low || x[a] >= high) most[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
     }
-  std::array<std::int8_t, 3> turns{};
+  std::array<int, 3> turns{};
   std::array<double, 3> at{};
   auto const along = [&](int a, int n) {
-    turns[a] = static_cast<std::int8_t>(n);
+    turns[a] = n;
     if (a < box_->dimension()) at[a] = n == 0 ? x[a] : x[a] + n * box_->length(a);
     return n == 0 || (at[a] >= box_->low(a) - reach_ && at[a] <= box_->high(a) + reach_);
   };
@@ -116,12 +121,33 @@ void Mirror::each_image(double const* x, Function const& function) const {
   }
 }
 
+std::uint32_t Mirror::code_of(std::array<int, 3> turns) const {
+  int const base = 2 * most_turns_ + 1;
+  return static_cast<std::uint32_t>(((turns[2] + most_turns_) * base + turns[1] + most_turns_) * base + turns[0] +
+                                    most_turns_);
+}
+
 void Mirror::add_ghosts() {
-  ghosts_.clear();
-  if (!box_->any_periodic()) return;
+  ghost_source_.clear();
+  ghost_turns_.clear();
+  most_turns_ = 0;
+  int const dimension = box_->dimension();
+  for (int a = 0; a < dimension; ++a)
+    if (box_->periodic(a)) most_turns_ = std::max(most_turns_, static_cast<int>(std::ceil(reach_ / box_->length(a))));
+  int const m = most_turns_;
+  shifts_.clear();
+  for (int k = -m; k <= m; ++k)
+    for (int j = -m; j <= m; ++j)
+      for (int i = -m; i <= m; ++i) {
+        std::array<int, 3> const turns{i, j, k};
+        for (int a = 0; a < 4; ++a) shifts_.push_back(a < dimension && turns[a] != 0 ? turns[a] * box_->length(a) : 0);
+      }
+  if (m == 0) return;
   for (std::size_t k = 0; k < owned(); ++k)
-    each_image(references_.data() + 4 * k, [&](std::array<std::int8_t, 3> turns, std::array<double, 3> const&) {
-      if (turns[0] != 0 || turns[1] != 0 || turns[2] != 0) ghosts_.push_back({static_cast<std::uint32_t>(k), turns});
+    each_image(references_.data() + 4 * k, [&](std::array<int, 3> turns, std::array<double, 3> const&) {
+      if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) return;
+      ghost_source_.push_back(static_cast<std::uint32_t>(k));
+      ghost_turns_.push_back(code_of(turns));
     });
 }
 
@@ -138,38 +164,38 @@ void Mirror::make_room(std::size_t rows) {
   rows_ = std::move(moved);
 }
 
-void Mirror::copy_image(std::size_t source, std::array<std::int8_t, 3> turns, std::size_t row) {
-  double const* from = rows_.data() + row_block * source;
-  double* to = rows_.data() + row_block * row;
-  for (std::size_t b = 0; b < blocks(); ++b)
-    std::memcpy(to + b * block_stride(), from + b * block_stride(), row_block * sizeof(double));
-  for (int a = 0; a < box_->dimension(); ++a)
-    if (turns[a] != 0) to[a] += turns[a] * box_->length(a);
+void Mirror::move_ghosts(std::size_t begin, std::size_t end) {
+  ImageTask task;
+  task.mirror = rows_.data();
+  task.block_stride = block_stride();
+  task.blocks = blocks();
+  task.first = owned() + 1;
+  task.source = ghost_source_.data();
+  task.turns = ghost_turns_.data();
+  task.shift = shifts_.data();
+  neighbour_kernels().images(task, begin, end);
 }
 
-void Mirror::sort_all() {
+void Mirror::sort_all(int threads) {
   int const dimension = box_->dimension();
   std::vector<double> at(total() * dimension);
-  for (std::size_t k = 0; k < owned(); ++k)
-    std::copy_n(references_.data() + 4 * k, dimension, at.data() + k * dimension);
-  for (std::size_t g = 0; g < ghosts_.size(); ++g)
-    for (int a = 0; a < dimension; ++a) {
-      Ghost const& ghost = ghosts_[g];
-      double const x = references_[4 * ghost.source + a];
-      at[(owned() + g) * dimension + a] = ghost.turns[a] == 0 ? x : x + ghost.turns[a] * box_->length(a);
+  for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::size_t const source = k < owned() ? k : ghost_source_[k - owned()];
+      double const* shift = shifts_.data() + 4 * (k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()]);
+      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = references_[4 * source + a] + shift[a];
     }
+  });
   cells_ = Cells(dimension, at.data(), dimension, total(), reach_);
   auto const& items = cells_.items();
-  for (int a = 0; a < 3; ++a) {
-    position_[a].assign(total() + candidate_padding, 0);
-    if (a < dimension)
-      for (std::size_t k = 0; k < total(); ++k) position_[a][k] = in_steps(at[items[k] * dimension + a], reach_);
-  }
-  item_.assign(total() + candidate_padding, 0);
-  for (std::size_t k = 0; k < total(); ++k) {
-    bool const ghost = items[k] >= owned();
-    item_[k] = item_of_row(items[k] + (ghost ? 1 : 0));
-  }
+  for (int a = 0; a < 3; ++a) position_[a].resize(total() + candidate_padding);
+  item_.resize(total() + candidate_padding);
+  for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      item_[s] = item_of_row(items[s] < owned() ? items[s] : items[s] + 1);
+      for (int a = 0; a < dimension; ++a) position_[a][s] = in_steps(at[items[s] * dimension + a], reach_);
+    }
+  });
 }
 
 bool Mirror::refresh(int threads) {
@@ -207,9 +233,8 @@ bool Mirror::refresh(int threads) {
 }
 
 void Mirror::refresh_ghosts(int threads) {
-  for_ranges(ghosts_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) copy_image(ghosts_[g].source, ghosts_[g].turns, owned() + 1 + g);
-  });
+  for_ranges(ghost_source_.size(), refresh_grain, threads,
+             [&](std::size_t begin, std::size_t end) { move_ghosts(begin, end); });
 }
 
 bool Mirror::is_current() const {
@@ -267,11 +292,11 @@ void Mirror::move(std::span<std::uint32_t const> rows, std::span<double const> r
     auto const m = static_cast<std::size_t>(known - moved_.begin());
     if (known == moved_.end()) {
       // Out of the cells, with all images.
-      each_image(reference, [&](std::array<std::int8_t, 3>, std::array<double, 3> const& at) {
+      each_image(reference, [&](std::array<int, 3>, std::array<double, 3> const& at) {
         std::size_t const cell = cells_.grid().cell_of(at.data());
         for (std::uint32_t s = cells_.start()[cell]; s < cells_.start()[cell + 1]; ++s) {
           std::size_t const row = row_of_item(item_[s]);
-          if ((row < owned() ? row : ghosts_[row - owned() - 1].source) == k)
+          if ((row < owned() ? row : ghost_source_[row - owned() - 1]) == k)
             position_[0][s] = opposite(in_steps(at[0], reach_));
         }
       });
@@ -288,22 +313,23 @@ void Mirror::move(std::span<std::uint32_t const> rows, std::span<double const> r
       double& x = rows_[row_block * k + a];
       if (box_->periodic(a)) x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
     }
-    each_image(reference, [&](std::array<std::int8_t, 3> turns, std::array<double, 3> const& at) {
+    each_image(reference, [&](std::array<int, 3> turns, std::array<double, 3> const& at) {
       if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) {
         images_[m].push_back({k, at});
         return;
       }
       if (free_.empty()) {
-        free_.push_back(static_cast<std::uint32_t>(ghosts_.size()));
-        ghosts_.push_back({k, turns});
+        free_.push_back(static_cast<std::uint32_t>(ghost_source_.size()));
+        ghost_source_.push_back(k);
+        ghost_turns_.push_back(0);
         make_room(total() + 1);
       }
       std::uint32_t const g = free_.back();
       free_.pop_back();
-      ghosts_[g] = {k, turns};
-      std::size_t const row = owned() + 1 + g;
-      images_[m].push_back({static_cast<std::uint32_t>(row), at});
-      copy_image(k, turns, row);
+      ghost_source_[g] = k;
+      ghost_turns_[g] = code_of(turns);
+      images_[m].push_back({static_cast<std::uint32_t>(owned() + 1 + g), at});
+      move_ghosts(g, g + 1);
     });
   }
   for (auto& column : moved_position_) column.clear();
@@ -330,7 +356,7 @@ void Mirror::owned_near(double const* x, double reach, std::vector<std::uint32_t
     }
     if (square > furthest * furthest) return;
     std::size_t const row = row_of_item(item);
-    rows.push_back(row < owned() ? static_cast<std::uint32_t>(row) : ghosts_[row - owned() - 1].source);
+    rows.push_back(row < owned() ? static_cast<std::uint32_t>(row) : ghost_source_[row - owned() - 1]);
   };
   cells_.near(x, reach, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) take(position_, s, item_[s]);
@@ -366,8 +392,8 @@ NearTask Mirror::near_task() const {
 
 std::size_t Mirror::bytes() const {
   auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
-  return of(order_) + of(rows_) + of(references_) + of(steps_) + of(ghosts_) + of(largest2_) + of(cells_.items()) +
-         of(cells_.start()) + of(position_[0]) + of(position_[1]) + of(position_[2]) + of(item_);
+  return of(order_) + of(rows_) + of(references_) + of(steps_) + of(ghost_source_) + of(ghost_turns_) + of(largest2_) +
+         of(cells_.items()) + of(cells_.start()) + of(position_[0]) + of(position_[1]) + of(position_[2]) + of(item_);
 }
 
 }  // namespace boltzmann

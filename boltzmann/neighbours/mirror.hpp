@@ -67,7 +67,7 @@ class Mirror {
   std::size_t block_stride() const { return row_block * capacity_; }
   std::size_t blocks() const { return ensemble_->stride() / row_block; }
   std::size_t owned() const { return order_.size(); }
-  std::size_t total() const { return order_.size() + ghosts_.size(); }
+  std::size_t total() const { return order_.size() + ghost_source_.size(); }
   std::size_t sentinel() const { return owned(); }
   /// Which particle of the ensemble each owned row is.
   std::uint32_t const* order() const { return order_.data(); }
@@ -87,21 +87,18 @@ class Mirror {
   NearTask near_task() const;
 
  private:
-  struct Ghost {
-    std::uint32_t source;  // an owned row
-    std::array<std::int8_t, 3> turns;
-  };
   struct Image {  // of a moved row: itself (turns 0, row = the owned one) or a ghost
     std::uint32_t row;
     std::array<double, 3> position;
   };
 
-  void sort(double reach, std::span<double const> references);
+  void sort(double reach, std::span<double const> references, int threads);
   void add_ghosts();
-  void sort_all();
+  void sort_all(int threads);
   void refresh_ghosts(int threads);
   void make_room(std::size_t rows);
-  void copy_image(std::size_t source, std::array<std::int8_t, 3> turns, std::size_t row);
+  std::uint32_t code_of(std::array<int, 3> turns) const;
+  void move_ghosts(std::size_t begin, std::size_t end);
   /// Calls function(turns, position) for every periodic image of x, itself included, within reach of the box.
   template <class Function>
   void each_image(double const* x, Function const& function) const;
@@ -112,8 +109,11 @@ class Mirror {
   std::vector<std::uint32_t> order_;  // owned row -> particle
   std::size_t capacity_ = 0;          // rows
   AlignedVector<double> rows_;
-  AlignedVector<double> references_;  // of owned rows, 4 a row
-  std::vector<Ghost> ghosts_;
+  AlignedVector<double> references_;         // of owned rows, 4 a row
+  std::vector<std::uint32_t> ghost_source_;  // the owned row that each ghost is an image of
+  std::vector<std::uint32_t> ghost_turns_;   // and by how many lengths it is moved: a row of shifts_
+  int most_turns_ = 0;
+  std::vector<double> shifts_;    // rows of 4
   std::vector<double> largest2_;  // of each block of rows
 
   std::vector<std::int32_t> steps_;                    // the references in steps, 4 a row

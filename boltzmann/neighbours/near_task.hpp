@@ -84,9 +84,20 @@ struct Refreshed {
 };
 using RefreshKernel = Refreshed (*)(RefreshTask const& task, std::size_t begin, std::size_t end);
 
+/// Periodic images brought up to date: row `first` + g becomes row source[g] moved by shift[turns[g]].
+struct ImageTask {
+  double* mirror = nullptr;
+  std::size_t block_stride = 0, blocks = 0, first = 0;
+  std::uint32_t const* source = nullptr;
+  std::uint32_t const* turns = nullptr;
+  double const* shift = nullptr;  ///< rows of 4
+};
+using ImageKernel = void (*)(ImageTask const& task, std::size_t begin, std::size_t end);
+
 struct NeighbourKernels {
   NearKernel near[3];  ///< in 1D, 2D, 3D
   RefreshKernel refresh;
+  ImageKernel images;
 };
 
 }  // namespace boltzmann

@@ -158,7 +158,7 @@ void Simulation::advance(double dt) {
       fresh_ = false;
       passed = part.time_after[stage];
       if (motion == Motion::final)
-        for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble);
+        for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble, scheme->threads());
     }
   }
   for (auto const& part : parts_) check_moves(part);
