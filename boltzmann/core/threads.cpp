@@ -1,57 +1,63 @@
-// The one place that knows OpenMP.
+// The threads that loops are shared among. They are started when first wanted and kept; between loops they look out for
+// work for a moment, then sleep. Whoever starts a loop takes ranges like everyone else, and waits for ranges that are
+// being worked on, never for a thread that has none: on a machine that is busy with something else a thread that does not
+// get a processor costs nothing.
 #include <boltzmann/core/threads.hpp>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
 #include <exception>
+#include <memory>
 #include <mutex>
-
-// The thread sanitizer does not see OpenMP's own locks: under it the same loop runs on plain threads.
-#if defined(__SANITIZE_THREAD__)
 #include <thread>
 #include <vector>
-#else
-#include <omp.h>
+#if defined(__linux__)
+#include <sched.h>
 #endif
 
 namespace boltzmann {
-
 namespace {
 
-/// Calls body() on so many threads at once, the caller's among them.
-template <class Body>
-void on_threads(int threads, Body const& body) {
-#if defined(__SANITIZE_THREAD__)
-  std::vector<std::thread> others;
-  for (int t = 1; t < threads; ++t) others.emplace_back(body);
-  body();
-  for (auto& thread : others) thread.join();
-#else
-#pragma omp parallel num_threads(threads)
-  body();
+// Longer than what lies between two loops of a step, shorter than anyone would notice.
+constexpr auto patience = std::chrono::microseconds(100);
+
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
 #endif
 }
 
-}  // namespace
-
-int default_threads() {
-#if defined(__SANITIZE_THREAD__)
-  return static_cast<int>(std::thread::hardware_concurrency());
-#else
-  return omp_get_max_threads();
-#endif
+/// Waits until done() holds; true if it did within the patience.
+template <class Done>
+bool look_out(Done const& done) {
+  for (int n = 0; n < 64; ++n) {
+    if (done()) return true;
+    pause();
+  }
+  auto const until = std::chrono::steady_clock::now() + patience;
+  while (std::chrono::steady_clock::now() < until) {
+    for (int n = 0; n < 32; ++n) {
+      if (done()) return true;
+      pause();
+    }
+  }
+  return done();
 }
 
-namespace detail {
-
-void parallel_ranges(std::size_t size, std::size_t grain, int threads, void const* function,
-                     void (*call)(void const* function, std::size_t begin, std::size_t end)) {
-  std::size_t const ranges = (size + grain - 1) / grain;
-  std::atomic<std::size_t> next{0};
+struct Loop {
+  std::size_t size, grain, ranges;
+  void const* function;
+  void (*call)(void const* function, std::size_t begin, std::size_t end);
+  std::atomic<std::size_t> next{0}, finished{0};
   std::mutex failing;
   std::exception_ptr failure;
-  std::size_t failed_range = ranges;
-  on_threads(threads, [&] {
+  std::size_t failed_range;
+
+  /// Takes ranges as long as there are any.
+  void work() {
     for (std::size_t range = next++; range < ranges; range = next++) {
       std::size_t const begin = range * grain;
       try {
@@ -63,9 +69,99 @@ void parallel_ranges(std::size_t size, std::size_t grain, int threads, void cons
           failure = std::current_exception();
         }
       }
+      ++finished;
     }
-  });
-  if (failure) std::rethrow_exception(failure);
+  }
+};
+
+class Pool {
+ public:
+  Pool() = default;
+  Pool(Pool const&) = delete;
+  Pool& operator=(Pool const&) = delete;
+  ~Pool() {
+    stopping_ = true;
+    ++loops_;
+    loops_.notify_all();
+    for (auto& thread : threads_) thread.join();
+  }
+
+  /// Runs the loop on so many threads, the caller's among them; on this one alone if the others are busy with a loop of
+  /// somebody else.
+  void run(Loop& loop, int threads) {
+    std::unique_lock const mine(busy_, std::try_to_lock);
+    if (!mine.owns_lock()) return loop.work();
+    auto const helpers = static_cast<std::size_t>(std::max(threads - 1, 0));
+    while (threads_.size() < helpers) threads_.emplace_back([this, number = threads_.size()] { serve(number); });
+    helpers_ = helpers;
+    loop_ = &loop;
+    ++loops_;
+    if (asleep_ > 0) loops_.notify_all();
+    loop.work();
+    while (!look_out([&] { return loop.finished == loop.ranges; })) std::this_thread::yield();
+    loop_ = nullptr;
+    while (!look_out([&] { return visitors_ == 0; })) std::this_thread::yield();
+  }
+
+ private:
+  void serve(std::size_t number) {
+    for (std::uint64_t seen = 0;;) {
+      if (!look_out([&] { return loops_ != seen; })) {
+        ++asleep_;
+        loops_.wait(seen);
+        --asleep_;
+      }
+      seen = loops_;
+      if (stopping_) return;
+      // Whoever visits is waited for; whoever comes late finds no loop.
+      ++visitors_;
+      if (Loop* loop = loop_; loop && number < helpers_) loop->work();
+      --visitors_;
+    }
+  }
+
+  std::mutex busy_;
+  std::vector<std::thread> threads_;
+  std::atomic<std::uint64_t> loops_{0};
+  std::atomic<std::size_t> helpers_{0};
+  std::atomic<Loop*> loop_{nullptr};
+  std::atomic<int> visitors_{0}, asleep_{0};
+  std::atomic<bool> stopping_{false};
+};
+
+Pool& pool() {
+  static Pool the_pool;
+  return the_pool;
+}
+
+}  // namespace
+
+int default_threads() {
+  static int const count = [] {
+    char const* wanted = std::getenv("OMP_NUM_THREADS");
+    int const number = wanted ? std::atoi(wanted) : 0;
+    if (number > 0) return number;
+#if defined(__linux__)
+    cpu_set_t mine;
+    if (sched_getaffinity(0, sizeof(mine), &mine) == 0) return std::max(1, CPU_COUNT(&mine));
+#endif
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }();
+  return count;
+}
+
+namespace detail {
+
+void parallel_ranges(std::size_t size, std::size_t grain, int threads, void const* function,
+                     void (*call)(void const* function, std::size_t begin, std::size_t end)) {
+  Loop loop;
+  loop.size = size;
+  loop.grain = grain;
+  loop.failed_range = loop.ranges = (size + grain - 1) / grain;
+  loop.function = function;
+  loop.call = call;
+  pool().run(loop, threads);
+  if (loop.failure) std::rethrow_exception(loop.failure);
 }
 
 }  // namespace detail

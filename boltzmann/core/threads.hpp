@@ -1,11 +1,12 @@
-// Threads: a loop over ranges, without OpenMP in any header.
+// Threads: a loop over ranges.
 #pragma once
 
 #include <cstddef>
 
 namespace boltzmann {
 
-/// The number of threads that a loop uses unless told otherwise (OMP_NUM_THREADS or the number of cores).
+/// The number of threads that a loop uses unless told otherwise: OMP_NUM_THREADS, or the number of processors that this
+/// process may use.
 int default_threads();
 
 namespace detail {
