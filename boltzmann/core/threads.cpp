@@ -1,7 +1,7 @@
 // The threads that loops are shared among. They are started when first wanted and kept; between loops they look out for
 // work for a moment, then sleep. Whoever starts a loop takes ranges like everyone else, and waits for ranges that are
-// being worked on, never for a thread that has none: on a machine that is busy with something else a thread that does not
-// get a processor costs nothing.
+// being worked on, never for a thread that has none: on a machine that is busy with something else a thread that does
+// not get a processor costs nothing.
 #include <boltzmann/core/threads.hpp>
 
 #include <algorithm>

@@ -56,6 +56,8 @@ class AnyEnsemble {
   std::vector<double> column(Field const& field, int component = 0) const;
 
   virtual void resize(std::size_t size) = 0;
+  /// Memory of rows and influences.
+  virtual std::size_t bytes() const = 0;
 
   Appearance appearance;
 
@@ -63,6 +65,7 @@ class AnyEnsemble {
   AnyEnsemble(std::string name, std::string class_name, int dimension, std::size_t stride, std::size_t doubles,
               std::size_t influence_size, std::vector<Field> fields);
   void attach(double* data, std::size_t size);
+  std::size_t influence_bytes() const { return influence_.capacity() * sizeof(double); }
 
  private:
   std::string name_, class_name_;
@@ -116,6 +119,8 @@ class Ensemble final : public AnyEnsemble {
       for (std::size_t i = first_new; i < rows_.size(); ++i) rows_[i].mass = 1;
     attach(rows_.empty() ? nullptr : &rows_[0].position[0], size);
   }
+
+  std::size_t bytes() const override { return rows_.capacity() * sizeof(Row<P>) + influence_bytes(); }
 
  private:
   static constexpr std::size_t padding = 16;  // packs may read past the last particle, and mask what they read
