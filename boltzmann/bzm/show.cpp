@@ -5,6 +5,7 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/laws/catalogue.hpp>
+#include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/conserved.hpp>
@@ -125,9 +126,15 @@ void show_class(ParticleClass const& one) {
   fmt::print("class {}: {}\n", one.name, one.doc);
   fmt::print("\n  moved by    {}, usually with {}\n", one.classical ? "forces" : "a flow (its influence is a velocity)",
              to_string(one.usual_method));
-  for (auto const& variant : one.variants)
-    fmt::print("  in {}D       {} bytes of memory for a particle and its influence\n", variant.dimension,
+  for (auto const& variant : one.variants) {
+    int numbers = 0;
+    for (auto const& field : variant.fields) numbers = std::max(numbers, field.offset + field.components);
+    std::size_t const row =
+        (static_cast<std::size_t>(numbers) + row_block - 1) / row_block * row_block * sizeof(double);
+    fmt::print("  in {}D       {} bytes of memory for a particle and its influence", variant.dimension,
                variant.row_bytes);
+    fmt::print(";\n              laws with a cut-off take {} more, and 4 for each neighbour in their lists\n", bytes_with_lists(row));
+  }
   auto const& largest = one.variants.back();
   fmt::print("\n  fields in {}D\n", largest.dimension);
   for (auto const& field : largest.fields)

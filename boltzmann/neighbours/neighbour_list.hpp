@@ -46,4 +46,12 @@ class NeighbourList {
   std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place
 };
 
+/// Bytes that a pair scheme with a cut-off holds for a particle whose row has so many, periodic images apart: the
+/// mirrored row, its reference and place in the cells, and the start of its list. Every entry of a list takes 4 more.
+constexpr std::size_t bytes_with_lists(std::size_t row_bytes) {
+  constexpr std::size_t reference = 4 * sizeof(double) + 4 * sizeof(std::int32_t);
+  constexpr std::size_t cells = (3 + 4) * sizeof(std::uint32_t);  // position, item, row, order, about one cell
+  return row_bytes + reference + cells + sizeof(std::uint32_t*) + list_rings * sizeof(std::uint32_t);
+}
+
 }  // namespace boltzmann

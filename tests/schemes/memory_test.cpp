@@ -54,5 +54,18 @@ TEST(Memory, ALennardJonesLiquidNeedsLessThanAKilobyteAParticle) {
 #endif
 }
 
+// What `bzm show` says.
+TEST(Memory, AParticleInListsTakesWhatIsSaid) {
+  Ensemble<Newton<3>> atoms("atoms");
+  block_load(atoms, LatticeBlock{Lattice::fcc, 1.0, {20, 20, 20}}, true);
+  PairScheme scheme(Box(Vector{-1.0, -1.0, -1.0}, Vector{40.0, 40.0, 40.0}), 1.2);
+  scheme.internal(atoms, LennardJones{.depth = 1, .r0 = 1});
+  scheme.calculate();
+  double const particles = static_cast<double>(atoms.size()), neighbours = 18;  // up to the second shell, at sqrt(2)
+  double const said = static_cast<double>(bytes_with_lists(sizeof(Row<Newton<3>>))) + 4 * neighbours;
+  EXPECT_GT(static_cast<double>(scheme.bytes()) / particles, 0.8 * said);
+  EXPECT_LT(static_cast<double>(scheme.bytes()) / particles, 2 * said);
+}
+
 }  // namespace
 }  // namespace boltzmann
