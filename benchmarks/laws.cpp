@@ -46,6 +46,7 @@ struct Melt {
     scheme->calculate();
   }
   double seconds() {
+    scheme->calculate();  // not timed: whoever ran before has driven this melt out of the caches
     double const since = cpu_seconds();
     for (int n = 0; n < 10; ++n) scheme->calculate();
     return (cpu_seconds() - since) / 10;
@@ -79,8 +80,9 @@ int main() {
   };
   auto const yukawa = [](auto const& p, auto const& q) {
     auto const r = q.position - p.position;
-    auto const inverse = rsqrt(dot(r, r));
-    auto const u = 5.0 * inverse * exp(-1.0 / inverse);
+    auto const distance = sqrt(dot(r, r));
+    auto const inverse = 1.0 / distance;
+    auto const u = 5.0 * inverse * exp(-distance);
     return Interaction{r * (-u * inverse * (inverse + 1.0)), u};
   };
   auto const charged = [=](auto const& p, auto const& q) {  // and a bare Coulomb force

@@ -18,8 +18,8 @@ using LaneBits = unsigned;
 /// The lanes of `a` that are below `limit`; NaN is not.
 template <class Real, int W>
 [[gnu::always_inline]] inline LaneBits lanes_below(Pack<Real, W> a, Real limit) {
-  constexpr int bytes = W * static_cast<int>(sizeof(Real));
-  constexpr bool is_double = sizeof(Real) == 8;
+  [[maybe_unused]] constexpr int bytes = W * static_cast<int>(sizeof(Real));
+  [[maybe_unused]] constexpr bool is_double = sizeof(Real) == 8;
 #if defined(__AVX512F__)
   if constexpr (bytes == 64 && is_double)
     return _mm512_cmp_pd_mask((__m512d)a.native, _mm512_set1_pd(limit), _CMP_LT_OQ);

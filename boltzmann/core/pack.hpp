@@ -157,7 +157,7 @@ struct Pack {
       Pack const y = Native(__builtin_ia32_rsqrt14pd512_mask(a.native, a.native, -1));
       Pack const e = Real(1) - a * y * y;
       Pack const corrected = y + y * e * (Real(0.5) + e * (Real(0.375) + Real(0.3125) * e));
-      return select((a > Real(0)) & (a < Real(__builtin_inf())), corrected, y);
+      return select(e == e, corrected, y);  // at zero and infinity e is NaN, and the estimate right
     } else
 #endif
       return Real(1) / sqrt(a);

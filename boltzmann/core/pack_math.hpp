@@ -1,14 +1,14 @@
 // Elementary functions of packs: exp, expm1, log, pow, sin, cos and tanh, written once in the arithmetic of Pack.
 //
 // Every lane depends on its own input only. No branches, except that sin and cos of arguments beyond 2^20 go to the C
-// library, lane by lane. No instruction set is mentioned, but for the one that multiplies by a power of two, with the
-// same bits as without it. Where a rounding error would matter, products are exact
-// (their factors have few bits), so that a compiler that fuses a * b + c changes nothing there; in the polynomials it
-// may change the last bits. So: the same bits on every instruction set with FMA (from -O2), the same bits on every one
-// without, and between the two a difference within the errors below.
+// library, lane by lane. Instruction sets are mentioned only in exp, where one instruction multiplies by a power of
+// two, looks up a table, or limits a number: the bits are the same without them. Where a rounding error would matter,
+// products are exact (their factors have few bits), so that a compiler that fuses a * b + c changes nothing there; in
+// the polynomials it may change the last bits. So: the same bits on every instruction set with FMA (from -O2), the same
+// bits on every one without, and between the two a difference within the errors below.
 //
 // Largest errors measured against 80-bit arithmetic, in units in the last place (tests/core/pack_math_test.cpp):
-//   exp 1.1   expm1 1.1   log 0.95   pow 1.1   sin 0.8   cos 0.8   tanh 1.9
+//   exp 1.2   expm1 1.1   log 0.95   pow 1.1   sin 0.8   cos 0.8   tanh 1.9
 // Special values (0, -0, infinities, NaN, results that overflow or are subnormal) are those of the C standard; no flags
 // are raised on purpose. Packs of float are computed in double.
 #pragma once
@@ -87,17 +87,23 @@ template <int W>
   return (r * r) * (0.5 + r * q);
 }
 
-/// value 2^k for whole k in -1100..1100, given k + to_integer; rounded once where the result is subnormal.
+/// value 2^floor(k) for k in -1100..1100, rounded once where the result is subnormal; the low bits of `whole` are
+/// floor(k), those above 2^12 don't matter.
 template <int W>
-[[gnu::always_inline]] inline Pack<double, W> times_power_of_two(Pack<double, W> value, Pack<double, W> k_shifted) {
+[[gnu::always_inline]] inline Pack<double, W> times_power_of_two(Pack<double, W> value,
+                                                                 [[maybe_unused]] Pack<double, W> k,
+                                                                 [[maybe_unused]] Bits<W> whole) {
 #if defined(__AVX512F__)
   if constexpr (W == 8)
-    return __builtin_ia32_scalefpd512_mask(value.native, (k_shifted - to_integer).native, value.native, -1, 4);
+    return __builtin_ia32_scalefpd512_mask(value.native, k.native, value.native, -1, 4);  // any k, also infinite
+  else
 #endif
-  // In two factors, the first of which is exact. The low bits are k; those above 2^12 are shifted out.
-  using Unsigned = typename register_of<std::uint64_t, W>::type;
-  Unsigned const twice = (Unsigned)(bits_of(k_shifted) + 2 * 1023), half = twice >> 1;
-  return value * from_bits<W>((Bits<W>)(half << 52)) * from_bits<W>((Bits<W>)((twice - half) << 52));
+  {
+    // In two factors, the first of which is exact.
+    using Unsigned = typename register_of<std::uint64_t, W>::type;
+    Unsigned const twice = (Unsigned)(whole + 2 * 1023), half = twice >> 1;
+    return value * from_bits<W>((Bits<W>)(half << 52)) * from_bits<W>((Bits<W>)((twice - half) << 52));
+  }
 }
 
 /// exp(high + low), |low| far below |high|; high has at most 53 bits and is not NaN where low is finite.
@@ -110,7 +116,51 @@ template <int W>
   Real const shifted = high * 0x1.71547652b82fep+0 + to_integer;
   Real const k = shifted - to_integer;
   Real const r = (high - k * ln2_high) + (low - k * ln2_low);
-  return times_power_of_two(1.0 + (r + exp_tail(r)), shifted);
+  return times_power_of_two(1.0 + (r + exp_tail(r)), k, bits_of(shifted));
+}
+
+/// 2^(j/16)
+template <int W>
+alignas(64) inline constexpr double roots_of_two[16] = {
+    0x1.0000000000000p+0, 0x1.0b5586cf9890fp+0, 0x1.172b83c7d517bp+0, 0x1.2387a6e756238p+0,
+    0x1.306fe0a31b715p+0, 0x1.3dea64c123422p+0, 0x1.4bfdad5362a27p+0, 0x1.5ab07dd485429p+0,
+    0x1.6a09e667f3bcdp+0, 0x1.7a11473eb0187p+0, 0x1.8ace5422aa0dbp+0, 0x1.9c49182a3f090p+0,
+    0x1.ae89f995ad3adp+0, 0x1.c199bdd85529cp+0, 0x1.d5818dcfba487p+0, 0x1.ea4afa2a490dap+0};
+
+/// 2^(j/16), j the low four bits of every lane.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> root_of_two(Bits<W> j) {
+  using Native = typename Pack<double, W>::Native;
+#if defined(__AVX512F__)
+  if constexpr (W == 8) {
+    Native low, high;
+    __builtin_memcpy(&low, roots_of_two<W>, sizeof low);
+    __builtin_memcpy(&high, roots_of_two<W> + W, sizeof high);
+    return Native(__builtin_shuffle(low, high, j));
+  } else
+#endif
+  {
+    Native result;
+    for (int lane = 0; lane < W; ++lane) result[lane] = roots_of_two<W>[j[lane] & 15];
+    return result;
+  }
+}
+
+// As to_integer, for sixteenths.
+inline constexpr double to_sixteenths = 0x1.8p48;
+
+/// exp(k ln 2 + r) for k in sixteenths and |r| <= ln(2)/32, given also k + to_sixteenths.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> exp_of_parts(Pack<double, W> k, Pack<double, W> k_shifted,
+                                                           Pack<double, W> r) {
+  auto const root = root_of_two<W>(bits_of(k_shifted));
+  auto const r2 = r * r;
+  // Of degree 6, its error below 1.4e-17.
+  auto const a = 0x1.fffffffffffecp-2 + r * 0x1.555555547cc9ep-3;
+  auto const b = (0x1.5555555639e86p-5 + r * 0x1.1112473f7f092p-7) + r2 * 0x1.6c16df70e5ddfp-10;
+  auto const p = r + r2 * (a + r2 * b);
+  using Unsigned = typename register_of<std::uint64_t, W>::type;
+  return times_power_of_two(root + root * p, k, (Bits<W>)((Unsigned)bits_of(k_shifted) >> 4));
 }
 
 /// x = 2^exponent mantissa with the mantissa in [sqrt(1/2), sqrt(2)), for finite x > 0.
@@ -209,18 +259,43 @@ template <int W, class Function>
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> exp(Pack<double, W> x) {
   using Real = Pack<double, W>;
-  x = max(min(x, Real(710.0)), Real(-746.0));
-  Real const shifted = x * 0x1.71547652b82fep+0 + detail::to_integer;
-  Real const k = shifted - detail::to_integer;
-  Real const r = (x - k * detail::ln2_high) - k * detail::ln2_low;
-  // Of degree 11, its error below 6e-18 for |r| <= ln(2)/2; summed in pairs, for in Horner's order every step would
-  // wait for the one before.
-  Real const r2 = r * r, r4 = r2 * r2;
-  Real const a = (0.5 + r * 0x1.5555555555501p-3) + r2 * (0x1.55555555531eap-5 + r * 0x1.11111111289adp-7);
-  Real const b =
-      (0x1.6c16c17ccd775p-10 + r * 0x1.a01a011bd23bcp-13) + r2 * (0x1.a019ab09af060p-16 + r * 0x1.71df55b4c78a6p-19);
-  Real const c = 0x1.289fb1326d076p-22 + r * 0x1.ad1fd5a261afcp-26;
-  return detail::times_power_of_two(1.0 + (r + r2 * (a + r4 * (b + r4 * c))), shifted);
+#if defined(__AVX512DQ__)
+  constexpr bool limited = W == 8;  // by itself: times_power_of_two() takes any k
+#else
+  constexpr bool limited = false;
+#endif
+  if constexpr (!limited) x = max(min(x, Real(710.0)), Real(-746.0));
+  Real const shifted = x * 0x1.71547652b82fep+0 + detail::to_sixteenths;
+  Real const k = shifted - detail::to_sixteenths;
+  // ln 2 in two parts, the first of 36 bits.
+  Real r = (x - k * 0x1.62e42fefap-1) - k * 0x1.cf79abc9e3b3ap-40;
+#if defined(__AVX512DQ__)
+  if constexpr (limited)  // to |r| <= 0.03, also where x is infinite or so large that k is not what it should be
+    r = __builtin_ia32_rangepd512_mask(r.native, Real(0.03).native, 2, r.native, -1, 4);
+#endif
+  return detail::exp_of_parts(k, shifted, r);
+}
+
+/// e^x for an x that has been rounded, as most have: the relative error is below 2.1e-16 + 0.4e-16 |x| (with FMA;
+/// without it 2.1e-16 + 1.2e-16 |x|), while the rounding of x alone makes 1.1e-16 |x|. Cheaper than exp(), and the same
+/// but for that; not for x below -1e60 (NaN and the infinities are right).
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> exp_of_rounded(Pack<double, W> x) {
+  using Real = Pack<double, W>;
+#if defined(__AVX512F__)
+  constexpr bool limited = W == 8;
+#else
+  constexpr bool limited = false;
+#endif
+  if constexpr (!limited) x = max(min(x, Real(710.0)), Real(-746.0));
+  Real const shifted = x * 0x1.71547652b82fep+0 + detail::to_sixteenths;
+  Real const k = shifted - detail::to_sixteenths;
+  return detail::exp_of_parts(k, shifted, x - k * 0x1.62e42fefa39efp-1);
+}
+/// For every other kind of number.
+template <class Real>
+Real exp_of_rounded(Real const& x) {
+  return exp(x);
 }
 
 /// e^x - 1, accurate near zero.

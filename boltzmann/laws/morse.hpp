@@ -1,7 +1,8 @@
 // The Morse law: a bond that breaks, with a core of finite height.
 #pragma once
 
-#include <boltzmann/laws/central.hpp>
+#include <boltzmann/core/pack.hpp>
+#include <boltzmann/laws/interaction.hpp>
 #include <boltzmann/laws/parameter.hpp>
 
 namespace boltzmann {
@@ -18,9 +19,12 @@ struct Morse {
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
     auto const r = q.position - p.position;
-    auto const [distance, inverse] = distance_of_square(dot(r, r));
-    auto const e = exp(a * r0 - a * distance);
-    return Interaction{r * (2 * depth * a * inverse * e * (1.0 - e)), depth * e * (e - 2.0)};
+    auto const square = dot(r, r);
+    using Real = std::remove_cvref_t<decltype(square)>;
+    Real const distance = sqrt(square);
+    Real const e = exp_of_rounded(a * r0 - a * distance);
+    Real const strength = select(square > 0.0, Real((2 * depth * a) / distance), Real(0.0));
+    return Interaction{r * (strength * (e - e * e)), depth * e * (e - 2.0)};
   }
 
   double length_scale() const { return 1 / a; }

@@ -72,11 +72,11 @@ template <int W, int D>
   std::uint32_t const* const start = task.start;
   for (std::size_t first = begin; first < end;) {
     // A group, and the block around it.
-    double least[3], greatest[3];
+    double least[3] = {}, greatest[3] = {};
     for (int a = 0; a < D; ++a) least[a] = greatest[a] = task.reference[4 * first + a];
     std::size_t last = first + 1;
     for (; last < end && last < first + group_size; ++last) {
-      double low[3], high[3];
+      double low[3] = {}, high[3] = {};
       bool fits = true;
       for (int a = 0; a < D; ++a) {
         double const x = task.reference[4 * last + a];
@@ -99,7 +99,7 @@ template <int W, int D>
     if (out.wanted_scratch > out.scratch || out.used + out.wanted > out.room) return first;
 
     // In steps, from the corner.
-    std::int32_t corner[3], extent[3];
+    std::int32_t corner[3] = {}, extent[3] = {};
     for (int a = 0; a < D; ++a) {
       std::int32_t const* steps = task.reference_steps + a;
       corner[a] = steps[4 * first];
