@@ -13,7 +13,7 @@ namespace boltzmann {
 namespace {
 
 constexpr char const* axis_name = "xyz";
-constexpr std::size_t grain = 8192, worth_threads = 1U << 15U;  // particles
+constexpr std::size_t grain = 2048, worth_threads = 1U << 13U;  // particles
 
 std::string who(AnyEnsemble const& particles, std::size_t i) {
   return fmt::format("particle {} of '{}'", i, particles.name());

@@ -15,8 +15,8 @@
 namespace boltzmann {
 namespace detail {
 
-inline constexpr std::size_t integrator_grain = 8192;
-inline constexpr std::size_t integrator_worth_threads = 1U << 15U;
+inline constexpr std::size_t integrator_grain = 2048;
+inline constexpr std::size_t integrator_worth_threads = 1U << 13U;
 
 template <class P>
 inline constexpr bool has_velocity = requires(P p) {

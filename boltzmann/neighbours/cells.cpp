@@ -1,6 +1,8 @@
 // Counting sort of points into cells.
 #include <boltzmann/neighbours/cells.hpp>
 
+#include <boltzmann/core/threads.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +12,12 @@ namespace {
 // Edges of a cell in units of the reach: long runs along the first axis are cut to measure, the others tell rows of
 // cells that are out of reach.
 constexpr double first_edge = 0.25, other_edge = 0.5;
+constexpr std::size_t grain = 2048;  // points
 
 }  // namespace
 
-Cells::Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach) : reach_(reach) {
+Cells::Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
+    : reach_(reach) {
   grid_.dimension = dimension;
   // Not many more cells than points: those of far-away particles are folded onto the others.
   double const most = 4.0 * static_cast<double>(count) + 64;
@@ -36,10 +40,10 @@ Cells::Cells(int dimension, double const* rows, std::size_t stride, std::size_t 
   start_.assign(grid_.cells() + 1, 0);
   items_.resize(count);
   std::vector<std::uint32_t> cell(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    cell[i] = static_cast<std::uint32_t>(grid_.cell_of(rows + i * stride));
-    ++start_[cell[i] + 1];
-  }
+  for_ranges(count, grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid_.cell_of(rows + i * stride));
+  });
+  for (std::size_t i = 0; i < count; ++i) ++start_[cell[i] + 1];
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   // start_[c] runs through the places of cell c, and ends where cell c + 1 begins.
   for (std::size_t i = 0; i < count; ++i) items_[start_[cell[i]]++] = static_cast<std::uint32_t>(i);

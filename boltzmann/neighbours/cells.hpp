@@ -16,7 +16,7 @@ class Cells {
  public:
   Cells() = default;
   /// Points at rows + i * stride, i < count, `dimension` coordinates each, all finite.
-  Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach);
+  Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads = 1);
 
   /// The points in cell order, those of one cell in the order they were given.
   std::vector<std::uint32_t> const& items() const { return items_; }

@@ -17,7 +17,7 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t block = 256;           // rows that share a largest displacement
-constexpr std::size_t refresh_grain = 4096;  // a multiple of it
+constexpr std::size_t refresh_grain = 2048;  // a multiple of it
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
@@ -65,7 +65,7 @@ void Mirror::build(double reach, std::span<double const> references, int threads
   images_.clear();
   free_.clear();
   sort(reach, references, threads);
-  add_ghosts();
+  add_ghosts(threads);
   capacity_ = 0;
   make_room(total() + 1);
   largest2_.assign(owned() / block + 1, 0.0);
@@ -83,7 +83,7 @@ void Mirror::sort(double reach, std::span<double const> references, int threads)
   double const size = static_cast<double>(ensemble_->size() + 1);
   double const spacing = std::pow(box_->volume() / size, 1.0 / dimension);
   double const edge = std::max(reach, 2.5 * spacing);
-  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), edge).items();
+  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), edge, threads).items();
   references_.resize(4 * owned());
   steps_.resize(4 * owned());
   for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
@@ -127,7 +127,7 @@ std::uint32_t Mirror::code_of(std::array<int, 3> turns) const {
                                     most_turns_);
 }
 
-void Mirror::add_ghosts() {
+void Mirror::add_ghosts(int threads) {
   ghost_source_.clear();
   ghost_turns_.clear();
   most_turns_ = 0;
@@ -143,12 +143,23 @@ void Mirror::add_ghosts() {
         for (int a = 0; a < 4; ++a) shifts_.push_back(a < dimension && turns[a] != 0 ? turns[a] * box_->length(a) : 0);
       }
   if (m == 0) return;
-  for (std::size_t k = 0; k < owned(); ++k)
-    each_image(references_.data() + 4 * k, [&](std::array<int, 3> turns, std::array<double, 3> const&) {
-      if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) return;
-      ghost_source_.push_back(static_cast<std::uint32_t>(k));
-      ghost_turns_.push_back(code_of(turns));
-    });
+  struct Part {
+    std::vector<std::uint32_t> source, turns;
+  };
+  std::vector<Part> parts((owned() + refresh_grain - 1) / refresh_grain);
+  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    Part& part = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
+    for (std::size_t k = begin; k < end; ++k)
+      each_image(references_.data() + 4 * k, [&](std::array<int, 3> turns, std::array<double, 3> const&) {
+        if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) return;
+        part.source.push_back(static_cast<std::uint32_t>(k));
+        part.turns.push_back(code_of(turns));
+      });
+  });
+  for (auto const& part : parts) {
+    ghost_source_.insert(ghost_source_.end(), part.source.begin(), part.source.end());
+    ghost_turns_.insert(ghost_turns_.end(), part.turns.begin(), part.turns.end());
+  }
 }
 
 void Mirror::make_room(std::size_t rows) {
@@ -186,7 +197,7 @@ void Mirror::sort_all(int threads) {
       for (int a = 0; a < dimension; ++a) at[k * dimension + a] = references_[4 * source + a] + shift[a];
     }
   });
-  cells_ = Cells(dimension, at.data(), dimension, total(), reach_);
+  cells_ = Cells(dimension, at.data(), dimension, total(), reach_, threads);
   auto const& items = cells_.items();
   for (int a = 0; a < 3; ++a) position_[a].resize(total() + candidate_padding);
   item_.resize(total() + candidate_padding);

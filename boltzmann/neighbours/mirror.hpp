@@ -93,7 +93,7 @@ class Mirror {
   };
 
   void sort(double reach, std::span<double const> references, int threads);
-  void add_ghosts();
+  void add_ghosts(int threads);
   void sort_all(int threads);
   void refresh_ghosts(int threads);
   void make_room(std::size_t rows);

@@ -14,9 +14,9 @@ namespace {
 constexpr double skin_of_cutoff = 0.12;
 constexpr std::size_t particle_grain = 256;     // particles of one range of a list
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
-// Below, one thread is faster than the start of two (some 10 us, and milliseconds where others use the cores too).
-constexpr std::size_t pairs_worth_threads = 1U << 18U;
-constexpr std::size_t particles_worth_threads = 1U << 15U;
+// Below, one thread is faster than the start of two (some us, and some 50 if the others have gone to sleep).
+constexpr std::size_t pairs_worth_threads = 1U << 16U;
+constexpr std::size_t particles_worth_threads = 1U << 13U;
 // Around particles that have moved further than all others neighbours are found anew, as long as that takes no more
 // than these shares of finding everybody's: at any time, so that lists are read less far, and when the lists would not
 // hold.
@@ -236,7 +236,7 @@ void PairScheme::find_neighbours() {
   for (auto& near : near_)
     if (!near->all_pairs())
       near->list.build(*near->target_mirror, *near->source_mirror, near->cutoff, skin_,
-                       worth(near->target->size(), particles_worth_threads / 8));
+                       worth(near->target->size(), particles_worth_threads / 4));
   lists_stale_ = false;
   ring_ = 0;
   found_again_ = 0;
@@ -362,7 +362,7 @@ void PairScheme::calculate(double time, bool overwrite) {
   }
   for (auto const& external : external_) {
     ExternalTask const task = external->task(time);
-    for_ranges(external->count(), 16 * particle_grain, worth(external->count(), particles_worth_threads),
+    for_ranges(external->count(), 8 * particle_grain, worth(external->count(), particles_worth_threads),
                [&](std::size_t begin, std::size_t end) {
                  external->kernels.influence(external->law.get(), task, begin, end);
                });
@@ -401,7 +401,7 @@ Measures PairScheme::measure(double time) {
                        void const* law) {
     task.energy = measures.per_particle[number(target)].data();
     task.virial = virial[number(target)].data();
-    for_ranges(task.targets, grain, worth(task.targets, particles_worth_threads / 8),
+    for_ranges(task.targets, grain, worth(task.targets, particles_worth_threads / 4),
                [&](std::size_t begin, std::size_t end) { kernel(law, task, begin, end); });
   };
   for (auto const& near : near_) {
@@ -425,7 +425,7 @@ Measures PairScheme::measure(double time) {
     ExternalTask task = external->task(time);
     task.energy = field[number(external->ensemble)].data();
     for_ranges(
-        external->count(), 16 * particle_grain, worth(external->count(), particles_worth_threads),
+        external->count(), 8 * particle_grain, worth(external->count(), particles_worth_threads),
         [&](std::size_t begin, std::size_t end) { external->kernels.measure(external->law.get(), task, begin, end); });
   }
   for (std::size_t e = 0; e < all.size(); ++e) {
