@@ -16,8 +16,9 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t block = 256;           // rows that share a largest displacement
-constexpr std::size_t refresh_grain = 2048;  // a multiple of it
+constexpr std::size_t block = 256;                        // rows that share a largest displacement
+constexpr std::size_t refresh_grain = 2048;               // a multiple of it
+constexpr std::size_t most_rows = std::size_t{1} << 30U;  // items are 32 bits
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
@@ -66,6 +67,9 @@ void Mirror::build(double reach, std::span<double const> references, int threads
   free_.clear();
   sort(reach, references, threads);
   add_ghosts(threads);
+  if (total() >= most_rows)
+    throw Error(fmt::format("ensemble '{}' has {} particles and periodic images within reach, lists allow {}",
+                            ensemble_->name(), total(), most_rows - 1));
   capacity_ = 0;
   make_room(total() + 1);
   largest2_.assign(owned() / block + 1, 0.0);
@@ -193,7 +197,8 @@ void Mirror::sort_all(int threads) {
   for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::size_t const source = k < owned() ? k : ghost_source_[k - owned()];
-      double const* shift = shifts_.data() + 4 * (k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()]);
+      std::size_t const turns = k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()];
+      double const* shift = shifts_.data() + 4 * turns;
       for (int a = 0; a < dimension; ++a) at[k * dimension + a] = references_[4 * source + a] + shift[a];
     }
   });
@@ -298,7 +303,7 @@ void Mirror::move(std::span<std::uint32_t const> rows, std::span<double const> r
   int const dimension = box_->dimension();
   for (std::size_t n = 0; n < rows.size(); ++n) {
     std::uint32_t const k = rows[n];
-    double* const reference = references_.data() + 4 * k;
+    double* const reference = references_.data() + 4 * std::size_t{k};
     auto const known = std::find(moved_.begin(), moved_.end(), k);
     auto const m = static_cast<std::size_t>(known - moved_.begin());
     if (known == moved_.end()) {

@@ -227,9 +227,9 @@ template <int W>
 template <int W>
 [[gnu::flatten]] void move_images(ImageTask const& task, std::size_t begin, std::size_t end) {
   for (std::size_t g = begin; g < end; ++g) {
-    double const* from = task.mirror + 4 * task.source[g];
+    double const* from = task.mirror + 4 * static_cast<std::size_t>(task.source[g]);
     double* to = task.mirror + 4 * (task.first + g);
-    auto const moved = load_pack<4>(from) + load_pack<4>(task.shift + 4 * task.turns[g]);
+    auto const moved = load_pack<4>(from) + load_pack<4>(task.shift + 4 * static_cast<std::size_t>(task.turns[g]));
     __builtin_memcpy(to, &moved, sizeof(moved));
     for (std::size_t b = 1; b < task.blocks; ++b) {
       from += task.block_stride;
