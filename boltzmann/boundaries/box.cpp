@@ -112,14 +112,19 @@ void Box::check(AnyEnsemble const& particles) const {
   }
 }
 
+double Box::wrapped(double x, int axis) const {
+  double const low = low_[axis], high = high_[axis];
+  if (x >= low && x < high) return x;
+  x -= length(axis) * std::floor((x - low) / length(axis));
+  return x >= low && x < high ? x : low;  // a rounding error beyond
+}
+
 void Box::wrap(AnyEnsemble& particles) const {
   for (int a = 0; a < dimension_; ++a) {
     if (!periodic(a)) continue;
     for (std::size_t i = 0; i < particles.size(); ++i) {
       double& x = particles.row(i)[a];
-      if (x >= low_[a] && x < high_[a]) continue;
-      x -= length(a) * std::floor((x - low_[a]) / length(a));
-      if (!(x >= low_[a] && x < high_[a])) x = low_[a];
+      x = wrapped(x, a);
     }
   }
 }

@@ -64,6 +64,8 @@ class Box {
   /// region.
   void check(AnyEnsemble const& particles) const;
 
+  /// The coordinate moved by whole lengths of a periodic axis to where low <= x < high.
+  double wrapped(double x, int axis) const;
   /// Puts every particle into the box along periodic axes, however far outside it is: the start of a run.
   void wrap(AnyEnsemble& particles) const;
 

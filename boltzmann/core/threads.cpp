@@ -12,6 +12,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 #if defined(__linux__)
@@ -92,7 +93,11 @@ class Pool {
     std::unique_lock const mine(busy_, std::try_to_lock);
     if (!mine.owns_lock()) return loop.work();
     auto const helpers = static_cast<std::size_t>(std::max(threads - 1, 0));
-    while (threads_.size() < helpers) threads_.emplace_back([this, number = threads_.size()] { serve(number); });
+    try {
+      while (threads_.size() < helpers) threads_.emplace_back([this, number = threads_.size()] { serve(number); });
+    } catch (std::system_error const&) {
+      // No more are to be had: those that there are do the work.
+    }
     helpers_ = helpers;
     loop_ = &loop;
     ++loops_;

@@ -26,12 +26,6 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
       fmt::format("particle {} of '{}' is at a position that is not finite", particle, ensemble.name()));
 }
 
-/// x inside a periodic axis.
-double wrapped(double x, Box const& box, int axis) {
-  double const length = box.length(axis), low = box.low(axis);
-  return x < low || x >= low + length ? x - length * std::floor((x - low) / length) : x;
-}
-
 /// x in steps, modulo 2^32.
 std::int32_t in_steps(double x, double reach) {
   double steps = std::floor(x / reach * steps_of_reach + 0.5);
@@ -53,7 +47,7 @@ void Mirror::build(double reach, int threads) {
       for (int a = 0; a < dimension; ++a) {
         double const x = ensemble_->row(i)[a];
         if (!std::isfinite(x)) not_finite(*ensemble_, i);
-        references[i * dimension + a] = box_->periodic(a) ? wrapped(x, *box_, a) : x;
+        references[i * dimension + a] = box_->periodic(a) ? box_->wrapped(x, a) : x;
       }
   });
   build(reach, references, threads);
@@ -294,7 +288,7 @@ void Mirror::move(std::span<std::uint32_t const> rows) {
   for (std::size_t n = 0; n < rows.size(); ++n)
     for (int a = 0; a < box_->dimension(); ++a) {
       double const x = rows_[row_block * rows[n] + a];
-      references[3 * n + a] = box_->periodic(a) ? wrapped(x, *box_, a) : x;
+      references[3 * n + a] = box_->periodic(a) ? box_->wrapped(x, a) : x;
     }
   move(rows, references);
 }
@@ -366,8 +360,7 @@ void Mirror::owned_near(double const* x, double reach, std::vector<std::uint32_t
   auto const take = [&](auto const& position, std::size_t s, std::uint32_t item) {
     double square = 0;
     for (int a = 0; a < box_->dimension(); ++a) {
-      double const d =
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(position[a][s]) - static_cast<std::uint32_t>(steps[a]));
+      double const d = wrapped_difference(position[a][s], steps[a]);
       square += d * d;
     }
     if (square > furthest * furthest) return;

@@ -28,6 +28,11 @@ template <int W>
 /// W steps.
 template <int W>
 using Steps = typename register_of<std::int32_t, W>::type;
+/// Differences are modulo 2^32: overflow of signed numbers would have no meaning.
+template <int W>
+[[gnu::always_inline]] inline Steps<W> less(Steps<W> a, Steps<W> b) {
+  return (Steps<W>)((Words<W>)a - (Words<W>)b);
+}
 template <int W>
 [[gnu::always_inline]] inline Steps<W> load_steps(std::int32_t const* from) {
   Steps<W> steps;
@@ -43,11 +48,6 @@ template <int W>
 template <int W>
 [[gnu::always_inline]] inline LaneBits first_lanes(std::uint32_t count) {
   return count >= W ? (1U << W) - 1U : (1U << count) - 1U;
-}
-
-/// a - b modulo 2^32.
-[[gnu::always_inline]] inline std::int32_t wrapped_difference(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
 
 /// Consecutive targets, which are near each other, share the search: those within reach of the block around them are
@@ -119,9 +119,9 @@ template <int W, int D>
       for (; k < end_of_range; k += W) {
         Pack<float, W> relative[D], square = 0.0F;
         for (int a = 0; a < D; ++a) {
-          auto const steps = load_steps<W>(among.position[a] + k) - corner[a];
+          auto const steps = less<W>(load_steps<W>(among.position[a] + k), Steps<W>{} + corner[a]);
           relative[a] = to_float<W>(steps);
-          auto const beyond = steps - extent[a], before = -steps;
+          auto const beyond = less<W>(steps, Steps<W>{} + extent[a]), before = less<W>(Steps<W>{}, steps);
           auto out_of = beyond > before ? beyond : before;
           out_of = out_of > 0 ? out_of : Steps<W>{};
           auto const distance = to_float<W>(out_of);
@@ -176,7 +176,7 @@ template <int W, int D>
       }
       auto const used = (static_cast<std::size_t>(next - row) + list_padding - 1) / list_padding * list_padding;
       for (std::size_t k = 0; k < list_padding; ++k) next[k] = task.sentinel;
-      out.offset[i] = out.used;
+      out.offset[i - out.first] = out.used;
       out.used += used;
     }
     first = last;

@@ -45,6 +45,11 @@ struct NearTask {
 [[gnu::always_inline]] inline std::uint32_t item_of_row(std::size_t row) { return static_cast<std::uint32_t>(4 * row); }
 [[gnu::always_inline]] inline std::size_t row_of_item(std::uint32_t item) { return item / 4; }
 
+/// a - b in steps.
+[[gnu::always_inline]] inline std::int32_t wrapped_difference(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
 /// What is found. Room is not made here: a kernel stops before the targets for which it may be too little.
 struct NearRows {
   std::uint32_t* index = nullptr;  ///< rows of items, padded
@@ -55,7 +60,8 @@ struct NearRows {
   std::uint32_t* near_item = nullptr;
   std::uint32_t* shell_item[list_rings] = {};
   std::size_t scratch = 0;
-  std::size_t* offset = nullptr;    ///< of each row in `index`
+  std::size_t* offset = nullptr;  ///< of each row in `index`, those of `first` and the following
+  std::size_t first = 0;
   std::uint32_t* length = nullptr;  ///< of each row up to ring r: length[r * rows + row]
   std::size_t rows = 0;
   std::size_t wanted = 0,

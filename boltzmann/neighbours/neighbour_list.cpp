@@ -23,6 +23,7 @@ NearTask task_of(Mirror const& target, Mirror const& source, double cutoff, doub
   return task;
 }
 
+/// What a search needs besides the list itself; kept while one thread goes from chunk to chunk.
 struct Scratch {
   std::array<std::vector<float>, 3> positions;
   std::array<std::vector<std::uint32_t>, list_rings> items;
@@ -70,10 +71,11 @@ void NeighbourList::build(Mirror const& target, Mirror const& source, double cut
     scratch.offset.resize(grain);
     for (std::size_t begin = first; begin < last; begin += grain) {
       std::size_t const end = std::min(begin + grain, last);
-      auto& index = chunks_[begin / grain].index;
+      auto& index = chunks_[begin / grain];
       if (index.empty()) index.resize(first_guess * (end - begin));
       NearRows out;
-      out.offset = scratch.offset.data() - begin;
+      out.offset = scratch.offset.data();
+      out.first = begin;
       out.length = length_.data();
       out.rows = rows;
       find(kernel, task, begin, end, out, index, scratch);
@@ -94,7 +96,8 @@ void NeighbourList::rebuild(Mirror const& target, Mirror const& source, std::spa
     std::uint32_t const before = lengths(list_rings - 1)[i];
     std::size_t offset = 0;
     NearRows out;
-    out.offset = &offset - i;
+    out.offset = &offset;
+    out.first = i;
     out.length = length_.data();
     out.rows = size();
     find(kernel, task, i, i + 1, out, index, scratch);
@@ -108,7 +111,7 @@ void NeighbourList::rebuild(Mirror const& target, Mirror const& source, std::spa
 
 std::size_t NeighbourList::bytes() const {
   std::size_t total = row_.capacity() * sizeof(row_[0]) + length_.capacity() * sizeof(length_[0]);
-  for (auto const& chunk : chunks_) total += chunk.index.capacity() * sizeof(chunk.index[0]);
+  for (auto const& chunk : chunks_) total += chunk.capacity() * sizeof(chunk[0]);
   for (auto const& row : replaced_) total += row.capacity() * sizeof(row[0]) + sizeof(row);
   return total;
 }

@@ -34,15 +34,11 @@ class NeighbourList {
   std::size_t bytes() const;
 
  private:
-  struct Chunk {
-    std::vector<std::uint32_t> index;  // its size is room, not content
-  };
-
   double cutoff_ = 0, skin_ = 0;
   std::size_t entries_ = 0;
   std::vector<std::uint32_t*> row_;
   std::vector<std::uint32_t> length_;
-  std::vector<Chunk> chunks_;
+  std::vector<std::vector<std::uint32_t>> chunks_;   // their size is room, not content
   std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place
 };
 

@@ -213,7 +213,7 @@ std::size_t PairScheme::rows() const {
   return rows;
 }
 
-double PairScheme::rows_to_find(std::size_t moved) const {
+double PairScheme::rows_around_one() const {
   std::size_t entries = 0, targets = 0;
   for (auto const& near : near_)
     if (!near->all_pairs()) {
@@ -221,14 +221,19 @@ double PairScheme::rows_to_find(std::size_t moved) const {
       targets += near->list.size();
     }
   // The neighbours at the old place and at the new one, and what it costs to know who they are.
-  return static_cast<double>(moved) * (2.0 * static_cast<double>(entries) / static_cast<double>(targets + 1) + 20);
+  return 2.0 * static_cast<double>(entries) / static_cast<double>(targets + 1) + 20;
+}
+
+double PairScheme::longest_reach() const {
+  double reach = 0;
+  for (auto const& near : near_)
+    if (!near->all_pairs()) reach = std::max(reach, near->cutoff + skin_);
+  return reach;
 }
 
 void PairScheme::build_lists() {
-  reach_ = 0;
-  for (auto& near : near_)
-    if (!near->all_pairs()) reach_ = std::max(reach_, near->cutoff + skin_);
-  for (auto& mirror : mirrors_) mirror->build(reach_, worth(mirror->ensemble().size(), particles_worth_threads));
+  double const reach = longest_reach();
+  for (auto& mirror : mirrors_) mirror->build(reach, worth(mirror->ensemble().size(), particles_worth_threads));
   find_neighbours();
 }
 
@@ -297,7 +302,8 @@ bool PairScheme::lists_hold() {
   // Everybody pays for particles that have moved: some, until a build is cheaper.
   bool const may_move = moved_before < most_moved && found_again_ < all;
   auto const affordable = [&](double share) {
-    return may_move ? std::min(static_cast<std::size_t>(share * all / rows_to_find(1)), most_moved - moved_before) : 0;
+    return may_move ? std::min(static_cast<std::size_t>(share * all / rows_around_one()), most_moved - moved_before)
+                    : 0;
   };
   std::size_t const few = affordable(share_of_few);
   for (int ring = 0; ring < list_rings; ++ring) {
@@ -537,9 +543,9 @@ void PairScheme::restore(std::span<double const> state) {
   quantum_ = head[0];
   lists_stale_ = head[1] != 0;
   if (!lists_stale_ && !mirrors_.empty()) {
-    build_lists();
+    double const reach = longest_reach();
     for (auto& mirror : mirrors_) {
-      mirror->build(reach_, next(mirror->ensemble().size() * box().dimension()));
+      mirror->build(reach, next(mirror->ensemble().size() * box().dimension()));
       std::vector<std::uint32_t> row_of(mirror->owned()), rows;
       for (std::uint32_t k = 0; k < mirror->owned(); ++k) row_of[mirror->order()[k]] = k;
       std::vector<double> references;

@@ -144,14 +144,14 @@ class PairScheme final : public Scheme {
   void find_neighbours();
   bool move_beyond(double square, std::size_t most);
   void move(std::vector<Moved> const& moved);
-  double rows_to_find(std::size_t moved) const;
+  double rows_around_one() const;
+  double longest_reach() const;
   std::size_t rows() const;
   void calculate(double time, bool overwrite);
   int worth(std::size_t work, std::size_t least) const;
 
   double cutoff_;
   double skin_;
-  double reach_ = 0;  // of the longest list
   double quantum_ = 0;
   bool lists_stale_ = true, shifted_ = true, skin_chosen_ = false;
   int ring_ = 0;            // how far lists are read

@@ -26,9 +26,8 @@ struct PairTask {
   double period[3] = {0, 0, 0};          ///< length of periodic axes (connections)
   double inverse_period[3] = {0, 0, 0};  ///< its inverse, 0 on other axes
   double* influence = nullptr;
-  double* reaction = nullptr;  ///< the source's influence, where the traversal visits each pair once
-  double* energy = nullptr;    ///< measuring: half of each pair's energy
-  double* virial = nullptr;    ///< measuring: 9 numbers a particle, half of each pair's -r_a F_b
+  double* energy = nullptr;  ///< measuring: half of each pair's energy
+  double* virial = nullptr;  ///< measuring: 9 numbers a particle, half of each pair's -r_a F_b
 };
 
 using PairKernel = void (*)(void const* law, PairTask const& task, std::size_t begin, std::size_t end);
