@@ -1,57 +1,19 @@
-// Averaged windowed periodograms by FFTW, and the way from particles on a line to a uniform grid.
+// Averaged windowed periodograms, and the way from particles on a line to a uniform grid.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/fourier.hpp>
 #include <boltzmann/diagnoses/spectrum.hpp>
 
-#include <fftw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <numbers>
 #include <numeric>
 
 namespace boltzmann {
 namespace {
-
-/// FFTW runs plans in many threads at once, but makes and destroys them in one at a time.
-std::mutex& planner() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-/// A real transform of fixed length with its two arrays.
-class RealTransform {
- public:
-  explicit RealTransform(std::size_t length)
-      : length_(length), input_(fftw_alloc_real(length)), output_(fftw_alloc_complex(length / 2 + 1)) {
-    std::lock_guard const lock(planner());
-    plan_ = fftw_plan_dft_r2c_1d(static_cast<int>(length), input_.get(), output_.get(), FFTW_ESTIMATE);
-  }
-  ~RealTransform() {
-    std::lock_guard const lock(planner());
-    fftw_destroy_plan(plan_);
-  }
-  RealTransform(RealTransform const&) = delete;
-  RealTransform& operator=(RealTransform const&) = delete;
-
-  std::span<double> input() { return {input_.get(), length_}; }
-  void execute() { fftw_execute(plan_); }
-  /// |X_k|^2 after execute(), k = 0 .. length/2.
-  double power(std::size_t k) const { return output_[k][0] * output_[k][0] + output_[k][1] * output_[k][1]; }
-
- private:
-  struct Free {
-    void operator()(void* array) const { fftw_free(array); }
-  };
-  std::size_t length_;
-  std::unique_ptr<double[], Free> input_;
-  std::unique_ptr<fftw_complex[], Free> output_;
-  fftw_plan plan_ = nullptr;
-};
 
 /// The triangle that reaches 0 one half sample beyond both ends (section 5.2.3.5).
 std::vector<double> parzen_window(std::size_t length) {
@@ -82,14 +44,15 @@ Spectrum averaged_periodogram(std::span<std::span<double const> const> segments,
   for (std::size_t k = 0; k < spectrum.density.size(); ++k)
     spectrum.frequency.push_back(static_cast<double>(k) * spectrum.resolution);
 
-  RealTransform transform(length);
+  LineTransform const transform(FourierKind::real_to_complex, length);
+  FourierArray input(length), output(2 * (length / 2 + 1));
   for (auto const segment : segments) {
-    for (std::size_t j = 0; j < length; ++j) transform.input()[j] = window[j] * segment[j];
-    transform.execute();
+    for (std::size_t j = 0; j < length; ++j) input[j] = window[j] * segment[j];
+    transform.execute(input.data(), output.data());
     for (std::size_t k = 0; k < spectrum.density.size(); ++k) {
       // k and length - k hold the same power; 0 and Nyquist are their own partners.
       double const partners = k == 0 || 2 * k == length ? 1.0 : 2.0;
-      spectrum.density[k] += partners * transform.power(k);
+      spectrum.density[k] += partners * (output[2 * k] * output[2 * k] + output[2 * k + 1] * output[2 * k + 1]);
     }
   }
   double const scale = spacing / (window_power * static_cast<double>(segments.size()));

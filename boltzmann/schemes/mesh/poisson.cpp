@@ -1,0 +1,852 @@
+// Poisson's equation axis by axis: every axis has modes in which the Laplacian is a factor, and a transform of its own.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/fourier.hpp>
+#include <boltzmann/core/number.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/schemes/mesh/open_kernel.hpp>
+#include <boltzmann/schemes/mesh/poisson.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+// ---- Axes ----
+
+enum class Kind { single, periodic, dirichlet, neumann, dirichlet_neumann, neumann_dirichlet, open };
+
+/// The mesh has three slots: rows along x, planes of rows, and the last axis, that of the planes. In 2D y is the last
+/// axis and a plane has a single row.
+struct Axis {
+  Kind kind = Kind::single;
+  std::size_t nodes = 1, cells = 1;
+  std::size_t first = 0, samples = 1;  ///< the nodes that are transformed
+  std::size_t modes = 1;               ///< also the length of the transform
+  double spacing = 1;
+  double scale = 1;                ///< 1 / (what a transform there and back multiplies with)
+  std::vector<double> eigenvalue;  ///< of -d^2/dx^2, for each mode
+  std::vector<double> slope;       ///< of -d/dx: see Lines::slope
+
+  bool complex() const { return kind == Kind::periodic || kind == Kind::open; }
+  /// Of modes that differ in their sign only, the number of the positive one.
+  std::size_t folded(std::size_t mode) const { return complex() ? std::min(mode, modes - mode) : mode; }
+  std::size_t folded_modes() const { return complex() ? modes / 2 + 1 : modes; }
+};
+
+char const* word(FieldBoundary boundary) {
+  switch (boundary) {
+    case FieldBoundary::periodic:
+      return "periodic";
+    case FieldBoundary::dirichlet:
+      return "Dirichlet";
+    case FieldBoundary::neumann:
+      return "Neumann";
+    case FieldBoundary::open:
+      return "open";
+  }
+  return "unknown";
+}
+
+Kind kind_of(FieldEnds const& ends, char name) {
+  using enum FieldBoundary;
+  for (FieldBoundary const both : {periodic, open})
+    if ((ends.low == both) != (ends.high == both))
+      throw Error(fmt::format("mesh: axis {} is {} at its low end and {} at its high end; {} must be both or none",
+                              name, word(ends.low), word(ends.high), word(both)));
+  if (ends.low == periodic) return Kind::periodic;
+  if (ends.low == open) return Kind::open;
+  if (ends.low == dirichlet) return ends.high == dirichlet ? Kind::dirichlet : Kind::dirichlet_neumann;
+  return ends.high == dirichlet ? Kind::neumann_dirichlet : Kind::neumann;
+}
+
+/// The axis without its tables.
+Axis make_axis(MeshGrid const& grid, FieldEnds const& ends, int a) {
+  char const name = "xyz"[a];
+  Axis axis;
+  axis.kind = kind_of(ends, name);
+  if (grid.periodic[a] != (axis.kind == Kind::periodic))
+    throw Error(fmt::format("mesh: axis {} of the mesh is {}periodic, but the potential's ends are {} and {}", name,
+                            grid.periodic[a] ? "" : "not ", word(ends.low), word(ends.high)));
+  std::size_t const least = axis.kind == Kind::dirichlet ? 2 : 1;
+  if (grid.nodes[a] < 1 || grid.cells(a) < least)
+    throw Error(fmt::format("mesh: axis {} has {} cell(s); with the ends {} and {} it needs {} or more", name,
+                            grid.nodes[a] < 1 ? 0 : grid.cells(a), word(ends.low), word(ends.high), least));
+  if (!(grid.spacing[a] > 0 && std::isfinite(grid.spacing[a])))
+    throw Error(fmt::format("mesh: the spacing along {} is {}; it must be finite and > 0", name, grid.spacing[a]));
+  axis.nodes = grid.nodes[a];
+  std::size_t const n = axis.cells = grid.cells(a);
+  axis.spacing = grid.spacing[a];
+  axis.samples = axis.modes = n;
+  std::size_t logical = 2 * n;
+  switch (axis.kind) {
+    case Kind::dirichlet:
+      axis.samples = axis.modes = n - 1;
+      axis.first = 1;
+      break;
+    case Kind::neumann:
+      axis.samples = axis.modes = n + 1;
+      break;
+    case Kind::dirichlet_neumann:
+      axis.first = 1;
+      break;
+    case Kind::open:
+      axis.samples = n + 1;
+      axis.modes = logical = fast_even_length(2 * n + 2);
+      break;
+    case Kind::periodic:
+      logical = n;
+      break;
+    default:
+      break;
+  }
+  axis.scale = 1 / static_cast<double>(logical);
+  return axis;
+}
+
+void fill_tables(Axis& axis, PoissonForm form) {
+  axis.eigenvalue.assign(axis.modes, 0);
+  axis.slope.assign(axis.modes, 0);
+  std::size_t const n = axis.modes;
+  double const length = static_cast<double>(axis.cells) * axis.spacing;
+  for (std::size_t j = 0; j < n; ++j) {
+    double k = 0;
+    switch (axis.kind) {
+      case Kind::single:
+        return;
+      case Kind::open:
+        axis.slope[j] = j == 0 || 2 * j == n ? 0 : 2 * j < n ? 1 : -1;
+        continue;
+      case Kind::periodic:
+        k = 2 * pi * static_cast<double>(axis.folded(j)) / length;
+        axis.slope[j] = 2 * j == n ? 0 : 2 * j < n ? -k : k;
+        break;
+      case Kind::dirichlet:
+        k = pi * static_cast<double>(j + 1) / length;
+        axis.slope[j] = -k;
+        break;
+      case Kind::neumann:
+        k = pi * static_cast<double>(j) / length;
+        axis.slope[j] = k;
+        break;
+      case Kind::dirichlet_neumann:
+      case Kind::neumann_dirichlet:
+        k = pi * (static_cast<double>(j) + 0.5) / length;
+        axis.slope[j] = axis.kind == Kind::dirichlet_neumann ? -k : k;
+        break;
+    }
+    double const difference = 2 / axis.spacing * std::sin(k * axis.spacing / 2);
+    axis.eigenvalue[j] = form == PoissonForm::spectral ? k * k : difference * difference;
+  }
+}
+
+// ---- Lines: the transforms of one axis ----
+
+constexpr std::size_t block_width = 16;  ///< doubles, two cache lines: so many columns are transformed at once
+
+enum class Layout {
+  row,              ///< one line; periodic and open: complex modes 0 .. n/2
+  complex_columns,  ///< block_width / 2 complex lines (or pairs of real ones: all that is done is linear)
+  real_columns,     ///< block_width real lines
+};
+
+/// A range of nodes; the others are zero.
+struct Nodes {
+  std::size_t first, count;
+};
+
+class Lines {
+ public:
+  Lines() = default;
+  Lines(Axis const& axis, Layout layout, bool with_slope) : axis_(&axis), layout_(layout) {
+    std::size_t const n = axis.modes;
+    std::size_t count = layout == Layout::row ? 1 : block_width;
+    width_ = count;
+    using enum FourierKind;
+    switch (axis.kind) {
+      case Kind::single:
+        break;
+      case Kind::periodic:
+      case Kind::open:
+        if (layout == Layout::complex_columns) count /= 2;
+        forward_ = {layout == Layout::row               ? real_to_complex
+                    : layout == Layout::complex_columns ? complex_forward
+                                                        : real_to_halfcomplex,
+                    n, count};
+        backward_ = {layout == Layout::row               ? complex_to_real
+                     : layout == Layout::complex_columns ? complex_backward
+                                                         : halfcomplex_to_real,
+                     n, count};
+        if (with_slope) slope_ = backward_;
+        break;
+      case Kind::dirichlet:
+        forward_ = backward_ = {sine, n, count};
+        if (with_slope) slope_ = {cosine, n + 2, count};
+        break;
+      case Kind::neumann:
+        forward_ = backward_ = {cosine, n, count};
+        if (with_slope && n > 2) slope_ = {sine, n - 2, count};
+        break;
+      case Kind::dirichlet_neumann:
+        forward_ = {sine_to_halves, n, count};
+        backward_ = {halves_to_sine, n, count};
+        if (with_slope) slope_ = {halves_to_cosine, n, count};
+        break;
+      case Kind::neumann_dirichlet:
+        forward_ = {cosine_to_halves, n, count};
+        backward_ = {halves_to_cosine, n, count};
+        if (with_slope) slope_ = {halves_to_sine, n, count};
+        break;
+    }
+  }
+
+  /// Doubles that each of the two arrays of a call must have.
+  static std::size_t buffer_size(Axis const& axis, Layout layout) {
+    return (axis.modes + 2) * (layout == Layout::row ? 1 : block_width);
+  }
+
+  /// Samples in `a` to modes in `b`. Either array is destroyed by what reads it.
+  void forward(double* a, double* b) const {
+    if (!forward_) return copy(a, b);
+    if (axis_->kind == Kind::open) std::fill(a + axis_->samples * width_, a + axis_->modes * width_, 0.0);
+    forward_.execute(a, b);
+  }
+  /// Modes in `b` to samples in `a`, not divided by anything.
+  Nodes backward(double* b, double* a) const {
+    if (backward_)
+      backward_.execute(b, a);
+    else
+      copy(b, a);
+    return {axis_->first, axis_->samples};
+  }
+  /// Modes in `b` to factor (-d/dx) at nodes. The derivative of exp(i k x) is i k exp(i k x), that of a sine series is
+  /// a cosine series and the other way around; along an open axis the modes are those of the slope already, without
+  /// their i and sign.
+  Nodes slope(double* b, double* a, double factor) const {
+    std::size_t const n = axis_->modes, w = width_;
+    double const* const slope = axis_->slope.data();
+    Nodes nodes{0, n};
+    switch (axis_->kind) {
+      case Kind::single:
+        std::fill_n(a, w, 0.0);
+        return {0, 1};
+      case Kind::periodic:
+      case Kind::open:
+        nodes.count = axis_->nodes;
+        if (layout_ == Layout::real_columns)
+          rotate_halfcomplex(b, factor);
+        else
+          rotate_complex(b, factor);
+        break;
+      case Kind::dirichlet:
+        nodes.count = n + 2;
+        std::fill_n(b + (n + 1) * w, w, 0.0);
+        for (std::size_t j = n; j-- > 0;)
+          for (std::size_t c = 0; c < w; ++c) b[(j + 1) * w + c] = factor * slope[j] * b[j * w + c];
+        std::fill_n(b, w, 0.0);
+        break;
+      case Kind::neumann:
+        nodes = {1, n - 2};
+        for (std::size_t j = 1; j + 1 < n; ++j)
+          for (std::size_t c = 0; c < w; ++c) b[(j - 1) * w + c] = factor * slope[j] * b[j * w + c];
+        if (n == 2) return nodes;
+        break;
+      case Kind::dirichlet_neumann:
+      case Kind::neumann_dirichlet:
+        nodes.first = axis_->kind == Kind::neumann_dirichlet ? 1 : 0;
+        for (std::size_t j = 0; j < n; ++j)
+          for (std::size_t c = 0; c < w; ++c) b[j * w + c] *= factor * slope[j];
+        break;
+    }
+    slope_.execute(b, a);
+    return nodes;
+  }
+
+ private:
+  void copy(double const* from, double* to) const { std::copy_n(from, axis_->modes * width_, to); }
+
+  void rotate_complex(double* b, double factor) const {
+    std::size_t const rows = layout_ == Layout::row ? axis_->modes / 2 + 1 : axis_->modes;
+    std::size_t const pairs = layout_ == Layout::row ? 1 : width_ / 2;
+    for (std::size_t j = 0; j < rows; ++j) {
+      double const f = factor * axis_->slope[j];
+      for (std::size_t c = 0; c < pairs; ++c, b += 2) {
+        double const real = b[0];
+        b[0] = -f * b[1];
+        b[1] = f * real;
+      }
+    }
+  }
+  void rotate_halfcomplex(double* b, double factor) const {
+    std::size_t const n = axis_->modes, w = width_;
+    std::fill_n(b, w, 0.0);
+    if (n % 2 == 0) std::fill_n(b + n / 2 * w, w, 0.0);
+    for (std::size_t j = 1; 2 * j < n; ++j)
+      for (std::size_t c = 0; c < w; ++c) {
+        double const f = factor * axis_->slope[j], real = b[j * w + c];
+        b[j * w + c] = -f * b[(n - j) * w + c];
+        b[(n - j) * w + c] = f * real;
+      }
+  }
+
+  Axis const* axis_ = nullptr;
+  Layout layout_ = Layout::row;
+  std::size_t width_ = 1;
+  LineTransform forward_, backward_, slope_;
+};
+
+struct Scratch {
+  Scratch(std::size_t block, std::size_t row) : a(block), b(block), c(row) {}
+  FourierArray a, b, c;  ///< c: a second row of modes, for its slope
+};
+
+/// Columns of an array to a block, and back.
+void load(double const* from, std::size_t stride, std::size_t rows, std::size_t columns, double* block) {
+  if (columns == block_width) {
+    for (std::size_t j = 0; j < rows; ++j)
+      std::memcpy(block + j * block_width, from + j * stride, sizeof(double[block_width]));
+    return;
+  }
+  for (std::size_t j = 0; j < rows; ++j) {
+    std::copy_n(from + j * stride, columns, block + j * block_width);
+    std::fill_n(block + j * block_width + columns, block_width - columns, 0.0);
+  }
+}
+void store(double const* block, std::size_t rows, std::size_t columns, double* to, std::size_t stride) {
+  if (columns == block_width) {
+    for (std::size_t j = 0; j < rows; ++j)
+      std::memcpy(to + j * stride, block + j * block_width, sizeof(double[block_width]));
+    return;
+  }
+  for (std::size_t j = 0; j < rows; ++j) std::copy_n(block + j * block_width, columns, to + j * stride);
+}
+/// The nodes of an axis that a block or row has; zero at the others.
+void store_nodes(double const* block, Nodes nodes, std::size_t all, std::size_t columns, double* to,
+                 std::size_t stride) {
+  for (std::size_t j = 0; j < nodes.first; ++j) std::fill_n(to + j * stride, columns, 0.0);
+  store(block, nodes.count, columns, to + nodes.first * stride, stride);
+  for (std::size_t j = nodes.first + nodes.count; j < all; ++j) std::fill_n(to + j * stride, columns, 0.0);
+}
+void store_row(double const* values, Nodes nodes, std::size_t all, double* to) {
+  std::fill_n(to, nodes.first, 0.0);
+  std::copy_n(values, nodes.count, to + nodes.first);
+  std::fill(to + nodes.first + nodes.count, to + all, 0.0);
+}
+
+/// A potential on the nodes, with gaps between rows and planes.
+struct View {
+  double const* data;
+  std::size_t row, plane;
+};
+
+/// E at a node from at most three nodes of its line.
+struct Difference {
+  std::array<std::size_t, 3> node{};
+  std::array<double, 3> weight{};
+  int terms = 2;
+};
+
+Difference difference_at(Axis const& axis, std::size_t j) {
+  std::size_t const last = axis.nodes - 1;
+  double const w = 1 / (2 * axis.spacing);
+  if (axis.kind == Kind::periodic) return {{j == 0 ? last : j - 1, j == last ? 0 : j + 1}, {w, -w}};
+  if (j > 0 && j < last) return {{j - 1, j + 1}, {w, -w}};
+  double const sign = j == 0 ? 1 : -1;
+  auto const inward = [&](std::size_t steps) { return j == 0 ? steps : last - steps; };
+  switch (axis.kind) {
+    case Kind::open:
+      if (last < 2) return {{inward(0), inward(1)}, {2 * sign * w, -2 * sign * w}};
+      return {{inward(0), inward(1), inward(2)}, {3 * sign * w, -4 * sign * w, sign * w}, 3};
+    case Kind::dirichlet:
+    case Kind::dirichlet_neumann:
+    case Kind::neumann_dirichlet:
+      if (axis.kind == Kind::dirichlet || (axis.kind == Kind::dirichlet_neumann) == (j == 0))
+        return {{inward(1), inward(1)}, {-sign * w, -sign * w}};
+      [[fallthrough]];
+    default:
+      return {{j, j}, {0, 0}};
+  }
+}
+
+// ---- Sizes ----
+
+struct Shape {
+  std::array<Axis, 3> axis;             ///< by slot
+  std::array<int, 3> slot_of{0, 1, 2};  ///< by axis of the mesh
+  int dimension = 1;
+  bool complex_rows = false, any_open = false;
+  std::size_t columns = 0;         ///< doubles of a transformed row
+  std::size_t row = 0, plane = 0;  ///< from a row, a plane, to the next
+  std::size_t spectrum = 0;        ///< doubles of an array of modes
+  std::size_t scratch = 0;         ///< doubles of a block
+  std::array<std::size_t, 3> table{1, 1, 1};
+  std::vector<OpenAxis> open_axes;
+
+  std::size_t table_size() const { return table[0] * table[1] * table[2]; }
+};
+
+Layout column_layout(Shape const& shape, Axis const& axis) {
+  return shape.complex_rows && axis.complex() ? Layout::complex_columns : Layout::real_columns;
+}
+
+Shape make_shape(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, bool green) {
+  if (grid.dimension < 1 || grid.dimension > 3)
+    throw Error(fmt::format("mesh: {} dimensions; a mesh has 1, 2 or 3", grid.dimension));
+  Shape shape;
+  shape.dimension = grid.dimension;
+  if (grid.dimension == 2) shape.slot_of = {0, 2, 1};
+  for (int a = 0; a < grid.dimension; ++a) {
+    Axis& axis = shape.axis[shape.slot_of[a]];
+    axis = make_axis(grid, ends[a], a);
+    if (green && axis.kind != Kind::periodic)
+      throw Error(
+          fmt::format("mesh: axis {} is not periodic; a Green function of one's own needs periodic axes", "xyz"[a]));
+  }
+  Axis const &x = shape.axis[0], &mid = shape.axis[1], &last = shape.axis[2];
+  shape.complex_rows = x.complex();
+  shape.columns = x.complex() ? 2 * (x.modes / 2 + 1) : x.modes;
+  shape.row = std::max(shape.columns, x.nodes);
+  shape.plane = shape.row * std::max(mid.nodes, mid.modes);
+  shape.spectrum = shape.plane * last.nodes;
+  shape.scratch = std::max({Lines::buffer_size(x, Layout::row), Lines::buffer_size(mid, Layout::real_columns),
+                            Lines::buffer_size(last, Layout::real_columns)});
+  for (int s = 0; s < 3; ++s) {
+    Axis const& axis = shape.axis[s];
+    shape.table[s] = green && s > 0 ? axis.modes : axis.folded_modes();
+    if (axis.kind != Kind::open) continue;
+    shape.any_open = true;
+    shape.open_axes.push_back({axis.cells, axis.modes, axis.spacing});
+  }
+  return shape;
+}
+
+struct Memory {
+  std::size_t held, most;
+};
+
+int threads_for(MeshGrid const& grid, int threads) { return grid.size() < 16384 ? 1 : std::max(threads, 1); }
+
+std::size_t row_scratch(Shape const& shape, PoissonForm form) {
+  return form == PoissonForm::spectral ? Lines::buffer_size(shape.axis[0], Layout::row) : 0;
+}
+
+Memory memory(Shape const& shape, MeshGrid const& grid, PoissonForm form, int threads, bool green) {
+  bool const slopes = form == PoissonForm::spectral;
+  std::size_t const used = threads_for(grid, threads);
+  std::size_t tables = green ? shape.table_size() : 0, making = 0;
+  if (shape.any_open) {
+    tables = shape.table_size() * (slopes ? 1 + shape.open_axes.size() : 1);
+    OpenKernel const kernel(shape.open_axes);
+    bool const one = shape.table_size() == kernel.table_size();
+    making = kernel.scratch_size() * (one ? 1 : used);
+  }
+  std::size_t doubles = shape.spectrum * (slopes && shape.any_open ? 2 : 1) + tables;
+  for (Axis const& axis : shape.axis) doubles += 4 * axis.modes;  // two tables, and about two in the plans
+  doubles += shape.axis[0].folded_modes() + block_width;
+  return {
+      sizeof(double) * doubles,
+      sizeof(double) * (std::max(doubles + (2 * shape.scratch + row_scratch(shape, form)) * used, tables + making))};
+}
+
+}  // namespace
+
+// ---- The solver ----
+
+struct PoissonSolver::Plans {
+  Shape shape;
+  MeshGrid grid;
+  PoissonForm form;
+  int threads;
+  Memory memory;
+  Lines x, mid, last;             ///< of the modes
+  std::array<Lines, 3> along;     ///< of the potential's lines, for their slopes
+  std::vector<double> row_modes;  ///< eigenvalues along x for each column (complex rows: for each pair)
+  std::vector<double> table;      ///< Green's function, if it isn't 1/k^2
+  std::array<std::vector<double>, 3> slope_table;  ///< by slot, for open axes
+  FourierArray spectrum, second;
+  double scale = 1;
+
+  Plans(MeshGrid const& g, std::array<FieldEnds, 3> const& ends, PoissonForm f, int t, GreensFunction const& green)
+      : shape(make_shape(g, ends, green != nullptr)),
+        grid(g),
+        form(f),
+        threads(threads_for(g, t)),
+        memory(boltzmann::memory(shape, g, f, t, green != nullptr)) {
+    for (Axis& axis : shape.axis) {
+      fill_tables(axis, form);
+      scale *= axis.scale;
+    }
+    bool const spectral = form == PoissonForm::spectral;
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
+    x = Lines(ax, Layout::row, spectral);
+    mid = Lines(amid, column_layout(shape, amid), spectral && amid.kind == Kind::open);
+    last = Lines(alast, column_layout(shape, alast), spectral && alast.kind == Kind::open);
+    if (spectral)
+      for (int s = 1; s < 3; ++s)
+        if (shape.axis[s].kind != Kind::single && shape.axis[s].kind != Kind::open)
+          along[s] =
+              Lines(shape.axis[s], shape.axis[s].complex() ? Layout::complex_columns : Layout::real_columns, true);
+    row_modes.assign(ax.eigenvalue.begin(), ax.eigenvalue.begin() + static_cast<std::ptrdiff_t>(ax.folded_modes()));
+    row_modes.resize(row_modes.size() + block_width, 1.0);
+    if (green) sample(green);
+    if (shape.any_open) make_open_tables();
+    spectrum = FourierArray(shape.spectrum);
+    if (spectral && shape.any_open) second = FourierArray(shape.spectrum);
+  }
+
+  std::size_t grain(std::size_t items) const { return 1 + items / (4 * static_cast<std::size_t>(threads)); }
+
+  /// function(item, scratch) for all items, by all threads.
+  template <class Function>
+  void for_items(std::size_t items, Function const& function) const {
+    for_ranges(items, grain(items), threads, [&](std::size_t begin, std::size_t end) {
+      Scratch scratch(shape.scratch, row_scratch(shape, form));
+      for (std::size_t i = begin; i < end; ++i) function(i, scratch);
+    });
+  }
+
+  void sample(GreensFunction const& green) {
+    table.resize(shape.table_size());
+    auto const wave_number = [](Axis const& axis, std::size_t j) {
+      double const m = 2 * j >= axis.cells && j > 0 ? static_cast<double>(j) - static_cast<double>(axis.cells)
+                                                    : static_cast<double>(j);
+      return 2 * pi * m / (static_cast<double>(axis.cells) * axis.spacing);
+    };
+    for (std::size_t l = 0; l < shape.table[2]; ++l)
+      for (std::size_t m = 0; m < shape.table[1]; ++m)
+        for (std::size_t i = 0; i < shape.table[0]; ++i) {
+          if (i + m + l == 0) continue;
+          std::array<std::size_t, 3> const mode{i, m, l};
+          std::array<double, 3> k{0, 0, 0};
+          for (int a = 0; a < shape.dimension; ++a)
+            k[a] = wave_number(shape.axis[shape.slot_of[a]], mode[shape.slot_of[a]]);
+          double const value = green(k);
+          if (!std::isfinite(value))
+            throw Error(fmt::format("mesh: the Green function at k = ({}, {}, {}) is {}; it must be finite", k[0], k[1],
+                                    k[2], value));
+          table[(l * shape.table[1] + m) * shape.table[0] + i] = value;
+        }
+  }
+
+  /// One small table over the open axes for every mode of the others, in a big one.
+  void make_open_tables() {
+    OpenKernel const kernel(shape.open_axes);
+    std::array<std::size_t, 3> const stride{1, shape.table[0], shape.table[0] * shape.table[1]};
+    std::array<std::size_t, 3> open{1, 1, 1}, other{1, 1, 1}, open_stride{0, 0, 0};
+    std::vector<int> open_slots;
+    for (int s = 0; s < 3; ++s) {
+      if (shape.axis[s].kind == Kind::open) {
+        open[open_slots.size()] = shape.table[s];
+        open_stride[open_slots.size()] = stride[s];
+        open_slots.push_back(s);
+      } else {
+        other[s] = shape.table[s];
+      }
+    }
+    bool const slopes = form == PoissonForm::spectral;
+    table.resize(shape.table_size());
+    if (slopes)
+      for (int const s : open_slots) slope_table[s].resize(shape.table_size());
+    std::size_t const tables = other[0] * other[1] * other[2];
+    int const inside = tables == 1 ? threads : 1;
+    for_ranges(tables, 1, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        std::array<std::size_t, 3> const mode{t % other[0], t / other[0] % other[1], t / (other[0] * other[1])};
+        double k2 = 0;
+        std::size_t start = 0;
+        for (int s = 0; s < 3; ++s) {
+          k2 += shape.axis[s].eigenvalue[mode[s]];
+          start += mode[s] * stride[s];
+        }
+        auto const put = [&](std::vector<double> const& small, std::vector<double>& big) {
+          std::size_t i = 0;
+          for (std::size_t c = 0; c < open[2]; ++c)
+            for (std::size_t b = 0; b < open[1]; ++b)
+              for (std::size_t a = 0; a < open[0]; ++a)
+                big[start + a * open_stride[0] + b * open_stride[1] + c * open_stride[2]] = small[i++];
+        };
+        put(kernel.potential(k2, inside), table);
+        if (slopes)
+          for (std::size_t o = 0; o < open_slots.size(); ++o)
+            put(kernel.slope(k2, static_cast<int>(o), inside), slope_table[open_slots[o]]);
+      }
+    });
+  }
+
+  /// Density to modes along x and the middle axis.
+  void forward(double const* density) {
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
+    for_items(alast.samples, [&](std::size_t l, Scratch& scratch) {
+      double* const a = scratch.a.data();
+      double* const b = scratch.b.data();
+      std::size_t const node = l + alast.first;
+      double* const plane = spectrum.data() + node * shape.plane;
+      for (std::size_t s = 0; s < amid.samples; ++s) {
+        std::copy_n(density + (node * amid.nodes + s + amid.first) * ax.nodes + ax.first, ax.samples, a);
+        x.forward(a, b);
+        std::copy_n(b, shape.columns, plane + s * shape.row);
+      }
+      if (amid.kind == Kind::single) return;
+      for (std::size_t c = 0; c < shape.columns; c += block_width) {
+        std::size_t const columns = std::min(block_width, shape.columns - c);
+        load(plane + c, shape.row, amid.samples, columns, a);
+        mid.forward(a, b);
+        store(b, amid.modes, columns, plane + c, shape.row);
+      }
+    });
+  }
+
+  /// Along the last axis to modes, times Green's function (or a table of slopes), and back.
+  void multiply(double amplitude, std::vector<double> const& factors, bool slope, double* to) {
+    Axis const &amid = shape.axis[1], &alast = shape.axis[2];
+    std::size_t const blocks = (shape.columns + block_width - 1) / block_width;
+    for_items(amid.modes * blocks, [&](std::size_t item, Scratch& scratch) {
+      double* const a = scratch.a.data();
+      double* const b = scratch.b.data();
+      std::size_t const m = item / blocks, c = item % blocks * block_width;
+      std::size_t const columns = std::min(block_width, shape.columns - c);
+      std::size_t const offset = m * shape.row + c;
+      load(spectrum.data() + alast.first * shape.plane + offset, shape.plane, alast.samples, columns, a);
+      last.forward(a, b);
+      if (factors.empty())
+        divide(b, c, amid.eigenvalue[m], amplitude);
+      else
+        multiply_by(factors, b, c, columns, m, amplitude);
+      Nodes const nodes = slope ? last.slope(b, a, 1.0) : last.backward(b, a);
+      store(a, nodes.count, columns, to + nodes.first * shape.plane + offset, shape.plane);
+    });
+  }
+
+  void divide(double* b, std::size_t column, double mid_eigenvalue, double amplitude) const {
+    double const* const last_eigenvalue = shape.axis[2].eigenvalue.data();
+    std::size_t const rows = shape.axis[2].modes;
+    auto const run = [&](auto numbers) {  // that share a factor
+      constexpr std::size_t lines = block_width / numbers;
+      std::array<double, lines> base;
+      for (std::size_t i = 0; i < lines; ++i) base[i] = row_modes[column / numbers + i] + mid_eigenvalue;
+      for (std::size_t l = 0; l < rows; ++l, b += block_width) {
+        std::array<double, lines> factor;
+        for (std::size_t i = 0; i < lines; ++i) {
+          double const sum = base[i] + last_eigenvalue[l];
+          factor[i] = amplitude / (sum > 0 ? sum : 1.0) * (sum > 0 ? 1.0 : 0.0);
+        }
+        for (std::size_t i = 0; i < block_width; ++i) b[i] *= factor[i / numbers];
+      }
+    };
+    if (shape.complex_rows)
+      run(std::integral_constant<std::size_t, 2>());
+    else
+      run(std::integral_constant<std::size_t, 1>());
+  }
+
+  void multiply_by(std::vector<double> const& factors, double* b, std::size_t column, std::size_t columns,
+                   std::size_t m, double amplitude) const {
+    Axis const& alast = shape.axis[2];
+    auto const entry = [&](int s, std::size_t mode) {
+      return shape.table[s] == shape.axis[s].modes ? mode : shape.axis[s].folded(mode);
+    };
+    std::size_t const numbers = shape.complex_rows ? 2 : 1;
+    double const* const start = factors.data() + entry(1, m) * shape.table[0] + column / numbers;
+    for (std::size_t l = 0; l < alast.modes; ++l, b += block_width) {
+      double const* const line = start + entry(2, l) * shape.table[0] * shape.table[1];
+      for (std::size_t i = 0; i < columns; ++i) b[i] *= amplitude * line[i / numbers];
+    }
+  }
+
+  /// Modes along x and the middle axis back to nodes, in place; copied to `values` if given, and the slope along x to
+  /// `x_slope`. If `slope_slot` is 0 or 1, the slope along that axis is taken on the way.
+  void backward(double* modes, int slope_slot, double* values, double* x_slope) {
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
+    for_items(alast.nodes, [&](std::size_t node, Scratch& scratch) {
+      double* const a = scratch.a.data();
+      double* const b = scratch.b.data();
+      double* const plane = modes + node * shape.plane;
+      bool const empty = node < alast.first || node >= alast.first + alast.samples;
+      if (amid.kind != Kind::single && !empty)
+        for (std::size_t c = 0; c < shape.columns; c += block_width) {
+          std::size_t const columns = std::min(block_width, shape.columns - c);
+          load(plane + c, shape.row, amid.modes, columns, b);
+          Nodes const nodes = slope_slot == 1 ? mid.slope(b, a, 1.0) : mid.backward(b, a);
+          store(a, nodes.count, columns, plane + nodes.first * shape.row + c, shape.row);
+        }
+      for (std::size_t j = 0; j < amid.nodes; ++j) {
+        double* const row = plane + j * shape.row;
+        std::size_t const target = (node * amid.nodes + j) * ax.nodes;
+        if (empty || j < amid.first || j >= amid.first + amid.samples) {
+          std::fill_n(row, ax.nodes, 0.0);
+          if (x_slope) std::fill_n(x_slope + target, ax.nodes, 0.0);
+        } else {
+          std::copy_n(row, shape.columns, b);
+          if (x_slope) {
+            std::copy_n(b, shape.columns, scratch.c.data());
+            Nodes const nodes = x.slope(scratch.c.data(), a, 1.0);
+            store_row(a, nodes, ax.nodes, x_slope + target);
+          }
+          Nodes const nodes = slope_slot == 0 ? x.slope(b, a, 1.0) : x.backward(b, a);
+          store_row(a, nodes, ax.nodes, row);
+        }
+        if (values) std::copy_n(row, ax.nodes, values + target);
+      }
+    });
+  }
+
+  void differences(int slot, View const& phi, double* field) const {
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
+    for_ranges(alast.nodes, grain(alast.nodes), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t l = begin; l < end; ++l) {
+        Difference const by_plane = difference_at(alast, l);
+        for (std::size_t j = 0; j < amid.nodes; ++j) {
+          double* const out = field + (l * amid.nodes + j) * ax.nodes;
+          if (slot == 0) {
+            row_differences(phi.data + l * phi.plane + j * phi.row, out);
+            continue;
+          }
+          Difference const d = slot == 1 ? difference_at(amid, j) : by_plane;
+          auto const line = [&](int i) {
+            return slot == 1 ? phi.data + l * phi.plane + d.node[i] * phi.row
+                             : phi.data + d.node[i] * phi.plane + j * phi.row;
+          };
+          double const *const p = line(0), *const q = line(1), *const r = line(2);
+          double const u = d.weight[0], v = d.weight[1], w = d.weight[2];
+          if (d.terms == 2)
+            for (std::size_t i = 0; i < ax.nodes; ++i) out[i] = u * p[i] + v * q[i];
+          else
+            for (std::size_t i = 0; i < ax.nodes; ++i) out[i] = u * p[i] + v * q[i] + w * r[i];
+        }
+      }
+    });
+  }
+
+  void row_differences(double const* phi, double* out) const {
+    Axis const& ax = shape.axis[0];
+    double const w = 1 / (2 * ax.spacing);
+    for (std::size_t i = 1; i + 1 < ax.nodes; ++i) out[i] = w * phi[i - 1] - w * phi[i + 1];
+    for (std::size_t const i : {std::size_t{0}, ax.nodes - 1}) {
+      Difference const d = difference_at(ax, i);
+      out[i] = 0;
+      for (int t = 0; t < d.terms; ++t) out[i] += d.weight[t] * phi[d.node[t]];
+    }
+  }
+
+  /// The slope along one axis, line by line.
+  void slope_along(int slot, View const& phi, double* field) const {
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
+    if (slot == 0) {
+      for_items(amid.nodes * alast.nodes, [&](std::size_t item, Scratch& scratch) {
+        std::size_t const l = item / amid.nodes, j = item % amid.nodes;
+        std::copy_n(phi.data + l * phi.plane + j * phi.row + ax.first, ax.samples, scratch.a.data());
+        x.forward(scratch.a.data(), scratch.b.data());
+        Nodes const nodes = x.slope(scratch.b.data(), scratch.a.data(), ax.scale);
+        store_row(scratch.a.data(), nodes, ax.nodes, field + item * ax.nodes);
+      });
+      return;
+    }
+    Axis const& axis = shape.axis[slot];
+    std::size_t const lines = slot == 1 ? alast.nodes : amid.nodes;  // of blocks
+    std::size_t const blocks = (ax.nodes + block_width - 1) / block_width;
+    std::size_t const from_stride = slot == 1 ? phi.row : phi.plane, from_line = slot == 1 ? phi.plane : phi.row;
+    std::size_t const to_stride = slot == 1 ? ax.nodes : ax.nodes * amid.nodes;
+    std::size_t const to_line = slot == 1 ? ax.nodes * amid.nodes : ax.nodes;
+    for_items(lines * blocks, [&](std::size_t item, Scratch& scratch) {
+      std::size_t const line = item / blocks, c = item % blocks * block_width;
+      std::size_t const columns = std::min(block_width, ax.nodes - c);
+      load(phi.data + line * from_line + axis.first * from_stride + c, from_stride, axis.samples, columns,
+           scratch.a.data());
+      along[slot].forward(scratch.a.data(), scratch.b.data());
+      Nodes const nodes = along[slot].slope(scratch.b.data(), scratch.a.data(), axis.scale);
+      store_nodes(scratch.a.data(), nodes, axis.nodes, columns, field + line * to_line + c, to_stride);
+    });
+  }
+
+  void solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
+             std::vector<std::vector<double>>* field) {
+    check(density, "density");
+    if (potential) potential->resize(grid.size());
+    if (field) resize(*field);
+    double const amplitude = constant * scale;
+    bool const spectral = form == PoissonForm::spectral;
+    forward(density.data());
+
+    bool slopes_missing = false;  // those that are taken from the potential
+    if (field)
+      for (int a = 0; a < shape.dimension; ++a) {
+        int const slot = shape.slot_of[a];
+        if (!spectral || shape.axis[slot].kind != Kind::open) {
+          slopes_missing = true;
+          continue;
+        }
+        multiply(amplitude, slope_table[slot], slot == 2, second.data());
+        backward(second.data(), slot, (*field)[a].data(), nullptr);
+      }
+    if (!potential && !slopes_missing) return;
+
+    multiply(amplitude, table, false, spectrum.data());
+    bool const rows_too = field && spectral && shape.axis[0].kind != Kind::open;
+    backward(spectrum.data(), -1, potential ? potential->data() : nullptr, rows_too ? (*field)[0].data() : nullptr);
+    if (!field) return;
+    View const phi{spectrum.data(), shape.row, shape.plane};
+    for (int a = rows_too ? 1 : 0; a < shape.dimension; ++a) {
+      int const slot = shape.slot_of[a];
+      if (!spectral)
+        differences(slot, phi, (*field)[a].data());
+      else if (shape.axis[slot].kind != Kind::open)
+        slope_along(slot, phi, (*field)[a].data());
+    }
+  }
+
+  void field(std::vector<double> const& potential, std::vector<std::vector<double>>& field) {
+    check(potential, "potential");
+    resize(field);
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1];
+    View const phi{potential.data(), ax.nodes, ax.nodes * amid.nodes};
+    for (int a = 0; a < shape.dimension; ++a) {
+      int const slot = shape.slot_of[a];
+      if (form == PoissonForm::finite_difference || shape.axis[slot].kind == Kind::open)
+        differences(slot, phi, field[a].data());
+      else
+        slope_along(slot, phi, field[a].data());
+    }
+  }
+
+  void check(std::vector<double> const& values, char const* name) const {
+    if (values.size() != grid.size())
+      throw Error(fmt::format("mesh: the {} has {} numbers; the mesh has {} nodes", name, values.size(), grid.size()));
+  }
+  void resize(std::vector<std::vector<double>>& field) const {
+    field.resize(static_cast<std::size_t>(shape.dimension));
+    for (auto& component : field) component.resize(grid.size());
+  }
+};
+
+PoissonSolver::PoissonSolver(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
+                             GreensFunction const& green)
+    : plans_(std::make_unique<Plans>(grid, ends, form, threads, green)) {}
+
+PoissonSolver::~PoissonSolver() = default;
+
+void PoissonSolver::potential(std::vector<double> const& density, double constant, std::vector<double>& potential) {
+  plans_->solve(density, constant, &potential, nullptr);
+}
+
+void PoissonSolver::field(std::vector<double> const& potential, std::vector<std::vector<double>>& field) {
+  plans_->field(potential, field);
+}
+
+void PoissonSolver::solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
+                          std::vector<std::vector<double>>& field) {
+  plans_->solve(density, constant, potential, &field);
+}
+
+std::size_t PoissonSolver::bytes() const { return plans_->memory.held; }
+
+std::size_t PoissonSolver::bytes_needed(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form,
+                                        int threads, bool green) {
+  return memory(make_shape(grid, ends, green), grid, form, threads, green).most;
+}
+
+}  // namespace boltzmann
