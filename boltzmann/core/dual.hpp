@@ -289,6 +289,10 @@ auto max(A const& a, B const& b) { return select(a < b, b, a); }
 
 // ---- functions ----
 
+namespace detail {
+inline constexpr double two_over_root_pi = 1.12837916709551257390;
+}
+
 template <class Real, class Derivative>
 Dual<Real, Derivative> square(Dual<Real, Derivative> const& x) {
   return detail::chain(x, Real(x.value * x.value), Real(2.0 * x.value));
@@ -336,6 +340,18 @@ template <class Real, class Derivative>
 Dual<Real, Derivative> tanh(Dual<Real, Derivative> const& x) {
   Real const y = tanh(x.value);
   return detail::chain(x, y, Real(1.0 - y * y));
+}
+template <class Real, class Derivative>
+Dual<Real, Derivative> erf(Dual<Real, Derivative> const& x) {
+  return detail::chain(x, Real(erf(x.value)), Real(detail::two_over_root_pi * exp(-(x.value * x.value))));
+}
+template <class Real, class Derivative>
+Dual<Real, Derivative> erfc(Dual<Real, Derivative> const& x) {
+  return detail::chain(x, Real(erfc(x.value)), Real(-detail::two_over_root_pi * exp(-(x.value * x.value))));
+}
+template <class Real, class Derivative>
+Dual<Real, Derivative> exponential_integral(Dual<Real, Derivative> const& x) {
+  return detail::chain(x, Real(exponential_integral(x.value)), Real(-exp(-x.value) / x.value));
 }
 /// At zero it has the slope of its right side.
 template <class Real, class Derivative>

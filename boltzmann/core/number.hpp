@@ -7,6 +7,8 @@ namespace boltzmann {
 
 using std::abs;
 using std::cos;
+using std::erf;
+using std::erfc;
 using std::exp;
 using std::log;
 using std::pow;

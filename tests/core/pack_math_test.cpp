@@ -1,5 +1,5 @@
-// Elementary functions of packs against the C library's 80-bit functions: errors in units in the last place, special
-// values, lanes.
+// Elementary functions of packs against the C library's 80-bit functions, and against values of 40 digits (mpmath 1.3)
+// printed here: errors in units in the last place, special values, lanes.
 #include <boltzmann/core/pack.hpp>
 
 #include <gtest/gtest.h>
@@ -195,6 +195,128 @@ TYPED_TEST(PackMath, Tanh) {
   EXPECT_LT(worst_error<W>(f, exact, everything), two_ulp);
 }
 
+struct Value {
+  double x;
+  long double f;
+};
+// Of 40-digit arithmetic.
+constexpr Value erfc_values[] = {
+    {1e-300, 1.0L},
+    {1e-18, 0.999999999999999998872L},
+    {1e-09, 0.999999998871620832904L},
+    {0.001, 0.998871621209030763597L},
+    {0.03125, 0.964749626132677174001L},
+    {0.1, 0.887537083981715101595L},
+    {0.25, 0.723673609831763067015L},
+    {0.46875, 0.507386526782062008412L},
+    {0.499999, 0.479501000969971765393L},
+    {0.5, 0.479500122186953462317L},
+    {0.75, 0.288844366346484868401L},
+    {1.0, 0.157299207050285130659L},
+    {1.25, 0.0770998717435417698635L},
+    {1.5, 0.033894853524689272933L},
+    {2.0, 0.00467773498104726583793L},
+    {2.5, 0.000406952017444958939564L},
+    {3.0, 0.0000220904969985854413728L},
+    {3.75, 1.13727256569796653259e-7L},
+    {4.5, 1.96616044154288747628e-10L},
+    {5.0, 1.53745979442803485019e-12L},
+    {6.0, 2.15197367124989131166e-17L},
+    {7.3, 5.50257375069192241653e-25L},
+    {8.0, 1.122429717298292708e-29L},
+    {9.9, 1.54312002140530748535e-44L},
+    {12.0, 1.35626116920590421278e-64L},
+    {15.0, 7.21299417245120666657e-100L},
+    {18.5, 7.0199615749856793246e-151L},
+    {21.0, 8.03245387102245566902e-194L},
+    {24.0, 1.64898258315193351422e-252L},
+    {26.0, 5.66319240885614284648e-296L},
+    {26.5, 2.21090766426373427593e-307L},
+    {-0.1, 1.1124629160182848984L},
+    {-0.5, 1.52049987781304653768L},
+    {-1.0, 1.84270079294971486934L},
+    {-2.0, 1.99532226501895273416L},
+    {-3.3, 1.99999694229020356183L},
+    {-5.5, 1.99999999999999264215L},
+    {-7.0, 2.0L},
+};
+constexpr Value erf_values[] = {
+    {1e-300, 1.12837916709551260217e-300L}, {1e-18, 1.12837916709551265462e-18L}, {1e-09, 1.1283791670955126438e-9L},
+    {0.001, 0.00112837879096923640344L},    {0.03125, 0.0352503738673228259986L}, {0.1, 0.112462916018284898405L},
+    {0.25, 0.276326390168236932985L},       {0.46875, 0.492613473217937991588L},  {0.499999, 0.520498999030028234607L},
+    {0.5, 0.520499877813046537683L},        {0.51, 0.529243619841170436737L},     {0.75, 0.711155633653515131599L},
+    {1.0, 0.842700792949714869341L},        {1.25, 0.922900128256458230137L},     {1.5, 0.966105146475310727067L},
+    {2.0, 0.995322265018952734162L},        {2.5, 0.99959304798255504106L},       {3.0, 0.999977909503001414559L},
+    {3.75, 0.999999886272743430203L},       {4.5, 0.999999999803383955846L},      {5.0, 0.999999999998462540206L},
+    {5.9, 0.999999999999999928096L},        {-0.1, -0.112462916018284898405L},    {-0.5, -0.520499877813046537683L},
+    {-1.0, -0.842700792949714869341L},      {-2.0, -0.995322265018952734162L},    {-3.3, -0.999996942290203561835L},
+};
+constexpr Value exponential_integral_values[] = {
+    {1e-300, 690.19831223331217232L},      {1e-18, 40.8693160089912893812L},      {1e-09, 20.146050173044878233L},
+    {0.001, 6.33153936413614931121L},      {0.03125, 2.91952778280954894387L},    {0.1, 1.82292395841939061585L},
+    {0.25, 1.04428263444373819454L},       {0.375, 0.746192776236915608818L},     {0.46875, 0.59954292485078856483L},
+    {0.499999, 0.559774807839299799165L},  {0.5, 0.559773594776160811747L},       {0.51, 0.547822351780828555915L},
+    {0.75, 0.340340812911230007807L},      {1.0, 0.219383934395520273677L},       {1.25, 0.146413372525910176693L},
+    {1.5, 0.100019582406632651902L},       {2.0, 0.0489005107080611195672L},      {2.5, 0.0249149178702697354956L},
+    {3.0, 0.0130483810941970374125L},      {4.0, 0.00377935240984890647887L},     {5.5, 0.000640926049865762642999L},
+    {7.0, 0.000115481731610338216431L},    {9.0, 0.0000124473541780062721211L},   {12.0, 4.75108182467249393259e-7L},
+    {16.0, 6.6404872494410427857e-9L},     {21.0, 3.45320126714675626667e-11L},   {30.0, 3.02155201068881254482e-15L},
+    {42.0, 1.33779088100117751431e-20L},   {60.0, 1.43586756568125678844e-28L},   {90.0, 9.00547405886741103795e-42L},
+    {130.0, 2.65748602704513769902e-59L},  {200.0, 6.88522610630763559771e-90L},  {300.0, 1.71038427680451011572e-133L},
+    {450.0, 8.19046818035891237418e-199L}, {600.0, 4.40998979450983797163e-264L}, {690.0, 3.14289843217723003553e-303L},
+    {701.0, 5.16692255909861195663e-308L},
+};
+
+/// E1 by its series and by its continued fraction, in 80 bits.
+long double exponential_integral_80(long double x) {
+  if (x < 2) {
+    long double sum = -0.577215664901532860606512L - std::log(x), term = 1;
+    for (int n = 1; n < 60; ++n) {
+      term *= -x / n;
+      sum -= term / n;
+    }
+    return sum;
+  }
+  long double fraction = 0;
+  for (int n = 200; n >= 1; --n) fraction = static_cast<long double>(n) * n / (x + 2 * n + 1 - fraction);
+  return std::exp(-x) / (x + 1 - fraction);
+}
+
+constexpr double most_erfc = 6.0, most_erf = 3.0, most_exponential_integral = 4.0;  // in ulp
+
+TYPED_TEST(PackMath, ErfcErfAndE1AgainstPrintedValues) {
+  constexpr int W = TypeParam::value;
+  for (auto const& [x, f] : erfc_values) EXPECT_LT(error_in_ulp(erfc(Pack<double, W>(x))[W - 1], f), most_erfc) << x;
+  for (auto const& [x, f] : erf_values) {
+    EXPECT_LT(error_in_ulp(erf(Pack<double, W>(x))[W - 1], f), most_erf) << x;
+    EXPECT_EQ(erf(Pack<double, W>(-x))[0], -erf(Pack<double, W>(x))[0]) << x;
+  }
+  for (auto const& [x, f] : exponential_integral_values) {
+    EXPECT_LT(error_in_ulp(exponential_integral(Pack<double, W>(x))[W - 1], f), most_exponential_integral) << x;
+    EXPECT_LT(error_in_ulp(exponential_integral(x), f), most_exponential_integral) << x;
+    EXPECT_LT(std::fabs(exponential_integral_80(x) / f - 1), 2e-18L * (1 + x)) << x;  // the oracle below
+  }
+}
+
+TYPED_TEST(PackMath, ErfcErfAndE1Everywhere) {
+  constexpr int W = TypeParam::value;
+  auto const f_erfc = [](auto const& x) { return erfc(x); };
+  auto const f_erf = [](auto const& x) { return erf(x); };
+  auto const f_e1 = [](auto const& x) { return exponential_integral(x); };
+  Exact const exact_erfc = [](long double x) { return std::erfc(x); };
+  Exact const exact_erf = [](long double x) { return std::erf(x); };
+  for (Range const range : {Range{0, 1}, Range{0, 6}, Range{0, 26.5}, Range{-7, 0}, Range{tiniest, 1, true}})
+    EXPECT_LT(worst_error<W>(f_erfc, exact_erfc, range), most_erfc) << range.high;
+  for (Range const range : {Range{-1, 1}, Range{-6, 6}, everything})
+    EXPECT_LT(worst_error<W>(f_erf, exact_erf, range), most_erf) << range.high;
+  for (Range const range :
+       {Range{0, 1}, Range{0.49, 0.51}, Range{0, 20}, Range{0, 701}, Range{tiniest, 1, true}, Range{1, 700, true}})
+    EXPECT_LT(worst_error<W>(f_e1, exponential_integral_80, range, 4000), most_exponential_integral) << range.high;
+  // Results that are subnormal: in units of the smallest number.
+  EXPECT_LT(worst_error<W>(f_erfc, exact_erfc, {26.5, 27.3}), most_erfc);
+  EXPECT_LT(worst_error<W>(f_e1, exponential_integral_80, {701, 740}, 4000), most_exponential_integral);
+}
+
 TYPED_TEST(PackMath, Pow) {
   constexpr int W = TypeParam::value;
   constexpr double four_ulp = 4.0;
@@ -279,6 +401,31 @@ TYPED_TEST(PackMath, SpecialValuesOfExpLogTanh) {
   }
 }
 
+TYPED_TEST(PackMath, SpecialValuesOfErfcErfAndE1) {
+  constexpr int W = TypeParam::value;
+  auto const f_erfc = [](auto const& x) { return erfc(x); };
+  auto const f_erf = [](auto const& x) { return erf(x); };
+  auto const f_e1 = [](auto const& x) { return exponential_integral(x); };
+  for (double const x : {0.0, -0.0, tiniest, -tiniest}) EXPECT_EQ(at<W>(f_erfc, x), 1.0);
+  EXPECT_EQ(at<W>(f_erfc, infinity), 0.0);
+  EXPECT_EQ(at<W>(f_erfc, largest), 0.0);
+  EXPECT_EQ(at<W>(f_erfc, 27.3), 0.0);
+  EXPECT_EQ(at<W>(f_erfc, 27.2), std::erfc(27.2));  // subnormal
+  EXPECT_EQ(at<W>(f_erfc, -infinity), 2.0);
+  EXPECT_EQ(at<W>(f_erfc, -largest), 2.0);
+  EXPECT_TRUE(std::isnan(at<W>(f_erfc, nan_value)));
+  for (double const x : {0.0, -0.0}) EXPECT_TRUE(same(at<W>(f_erf, x), x));
+  EXPECT_EQ(at<W>(f_erf, infinity), 1.0);
+  EXPECT_EQ(at<W>(f_erf, -infinity), -1.0);
+  EXPECT_TRUE(std::isnan(at<W>(f_erf, nan_value)));
+  EXPECT_EQ(at<W>(f_e1, 0.0), infinity);
+  EXPECT_EQ(at<W>(f_e1, -0.0), infinity);
+  EXPECT_EQ(at<W>(f_e1, infinity), 0.0);
+  EXPECT_EQ(at<W>(f_e1, largest), 0.0);
+  EXPECT_EQ(at<W>(f_e1, 745.0), 0.0);
+  for (double const x : {-tiniest, -1.0, -infinity, nan_value}) EXPECT_TRUE(std::isnan(at<W>(f_e1, x))) << x;
+}
+
 TYPED_TEST(PackMath, SpecialValuesOfPowAreThoseOfTheCStandard) {
   constexpr int W = TypeParam::value;
   double const values[] = {0.0,       -0.0,       1.0,        -1.0,       0.5,       -0.5,     2.0,      -2.0,
@@ -310,6 +457,9 @@ TYPED_TEST(PackMath, EachLaneDependsOnItsOwnInputOnly) {
         EXPECT_EQ(bits(sin(mixed)[lane]), bits(sin(x)[lane]));
         EXPECT_EQ(bits(cos(mixed)[lane]), bits(cos(x)[lane]));
         EXPECT_EQ(bits(tanh(mixed)[lane]), bits(tanh(x)[lane]));
+        EXPECT_EQ(bits(erf(mixed)[lane]), bits(erf(x)[lane]));
+        EXPECT_EQ(bits(erfc(mixed)[lane]), bits(erfc(x)[lane]));
+        EXPECT_EQ(bits(exponential_integral(abs(mixed))[lane]), bits(exponential_integral(abs(x))[lane]));
         EXPECT_EQ(bits(pow(abs(mixed), mixed)[lane]), bits(pow(abs(x), x)[lane]));
       }
   }
@@ -330,6 +480,9 @@ TEST(PackMathWidths, TheSameBitsInEveryWidth) {
       EXPECT_EQ(bits(log(abs(two))[lane]), bits(log(abs(x))[lane]));
       EXPECT_EQ(bits(sin(two)[lane]), bits(sin(x)[lane]));
       EXPECT_EQ(bits(tanh(four)[lane]), bits(tanh(x)[lane]));
+      EXPECT_EQ(bits(erf(four)[lane]), bits(erf(x)[lane]));
+      EXPECT_EQ(bits(erfc(two)[lane]), bits(erfc(x)[lane]));
+      EXPECT_EQ(bits(exponential_integral(abs(four))[lane]), bits(exponential_integral(abs(x))[lane]));
       EXPECT_EQ(bits(pow(abs(two), 1.7)[lane]), bits(pow(abs(x), 1.7)[lane]));
     }
   }
@@ -362,6 +515,9 @@ TEST(PackMathFloat, IsTheRoundedDouble) {
       EXPECT_FLOAT_EQ(cos(x)[lane], static_cast<float>(std::cos(d)));
       EXPECT_FLOAT_EQ(tanh(x)[lane], static_cast<float>(std::tanh(d)));
       EXPECT_FLOAT_EQ(expm1(x)[lane], static_cast<float>(std::expm1(d)));
+      EXPECT_FLOAT_EQ(erf(x)[lane], static_cast<float>(std::erf(d)));
+      EXPECT_FLOAT_EQ(erfc(x)[lane], static_cast<float>(std::erfc(d)));
+      EXPECT_FLOAT_EQ(exponential_integral(abs(x))[lane], static_cast<float>(exponential_integral_80(std::fabs(d))));
       EXPECT_FLOAT_EQ(pow(abs(x), 2.5F)[lane], static_cast<float>(std::pow(std::fabs(d), 2.5)));
     }
   }
