@@ -16,6 +16,9 @@ Picture picture_of(PicturePlan const& plan) {
   picture.trace = plan.trace;
   picture.low = plan.low;
   picture.high = plan.high;
+  picture.slice = plan.slice;
+  picture.at = plan.at;
+  for (auto const& [frequency, speed] : plan.curves) picture.curves.push_back({frequency, speed});
   return picture;
 }
 
@@ -28,6 +31,7 @@ std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::str
   if (output.diagnoses > 0 && !scenario.diagnoses.empty())
     recording->diagnoses(static_cast<std::uint64_t>(output.diagnoses), std::move(scenario.diagnoses));
   if (output.trajectory > 0) recording->trajectory(static_cast<std::uint64_t>(output.trajectory));
+  if (output.mesh > 0) recording->mesh(static_cast<std::uint64_t>(output.mesh));
   if (output.checkpoint > 0) recording->checkpoint(static_cast<std::uint64_t>(output.checkpoint));
   for (auto const& plan : output.pictures) recording->picture(picture_of(plan));
   return recording;

@@ -25,6 +25,7 @@ struct Sample {
   double boltzmann_constant;  ///< in the simulation's base
   double time;
   std::int64_t step;
+  std::span<MeshField const* const> mesh_fields = {};  ///< empty unless the diagnosis needs_mesh()
 };
 
 class Diagnosis {
@@ -34,6 +35,7 @@ class Diagnosis {
   /// Appends one value for each of columns().
   virtual void measure(Sample const& sample, std::vector<double>& values) = 0;
   virtual bool needs_energies() const { return false; }
+  virtual bool needs_mesh() const { return false; }
   /// What it remembers from earlier looks (initial velocities of a group, ...), for checkpoints.
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(std::span<double const>) {}

@@ -29,7 +29,12 @@ struct DiagnosisParameters {
   double tolerance = 0;               ///< ... within this distance of it
   bool subtract_drift = false;        ///< temperature: without the mean velocity, over N - 1
   bool about_centre_of_mass = false;  ///< angular momentum: else about the origin
-  std::string quantity = {};          ///< extremes: a name that quantity() knows
+  std::string quantity = {};  ///< extremes: a name that quantity() knows; of a mesh: one that mesh_quantity() knows
+  std::vector<MeshField const*> mesh_fields =
+      {};                      ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
+  std::vector<int> mode = {};  ///< field-mode: periods in the box along each axis
+  std::string axis = {};       ///< wave-spectrum: "x", "y" or "z"
+  std::size_t modes = 0;       ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
 };
 
 /// One kind of diagnosis.
@@ -37,10 +42,11 @@ struct DiagnosisKind {
   std::string name;                  ///< the word in scenarios
   std::string doc;                   ///< one line
   std::vector<std::string> options;  ///< members of DiagnosisParameters that it looks at, by name
+  bool of_mesh = false;              ///< it looks at what a mesh has on its nodes
 };
 
 /// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, drag, velocity-diffusion,
-/// extremes.
+/// extremes; of a mesh field-energy, field-mode, wave-spectrum.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
 
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or

@@ -1,9 +1,10 @@
-// Extended XYZ and VTK PolyData.
+// Extended XYZ, VTK PolyData and ImageData.
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/mesh/mesh_field.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -14,7 +15,7 @@
 namespace boltzmann {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the raw data of write_vtp say LittleEndian");
+static_assert(std::endian::native == std::endian::little, "the raw data of VTK files say LittleEndian");
 
 bool is_spatial(Field const& field, int dimension) {
   return (field.name == "position" || field.name == "velocity" || field.name == "force") &&
@@ -61,6 +62,49 @@ std::vector<Field> common_fields(std::span<AnyEnsemble const* const> ensembles) 
     if (everywhere) fields.push_back(field);
   }
   return fields;
+}
+
+/// What stands behind the XML of a VTK file: every array is its length in bytes as a 64-bit number, then the numbers.
+struct AppendedData {
+  std::string data;
+
+  /// Begins an array and returns its offset.
+  std::size_t begin_array(std::size_t bytes) {
+    std::size_t const offset = data.size();
+    put(static_cast<std::uint64_t>(bytes));
+    return offset;
+  }
+  template <class T>
+  void put(T value) {
+    data.append(reinterpret_cast<char const*>(&value), sizeof value);
+  }
+};
+
+std::string array_tag(char const* type, std::string const& name, int components, std::size_t offset) {
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+      xml(name), components, offset);
+}
+
+/// Everything before the pieces of a data set of this kind, which has these attributes.
+std::string vtk_head(char const* kind, std::string const& attributes, double time) {
+  std::string now;
+  append_number(now, time);
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n"
+      "<{0}{1}>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+      "format=\"ascii\">{2}</DataArray>\n</FieldData>\n",
+      kind, attributes, now);
+}
+
+void write_vtk(std::string const& path, char const* kind, std::string text, AppendedData const& appended) {
+  text += fmt::format("</Piece>\n</{}>\n<AppendedData encoding=\"raw\">\n_", kind);
+  text += appended.data;
+  text += "\n</AppendedData>\n</VTKFile>\n";
+  TextFile file(path, TextFile::Mode::replace);
+  file.write(text);
+  file.close();
 }
 
 std::string lattice(BoxEdges const& box) {
@@ -135,40 +179,25 @@ void write_xyz(std::string const& path, double time, std::span<AnyEnsemble const
 
 void write_vtp(std::string const& path, double time, AnyEnsemble const& ensemble) {
   std::size_t const n = ensemble.size();
-  std::string data;  // every array: its length in bytes as a 64-bit number, then the numbers
-  auto const begin_array = [&](std::size_t bytes) {
-    std::size_t const offset = data.size();
-    std::uint64_t const header = bytes;
-    data.append(reinterpret_cast<char const*>(&header), sizeof header);
-    return offset;
-  };
-  auto const put = [&](auto value) { data.append(reinterpret_cast<char const*>(&value), sizeof value); };
+  AppendedData appended;
   auto const add_field = [&](Field const& field) {
     int const columns = is_spatial(field, ensemble.dimension()) ? 3 : field.components;
-    std::size_t const offset = begin_array(n * static_cast<std::size_t>(columns) * sizeof(double));
+    std::size_t const offset = appended.begin_array(n * static_cast<std::size_t>(columns) * sizeof(double));
     for (std::size_t i = 0; i < n; ++i)
-      for (int c = 0; c < columns; ++c) put(c < field.components ? ensemble.row(i)[field.offset + c] : 0.0);
-    return fmt::format(
-        "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-        xml(field.name), columns, offset);
+      for (int c = 0; c < columns; ++c) appended.put(c < field.components ? ensemble.row(i)[field.offset + c] : 0.0);
+    return array_tag("Float64", field.name, columns, offset);
   };
   auto const add_integers = [&](char const* name, std::int64_t first) {
-    std::size_t const offset = begin_array(n * sizeof(std::int64_t));
-    for (std::size_t i = 0; i < n; ++i) put(first + static_cast<std::int64_t>(i));
-    return fmt::format("<DataArray type=\"Int64\" Name=\"{}\" format=\"appended\" offset=\"{}\"/>\n", name, offset);
+    std::size_t const offset = appended.begin_array(n * sizeof(std::int64_t));
+    for (std::size_t i = 0; i < n; ++i) appended.put(first + static_cast<std::int64_t>(i));
+    return array_tag("Int64", name, 1, offset);
   };
 
-  std::string now;
-  append_number(now, time);
-  std::string text = fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n"
-      "<PolyData>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-      "format=\"ascii\">{}</DataArray>\n"
-      "</FieldData>\n"
+  std::string text = vtk_head("PolyData", "", time);
+  text += fmt::format(
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"0\">\n",
-      now, n, n);
+      n, n);
   text += "<PointData>\n";
   for (auto const& field : ensemble.fields())
     if (field.name != "position") text += add_field(field);
@@ -178,12 +207,37 @@ void write_vtp(std::string const& path, double time, AnyEnsemble const& ensemble
   text += "</Points>\n<Verts>\n";
   text += add_integers("connectivity", 0);
   text += add_integers("offsets", 1);
-  text += "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  text += data;
-  text += "\n</AppendedData>\n</VTKFile>\n";
-  TextFile file(path, TextFile::Mode::replace);
-  file.write(text);
-  file.close();
+  text += "</Verts>\n";
+  write_vtk(path, "PolyData", std::move(text), appended);
+}
+
+void write_vti(std::string const& path, double time, std::span<MeshField const* const> fields) {
+  if (fields.empty()) throw Error(path + ": there is no mesh to write");
+  MeshGrid const& grid = fields.front()->grid;
+  std::string extent, origin, spacing;
+  for (int a = 0; a < 3; ++a) {
+    if (a > 0) extent += ' ', origin += ' ', spacing += ' ';
+    extent += fmt::format("0 {}", grid.nodes[a] - 1);
+    append_number(origin, grid.low[a]);
+    append_number(spacing, grid.spacing[a]);
+  }
+  AppendedData appended;
+  std::string arrays;
+  for (auto const* field : fields) {
+    if (field->grid.nodes != grid.nodes || field->grid.low != grid.low || field->grid.spacing != grid.spacing)
+      throw Error(path + ": " + field->name + " is on another mesh than " + fields.front()->name);
+    bool const vector = field->components.size() > 1 || field->name == "field";
+    std::size_t const columns = vector ? std::max<std::size_t>(3, field->components.size()) : 1;
+    std::size_t const offset = appended.begin_array(grid.size() * columns * sizeof(double));
+    for (std::size_t node = 0; node < grid.size(); ++node)
+      for (std::size_t c = 0; c < columns; ++c)
+        appended.put(c < field->components.size() ? field->components[c][node] : 0.0);
+    arrays += array_tag("Float64", field->name, static_cast<int>(columns), offset);
+  }
+  std::string text = vtk_head(
+      "ImageData", fmt::format(" WholeExtent=\"{}\" Origin=\"{}\" Spacing=\"{}\"", extent, origin, spacing), time);
+  text += fmt::format("<Piece Extent=\"{}\">\n<PointData>\n{}</PointData>\n", extent, arrays);
+  write_vtk(path, "ImageData", std::move(text), appended);
 }
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Export: single frames for other programs: extended XYZ (OVITO, ASE, VMD) and VTK PolyData (ParaView).
+// Export: single frames for other programs: extended XYZ (OVITO, ASE, VMD), VTK PolyData and ImageData (ParaView).
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -11,6 +11,7 @@
 namespace boltzmann {
 
 class AnyEnsemble;
+struct MeshField;
 
 /// Writes a frame of extended XYZ: a line per particle with species (the ensemble's name), pos, velo and every other
 /// field that all ensembles have; a comment line with Lattice and Origin (unless the box is open and infinite),
@@ -23,5 +24,10 @@ void write_xyz(std::string const& path, double time, std::span<AnyEnsemble const
 /// components), the time as TimeValue; numbers as raw little-endian doubles behind the XML. Error if the file can't be
 /// written.
 void write_vtp(std::string const& path, double time, AnyEnsemble const& ensemble);
+
+/// Writes fields of one mesh as VTK ImageData (.vti): each as point data on the nodes (vectors with 3 components), the
+/// time as TimeValue; numbers as raw little-endian doubles behind the XML. Error if the file can't be written, there is
+/// no field, or they are of different meshes.
+void write_vti(std::string const& path, double time, std::span<MeshField const* const> fields);
 
 }  // namespace boltzmann

@@ -2,6 +2,8 @@
 // calculated anew.
 #pragma once
 
+#include <boltzmann/schemes/rotation.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -77,8 +79,15 @@ class Integrator {
   virtual double time_after(int stage) const = 0;
   /// Stage k of a step; the ensemble's influence arrays hold the influences at the positions of now.
   virtual Motion advance(int stage, StepContext const& context) = 0;
+  /// False if some particles are treated in another way than method() has it.
+  virtual bool same_for_all() const { return true; }
   /// Puts the state on a grid (reversible leap-frog only).
   virtual void prepare(FixedPoint const&) {}
+
+  /// Whether velocities are turned by rotate() instead of by a force.
+  virtual bool takes_rotations() const { return false; }
+  /// The rotations of all steps to come, in place of those before.
+  virtual void rotate(std::vector<Rotation> /*rotations*/) {}
 
   LargestMove const& largest_move() const { return move_; }
   void threads(int count) { threads_ = count; }

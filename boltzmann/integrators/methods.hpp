@@ -77,16 +77,19 @@ class MethodOf : public Integrator {
   void each(Function const& function) {
     std::size_t const size = ensemble_.size();
     move_ = {};
-    if (size < integrator_worth_threads || threads_ <= 1) {
+    // What is run must not depend on the threads, not even as two copies of one loop: the compiler may contract a
+    // product and a sum in one and not in the other.
+    if (size < integrator_worth_threads) {
       for (std::size_t i = 0; i < size; ++i) function(i, move_);
       return;
     }
     std::vector<LargestMove> parts((size + integrator_grain - 1) / integrator_grain);
-    for_ranges(size, integrator_grain, threads_, [&](std::size_t begin, std::size_t end) {
-      LargestMove part;
-      for (std::size_t i = begin; i < end; ++i) function(i, part);
-      parts[begin / integrator_grain] = part;
-    });
+    for_ranges(
+        size, integrator_grain, threads_, [&](std::size_t begin, std::size_t end) __attribute__((noinline)) {
+          LargestMove part;
+          for (std::size_t i = begin; i < end; ++i) function(i, part);
+          parts[begin / integrator_grain] = part;
+        });
     for (auto const& part : parts) move_.take(part);
   }
 
@@ -162,14 +165,18 @@ class Alternating : public MethodOf<P> {
   }
 };
 
+/// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, seen from the whole steps.
 template <class P>
 class LeapFrog final : public Alternating<P> {
  public:
   using Alternating<P>::Alternating;
+  bool takes_rotations() const override { return true; }
+  void rotate(std::vector<Rotation> rotations) override { rotations_ = std::move(rotations); }
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
     auto const plain = [](double& x, double dx) { x += dx; };
     if (stage == 0) {
+      for (auto const& rotation : rotations_) turn(rotation, 0.5 * dt);
       this->each([&](std::size_t i, LargestMove& move) {
         this->kick(i, 0.5 * dt, plain);
         this->drift(i, dt, move, plain);
@@ -180,8 +187,21 @@ class LeapFrog final : public Alternating<P> {
       this->kick(i, 0.5 * dt, plain);
       move.take(norm2(this->ensemble_[i].velocity), i);
     });
+    // In the opposite order, so that the step looks the same backwards. A velocity that is finite stays so.
+    for (auto rotation = rotations_.rbegin(); rotation != rotations_.rend(); ++rotation) turn(*rotation, 0.5 * dt);
     return Motion::none;
   }
+
+ private:
+  void turn(Rotation const& rotation, double time) {
+    auto const& only = rotation.only;
+    std::size_t const count = only ? only->size() : this->ensemble_.size();
+    RotationTask const task{this->ensemble_.row(0), only ? only->data() : nullptr, time};
+    for_ranges(count, integrator_grain, count < integrator_worth_threads ? 1 : this->threads_,
+               [&](std::size_t begin, std::size_t end) { rotation.kernel(rotation.law, task, begin, end); });
+  }
+
+  std::vector<Rotation> rotations_;
 };
 
 template <class P>

@@ -24,6 +24,7 @@ struct LawParameter {
   bool vector = false;                 ///< one number for each dimension of the space
   std::string_view default_text = {};  ///< as a scenario would write it; empty: required
   bool in_reduced_base = true;         ///< false: the default has units, so a base without units needs the value
+  bool axial = false;                  ///< of a vector: that of a rotation, which in 2D is one number, out of the plane
 };
 
 struct LawInfo {

@@ -43,6 +43,15 @@ constexpr bool depends_on_velocity() {
     return false;
 }
 
+/// True for an external law whose influence is the same wherever a particle is: a uniform field.
+template <class Law>
+constexpr bool is_uniform() {
+  if constexpr (requires { Law::uniform; })
+    return Law::uniform;
+  else
+    return false;
+}
+
 namespace detail {
 template <class Law, Symmetry s>
 struct Declared : Law {

@@ -10,6 +10,7 @@ namespace boltzmann {
 /// F = m g, energy -m g . x.
 template <int D>
 struct UniformGravity {
+  static constexpr bool uniform = true;
   Vector<D> acceleration;
 
   template <class P>
@@ -27,6 +28,7 @@ struct UniformGravity {
 /// F = charge E, energy -charge E . x.
 template <int D>
 struct UniformElectricField {
+  static constexpr bool uniform = true;
   Vector<D> field;
 
   template <class P>
@@ -44,6 +46,7 @@ struct UniformElectricField {
 /// A flow that carries every fluid particle (Euler and its descendants) with the same velocity.
 template <int D>
 struct UniformFlow {
+  static constexpr bool uniform = true;
   Vector<D> velocity;
 
   template <class P>

@@ -2,6 +2,8 @@
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
+#include <boltzmann/loaders/placing.hpp>
+#include <boltzmann/loaders/quiet_start.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 
 #include <fmt/format.h>
@@ -13,14 +15,6 @@
 
 namespace boltzmann {
 namespace {
-
-constexpr int longest_search = 20000;  // draws for one particle before a box counts as full
-
-void check_dimension(AnyEnsemble const& ensemble, Box const& box, char const* loader) {
-  if (ensemble.dimension() != box.dimension())
-    throw Error(fmt::format("{}: ensemble '{}' has {} dimensions, its box has {}", loader, ensemble.name(),
-                            ensemble.dimension(), box.dimension()));
-}
 
 void check_heat(char const* loader, double temperature, double boltzmann_constant) {
   if (!(temperature >= 0) || !std::isfinite(temperature))
@@ -43,24 +37,6 @@ Field const& velocity_field(AnyEnsemble const& ensemble) {
     throw Error(fmt::format("the velocity of ensemble '{}' has {} components, its space has {} dimensions",
                             ensemble.name(), velocity.components, ensemble.dimension()));
   return velocity;
-}
-
-/// Whether the regions of the box allow a particle there (as Box::check sees it).
-bool allowed(Box const& box, double const* x) {
-  return std::all_of(box.regions().begin(), box.regions().end(), [&](Region const& region) {
-    bool inside = true, strictly_inside = true;
-    for (int a = 0; a < box.dimension(); ++a) {
-      if (!(x[a] >= region.low[a] && x[a] <= region.high[a])) inside = false;
-      if (!(x[a] > region.low[a] && x[a] < region.high[a])) strictly_inside = false;
-    }
-    return region.side == Region::Side::keep_in ? inside : !strictly_inside;
-  });
-}
-
-/// A fraction in (0, 1) of an axis as a position that is surely below the high edge.
-double on_axis(Box const& box, int axis, double fraction) {
-  double const x = box.low(axis) + box.length(axis) * fraction;
-  return x < box.high(axis) ? x : std::nextafter(box.high(axis), box.low(axis));
 }
 
 /// The particles placed so far, in cells at least as wide as the minimum distance.
@@ -199,7 +175,9 @@ void maxwellian_load(AnyEnsemble& ensemble, double temperature, double boltzmann
   for (std::size_t i = 0; i < size; ++i) {
     Stream stream(key, 0, i, Purpose::velocity);
     Maxwellian const variable(temperature, positive_mass(ensemble, mass, i, "Maxwellian load"), boltzmann_constant);
-    for (int a = 0; a < dimension; ++a) ensemble.row(i)[velocity + a] = variable(stream);
+    for (int a = 0; a < dimension; ++a)
+      ensemble.row(i)[velocity + a] =
+          options.quiet ? variable.quantile(quiet_fraction(i, size, dimension - 1 + a)) : variable(stream);
   }
 
   if (options.remove_drift && size > 0) {

@@ -7,6 +7,14 @@
 namespace boltzmann::detail {
 
 template <class P>
+MeshKind mesh_kind_of() {
+  if constexpr (MeshParticle<P>)
+    return mesh_kind<P>();
+  else
+    return {};
+}
+
+template <class P>
 ClassVariant variant_of() {
   return {
       P::dimension,
@@ -14,7 +22,8 @@ ClassVariant variant_of() {
         return std::make_unique<Ensemble<P>>(std::move(name), size);
       },
       [](AnyEnsemble& ensemble, Method method) { return make_integrator(static_cast<Ensemble<P>&>(ensemble), method); },
-      P::template fields<P>().fields, sizeof(Row<P>) + sizeof(typename P::Influence)};
+      P::template fields<P>().fields, sizeof(Row<P>) + sizeof(typename P::Influence),
+      mesh_kind_of<P>()};
 }
 
 }  // namespace boltzmann::detail

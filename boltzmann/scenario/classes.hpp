@@ -3,6 +3,7 @@
 
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/mesh/mesh_kind.hpp>
 
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@ struct ClassVariant {
   std::unique_ptr<Integrator> (*integrate)(AnyEnsemble& ensemble, Method method);
   std::vector<Field> fields;
   std::size_t row_bytes;  ///< memory of one particle
+  MeshKind mesh;          ///< for a mesh; without `strengths` it can't supervise the class
 };
 
 /// A particle class.

@@ -1,5 +1,6 @@
-// Kernels of what comes from outside: drag, tether, uniform fields, a uniform stream.
+// Kernels of what comes from outside: drag, tether, uniform fields (electric, magnetic), a uniform stream.
 #include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/tether.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/scenario/law_kernels.hpp>
@@ -14,6 +15,8 @@ template LawKernels law_kernels<this_set, UniformGravity<3>, OnNewtonIn<3>>();
 template LawKernels law_kernels<this_set, UniformElectricField<1>, OnCoulombIn<1>>();
 template LawKernels law_kernels<this_set, UniformElectricField<2>, OnCoulombIn<2>>();
 template LawKernels law_kernels<this_set, UniformElectricField<3>, OnCoulombIn<3>>();
+template LawKernels law_kernels<this_set, UniformMagneticField<2>, OnCoulombIn<2>>();
+template LawKernels law_kernels<this_set, UniformMagneticField<3>, OnCoulombIn<3>>();
 template LawKernels law_kernels<this_set, UniformFlow<1>, OnFlowIn<1>>();
 template LawKernels law_kernels<this_set, UniformFlow<2>, OnFlowIn<2>>();
 template LawKernels law_kernels<this_set, UniformFlow<3>, OnFlowIn<3>>();

@@ -22,6 +22,9 @@ class Frozen final : public Integrator {
   int stages() const override { return inner_->stages(); }
   double time_after(int stage) const override { return inner_->time_after(stage); }
   void prepare(FixedPoint const& grid) override { inner_->prepare(grid); }
+  bool same_for_all() const override { return false; }
+  bool takes_rotations() const override { return inner_->takes_rotations(); }
+  void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 
   Motion advance(int stage, StepContext const& context) override {
     std::size_t const doubles = ensemble_.doubles();

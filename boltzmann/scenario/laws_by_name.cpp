@@ -2,6 +2,7 @@
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/pendulum.hpp>
 #include <boltzmann/laws/rydberg.hpp>
@@ -61,6 +62,11 @@ std::vector<LawBinder> const& law_binders() {
       {"tether", [](Values) { return bind_law<OnTethered>(Tether{}); }},
       {"uniform-gravity", [](Values v) { return uniform<UniformGravity, OnNewtonIn>(v, "acceleration"); }},
       {"uniform-electric-field", [](Values v) { return uniform<UniformElectricField, OnCoulombIn>(v, "field"); }},
+      {"uniform-magnetic-field",
+       [](Values v) {
+         return v.dimension == 2 ? bind_law<OnCoulombIn<2>>(UniformMagneticField<2>{v.as_vector<1>("field")})
+                                 : bind_law<OnCoulombIn<3>>(UniformMagneticField<3>{v.as_vector<3>("field")});
+       }},
       {"uniform-flow", [](Values v) { return uniform<UniformFlow, OnFlowIn>(v, "velocity"); }},
   };
   return all;

@@ -3,6 +3,7 @@
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/loaders/ripple_load.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
 #include <boltzmann/scenario/frozen.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -93,6 +94,50 @@ bool fits_memory(double count, ClassVariant const& variant, Place const& place, 
   return false;
 }
 
+/// The axis that a key names, from 0 on; `otherwise` if it is missing or wrong.
+int read_axis(Section& section, char const* key, int otherwise, Reading const& reading) {
+  std::vector<std::string> axes{"x", "y", "z"};
+  if (reading.dimension > 0) axes.resize(static_cast<std::size_t>(reading.dimension));
+  auto const word = section.word(key, axes);
+  return word ? (*word)[0] - 'x' : otherwise;
+}
+
+/// axis, mode or wave_number, phase.
+Wave read_wave(Section& section, Reading& reading) {
+  int const axis = read_axis(section, "axis", 0, reading);
+  double const phase = section.quantity("phase", dimensions::angle).value_or(0);
+  auto const mode = section.integer("mode", 1);
+  auto const wave_number = section.quantity("wave_number", dimensions::wave_number);
+  if (section.has("mode") == section.has("wave_number"))
+    reading.mistake(section.place("wave_number"),
+                    "a wave needs 'mode', its periods in the box, or 'wave_number', 2 pi over its length: one of them");
+  if (wave_number) return {axis, *wave_number, phase};
+  return mode && reading.box ? wave_of_mode(*reading.box, axis, static_cast<double>(*mode), phase)
+                             : Wave{axis, 0, phase};
+}
+
+/// A wave to be added to the velocities.
+struct VelocityRipple {
+  Wave wave;
+  int component = 0;
+  double amplitude = 0;
+};
+VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
+  if (!item.is(Item::Kind::table)) {
+    reading.mistake(
+        item.place,
+        fmt::format("velocity_ripple: a table is needed, {{ mode = 1, amplitude = 0.1 }}, not {}", found(item)));
+    return {};
+  }
+  Section section(item, "velocity_ripple", reading.context);
+  VelocityRipple ripple;
+  ripple.wave = read_wave(section, reading);
+  ripple.component = read_axis(section, "component", ripple.wave.axis, reading);
+  ripple.amplitude = section.need_quantity("amplitude", dimensions::velocity, "amplitude = 0.1").value_or(0);
+  section.finish();
+  return ripple;
+}
+
 /// How the particles of one ensemble are put in their places.
 class Loader {
  public:
@@ -105,13 +150,19 @@ class Loader {
     std::size_t const before = reading_.context.mistakes.count();
     Item const* word = section_.need("kind", "kind = \"block\"");
     if (!word) return false;
-    auto const kind = read_word(*word, "load", {"block", "random", "gravity", "positions", "file"}, reading_.context);
+    auto const kind = read_word(*word, "load", {"block", "random", "quiet", "ripple", "gravity", "positions", "file"},
+                                reading_.context);
     if (!kind) return false;
     kind_ = *kind;
     double own_count = 0;  // from what is loaded
     if (kind_ == "block") own_count = read_block();
     if (kind_ == "random")
       distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
+    if (kind_ == "ripple") {
+      wave_ = read_wave(section_, reading_);
+      amplitude_ = section_.need_quantity("amplitude", dimensions::none, "amplitude = 0.1", {-1, 1}).value_or(0);
+      quiet_ = section_.boolean("quiet");
+    }
     if (kind_ == "gravity") {
       temperature_ = section_.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive)
                          .value_or(1);
@@ -122,7 +173,7 @@ class Loader {
     if (kind_ == "file") own_count = read_file();
     section_.finish();
     if (reading_.context.mistakes.count() != before) return false;
-    if (kind_ == "random" || kind_ == "gravity") {
+    if (kind_ == "random" || kind_ == "quiet" || kind_ == "ripple" || kind_ == "gravity") {
       if (!number) {
         reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", kind_));
         return false;
@@ -147,6 +198,12 @@ class Loader {
       block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
     } else if (kind_ == "random") {
       random_load(particles, *reading_.box, seed, distance_);
+    } else if (kind_ == "quiet") {
+      quiet_load(particles, *reading_.box);
+    } else if (kind_ == "ripple" && quiet_) {
+      quiet_load(particles, *reading_.box, wave_, amplitude_);
+    } else if (kind_ == "ripple") {
+      ripple_load(particles, *reading_.box, wave_, amplitude_, seed);
     } else if (kind_ == "gravity") {
       gravity_load(particles, *reading_.box, temperature_, acceleration_, reading_.boltzmann_constant(), seed);
     } else if (kind_ == "positions") {
@@ -242,7 +299,9 @@ class Loader {
   std::size_t count_ = 0;
   LatticeBlock block_;
   bool centred_ = true;
-  double distance_ = 0, temperature_ = 1, acceleration_ = 0;
+  double distance_ = 0, temperature_ = 1, acceleration_ = 0, amplitude_ = 0;
+  Wave wave_;
+  bool quiet_ = false;
   std::vector<double> positions_;
   XyzFrame frame_;
   XyzOptions options_;
@@ -355,16 +414,20 @@ void read_ensemble(Item const& table, Reading& reading) {
   MaxwellianOptions thermal;
   thermal.remove_drift = section.boolean("remove_drift");
   thermal.exact_temperature = section.boolean("exact_temperature");
+  thermal.quiet = section.boolean("quiet");
   if (Item const* item = section.find("drift"); item && reading.dimension > 0)
     if (auto const drift = read_vector(*item, "drift", reading.dimension, dimensions::velocity, reading.context))
       std::copy(drift->begin(), drift->end(), thermal.drift.begin());
-  for (char const* key : {"drift", "remove_drift", "exact_temperature"})
+  for (char const* key : {"drift", "remove_drift", "exact_temperature", "quiet"})
     if (section.has(key) && !temperature_item)
       reading.mistake(section.place(key), fmt::format("{}: it belongs to 'temperature', which is missing", key));
   if (temperature_item && section.has("velocity"))
     reading.mistake(section.place("velocity"),
                     "velocity: 'temperature' gives the velocities; for a common one on top "
                     "write 'drift'");
+
+  Item const* ripple_item = section.find("velocity_ripple");
+  VelocityRipple const ripple = ripple_item ? read_velocity_ripple(*ripple_item, reading) : VelocityRipple{};
 
   // From here on there are particles, if everything so far is right.
   AnyEnsemble* particles = nullptr;
@@ -379,6 +442,10 @@ void read_ensemble(Item const& table, Reading& reading) {
     if (temperature && good)
       good = guarded(reading, temperature_item->place, [&] {
         maxwellian_load(*particles, *temperature, reading.boltzmann_constant(), reading.run.seed, thermal);
+      });
+    if (ripple_item && good)
+      good = guarded(reading, ripple_item->place, [&] {
+        velocity_ripple(*particles, *reading.box, ripple.wave, ripple.amplitude, ripple.component);
       });
     Field const* anchor = particles->find_field("anchor");
     if (anchor && !section.has("anchor"))

@@ -14,7 +14,8 @@ NumberRange range_of(AllowedRange range) {
   return range == AllowedRange::positive ? positive : range == AllowedRange::non_negative ? not_negative : any_number;
 }
 
-/// Nothing if a parameter is missing or wrong.
+}  // namespace
+
 std::optional<LawParameters> read_parameters(Section& section, LawInfo const& law, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   LawParameters parameters;
@@ -23,10 +24,11 @@ std::optional<LawParameters> read_parameters(Section& section, LawInfo const& la
     bool const has_default =
         !parameter.default_text.empty() && (parameter.in_reduced_base || !reading.context.base.is_reduced());
     auto const units = example_units(parameter.dimension);
-    std::string const example = parameter.vector ? fmt::format("{} = [0, -1]", name)
-                                : reading.context.base.is_reduced() || units.empty()
-                                    ? fmt::format("{} = 1", name)
-                                    : fmt::format("{} = \"1 {}\"", name, units[0]);
+    bool const one_number = !parameter.vector || (parameter.axial && reading.dimension != 3);
+    std::string const example =
+        !one_number ? fmt::format("{} = {}", name, reading.dimension == 3 ? "[0, 0, -1]" : "[0, -1]")
+        : reading.context.base.is_reduced() || units.empty() ? fmt::format("{} = 1", name)
+                                                             : fmt::format("{} = \"1 {}\"", name, units[0]);
     Item const* item = section.find(name);
     if (!item && !has_default) {
       reading.mistake(section.place(),
@@ -35,9 +37,10 @@ std::optional<LawParameters> read_parameters(Section& section, LawInfo const& la
     }
     if (!item) {
       parameters.push_back({name, {in_base(parameter.default_text, parameter.dimension, reading.context.base)}});
-    } else if (parameter.vector) {
+    } else if (!one_number || (parameter.vector && item->is(Item::Kind::array))) {
       if (reading.dimension == 0) continue;
-      if (auto const value = read_vector(*item, name, reading.dimension, parameter.dimension, reading.context))
+      if (auto const value =
+              read_vector(*item, name, one_number ? 1 : reading.dimension, parameter.dimension, reading.context))
         parameters.push_back({name, *value});
     } else if (auto const value =
                    read_quantity(*item, name, parameter.dimension, reading.context, range_of(parameter.range))) {
@@ -47,6 +50,8 @@ std::optional<LawParameters> read_parameters(Section& section, LawInfo const& la
   if (reading.context.mistakes.count() != before) return std::nullopt;
   return parameters;
 }
+
+namespace {
 
 /// [first, last, interval] or [first, last].
 std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* ensemble, Reading& reading) {
@@ -155,9 +160,9 @@ void read_influence(Item const& table, Reading& reading) {
     section.finish();
   }
   if (reading.context.mistakes.count() != before || !law || !a || !b || !a->particles || !b->particles ||
-      !reading.result->scheme || !parameters)
+      !reading.result->pairs || !parameters)
     return;
-  PairScheme& scheme = *reading.result->scheme;
+  PairScheme& scheme = *reading.result->pairs;
   if (external) {
     guarded(reading, law_item->place,
             [&] { install_external(scheme, *law, *parameters, *a->particles, only ? &*only : nullptr); });

@@ -19,6 +19,18 @@ std::vector<std::string> column_names(Reading const& reading) {
   return names;
 }
 
+std::vector<MeshField const*> mesh_fields(Reading const& reading) {
+  if (!reading.result->scheme) return {};
+  return reading.result->scheme->mesh_fields();
+}
+
+/// The axes that the box has; all three if it is not known.
+std::vector<std::string> axis_names(Reading const& reading) {
+  std::vector<std::string> names{"x", "y", "z"};
+  if (reading.dimension > 0) names.resize(static_cast<std::size_t>(reading.dimension));
+  return names;
+}
+
 bool all_loaded(Reading const& reading) {
   return !reading.ensembles.empty() && std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
                                                    [](ReadEnsemble const& e) { return e.particles != nullptr; });
@@ -68,13 +80,25 @@ void read_diagnosis(Item const& table, Reading& reading) {
     parameters.tolerance = section.quantity("tolerance", dimensions::velocity, not_negative).value_or(0);
   if (has("subtract_drift")) parameters.subtract_drift = section.boolean("subtract_drift");
   if (has("about_centre_of_mass")) parameters.about_centre_of_mass = section.boolean("about_centre_of_mass");
-  if (has("quantity")) {
+  if (has("mode")) {
+    if (Item const* item = section.need("mode", "mode = [3]")) {
+      std::vector<Item> const one{*item};
+      for (Item const& element : item->is(Item::Kind::array) ? item->elements : one)
+        if (auto const n = read_integer(element, "mode", -1'000'000'000, 1'000'000'000, reading.context))
+          parameters.mode.push_back(static_cast<int>(*n));
+    }
+  }
+  if (has("axis")) parameters.axis = section.word("axis", axis_names(reading)).value_or("");
+  if (has("modes")) parameters.modes = static_cast<std::size_t>(section.integer("modes", 1).value_or(0));
+  if (has("quantity") && kind.of_mesh) parameters.quantity = section.text("quantity").value_or("");
+  if (has("quantity") && !kind.of_mesh) {
     Item const* item = section.need("quantity", "quantity = \"speed\"");
     parameters.quantity = item ? read_text(*item, "quantity", reading.context).value_or("") : "";
   }
   section.finish();
   if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
   for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
+  if (kind.of_mesh && !guarded(reading, word->place, [&] { parameters.mesh_fields = mesh_fields(reading); })) return;
   guarded(reading, section.has("quantity") ? section.place("quantity") : word->place, [&] {
     auto diagnosis = make_diagnosis(*name, parameters);
     auto const taken = column_names(reading);
@@ -84,6 +108,25 @@ void read_diagnosis(Item const& table, Reading& reading) {
                                 column.name, has("label") ? " (give a label)" : ""));
     reading.result->diagnoses.push_back(std::move(diagnosis));
   });
+}
+
+/// curve = { frequency = ..., speed = ... }, or an array of such.
+void read_curves(Section& section, PicturePlan& plan, Reading& reading) {
+  Item const* item = section.find("curve");
+  if (!item) return;
+  std::vector<Item> const one{*item};
+  for (Item const& element : item->is(Item::Kind::array) ? item->elements : one) {
+    if (!element.is(Item::Kind::table)) {
+      reading.mistake(element.place,
+                      fmt::format("curve: a table is needed, {{ frequency = 1, speed = 0 }}, not {}", found(element)));
+      continue;
+    }
+    Section curve(element, "curve", reading.context);
+    auto const frequency = curve.quantity("frequency", dimensions::frequency, not_negative);
+    auto const speed = curve.quantity("speed", dimensions::velocity, not_negative);
+    curve.finish();
+    plan.curves.push_back({frequency.value_or(0), speed.value_or(0)});
+  }
 }
 
 void read_picture(Item const& table, Reading& reading) {
@@ -110,6 +153,11 @@ void read_picture(Item const& table, Reading& reading) {
     if (auto const value = section.quantity(key, colour_dimension)) *end = *value;
   }
   if (auto const file = section.text("file")) plan.file = *file;
+  if (plan.drawing == "mesh") {
+    plan.slice = section.word("slice", axis_names(reading)).value_or("z");
+    if (auto const at = section.quantity("at", dimensions::length)) plan.at = *at;
+  }
+  if (plan.drawing == "wave-spectrum") read_curves(section, plan, reading);
   section.finish();
   for (auto const& other : reading.result->output.pictures)
     if (other.file == plan.file)
@@ -120,7 +168,7 @@ void read_picture(Item const& table, Reading& reading) {
     for (auto const& ensemble : reading.ensembles) ensembles.push_back(ensemble.particles);
     auto const check_as = [&](std::string_view key, Picture const& partial) {
       if (!section.has(key)) return;
-      guarded(reading, section.place(key), [&] { check(partial, ensembles, column_names(reading)); });
+      guarded(reading, section.place(key), [&] { check(partial, ensembles, column_names(reading), {}); });
     };
     Picture plain;
     plain.colour = plan.colour;
@@ -135,8 +183,12 @@ void read_picture(Item const& table, Reading& reading) {
       picture.drawing = plan.drawing;
       picture.x = plan.x;
       picture.y = plan.y;
-      guarded(reading, section.has("y") ? section.place("y") : table.place,
-              [&] { check(picture, ensembles, column_names(reading)); });
+      guarded(reading, section.has("y") ? section.place("y") : table.place, [&] {
+        PictureSources sources;
+        if (plan.drawing == "mesh") sources.mesh_fields = mesh_fields(reading);
+        for (auto const& diagnosis : reading.result->diagnoses) sources.diagnoses.push_back(diagnosis.get());
+        check(picture, ensembles, column_names(reading), sources);
+      });
     }
   }
   reading.result->output.pictures.push_back(plan);
@@ -155,6 +207,9 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
     Section section(*table, "[output]", reading.context);
     plan.diagnoses = section.integer("diagnoses", 0).value_or(0);
     plan.trajectory = section.integer("trajectory", 0).value_or(0);
+    plan.mesh = section.integer("mesh", 0).value_or(0);
+    if (plan.mesh > 0 && !reading.result->mesh)
+      reading.mistake(section.place("mesh"), "mesh: frames of a mesh are asked for, but the scenario has no [mesh]");
     plan.checkpoint = section.integer("checkpoint", 0).value_or(0);
     for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);
     section.finish();

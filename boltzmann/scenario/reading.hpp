@@ -3,6 +3,7 @@
 
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
 
@@ -65,10 +66,17 @@ bool guarded(Reading& reading, Place const& place, Function const& function) {
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
                                                          Reading& reading);
 
+/// The parameters of a law that stand in a table. Nothing, and mistakes, if one is missing or wrong.
+std::optional<LawParameters> read_parameters(Section& section, LawInfo const& law, Reading& reading);
+
 void read_units(Section& document, Reading& reading);
 void read_box(Section& document, Reading& reading);
 void read_run(Section& document, Reading& reading);
+/// Makes the scheme: a mesh if there is a [mesh], else pairs alone.
+void read_scheme(Section& document, Reading& reading);
 void read_ensembles(Section& document, Reading& reading);
+/// Loads ensembles into the scheme.
+void load_scheme(Section& document, Reading& reading);
 void read_influences(Section& document, Reading& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.

@@ -35,16 +35,9 @@ void build(Item& document, Reading& reading) {
   read_units(top, reading);
   read_box(top, reading);
   read_run(top, reading);
-  if (reading.box) {
-    result.scheme = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
-    if (reading.run.skin) result.scheme->skin(*reading.run.skin);
-    result.scheme->threads(reading.run.threads);
-  }
+  read_scheme(top, reading);
   read_ensembles(top, reading);
-  // Those that no law acts on are supervised, too.
-  if (result.scheme)
-    for (auto const& ensemble : reading.ensembles)
-      if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.scheme->load(*ensemble.particles); });
+  load_scheme(top, reading);
   read_influences(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);

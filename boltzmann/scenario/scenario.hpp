@@ -5,9 +5,11 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -35,7 +37,7 @@ struct Overrides {
 
 /// A picture that a scenario asks for.
 struct PicturePlan {
-  std::string drawing;  ///< "cartesian", "phase-space", "spectrum" or "time-series"
+  std::string drawing;  ///< one of drawing_names()
   std::string x, y;     ///< fields ("position.x", "velocity.y") of phase space; the columns of a time series in y,
                         ///< separated by commas
   std::string colour;   ///< a field, "speed", "kinetic-energy", "potential-energy" or empty: by ensemble
@@ -44,11 +46,14 @@ struct PicturePlan {
   double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours, in the base;
   double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN: those of the state
   bool trace = false;  ///< draw the tracks of all frames, not the last state
+  std::string slice = "z";                               ///< mesh in 3D: the axis that the slice is normal to
+  double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
+  std::vector<std::array<double, 2>> curves;             ///< wave-spectrum: frequency and speed of each curve over it
 };
 
 /// How often what is written.
 struct OutputPlan {
-  std::int64_t diagnoses = 0, trajectory = 0, checkpoint = 0;  ///< steps between two; 0: never
+  std::int64_t diagnoses = 0, trajectory = 0, mesh = 0, checkpoint = 0;  ///< steps between two; 0: never
   std::vector<PicturePlan> pictures;
 };
 
@@ -58,7 +63,9 @@ struct ScenarioSimulation {
   Base base;
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
-  std::unique_ptr<PairScheme> scheme;
+  std::unique_ptr<Scheme> scheme;
+  PairScheme* pairs = nullptr;  ///< the scheme itself, or what acts beside its mesh
+  MeshScheme* mesh = nullptr;   ///< the scheme itself, if the scenario has a [mesh]
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;

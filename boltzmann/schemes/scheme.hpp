@@ -4,8 +4,12 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/mesh/mesh_field.hpp>
+#include <boltzmann/schemes/rotation.hpp>
+#include <boltzmann/schemes/whole_steps.hpp>
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,7 +37,7 @@ class Scheme {
   Box const& box() const { return box_; }
   Box& box() { return box_; }
   /// The ensembles that this scheme supervises, in the order in which they were loaded.
-  std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
+  virtual std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   void load(AnyEnsemble& ensemble);
 
   /// The influence on every particle at this time, into the ensembles' influence arrays. PhysicsFailure naming the
@@ -51,8 +55,20 @@ class Scheme {
     void const* data = nullptr;
   };
   virtual Shortcut shortcut() { return {}; }
+  /// A loop that advances these ensembles, all that there are, from their rows as they stand by leap-frog steps of size
+  /// dt; null if there is none for them. It holds until an ensemble, a law or the box changes.
+  virtual std::unique_ptr<WholeSteps> whole_steps(std::vector<Mover> const& /*movers*/, double /*dt*/) {
+    return nullptr;
+  }
   /// Energies and virial of the state as it stands.
   virtual Measures measure(double time = 0) = 0;
+  /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise. They
+  /// live until the next call.
+  virtual std::vector<MeshField const*> mesh_fields() { return {}; }
+
+  /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any more,
+  /// until they are asked for again with `taken` false.
+  virtual std::vector<Rotation> rotations(AnyEnsemble const& /*ensemble*/, bool /*taken*/) { return {}; }
 
   /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite
   /// if unknown.
@@ -65,6 +81,8 @@ class Scheme {
   virtual void make_reversible(double quantum) = 0;
   /// Memory that the scheme itself holds (not the ensembles), in bytes.
   virtual std::size_t bytes() const { return 0; }
+  /// What one should know before a run with such steps: resolution, noise; warnings begin with "warning: ".
+  virtual std::vector<std::string> advice(double /*step_size*/) { return {}; }
   /// One line about the work done, for the end of a run.
   virtual std::string report() const { return ""; }
 

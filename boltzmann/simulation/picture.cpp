@@ -1,7 +1,9 @@
 // From the state and the files of a run to the arrays that the drawings want.
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/drawings.hpp>
+#include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/spectrum_of.hpp>
+#include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
@@ -72,6 +74,15 @@ std::vector<AnyEnsemble*> ensembles_of(Simulation const& simulation) {
   return all;
 }
 
+// The wave spectrum that a run records.
+WaveSpectrum const& recorded_waves(std::vector<Diagnosis const*> const& diagnoses) {
+  for (auto const* diagnosis : diagnoses)
+    if (auto const* waves = dynamic_cast<WaveSpectrum const*>(diagnosis)) return *waves;
+  throw Error("a picture of the wave spectrum needs the diagnosis wave-spectrum, and is drawn when the run ends");
+}
+
+std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
+
 class Drawer {
  public:
   Drawer(Picture const& picture, PictureContext const& context)
@@ -81,6 +92,8 @@ class Drawer {
     if (picture_.drawing == "cartesian") return cartesian();
     if (picture_.drawing == "phase-space") return phase_space(picture_.x, picture_.y);
     if (picture_.drawing == "spectrum") return picture_.x == "time" ? spectrum_in_time() : spectrum_in_space();
+    if (picture_.drawing == "mesh") return mesh();
+    if (picture_.drawing == "wave-spectrum") return wave_spectrum();
     return time_series();
   }
 
@@ -457,6 +470,90 @@ class Drawer {
                          {"power of " + heading(data.header[column]).name, ""}, true, title(false));
   }
 
+  // An axis of a mesh: its nodes are the middles of the cells of a picture.
+  Axis mesh_axis(MeshGrid const& grid, int a) const {
+    Axis result = axis(std::string(1, "xyz"[a]), dimensions::length);
+    result.low = grid.position(a, 0) - 0.5 * grid.spacing[a];
+    result.high = grid.position(a, grid.nodes[a] - 1) + 0.5 * grid.spacing[a];
+    return result;
+  }
+
+  Canvas mesh() {
+    std::vector<MeshField const*> fields;
+    for (auto* scheme : context_.simulation.schemes())
+      for (auto const* field : scheme->mesh_fields()) fields.push_back(field);
+    MeshQuantity const quantity = mesh_quantity(fields, mesh_name(picture_));
+    MeshGrid const& grid = quantity.grid();
+    auto const [unit, factor] = shown_in(quantity.dimension());
+    if (grid.dimension == 1) {
+      Values x;
+      for (std::size_t i = 0; i < grid.nodes[0]; ++i) x.push_back(grid.position(0, i));
+      Series const curve{"", x, quantity.values()};
+      return draw_time_series({&curve, 1}, axis("x", dimensions::length), axis(quantity.label, quantity.dimension()),
+                              title());
+    }
+    int const normal = grid.dimension == 3 ? picture_.slice[0] - 'x' : 2;
+    int const right = normal == 0 ? 1 : 0, up = normal == 2 ? 1 : 2;
+    double const middle = grid.low[normal] + 0.5 * static_cast<double>(grid.cells(normal)) * grid.spacing[normal];
+    double const at = std::isnan(picture_.at) ? middle : picture_.at;
+    double const place = std::round((at - grid.low[normal]) / grid.spacing[normal]);
+    auto const slice =
+        grid.dimension == 3
+            ? static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(grid.nodes[normal] - 1)))
+            : 0;
+    Values shown;
+    for (std::size_t row = 0; row < grid.nodes[up]; ++row)
+      for (std::size_t column = 0; column < grid.nodes[right]; ++column) {
+        std::array<std::size_t, 3> node{};
+        node[right] = column, node[up] = row, node[normal] = slice;
+        shown.push_back(factor * quantity.values()[grid.index(node[0], node[1], node[2])]);
+      }
+    bool const signed_values = std::any_of(shown.begin(), shown.end(), [](double v) { return v < 0; }) &&
+                               std::any_of(shown.begin(), shown.end(), [](double v) { return v > 0; });
+    Canvas canvas = draw_field(static_cast<int>(grid.nodes[right]), static_cast<int>(grid.nodes[up]), shown,
+                               mesh_axis(grid, right), mesh_axis(grid, up), quantity.label, unit,
+                               signed_values ? ColourMap::diverging : ColourMap::viridis, title());
+    if (grid.dimension == 3)
+      canvas.note(fmt::format("slice at {} = {}", "xyz"[normal],
+                              quantity_text(grid.position(normal, slice), dimensions::length, context_.base, 4)));
+    return canvas;
+  }
+
+  // Power over wave number and frequency; colours by its logarithm, over six decades.
+  Canvas wave_spectrum() const {
+    WaveSpectrum const& waves = recorded_waves(context_.diagnoses);
+    WavePower const spectrum = waves.power();
+    auto const& k = spectrum.wave_number;
+    auto const& omega = spectrum.frequency;
+    double largest = 0;
+    for (double const p : spectrum.power) largest = std::max(largest, p);
+    Values decades;
+    for (double const p : spectrum.power)
+      decades.push_back(largest > 0 ? std::max(-6.0, std::log10(p / largest)) : no_value);
+    double const dk = k.size() > 1 ? k[1] - k[0] : 1, half = 0.5 * omega[1];
+    Axis x = axis(std::string("wave number k_{") + "xyz"[waves.axis()] + "}", dimensions::wave_number);
+    Axis y = axis("ω", dimensions::frequency);
+    x.low = k.front() - 0.5 * dk, x.high = k.back() + 0.5 * dk;
+    y.low = -half, y.high = omega.back() + half;
+    std::string label = waves.quantity();
+    if (auto const dot = label.rfind('.'); dot != std::string::npos) label[dot] = ' ';
+    Canvas canvas =
+        draw_field(static_cast<int>(k.size()), static_cast<int>(omega.size()), decades, x, y,
+                   "log_{10} power of " + label + ", the largest is 0", "", ColourMap::viridis, title(false));
+    canvas.equal_aspect(false);
+    for (auto const& dispersion : picture_.curves) {
+      Values right, up;
+      for (int i = 0; i <= 200; ++i) {
+        double const at = x.low + (x.high - x.low) * i / 200;
+        double const frequency = std::hypot(dispersion.frequency, dispersion.speed * at);
+        right.push_back(at);
+        up.push_back(frequency <= y.high ? frequency : no_value);
+      }
+      canvas.curve(right, up, colour_named("white"), "", 2, true);
+    }
+    return canvas;
+  }
+
   Picture const& picture_;
   PictureContext const& context_;
   std::vector<AnyEnsemble*> ensembles_;
@@ -473,7 +570,8 @@ void check_drawing(Picture const& picture) {
 }  // namespace
 
 std::vector<std::string> const& drawing_names() {
-  static std::vector<std::string> const names{"cartesian", "phase-space", "spectrum", "time-series"};
+  static std::vector<std::string> const names{"cartesian",   "phase-space", "spectrum",
+                                              "time-series", "mesh",        "wave-spectrum"};
   return names;
 }
 
@@ -482,8 +580,8 @@ Canvas draw(Picture const& picture, PictureContext const& context) {
   return Drawer(picture, context).draw();
 }
 
-void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles,
-           std::vector<std::string> const& columns) {
+void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, std::vector<std::string> const& columns,
+           PictureSources const& sources) {
   check_drawing(picture);
   auto const dot = picture.file.rfind('.');
   std::string const extension = dot == std::string::npos ? "" : picture.file.substr(dot);
@@ -498,6 +596,12 @@ void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles,
   known(picture.size);
   if (picture.drawing == "phase-space") known(picture.x), known(picture.y);
   if (picture.drawing == "spectrum" && picture.x != "time") known(picture.x), known(picture.y);
+  if (picture.drawing == "mesh") {
+    mesh_quantity(sources.mesh_fields, mesh_name(picture));
+    if (picture.slice != "x" && picture.slice != "y" && picture.slice != "z")
+      throw Error("a slice is normal to x, y or z, not '" + picture.slice + "'");
+  }
+  if (picture.drawing == "wave-spectrum") recorded_waves(sources.diagnoses);
   if (picture.drawing == "time-series" || (picture.drawing == "spectrum" && picture.x == "time")) {
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
     for (auto const& word : split(picture.y))

@@ -1,9 +1,10 @@
-// Pictures of a simulation: particles in space, phase space, a spectrum or a time series, drawn from the present state
-// and from the files of the run.
+// Pictures of a simulation: particles in space, phase space, a spectrum, a time series, what a mesh has on its nodes or
+// the waves on it, drawn from the present state and from the files of the run.
 #pragma once
 
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/canvas.hpp>
+#include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <limits>
@@ -12,22 +13,31 @@
 
 namespace boltzmann {
 
+/// A curve over a wave spectrum: omega^2 = frequency^2 + speed^2 k^2. Light in a plasma has its plasma frequency and c;
+/// Langmuir waves (Bohm and Gross) the plasma frequency and sqrt(3) times the thermal velocity; sound no frequency.
+struct Dispersion {
+  double frequency = 0, speed = 0;
+};
+
 /// What a picture shows. `recording.picture({.colour = "speed"})` is the particles in space, coloured by speed.
 struct Picture {
   std::string drawing = "cartesian";  ///< one of drawing_names()
   std::string x = {};  ///< phase-space: a field, "position.x". spectrum: "position.x" (across space) or "time"
-  std::string y =
-      {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over time.
-           ///< time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's dimension
+  std::string y = {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over
+                       ///< time. time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's
+                       ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
   bool trace = false;                ///< also the tracks through all frames of trajectory.h5 (cartesian, phase-space)
   double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours; NaN: of the state
   double high = std::numeric_limits<double>::quiet_NaN();
+  std::string slice = "z";                               ///< mesh in 3D: the axis that the slice is normal to
+  double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
+  std::vector<Dispersion> curves = {};                   ///< wave-spectrum: drawn over it
 };
 
-/// "cartesian", "phase-space", "spectrum", "time-series".
+/// "cartesian", "phase-space", "spectrum", "time-series", "mesh", "wave-spectrum".
 std::vector<std::string> const& drawing_names();
 
 /// The state that a picture shows and what is written about it.
@@ -38,13 +48,21 @@ struct PictureContext {
   std::int64_t step;
   double time;
   std::string folder;  ///< where diagnoses.csv and trajectory.h5 are, for time series and tracks
+  std::vector<Diagnosis const*> diagnoses = {};  ///< of the run, for wave spectra
 };
 
 /// Draws. Error for an unknown drawing, field or column (with the allowed ones and the nearest).
 Canvas draw(Picture const& picture, PictureContext const& context);
 
+/// What there is to draw besides ensembles and columns.
+struct PictureSources {
+  std::vector<MeshField const*> mesh_fields;
+  std::vector<Diagnosis const*> diagnoses;
+};
+
 /// Throws Error if the picture can't be drawn of these ensembles: an unknown drawing, field or file extension. What
 /// columns diagnoses.csv has is `columns`.
-void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, std::vector<std::string> const& columns);
+void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, std::vector<std::string> const& columns,
+           PictureSources const& sources);
 
 }  // namespace boltzmann

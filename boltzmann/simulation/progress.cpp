@@ -101,11 +101,14 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   RunReport report;
   for (auto const* ensemble : simulation.ensembles()) report.particles += static_cast<std::int64_t>(ensemble->size());
   std::int64_t const first = simulation.step();
+  for (auto* scheme : simulation.schemes())
+    for (auto const& advice : scheme->advice(simulation.step_size()))
+      if (!options.quiet || advice.starts_with("warning")) fmt::print(stderr, "{}\n", advice);
   // The observer stays with the simulation, without effect once the line is gone.
   auto line = std::make_shared<std::unique_ptr<ProgressLine>>();
   if (!options.quiet) {
     *line = std::make_unique<ProgressLine>(first, first + static_cast<std::int64_t>(steps), options.planned);
-    simulation.observe(1, [line](Simulation const& now) {
+    simulation.observe_progress([line](Simulation const& now) {
       if (*line) (*line)->look(now.step());
     });
   }

@@ -20,7 +20,8 @@ struct RunReport {
   bool interrupted = false;    ///< by Ctrl-C or SIGTERM
 };
 
-/// Runs with a progress line on standard error: on a terminal one that is rewritten five times a second, elsewhere one
+/// Says what schemes advise (Scheme::advice; if quiet, their warnings only), and runs with a progress line, both on
+/// standard error: on a terminal one that is rewritten five times a second, elsewhere one
 /// line for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
 RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});
 

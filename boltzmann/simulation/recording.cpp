@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/mesh_frames.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/recording.hpp>
@@ -59,7 +60,7 @@ struct Recording::State {
   std::string title, scenario;
   std::int64_t planned = -1;
 
-  std::int64_t every_diagnoses = 0, every_trajectory = 0, every_checkpoint = 0;  // 0: never
+  std::int64_t every_diagnoses = 0, every_trajectory = 0, every_mesh = 0, every_checkpoint = 0;  // 0: never
   std::vector<std::unique_ptr<Diagnosis>> list;
   std::vector<Picture> pictures;
 
@@ -69,6 +70,7 @@ struct Recording::State {
   std::optional<CsvFile> csv;
   std::vector<double> column_factors;
   std::optional<Trajectory> frames;
+  std::optional<MeshFrames> mesh_frames;
   std::vector<Checkpoint::Rows> last_rows;  // of the last recorded state
   std::int64_t last_step = -1;
   double last_time = 0;
@@ -82,6 +84,28 @@ struct Recording::State {
     for (auto* scheme : simulation.schemes())
       for (auto* ensemble : scheme->ensembles())
         if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+    return all;
+  }
+
+  std::vector<MeshField const*> mesh_fields() const {
+    std::vector<MeshField const*> all;
+    for (auto* scheme : simulation.schemes())
+      for (auto const* field : scheme->mesh_fields()) all.push_back(field);
+    return all;
+  }
+
+  /// What diagnoses are made from.
+  DiagnosisParameters parameters(std::string_view kind) const {
+    DiagnosisParameters parameters;
+    for (auto const* ensemble : ensembles()) parameters.available.push_back(ensemble);
+    for (auto const& known : diagnosis_kinds())
+      if (known.name == kind && known.of_mesh) parameters.mesh_fields = mesh_fields();
+    return parameters;
+  }
+
+  std::vector<Diagnosis const*> instruments() const {
+    std::vector<Diagnosis const*> all;
+    for (auto const& diagnosis : list) all.push_back(diagnosis.get());
     return all;
   }
 
@@ -127,9 +151,12 @@ struct Recording::State {
       if (std::find(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(i), columns[i]) !=
           columns.begin() + static_cast<std::ptrdiff_t>(i))
         throw Error("two diagnoses give a column called '" + columns[i] + "'");
+    if (every_mesh > 0 && mesh_fields().empty())
+      throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     std::set<std::string> files;
     for (auto const& picture : pictures) {
-      boltzmann::check(picture, ensembles(), columns);
+      boltzmann::check(picture, ensembles(), columns,
+                       {picture.drawing == "mesh" ? mesh_fields() : std::vector<MeshField const*>{}, instruments()});
       if (!files.insert(picture.file).second) throw Error("two pictures are called '" + picture.file + "'");
       if (picture.trace && every_trajectory == 0)
         throw Error("the picture '" + picture.file + "' shows tracks, which needs a trajectory");
@@ -169,11 +196,13 @@ struct Recording::State {
     if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
     for (auto const* file : result_files) fs::remove(path(file), error);
     fs::remove(path("checkpoint.h5.previous"), error);
+    MeshFrames::remove(folder);
     for (auto const& picture : pictures) fs::remove(path(picture.file), error);
     try {
       if (!scenario.empty()) TextFile(path("scenario.toml"), TextFile::Mode::replace).write(scenario);
       if (every_diagnoses > 0) csv.emplace(path("diagnoses.csv"), header());
       if (every_trajectory > 0) frames.emplace(path("trajectory.h5"), trajectory_options());
+      if (every_mesh > 0) mesh_frames.emplace(folder);
       open = true;
       write_due(simulation.step(), true);
     } catch (...) {
@@ -182,16 +211,19 @@ struct Recording::State {
       frames.reset();
       finished = true;
       for (auto const* file : result_files) fs::remove(path(file), error);
+      if (mesh_frames) MeshFrames::remove(folder);
+      mesh_frames.reset();
       fs::remove(path("checkpoint.h5.part"), error);
       if (!there) fs::remove(folder, error);
       throw;
     }
   }
 
+  bool due(std::int64_t step) const { return !finished && (!open || step >= next); }
+
   void look() {
     std::int64_t const step = simulation.step();
-    if (open && (step < next || finished)) return;
-    if (finished) return;
+    if (!due(step)) return;
     auto const since = Clock::now();
     if (!open)
       start();
@@ -206,6 +238,7 @@ struct Recording::State {
       remember();
       if (due(every_diagnoses)) write_row();
       if (due(every_trajectory)) write_frame();
+      if (due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields());
       if (first || due(every_checkpoint))
         write_checkpoint();  // the last one, so that it holds the state after all looks
     } catch (Error const& error) {
@@ -215,8 +248,12 @@ struct Recording::State {
       csv.reset();
       throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), intact()));
     }
-    next = std::min({next_multiple(step, every_diagnoses), next_multiple(step, every_trajectory),
-                     next_multiple(step, every_checkpoint)});
+    next = next_look(step);
+  }
+
+  std::int64_t next_look(std::int64_t step) const {
+    return std::min({next_multiple(step, every_diagnoses), next_multiple(step, every_trajectory),
+                     next_multiple(step, every_mesh), next_multiple(step, every_checkpoint)});
   }
 
   std::string intact() const {
@@ -232,17 +269,22 @@ struct Recording::State {
   }
 
   void write_row() {
-    bool energies = false;
-    for (auto const& diagnosis : list) energies = energies || diagnosis->needs_energies();
+    bool energies = false, mesh = false;
+    for (auto const& diagnosis : list) {
+      energies = energies || diagnosis->needs_energies();
+      mesh = mesh || diagnosis->needs_mesh();
+    }
     Measures measures;
     if (energies) measures = simulation.measure();
     auto const all = ensembles();
+    auto const on_nodes = mesh ? mesh_fields() : std::vector<MeshField const*>{};
     Sample const sample{all,
                         simulation.schemes().front()->box(),
                         energies ? &measures : nullptr,
                         base.is_reduced() ? 1.0 : base(constants::boltzmann),
                         simulation.time(),
-                        simulation.step()};
+                        simulation.step(),
+                        on_nodes};
     std::vector<double> values{simulation.time()};
     for (auto const& diagnosis : list) diagnosis->measure(sample, values);
     if (column_factors.empty()) column_factors = factors();
@@ -294,16 +336,16 @@ struct Recording::State {
     if (every_diagnoses > 0) csv.emplace(CsvFile::append_to(path("diagnoses.csv"), header(), checkpoint.step));
     if (every_trajectory > 0)
       frames.emplace(Trajectory::append_to(path("trajectory.h5"), checkpoint.step, trajectory_options()));
+    if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder, checkpoint.step));
     checkpoint_step = checkpoint.step;
     open = true;
     remember();
-    next = std::min({next_multiple(checkpoint.step, every_diagnoses), next_multiple(checkpoint.step, every_trajectory),
-                     next_multiple(checkpoint.step, every_checkpoint)});
+    next = next_look(checkpoint.step);
   }
 
   void draw_pictures(std::int64_t step, double time, std::string const& note) {
     for (auto const& picture : pictures) {
-      Canvas canvas = draw(picture, {simulation, base, title, step, time, folder});
+      Canvas canvas = draw(picture, {simulation, base, title, step, time, folder, instruments()});
       if (!note.empty()) canvas.note(note);
       write_picture(canvas, path(picture.file));
     }
@@ -349,7 +391,8 @@ Recording::Recording(Simulation& simulation, Base const& base, std::string folde
   while (state_->folder.size() > 1 && state_->folder.back() == '/') state_->folder.pop_back();
   if (state_->folder.empty()) throw Error("the folder of the results has no name");
   state_->title = fs::path(state_->folder).filename().string();
-  simulation.observe(1, [state = state_](Simulation const&) { state->look(); });
+  simulation.observe_when([state = state_](std::int64_t step) { return state->due(step); },
+                          [state = state_](Simulation const&) { state->look(); });
 }
 
 Recording::~Recording() {
@@ -375,14 +418,17 @@ void Recording::add(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis) {
 }
 
 void Recording::diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds) {
-  DiagnosisParameters parameters;
-  for (auto const* ensemble : state_->ensembles()) parameters.available.push_back(ensemble);
-  for (auto const* kind : kinds) add(every, make_diagnosis(kind, parameters));
+  for (auto const* kind : kinds) add(every, make_diagnosis(kind, state_->parameters(kind)));
 }
 
 void Recording::trajectory(std::uint64_t every) {
   need_interval(every, "frames");
   state_->every_trajectory = static_cast<std::int64_t>(every);
+}
+
+void Recording::mesh(std::uint64_t every) {
+  need_interval(every, "mesh frames");
+  state_->every_mesh = static_cast<std::int64_t>(every);
 }
 
 void Recording::checkpoint(std::uint64_t every) {
@@ -409,6 +455,7 @@ std::vector<std::string> Recording::files() const {
   if (!state_->scenario.empty()) files.emplace_back("scenario.toml");
   if (state_->every_diagnoses > 0) files.emplace_back("diagnoses.csv");
   if (state_->every_trajectory > 0) files.emplace_back("trajectory.h5");
+  if (state_->every_mesh > 0) files.emplace_back("mesh.pvd");
   files.emplace_back("checkpoint.h5");
   for (auto const& picture : state_->pictures) files.push_back(picture.file);
   return files;

@@ -55,6 +55,9 @@ class Recording {
   }
   /// A frame of trajectory.h5 every so many steps.
   void trajectory(std::uint64_t every);
+  /// What a mesh has on its nodes (density, potential, field) every so many steps: mesh/000000100.vti, ..., and
+  /// mesh.pvd, which ParaView opens as a time series. Error when the run starts, if no scheme has a mesh.
+  void mesh(std::uint64_t every);
   /// checkpoint.h5 is written at the start and at the end, and every so many steps in between.
   void checkpoint(std::uint64_t every);
   /// A picture of the last state, drawn when the run ends.

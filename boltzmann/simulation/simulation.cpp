@@ -30,7 +30,16 @@ void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> in
 
 void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
   if (every == 0) throw Error("an observer looks every 1 or more steps, not every 0");
-  observations_.push_back({every, std::move(observer)});
+  observe_when([every](std::int64_t step) { return step % static_cast<std::int64_t>(every) == 0; },
+               std::move(observer));
+}
+
+void Simulation::observe_when(std::function<bool(std::int64_t)> due, std::function<void(Simulation const&)> observer) {
+  observations_.push_back({std::move(due), std::move(observer)});
+}
+
+void Simulation::observe_progress(std::function<void(Simulation const&)> observer) {
+  progress_.push_back(std::move(observer));
 }
 
 void Simulation::step_size(double size) {
@@ -75,6 +84,11 @@ void Simulation::check() {
     part->longest_move2 = scale * scale;
     part->time_after.clear();
     part->integrator->threads(schemes_.front()->threads());
+    bool const takes = part->integrator->takes_rotations();
+    std::vector<Rotation> rotations;
+    for (auto* scheme : schemes_)
+      for (auto const& rotation : scheme->rotations(*ensemble, takes)) rotations.push_back(rotation);
+    if (takes) part->integrator->rotate(std::move(rotations));
     part->stages = part->integrator->stages();
     for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
     stages_ = std::max(stages_, part->stages);
@@ -164,6 +178,18 @@ void Simulation::advance(double dt) {
   for (auto const& part : parts_) check_moves(part);
 }
 
+std::unique_ptr<WholeSteps> Simulation::whole_steps(double dt) {
+  if (schemes_.size() != 1) return nullptr;
+  std::vector<Mover> movers;
+  for (auto const& part : parts_) {
+    Method const method = part.integrator->method();
+    if ((method != Method::leap_frog && method != Method::deactivate) || !part.integrator->same_for_all())
+      return nullptr;
+    movers.push_back({part.ensemble, method == Method::leap_frog});
+  }
+  return schemes_.front()->whole_steps(movers, dt);
+}
+
 void Simulation::check_moves(Part const& part) const {
   LargestMove const& move = part.integrator->largest_move();
   if (move.not_finite == LargestMove::nobody && move.square <= part.longest_move2) return;
@@ -184,9 +210,14 @@ void Simulation::check_moves(Part const& part) const {
                   move.particle, name, moved, allowed, 0.1 * std::abs(step_size_) * allowed / moved));
 }
 
+bool Simulation::observation_due() const {
+  return std::any_of(observations_.begin(), observations_.end(),
+                     [&](Observation const& observation) { return observation.due(step_); });
+}
+
 void Simulation::observe_now() const {
   for (auto const& observation : observations_)
-    if (step_ % static_cast<std::int64_t>(observation.every) == 0) observation.observer(*this);
+    if (observation.due(step_)) observation.observer(*this);
 }
 
 void Simulation::run(std::uint64_t steps) { run(steps, 1); }
@@ -201,15 +232,24 @@ void Simulation::run(std::uint64_t steps, int direction) {
   fresh_ = false;  // the particles may have been changed since the last run
   shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
   double const dt = direction * step_size_;
+  std::unique_ptr<WholeSteps> const whole = steps > 0 ? whole_steps(dt) : nullptr;
   for (std::uint64_t n = 0; n < steps && !stop_; ++n) {
     try {
-      advance(dt);
+      if (whole)
+        whole->step(time());
+      else
+        advance(dt);
     } catch (PhysicsFailure const& failure) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }
     step_ += direction;
-    if (!observations_.empty()) observe_now();
+    if (!observations_.empty()) {
+      if (whole && observation_due()) whole->store();
+      observe_now();
+    }
+    for (auto const& observer : progress_) observer(*this);
   }
+  if (whole) whole->store();
 }
 
 Measures Simulation::measure() const {

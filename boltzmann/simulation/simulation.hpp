@@ -30,6 +30,11 @@ class Simulation {
   /// Calls the observer at step 0 (when the run starts) and whenever the step number is a multiple of `every`.
   /// Observers change nothing.
   void observe(std::uint64_t every, std::function<void(Simulation const&)> observer);
+  /// The same at the steps for which due(step) is true.
+  void observe_when(std::function<bool(std::int64_t step)> due, std::function<void(Simulation const&)> observer);
+  /// Calls the observer after every step, for its number and time only: whatever it costs to bring particles up to date
+  /// (see WholeSteps) is not spent.
+  void observe_progress(std::function<void(Simulation const&)> observer);
 
   /// Makes ready and refuses what can't run: an ensemble without integrator, particles where they can't be, influences
   /// that are not finite (two particles at one place). Error with one line. run() calls it once.
@@ -74,11 +79,13 @@ class Simulation {
     std::vector<double> time_after;  // of each stage
   };
   struct Observation {
-    std::uint64_t every;
+    std::function<bool(std::int64_t step)> due;
     std::function<void(Simulation const&)> observer;
   };
 
   void advance(double dt);
+  std::unique_ptr<WholeSteps> whole_steps(double dt);
+  bool observation_due() const;
   void run(std::uint64_t steps, int direction);
   void calculate(double time);
   void check_moves(Part const& part) const;
@@ -91,6 +98,7 @@ class Simulation {
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Part> parts_;
   std::vector<Observation> observations_;
+  std::vector<std::function<void(Simulation const&)>> progress_;
   FixedPoint grid_;
   Scheme::Shortcut shortcut_;
   double step_size_;

@@ -177,7 +177,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "drag, velocity-diffusion, extremes; did you mean 'energies'?");
+      "drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum; did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
   EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
@@ -207,9 +207,13 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 9U);
+  EXPECT_EQ(diagnosis_kinds().size(), 12U);
   for (auto const& kind : diagnosis_kinds()) {
     auto any = parameters();
+    if (kind.of_mesh) {
+      EXPECT_EQ(message([&] { make_diagnosis(kind.name, any); }), "there is no mesh in this simulation");
+      continue;
+    }
     if (kind.name == "extremes") any.quantity = "speed";
     EXPECT_NO_THROW(make_diagnosis(kind.name, any)) << kind.name;
     EXPECT_EQ(make_diagnosis(kind.name, any)->needs_energies(), kind.name == "energies" || kind.name == "pressure");
@@ -237,6 +241,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
   Measures const measures;
   std::vector<AnyEnsemble*> const ensembles{&space};
   for (auto const& kind : diagnosis_kinds()) {
+    if (kind.of_mesh) continue;
     DiagnosisParameters with{.available = {&space}};
     if (kind.name == "extremes") with.quantity = "speed";
     auto const diagnosis = make_diagnosis(kind.name, with);

@@ -5,6 +5,7 @@
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/rydberg.hpp>
 #include <boltzmann/laws/spring.hpp>
@@ -31,7 +32,7 @@ TEST(LawCatalogue, NamesAreUniqueWordsOfScenarios) {
     EXPECT_FALSE(law.name.empty());
     EXPECT_EQ(law.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string_view::npos) << law.name;
   }
-  EXPECT_EQ(names.size(), 12U);
+  EXPECT_EQ(names.size(), 13U);
 }
 
 TEST(LawCatalogue, EveryEntryIsDocumented) {
@@ -65,7 +66,10 @@ TEST(LawCatalogue, AgreesWithTheTypes) {
   EXPECT_EQ(law_info("gravity").symmetry, symmetry_of<LaplaceLaw>());
   EXPECT_EQ(law_info("biot-savart").symmetry, symmetry_of<BiotSavart>());
   for (auto const& law : law_catalogue())
-    EXPECT_EQ(law.velocity_dependent, law.name == "drag" && depends_on_velocity<Drag>()) << law.name;
+    EXPECT_EQ(law.velocity_dependent,
+              (law.name == "drag" && depends_on_velocity<Drag>()) ||
+                  (law.name == "uniform-magnetic-field" && depends_on_velocity<UniformMagneticField<3>>()))
+        << law.name;
 }
 
 TEST(LawCatalogue, Dimensions) {
@@ -80,6 +84,7 @@ TEST(LawCatalogue, Dimensions) {
   EXPECT_EQ(parameter("drag", "friction").dimension * velocity, force);
   EXPECT_EQ(parameter("uniform-gravity", "acceleration").dimension * mass, force);
   EXPECT_EQ(parameter("uniform-electric-field", "field").dimension * charge, force);
+  EXPECT_EQ(parameter("uniform-magnetic-field", "field").dimension * velocity * charge, force);
   EXPECT_EQ(parameter("uniform-flow", "velocity").dimension, velocity);
 }
 

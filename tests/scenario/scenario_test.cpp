@@ -115,7 +115,7 @@ TEST(Scenario, OverridesAreInTheStoredForm) {
   EXPECT_EQ(first->ensembles[0]->size(), 120U);
   EXPECT_EQ(first->simulation->seed(), 5U);
   EXPECT_EQ(first->scheme->threads(), 1);
-  EXPECT_NEAR(first->scheme->cutoff(), 20 / 1.804, 1e-12);
+  EXPECT_NEAR(first->pairs->cutoff(), 20 / 1.804, 1e-12);
   EXPECT_EQ(first->ensembles[0]->row(60)[3], 0.1);
   EXPECT_EQ(first->ensembles[0]->appearance.colour, "red");
   auto const second = parse_scenario(first->resolved, "stored.toml");

@@ -842,6 +842,8 @@ void PoissonSolver::solve(std::vector<double> const& density, double constant, s
   plans_->solve(density, constant, potential, &field);
 }
 
+void PoissonSolver::threads(int count) { plans_->threads = threads_for(plans_->grid, count); }
+
 std::size_t PoissonSolver::bytes() const { return plans_->memory.held; }
 
 std::size_t PoissonSolver::bytes_needed(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form,

@@ -67,6 +67,9 @@ class PoissonSolver {
   void solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
              std::vector<std::vector<double>>& field);
 
+  /// For the solutions to come.
+  void threads(int count);
+
   /// What this solver holds between calls.
   std::size_t bytes() const;
   /// The most that a solver for such a mesh will hold while it is made or solves, before it is made; without the

@@ -4,6 +4,7 @@
 #include <boltzmann/laws/interaction.hpp>
 #include <boltzmann/particles/rows.hpp>
 #include <boltzmann/schemes/pair/pair_kernels.hpp>
+#include <boltzmann/schemes/rotation.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,7 @@ using ExternalKernel = void (*)(void const* law, ExternalTask const& task, std::
 
 struct ExternalKernels {
   ExternalKernel influence = nullptr, measure = nullptr;
+  RotationKernel rotate = nullptr;  ///< of laws that only turn velocities (see UniformMagneticField)
   bool has_energy = false;
 };
 
@@ -64,6 +66,27 @@ template <Pass pass, int W, class P, class Law>
   }
 }
 
+/// Turns each velocity by atan(Omega time): two such turns by half a step each are Boris' rotation by
+/// 2 atan(Omega dt/2), which has the exact drift in crossed fields.
+template <int W, class P, class Law>
+[[gnu::flatten]] void turn_particles(void const* the_law, RotationTask const& task, std::size_t begin,
+                                     std::size_t end) {
+  Held<Law> law = *static_cast<Law const*>(the_law);
+  auto* rows = reinterpret_cast<Row<P>*>(task.rows);
+  for (std::size_t k = begin; k < end; ++k) {
+    P& p = rows[task.only ? task.only[k] : k];
+    p.velocity = turned(p.velocity, law.rotation(p) * task.time);
+  }
+}
+
+template <int W, class P, class Law>
+constexpr RotationKernel rotation_kernel() {
+  if constexpr (requires(Law const& law, P const& p) { law.rotation(p); })
+    return turn_particles<W, P, Law>;
+  else
+    return nullptr;
+}
+
 }  // namespace detail
 
 template <class P, class Law, int W = native_width<double>>
@@ -71,7 +94,7 @@ constexpr ExternalKernels external_kernels() {
   using detail::Pass;
   using Result = decltype(detail::external_result(std::declval<Law const&>(), std::declval<P const&>(), 0.0));
   return {detail::over_particles<Pass::influence, W, P, Law>, detail::over_particles<Pass::measure, W, P, Law>,
-          detail::has_energy<Result>};
+          detail::rotation_kernel<W, P, Law>(), detail::has_energy<Result>};
 }
 
 }  // namespace boltzmann

@@ -103,6 +103,7 @@ struct PairScheme::External {
   bool everyone;
   std::vector<std::uint32_t> only;
   std::size_t last = 0;  // the largest number in it
+  bool taken = false;    // by an integrator, as a rotation
 
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
   ExternalTask task(double time) const {
@@ -368,6 +369,7 @@ void PairScheme::calculate(double time, bool overwrite) {
   }
   for (auto const& external : external_) {
     ExternalTask const task = external->task(time);
+    if (external->taken) continue;
     for_ranges(external->count(), 8 * particle_grain, worth(external->count(), particles_worth_threads),
                [&](std::size_t begin, std::size_t end) {
                  external->kernels.influence(external->law.get(), task, begin, end);
@@ -376,7 +378,9 @@ void PairScheme::calculate(double time, bool overwrite) {
 }
 
 Scheme::Shortcut PairScheme::shortcut() {
-  if (near_.size() != 1 || !connected_.empty() || !external_.empty() || ensembles().size() != 1) return {};
+  bool const from_outside =
+      std::any_of(external_.begin(), external_.end(), [](auto const& external) { return !external->taken; });
+  if (near_.size() != 1 || !connected_.empty() || from_outside || ensembles().size() != 1) return {};
   Near& only = *near_.front();
   only.locate(quantum_, ring_);
   if (!only.few) return {};
@@ -441,6 +445,38 @@ Measures PairScheme::measure(double time) {
       for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] += virial[e][9 * i + k];
   }
   return measures;
+}
+
+std::vector<Rotation> PairScheme::rotations(AnyEnsemble const& ensemble, bool taken) {
+  std::vector<Rotation> rotations;
+  for (auto const& external : external_) {
+    if (external->ensemble != &ensemble || !external->kernels.rotate) continue;
+    external->taken = taken;
+    rotations.push_back(
+        {external->kernels.rotate, external->law.get(), external->everyone ? nullptr : &external->only});
+  }
+  return rotations;
+}
+
+bool PairScheme::acts_uniformly(AnyEnsemble const& ensemble) const {
+  auto const pulls = [&](auto const& near) { return near->target == &ensemble; };
+  if (std::any_of(near_.begin(), near_.end(), pulls)) return false;
+  for (auto const& connected : connected_)
+    if (connected->ensemble == &ensemble) return false;
+  return std::all_of(external_.begin(), external_.end(), [&](auto const& external) {
+    return external->ensemble != &ensemble || (external->everyone && external->traits.uniform);
+  });
+}
+
+void PairScheme::add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const {
+  for (auto const& external : external_) {
+    if (external->ensemble != &ensemble || external->taken) continue;
+    ExternalTask task;
+    task.rows = row;
+    task.time = time;
+    task.influence = influence;
+    external->kernels.influence(external->law.get(), task, 0, 1);
+  }
 }
 
 double PairScheme::length_scale(AnyEnsemble const& ensemble) const {

@@ -95,8 +95,13 @@ class PairScheme final : public Scheme {
   void add_influences(double time) override;
   Shortcut shortcut() override;
   Measures measure(double time = 0) override;
+  std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  /// True if equal particles of this ensemble are acted on equally, wherever they are: by nothing but uniform fields.
+  bool acts_uniformly(AnyEnsemble const& ensemble) const;
+  /// Adds the influence of such fields (but for those that an integrator has taken) on one row of the ensemble.
+  void add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
   std::string report() const override;
@@ -109,10 +114,12 @@ class PairScheme final : public Scheme {
     double length_scale = no_cutoff;
     bool velocity_dependent = false;
     bool antisymmetric = false;
+    bool uniform = false;  ///< an external law that acts on equal particles equally, wherever they are
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
-    return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::antisymmetric};
+    return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::antisymmetric,
+            is_uniform<Law>()};
   }
   using LawPointer = std::shared_ptr<void const>;
   void add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law, LawTraits traits,

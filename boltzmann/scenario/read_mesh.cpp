@@ -1,0 +1,206 @@
+// Reads [mesh]: which field the particles make on a mesh; without it, schemes are pairs alone.
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/mesh/p3m_scheme.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace boltzmann {
+namespace {
+
+std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
+  Item const* word = section.need("law", "law = \"coulomb\"");
+  auto const name = word ? read_word(*word, "law", {"coulomb", "gravity"}, reading.context) : std::nullopt;
+  if (!name) return std::nullopt;
+  LawInfo law = *find_law(*name);
+  // A mesh smooths by its cells.
+  std::erase_if(law.parameters, [](LawParameter const& parameter) { return parameter.name == "softening"; });
+  auto const parameters = read_parameters(section, law, reading);
+  if (!parameters) return std::nullopt;
+  double const k = parameters->front().second.front();
+  return *name == "coulomb" ? coulomb(k) : gravity(k);
+}
+
+std::optional<std::vector<std::size_t>> read_cells(Item const& item, Reading& reading) {
+  std::vector<std::size_t> cells;
+  if (!item.is(Item::Kind::array)) {
+    auto const n = read_integer(item, "cells", 1, 1'000'000'000, reading.context);
+    if (!n) return std::nullopt;
+    cells.assign(static_cast<std::size_t>(std::max(reading.dimension, 1)), static_cast<std::size_t>(*n));
+    return cells;
+  }
+  if (reading.dimension > 0 && item.elements.size() != static_cast<std::size_t>(reading.dimension)) {
+    reading.mistake(item.place, fmt::format("cells: {} number{} for {} ax{}; give one for all, or one for each",
+                                            item.elements.size(), item.elements.size() == 1 ? "" : "s",
+                                            reading.dimension, reading.dimension == 1 ? "is" : "es"));
+    return std::nullopt;
+  }
+  for (auto const& element : item.elements) {
+    auto const n = read_integer(element, "cells", 1, 1'000'000'000, reading.context);
+    if (!n) return std::nullopt;
+    cells.push_back(static_cast<std::size_t>(*n));
+  }
+  return cells;
+}
+
+FieldBoundary read_end(Item const& item, Reading& reading) {
+  auto const word = read_word(item, "boundary", {"periodic", "dirichlet", "neumann", "open"}, reading.context);
+  return !word || *word == "periodic" ? FieldBoundary::periodic
+         : *word == "dirichlet"       ? FieldBoundary::dirichlet
+         : *word == "neumann"         ? FieldBoundary::neumann
+                                      : FieldBoundary::open;
+}
+
+/// One word for all axes, or for each axis a word or two of them, for its low and its high end.
+void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  auto const set = [&](int axis, Place const& place, FieldBoundary low, FieldBoundary high) {
+    if (reading.context.mistakes.count() == before) guarded(reading, place, [&] { mesh.boundary(axis, low, high); });
+  };
+  auto const dimension = static_cast<std::size_t>(reading.dimension);
+  if (item.is(Item::Kind::text)) {
+    FieldBoundary const all = read_end(item, reading);
+    for (int a = 0; a < reading.dimension; ++a) set(a, item.place, all, all);
+    return;
+  }
+  if (!item.is(Item::Kind::array) || item.elements.size() != dimension) {
+    reading.mistake(item.place,
+                    fmt::format("boundary: a word, or for each of the {} axes a word or a pair [low, high] is "
+                                "needed, not {}",
+                                dimension, found(item)));
+    return;
+  }
+  for (std::size_t a = 0; a < dimension; ++a) {
+    Item const& axis = item.elements[a];
+    if (axis.is(Item::Kind::array)) {
+      if (axis.elements.size() != 2) {
+        reading.mistake(axis.place, "boundary: an axis has two ends, [low, high]");
+        return;
+      }
+      FieldBoundary const low = read_end(axis.elements[0], reading), high = read_end(axis.elements[1], reading);
+      set(static_cast<int>(a), axis.place, low, high);
+    } else {
+      FieldBoundary const both = read_end(axis, reading);
+      set(static_cast<int>(a), axis.place, both, both);
+    }
+  }
+}
+
+void read_plain_mesh(Section& section, LaplaceLaw const& law, Reading& reading) {
+  Item const* item = section.need("cells", "cells = 64");
+  auto const cells = item ? read_cells(*item, reading) : std::nullopt;
+  auto const assignment = section.word("assignment", {"ngp", "cic", "tsc"});
+  auto const poisson = section.word("poisson", {"finite-difference", "spectral"});
+  auto const precision = section.word("precision", {"full", "single"});
+  Item const* boundary = section.find("boundary");
+  if (!cells) return;
+  guarded(reading, item->place, [&] {
+    auto mesh = std::make_unique<MeshScheme>(*reading.box, *cells, law);
+    mesh->assignment(!assignment || *assignment == "cic" ? Assignment::cic
+                     : *assignment == "ngp"              ? Assignment::ngp
+                                                         : Assignment::tsc);
+    if (poisson && *poisson == "spectral") mesh->form(PoissonForm::spectral);
+    if (precision && *precision == "single") mesh->precision(Precision::single);
+    if (boundary) read_boundary(*boundary, *mesh, reading);
+    reading.result->mesh = mesh.get();
+    reading.result->scheme = std::move(mesh);
+  });
+}
+
+void read_mesh(Item const& table, Reading& reading) {
+  Section section(table, "[mesh]", reading.context);
+  auto const law = read_law(section, reading);
+  bool const background = section.boolean("background");
+  Item const* accuracy_item = section.find("accuracy");
+  section.find("on");  // read when the ensembles are there
+  if (accuracy_item) {
+    auto const accuracy = read_quantity(*accuracy_item, "accuracy", dimensions::none, reading.context, positive);
+    for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"})
+      if (section.has(key)) {
+        section.find(key);
+        reading.mistake(section.place(key),
+                        fmt::format("{}: with 'accuracy' it is chosen by the scheme; leave it out", key));
+      }
+    section.finish();
+    if (!law || !accuracy || !reading.box) return;
+    guarded(reading, accuracy_item->place, [&] {
+      auto mesh = std::make_unique<P3MScheme>(*reading.box, *law, *accuracy);
+      reading.result->mesh = mesh.get();
+      reading.result->scheme = std::move(mesh);
+    });
+  } else {
+    if (law && reading.box) {
+      read_plain_mesh(section, *law, reading);
+    } else {
+      for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"}) section.find(key);
+    }
+    section.finish();
+  }
+  if (reading.result->mesh) reading.result->mesh->background(background);
+}
+
+}  // namespace
+
+void read_scheme(Section& document, Reading& reading) {
+  ScenarioSimulation& result = *reading.result;
+  Item const* table = find_table(document, "mesh");
+  if (table) read_mesh(*table, reading);
+  if (!reading.box) return;
+  if (!result.scheme) {
+    auto pairs = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
+    result.pairs = pairs.get();
+    result.scheme = std::move(pairs);
+  } else {
+    result.pairs = &result.mesh->pairs();
+  }
+  if (reading.run.skin) result.pairs->skin(*reading.run.skin);
+  result.scheme->threads(reading.run.threads);
+}
+
+void load_scheme(Section& document, Reading& reading) {
+  ScenarioSimulation& result = *reading.result;
+  if (!result.scheme) return;
+  if (result.mesh) {
+    Item const& table = *find_table(document, "mesh");
+    Section section(table, "[mesh]", reading.context);
+    std::vector<ReadEnsemble*> on;
+    bool const chosen = section.has("on");
+    if (Item const* item = section.find("on")) {
+      if (item->is(Item::Kind::array)) {
+        for (auto const& word : item->elements) on.push_back(reading.ensemble(word, "on"));
+      } else {
+        on.push_back(reading.ensemble(*item, "on"));
+      }
+    } else {
+      for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
+    }
+    bool any = false;
+    for (auto* ensemble : on) {
+      if (!ensemble || !ensemble->particles || !ensemble->kind) return;
+      MeshKind const kind = ensemble->kind->in(reading.dimension)->mesh;
+      bool const can = kind.strengths != nullptr && kind.sign * result.mesh->constant() > 0;
+      if (!can && !chosen) continue;
+      if (!kind.strengths) {
+        reading.mistake(section.place("on"),
+                        fmt::format("on: '{}' is of class {}, which makes no field; classes that do: "
+                                    "Coulomb, Kepler",
+                                    ensemble->name, ensemble->kind->name));
+        return;
+      }
+      any = true;
+      guarded(reading, chosen ? section.place("on") : ensemble->place,
+              [&] { result.mesh->load(*ensemble->particles, kind); });
+    }
+    if (!any && !reading.ensembles.empty())
+      reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does",
+                                               result.mesh->constant() > 0 ? "Coulomb" : "Kepler"));
+  }
+  // Those that no law acts on are supervised, too.
+  for (auto const& ensemble : reading.ensembles)
+    if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.pairs->load(*ensemble.particles); });
+}
+
+}  // namespace boltzmann

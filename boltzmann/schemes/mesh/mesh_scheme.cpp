@@ -1,0 +1,611 @@
+// From particles to density to potential to field and back to particles, by kernels and a solver.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/schemes/mesh/mesh_steps.hpp>
+#include <boltzmann/schemes/mesh/mesh_work.hpp>
+#include <boltzmann/schemes/mesh/step_task.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+constexpr char const* axis_name = "xyz";
+
+double machine_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+bool closed(FieldBoundary boundary) {
+  return boundary == FieldBoundary::periodic || boundary == FieldBoundary::neumann;
+}
+
+std::string to_string(FieldBoundary boundary) {
+  switch (boundary) {
+    case FieldBoundary::periodic:
+      return "periodic";
+    case FieldBoundary::dirichlet:
+      return "dirichlet";
+    case FieldBoundary::neumann:
+      return "neumann";
+    case FieldBoundary::open:
+      return "open";
+  }
+  return "?";
+}
+
+/// The nodes that the solver needs: those of the box, and along open axes what particles at the edges meet.
+MeshGrid solver_grid(Box const& box, std::vector<std::size_t> const& cells, std::array<FieldEnds, 3> const& ends,
+                     int order) {
+  MeshGrid grid = make_grid(box, cells);
+  for (int a = 0; a < grid.dimension; ++a)
+    if (ends[a].low == FieldBoundary::open) {
+      grid.nodes[a] = cells[a] + static_cast<std::size_t>(order);
+      grid.low[a] -= nodes_before(order) * grid.spacing[a];
+    }
+  return grid;
+}
+
+}  // namespace
+
+double counts_per_strength(double greatest, std::size_t particles) {
+  if (!(greatest > 0)) return 1;
+  double const room = 61 - std::ceil(std::log2(static_cast<double>(particles) + 1));
+  return std::exp2(std::min(48.0, room) - std::ceil(std::log2(greatest)));
+}
+
+void MeshScheme::Loaded::refresh(int threads) {
+  strengths.resize(ensemble->size());
+  for_ranges(
+      ensemble->size(), mesh_grain, ensemble->size() < mesh_worth_threads ? 1 : threads,
+      [&](std::size_t begin, std::size_t end) { kind.strengths(ensemble->row(0), begin, end, strengths.data()); });
+}
+
+MeshScheme::Work::Work(Ghosts the_ghosts, MeshGrid const& the_grid, std::array<FieldEnds, 3> const& ends,
+                       PoissonForm form, int threads, GreensFunction const& green)
+    : ghosts(std::move(the_ghosts)), grid(the_grid), solver(the_grid, ends, form, threads, green) {
+  using namespace dimensions;
+  density = {"density", charge / (length * length * length), grid, std::vector<std::vector<double>>(1)};
+  potential = {"potential", energy / charge, grid, std::vector<std::vector<double>>(1)};
+  field = {"field", energy / charge / length, grid, std::vector<std::vector<double>>(grid.dimension)};
+  tallies.resize(ghosts.size());
+}
+
+std::size_t MeshScheme::Work::bytes() const {
+  std::size_t doubles = density.components[0].capacity() + potential.components[0].capacity();
+  for (auto const& component : field.components) doubles += component.capacity();
+  for (auto const& component : padded) doubles += component.capacity();
+  return doubles * sizeof(double) + tallies.bytes() + solver.bytes();
+}
+
+MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const& law)
+    : Scheme(box), law_(law), pairs_(box), cells_(std::move(cells)) {
+  law.check();
+  if (law.softening != 0)
+    throw Error(
+        fmt::format("mesh: the law has a softening of {}; a mesh smooths by its cells, so leave it 0", law.softening));
+  if (law.constant == 0) throw Error("mesh: the constant of the law is 0: nobody would feel anything");
+  if (!box.regions().empty())
+    throw Error(
+        "mesh: the box has regions; a field with walls inside the box is beyond a mesh solved by Fourier "
+        "transforms");
+  make_grid(this->box(), cells_);
+  for (int a = 0; a < 3; ++a) {
+    FieldBoundary const usual = a < box.dimension() && !box.periodic(a) ? FieldBoundary::open : FieldBoundary::periodic;
+    ends_[a] = {usual, usual};
+  }
+}
+
+MeshScheme::~MeshScheme() = default;
+
+void MeshScheme::changed() { work_.reset(); }
+
+void MeshScheme::boundary(int axis, FieldBoundary low, FieldBoundary high) {
+  if (axis < 0 || axis >= box().dimension())
+    throw Error(fmt::format("mesh: there is no axis {}; the box has {}", axis, box().dimension()));
+  char const name = axis_name[axis];
+  bool const periodic = low == FieldBoundary::periodic || high == FieldBoundary::periodic;
+  if (box().periodic(axis) && !(periodic && low == high))
+    throw Error(fmt::format("mesh: axis {} of the box is periodic, so its field must be, too, not {}", name,
+                            to_string(low == FieldBoundary::periodic ? high : low)));
+  if (!box().periodic(axis) && periodic)
+    throw Error(
+        fmt::format("mesh: a field can't be periodic along axis {}, which is {} for particles; choose dirichlet, "
+                    "neumann or open",
+                    name, boltzmann::to_string(box().boundary(axis))));
+  if ((low == FieldBoundary::open) != (high == FieldBoundary::open))
+    throw Error(fmt::format("mesh: axis {} is open at one end and {} at the other; open must be both", name,
+                            to_string(low == FieldBoundary::open ? high : low)));
+  ends_[axis] = {low, high};
+  changed();
+}
+
+void MeshScheme::assignment(int order) {
+  if (order < 1 || order > highest_order)
+    throw Error(fmt::format("mesh: an assignment of order {}; allowed are 1 (NGP), 2 (CIC), 3 (TSC) to {}", order,
+                            highest_order));
+  order_ = order;
+  changed();
+}
+
+void MeshScheme::form(PoissonForm form) {
+  form_ = form;
+  changed();
+}
+
+void MeshScheme::background(bool yes) { background_ = yes; }
+
+void MeshScheme::load(AnyEnsemble& ensemble, MeshKind const& kind) {
+  if (kind.sign * law_.constant < 0)
+    throw Error(fmt::format("mesh: class {} of '{}' {}, but with the constant {} equal strengths {}; use {}",
+                            ensemble.class_name(), ensemble.name(), kind.sign > 0 ? "repels its like" : "attracts",
+                            law_.constant, law_.constant > 0 ? "repel" : "attract",
+                            kind.sign > 0 ? "coulomb(k)" : "gravity(G)"));
+  if (std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& l) { return l->ensemble == &ensemble; })) return;
+  Scheme::load(ensemble);
+  loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kind, {}}));
+}
+
+void MeshScheme::density_assignment(DensityAssignment stage) { density_assignment_ = std::move(stage); }
+void MeshScheme::potential_calculation(PotentialCalculation stage) { potential_calculation_ = std::move(stage); }
+void MeshScheme::influence_field(InfluenceField stage) { influence_field_ = std::move(stage); }
+void MeshScheme::interpolation(Interpolation stage) { interpolation_ = std::move(stage); }
+
+void MeshScheme::solve_by(std::vector<std::size_t> cells, int order, GreensFunction green) {
+  cells_ = std::move(cells);
+  green_ = std::move(green);
+  form_ = PoissonForm::spectral;
+  assignment(order);
+}
+
+MeshScheme::Work& MeshScheme::work() {
+  if (work_) {
+    work_->solver.threads(threads());
+    return *work_;
+  }
+  MeshGrid const grid = solver_grid(box(), cells_, ends_, order_);
+  double nodes = 1;  // the number as a size may wrap around
+  for (int a = 0; a < grid.dimension; ++a) nodes *= static_cast<double>(grid.nodes[a]);
+  double const gib = 1024.0 * 1024 * 1024;
+  if (8 * nodes > machine_memory())
+    throw Error(fmt::format("mesh: {:.3g} nodes would need more than {:.1f} GiB of memory; this machine has {:.1f} GiB",
+                            nodes, 8 * nodes / gib, machine_memory() / gib));
+  std::array<std::size_t, 3> cells{1, 1, 1};
+  std::copy(cells_.begin(), cells_.end(), cells.begin());
+  // Density, potential, field, the latter two with ghosts, counts.
+  double const needed = static_cast<double>(PoissonSolver::bytes_needed(grid, ends_)) +
+                        static_cast<double>(grid.size()) * 8.0 * (2 * grid.dimension + 4);
+  if (needed > machine_memory())
+    throw Error(fmt::format("mesh: {} nodes would need {:.1f} GiB of memory; this machine has {:.1f} GiB", grid.size(),
+                            needed / gib, machine_memory() / gib));
+  work_ =
+      std::make_unique<Work>(Ghosts(box().dimension(), cells, ends_, order_), grid, ends_, form_, threads(), green_);
+  return *work_;
+}
+
+MeshGrid const& MeshScheme::grid() { return work().grid; }
+
+std::vector<double> MeshScheme::strengths(AnyEnsemble const& ensemble) const {
+  for (auto const& loaded : loaded_)
+    if (loaded->ensemble == &ensemble) {
+      std::vector<double> all(ensemble.size());
+      loaded->kind.strengths(ensemble.row(0), 0, ensemble.size(), all.data());
+      return all;
+    }
+  throw Error(fmt::format("mesh: ensemble '{}' is not loaded", ensemble.name()));
+}
+
+void MeshScheme::check_neutral() const {
+  if (background_ || !closed()) return;
+  double const total = total_strength();
+  double all = 0;
+  for (auto const& loaded : loaded_)
+    for (double const s : loaded->strengths) all += std::abs(s);
+  if (std::abs(total) <= 1e-9 * all) return;
+  bool const walls = !box().periodic(0) || (box().dimension() > 1 && !box().periodic(1)) ||
+                     (box().dimension() > 2 && !box().periodic(2));
+  throw Error(
+      fmt::format("mesh: the strengths sum to {:.6g}, and a {} has no field unless they cancel; add particles "
+                  "of the other sign, or a uniform background: background(true), in scenarios background = true",
+                  total, walls ? "box closed by Neumann walls" : "periodic box"));
+}
+
+AssignTask MeshScheme::task_for(Work const& work, Loaded const& loaded) const {
+  AssignTask task;
+  task.rows = loaded.ensemble->row(0);
+  task.stride = loaded.ensemble->stride();
+  task.strength = loaded.strengths.data();
+  for (int a = 0; a < box().dimension(); ++a) {
+    task.low[a] = box().low(a);
+    task.periodic[a] = box().periodic(a);
+    task.cells[a] = cells_[a];
+    task.per_length[a] = static_cast<double>(cells_[a]) / box().length(a);
+  }
+  task.nodes_x = work.ghosts.nodes(0);
+  task.nodes_y = work.ghosts.nodes(1);
+  return task;
+}
+
+void MeshScheme::assign_density(MeshField& density) {
+  Work& work = this->work();
+  std::size_t particles = 0;
+  double greatest = 0;
+  for (auto const& loaded : loaded_) {
+    particles += loaded->ensemble->size();
+    for (double const s : loaded->strengths) {
+      if (!std::isfinite(s))
+        throw PhysicsFailure(
+            fmt::format("a particle of '{}' has a strength that is not finite", loaded->ensemble->name()));
+      greatest = std::max(greatest, std::abs(s));
+    }
+  }
+  double const per_strength = counts_per_strength(greatest, particles);
+  AssignKernels const kernels = for_instruction_set(
+      [&](auto set) { return assign_kernels<decltype(set)::value>().of[box().dimension() - 1][order_ - 1]; });
+  for (auto& array : work.tallies.arrays()) std::fill_n(array->data(), array->size(), 0);
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    std::size_t const size = ensemble.size();
+    AssignTask task = task_for(work, *loaded);
+    task.per_strength = per_strength;
+    std::vector<AssignResult> results((size + mesh_grain - 1) / mesh_grain);
+    work.tallies.count(size, mesh_grain, size < mesh_worth_threads ? 1 : threads(),
+                       [&](std::size_t begin, std::size_t end, std::int64_t* counts) {
+                         AssignTask mine = task;
+                         mine.counts = counts;
+                         kernels.assign(mine, results[begin / mesh_grain], begin, end);
+                       });
+    for (auto const& result : results)
+      if (result.outside != AssignResult::nobody) {
+        double const* x = ensemble.row(result.outside);
+        for (int a = 0; a < box().dimension(); ++a)
+          if (!(x[a] >= box().low(a) && x[a] <= box().high(a)))
+            throw PhysicsFailure(
+                std::isfinite(x[a])
+                    ? fmt::format("particle {} of '{}' is outside the mesh: {} = {}, the box goes from {} to {}",
+                                  result.outside, ensemble.name(), axis_name[a], x[a], box().low(a), box().high(a))
+                    : fmt::format("particle {} of '{}' has a position that is not finite", result.outside,
+                                  ensemble.name()));
+      }
+  }
+  auto& arrays = work.tallies.arrays();
+  if (arrays.empty()) work.tallies.count(0, 1, 1, [](std::size_t, std::size_t, std::int64_t*) {});
+  std::vector<std::int64_t> counts(arrays[0]->data(), arrays[0]->data() + arrays[0]->size());
+  for (std::size_t k = 1; k < arrays.size(); ++k)
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += (*arrays[k])[i];
+  work.ghosts.fold(counts, 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
+}
+
+void MeshScheme::calculate_potential(MeshField const& density, MeshField& potential) {
+  work().solver.potential(density.components[0], law_.constant, potential.components[0]);
+}
+
+void MeshScheme::calculate_field(MeshField const& potential, MeshField& field) {
+  work().solver.field(potential.components[0], field.components);
+}
+
+void MeshScheme::deposit(Work& work) {
+  for (auto const& loaded : loaded_) loaded->refresh(threads());
+  work.total_strength = total_strength();
+  check_neutral();
+  if (density_assignment_)
+    density_assignment_(*this, work.density);
+  else
+    assign_density(work.density);
+  if (work.density.components[0].size() != work.grid.size())
+    throw Error(fmt::format("mesh: the density has {} numbers, the mesh {} nodes", work.density.components[0].size(),
+                            work.grid.size()));
+  add_background(work);
+}
+
+bool MeshScheme::closed() const {
+  for (int a = 0; a < box().dimension(); ++a)
+    if (!boltzmann::closed(ends_[a].low) || !boltzmann::closed(ends_[a].high)) return false;
+  return true;
+}
+
+double MeshScheme::total_strength() const {
+  double total = 0;
+  for (auto const& loaded : loaded_)
+    for (double const s : loaded->strengths) total += s;
+  return total;
+}
+
+std::vector<double> MeshScheme::shares_inside(MeshGrid const& grid) const {
+  auto const share = [&](int a, std::size_t node) {
+    if (a >= box().dimension() || box().periodic(a)) return 1.0;
+    std::size_t const low = ends_[a].low == FieldBoundary::open ? static_cast<std::size_t>(nodes_before(order_)) : 0;
+    std::size_t const high = low + cells_[a];
+    return node < low || node > high ? 0.0 : node == low || node == high ? 0.5 : 1.0;
+  };
+  std::vector<double> shares(grid.size());
+  for (std::size_t k = 0; k < grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < grid.nodes[1]; ++j)
+      for (std::size_t i = 0; i < grid.nodes[0]; ++i)
+        shares[grid.index(i, j, k)] = share(0, i) * share(1, j) * share(2, k);
+  return shares;
+}
+
+void MeshScheme::add_background(Work& work) const {
+  if (!background_ || closed()) return;  // where the field is closed the mean is left out anyway
+  if (work.inside.empty()) work.inside = shares_inside(work.grid);
+  double const density = -work.total_strength / box().volume();
+  auto& nodes = work.density.components[0];
+  for (std::size_t k = 0; k < work.grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < work.grid.nodes[1]; ++j)
+      for (std::size_t i = 0; i < work.grid.nodes[0]; ++i) {
+        std::size_t const node = work.grid.index(i, j, k);
+        double share = work.inside[node];
+        std::array<std::size_t, 3> const at{i, j, k};
+        // At a plane of symmetry the image has the other half.
+        for (int a = 0; a < box().dimension(); ++a)
+          if (!box().periodic(a) && ends_[a].low != FieldBoundary::open &&
+              (at[static_cast<std::size_t>(a)] == 0 || at[static_cast<std::size_t>(a)] == work.grid.nodes[a] - 1))
+            share *= 2;
+        nodes[node] += share * density;
+      }
+}
+
+void MeshScheme::solve(Work& work, bool with_potential) {
+  ++solves_;
+  if (!potential_calculation_ && !influence_field_) {
+    work.solver.solve(work.density.components[0], law_.constant,
+                      with_potential ? &work.potential.components[0] : nullptr, work.field.components);
+    return;
+  }
+  auto const check = [&](MeshField const& result, std::size_t components) {
+    if (result.components.size() != components)
+      throw Error(fmt::format("mesh: the {} has {} components; it needs {}", result.name, result.components.size(),
+                              components));
+    for (auto const& component : result.components)
+      if (component.size() != work.grid.size())
+        throw Error(fmt::format("mesh: the {} has {} numbers, the mesh {} nodes", result.name, component.size(),
+                                work.grid.size()));
+  };
+  work.potential.components.resize(1);
+  work.potential.components[0].resize(work.grid.size());
+  if (potential_calculation_)
+    potential_calculation_(*this, work.density, work.potential);
+  else
+    calculate_potential(work.density, work.potential);
+  check(work.potential, 1);
+  work.field.components.resize(static_cast<std::size_t>(work.grid.dimension));
+  for (auto& component : work.field.components) component.resize(work.grid.size());
+  if (influence_field_)
+    influence_field_(*this, work.potential, work.field);
+  else
+    calculate_field(work.potential, work.field);
+  check(work.field, static_cast<std::size_t>(work.grid.dimension));
+}
+
+void MeshScheme::gather(Work& work, Loaded& loaded, bool potential, double* result, bool overwrite) {
+  AnyEnsemble const& ensemble = *loaded.ensemble;
+  if (ensemble.size() == 0) return;
+  int const D = box().dimension();
+  AssignTask task = task_for(work, loaded);
+  task.components = potential ? 1 : D;
+  for (int c = 0; c < task.components; ++c) task.field[c] = work.padded[static_cast<std::size_t>(c)].data();
+  task.result = result;
+  task.overwrite = overwrite;
+  AssignKernels const kernels =
+      for_instruction_set([&](auto set) { return assign_kernels<decltype(set)::value>().of[D - 1][order_ - 1]; });
+  for_ranges(ensemble.size(), mesh_grain, ensemble.size() < mesh_worth_threads ? 1 : threads(),
+             [&](std::size_t begin, std::size_t end) {
+               AssignResult ignored;
+               kernels.interpolate(task, ignored, begin, end);
+             });
+}
+
+namespace {
+
+/// The components of a field, or a potential, with what stands on ghosts.
+void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
+         int threads) {
+  padded.resize(field.components.size());
+  std::size_t const nx = ghosts.nodes(0), ny = ghosts.nodes(1), nz = ghosts.nodes(2);
+  MeshGrid const& grid = field.grid;
+  for (std::size_t c = 0; c < padded.size(); ++c) {
+    padded[c].resize(ghosts.size());
+    double const* from = field.components[c].data();
+    double* to = padded[c].data();
+    auto const parity = [&](int a, std::size_t g) {
+      return potential ? ghosts.parity(a, g) : ghosts.field_parity(a, g, static_cast<int>(c));
+    };
+    for_ranges(ny * nz, std::max<std::size_t>(1, 32768 / nx), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        std::size_t const j = row % ny, k = row / ny;
+        double const sign = parity(1, j) * parity(2, k);
+        double const* const mesh_row = from + grid.index(0, ghosts.mesh_node(1, j), ghosts.mesh_node(2, k));
+        for (std::size_t i = 0; i < nx; ++i) to[row * nx + i] = sign * parity(0, i) * mesh_row[ghosts.mesh_node(0, i)];
+      }
+    });
+  }
+}
+
+}  // namespace
+
+void MeshScheme::interpolate(MeshField const& field, AnyEnsemble const& ensemble, std::vector<double>& E) {
+  for (auto const& loaded : loaded_)
+    if (loaded->ensemble == &ensemble) {
+      Work& work = this->work();
+      pad(work.ghosts, field, false, work.padded, threads());
+      E.resize(ensemble.size() * static_cast<std::size_t>(ensemble.dimension()));
+      Loaded unit{loaded->ensemble, loaded->kind, std::vector<double>(ensemble.size(), 1.0)};
+      gather(work, unit, false, E.data(), true);
+      return;
+    }
+  throw Error(fmt::format("mesh: ensemble '{}' is not loaded", ensemble.name()));
+}
+
+std::vector<AnyEnsemble*> const& MeshScheme::ensembles() const {
+  supervised_ = Scheme::ensembles();
+  for (auto* ensemble : pairs_.ensembles())
+    if (std::find(supervised_.begin(), supervised_.end(), ensemble) == supervised_.end())
+      supervised_.push_back(ensemble);
+  return supervised_;
+}
+
+void MeshScheme::calculate(double time) {
+  for (auto* ensemble : ensembles()) ensemble->clear_influence();
+  add_influences(time);
+}
+
+void MeshScheme::add_influences(double time) {
+  pairs_.threads(threads());
+  if (!pairs_.ensembles().empty()) pairs_.add_influences(time);
+  Work& work = this->work();
+  deposit(work);
+  solve(work, false);
+  if (!interpolation_) pad(work.ghosts, work.field, false, work.padded, threads());
+  std::vector<double> E;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble& ensemble = *loaded->ensemble;
+    std::size_t const components = ensemble.influence_size();
+    if (!interpolation_ && quantum_ == 0) {
+      if (ensemble.size() > 0) gather(work, *loaded, false, ensemble.influence(0), false);
+      continue;
+    }
+    if (interpolation_) {
+      interpolation_(*this, work.field, ensemble, E);
+      if (E.size() != ensemble.size() * components)
+        throw Error(fmt::format("mesh: the interpolation gave {} numbers for {} particles of {} dimensions", E.size(),
+                                ensemble.size(), components));
+      for (std::size_t i = 0; i < E.size(); ++i) E[i] *= loaded->strengths[i / components];
+    } else {
+      E.resize(ensemble.size() * components);
+      gather(work, *loaded, false, E.data(), true);
+    }
+    double const rounding = 1.5 * 4503599627370496.0 * quantum_;
+    for (std::size_t i = 0; i < E.size(); ++i)
+      ensemble.influence(0)[i] += quantum_ > 0 ? (E[i] + rounding) - rounding : E[i];
+  }
+}
+
+std::vector<MeshField const*> MeshScheme::mesh_fields() {
+  Work& work = this->work();
+  deposit(work);
+  solve(work, true);
+  return {&work.density, &work.potential, &work.field};
+}
+
+Measures MeshScheme::measure(double time) {
+  Measures measures;
+  if (!pairs_.ensembles().empty()) measures = pairs_.measure(time);
+  Work& work = this->work();
+  deposit(work);
+  solve(work, true);
+  pad(work.ghosts, work.potential, true, work.padded, threads());
+  // The pair scheme may supervise fewer ensembles, in another order.
+  auto const& all = ensembles();
+  std::vector<std::vector<double>> energies(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    energies[e].assign(all[e]->size(), 0.0);
+    for (std::size_t k = 0; k < pairs_.ensembles().size() && k < measures.per_particle.size(); ++k)
+      if (pairs_.ensembles()[k] == all[e]) energies[e] = measures.per_particle[k];
+  }
+  for (auto const& loaded : loaded_) {
+    std::size_t const size = loaded->ensemble->size();
+    std::vector<double> energy(size);
+    gather(work, *loaded, true, energy.data(), true);
+    auto& own = energies[static_cast<std::size_t>(std::find(all.begin(), all.end(), loaded->ensemble) - all.begin())];
+    for (std::size_t i = 0; i < size; ++i) {
+      double const e = 0.5 * energy[i];
+      own[i] += e;
+      measures.potential += e;
+    }
+  }
+  if (background_ && !closed()) {
+    double sum = 0;
+    for (std::size_t node = 0; node < work.grid.size(); ++node)
+      sum += work.inside[node] * work.potential.components[0][node];
+    measures.potential -= 0.5 * work.total_strength / box().volume() * sum * work.grid.cell_volume();
+  }
+  measures.per_particle = std::move(energies);
+  add_stress(work, measures);
+  return measures;
+}
+
+void MeshScheme::add_stress(Work const& work, Measures& measures) const {
+  // Maxwell's stress of a periodic field: the integral of (E^2/2 delta_ab - E_a E_b) / C.
+  int const D = box().dimension();
+  bool periodic = !green_;
+  for (int a = 0; a < D; ++a) periodic = periodic && box().periodic(a);
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < D; ++b) {
+      if (!periodic) {
+        measures.virial[a][b] = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
+      double sum = 0;
+      for (std::size_t i = 0; i < work.grid.size(); ++i) {
+        double e2 = 0;
+        for (int c = 0; c < D; ++c) e2 += square(work.field.components[c][i]);
+        sum += (a == b ? 0.5 * e2 : 0.0) - work.field.components[a][i] * work.field.components[b][i];
+      }
+      measures.virial[a][b] += sum * work.grid.cell_volume() / law_.constant;
+    }
+}
+
+std::vector<Rotation> MeshScheme::rotations(AnyEnsemble const& ensemble, bool taken) {
+  return pairs_.rotations(ensemble, taken);
+}
+
+double MeshScheme::length_scale(AnyEnsemble const& ensemble) const {
+  double least = pairs_.length_scale(ensemble);
+  for (int a = 0; a < box().dimension(); ++a) least = std::min(least, box().length(a));
+  return least;
+}
+
+std::string MeshScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  return pairs_.explain(ensemble, i);
+}
+
+void MeshScheme::make_reversible(double quantum) {
+  pairs_.make_reversible(quantum);
+  quantum_ = quantum;
+}
+
+std::size_t MeshScheme::bytes() const { return pairs_.bytes() + (work_ ? work_->bytes() : 0); }
+
+std::string MeshScheme::report() const {
+  std::string cells;
+  for (auto const n : cells_) cells += fmt::format("{}{}", cells.empty() ? "" : " x ", n);
+  std::string text = fmt::format("mesh of {} cells solved {} times", cells, solves_);
+  if (auto const pairs = pairs_.report(); !pairs.empty()) text += "; " + pairs;
+  return text;
+}
+
+std::vector<double> MeshScheme::state() const { return pairs_.state(); }
+void MeshScheme::restore(std::span<double const> state) { pairs_.restore(state); }
+
+bool MeshScheme::plain() const {
+  return !density_assignment_ && !potential_calculation_ && !influence_field_ && !interpolation_ && quantum_ == 0 &&
+         !green_ && order_ <= highest_step_order;
+}
+
+std::unique_ptr<WholeSteps> MeshScheme::whole_steps(std::vector<Mover> const& movers, double dt) {
+  if (!plain() || movers.size() != loaded_.size()) return nullptr;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const mover =
+        std::find_if(movers.begin(), movers.end(), [&](Mover const& m) { return m.ensemble == &ensemble; });
+    if (mover == movers.end() || ensemble.size() == 0 || !pairs_.acts_uniformly(ensemble)) return nullptr;
+    if (mover->moves && !loaded->kind.newton) return nullptr;
+    // A strength and a mass for all.
+    loaded->refresh(threads());
+    double const mass = ensemble.row(0)[loaded->kind.mass], strength = loaded->strengths[0];
+    for (std::size_t i = 0; i < ensemble.size(); ++i)
+      if (ensemble.row(i)[loaded->kind.mass] != mass || loaded->strengths[i] != strength) return nullptr;
+    if (!(mass > 0) || !std::isfinite(mass) || !std::isfinite(strength)) return nullptr;
+  }
+  check_neutral();
+  work().total_strength = total_strength();
+  return make_mesh_steps(*this, movers, dt);
+}
+
+}  // namespace boltzmann

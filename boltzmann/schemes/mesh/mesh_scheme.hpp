@@ -1,0 +1,171 @@
+// MeshScheme: influences of Laplace particles through a potential on a mesh (section 4.4 of the 1990 thesis).
+//
+//   MeshScheme mesh(Box(Vector{0.}, Vector{L}, Boundary::periodic), {512}, coulomb(k));
+//   mesh.load(electrons);
+//   mesh.background(true);
+//   Simulation simulation(mesh, dt);
+#pragma once
+
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/schemes/mesh/mesh_field.hpp>
+#include <boltzmann/schemes/mesh/mesh_kind.hpp>
+#include <boltzmann/schemes/mesh/poisson.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+struct AssignTask;
+
+/// How strengths are spread over nodes, and the field brought back: the nearest node, the 2 (4, 8) nodes of the cell,
+/// or the 3 (9, 27) nearest, by B-splines of order 1, 2, 3.
+enum class Assignment { ngp = 1, cic = 2, tsc = 3 };
+
+/// What particles are stored in while a run goes through the mesh's own loop; the user's rows are doubles always.
+enum class Precision {
+  full,    ///< doubles
+  single,  ///< velocities as floats, positions as 2^-20 to 2^-30 parts of a cell: half the memory, and faster
+};
+
+class MeshScheme : public Scheme {
+ public:
+  /// A mesh of so many cells along each axis over the box. `law` says what field strengths make (coulomb(k),
+  /// gravity(G): div E = C rho); it can't be softened. The field is periodic where the box is, free space outside
+  /// (FieldBoundary::open) on other axes unless boundary() says otherwise.
+  /// Error if the box has regions, an axis has no cells, or the mesh would take more memory than this machine has.
+  MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const& law);
+  ~MeshScheme() override;
+
+  /// What the field does at the ends of an axis that is not periodic. Error for a periodic one, or if only one end is
+  /// open.
+  void boundary(int axis, FieldBoundary low, FieldBoundary high);
+  void boundary(int axis, FieldBoundary both) { boundary(axis, both, both); }
+  void assignment(Assignment order) { assignment(static_cast<int>(order)); }
+  /// B-splines of any order from 1 to 7. Error for others.
+  void assignment(int order);
+  int assignment() const { return order_; }
+  void form(PoissonForm form);
+  PoissonForm form() const { return form_; }
+  /// A uniform background that makes the whole neutral. Where the field is periodic (or closed in by Neumann walls)
+  /// there is no field without.
+  void background(bool yes);
+  void precision(Precision precision) { precision_ = precision; }
+  Precision precision() const { return precision_; }
+
+  /// The particles of an ensemble of any class with a strength() make the field and feel it.
+  template <class P>
+  void load(Ensemble<P>& ensemble) {
+    static_assert(MeshParticle<P>,
+                  "a mesh supervises classes that derive from Laplace: with a strength(), and a force as influence");
+    load(ensemble, mesh_kind<P>());
+  }
+  /// For code that knows classes only at run time.
+  void load(AnyEnsemble& ensemble, MeshKind const& kind);
+
+  /// An influence from outside, as in PairScheme.
+  template <class P, class Law>
+  void external(Ensemble<P>& ensemble, Law const& law) {
+    pairs_.external(ensemble, law);
+  }
+  /// What acts beside the mesh: pair laws, connections and influences from outside. Its measures are included.
+  PairScheme& pairs() { return pairs_; }
+  PairScheme const& pairs() const { return pairs_; }
+
+  // The four stages of section 4.4, each of which a user's function may replace.
+  /// Gives the density of strength on the nodes.
+  using DensityAssignment = std::function<void(MeshScheme& mesh, MeshField& density)>;
+  /// Solves laplacian phi = -C rho.
+  using PotentialCalculation = std::function<void(MeshScheme& mesh, MeshField const& density, MeshField& potential)>;
+  /// Gives E from phi: a component for each axis.
+  using InfluenceField = std::function<void(MeshScheme& mesh, MeshField const& potential, MeshField& field)>;
+  /// Gives E at each particle of an ensemble, dimension() numbers a particle.
+  using Interpolation = std::function<void(MeshScheme& mesh, MeshField const& field, AnyEnsemble const& ensemble,
+                                           std::vector<double>& E)>;
+  void density_assignment(DensityAssignment stage);
+  void potential_calculation(PotentialCalculation stage);
+  void influence_field(InfluenceField stage);
+  void interpolation(Interpolation stage);
+  // And what they do unless replaced, for functions that add to it.
+  void assign_density(MeshField& density);
+  void calculate_potential(MeshField const& density, MeshField& potential);
+  void calculate_field(MeshField const& potential, MeshField& field);
+  void interpolate(MeshField const& field, AnyEnsemble const& ensemble, std::vector<double>& E);
+
+  /// The strengths of an ensemble's particles.
+  std::vector<double> strengths(AnyEnsemble const& ensemble) const;
+  /// C of div E = C rho.
+  double constant() const { return law_.constant; }
+  /// The nodes. Along open axes the mesh reaches beyond the box by some cells.
+  MeshGrid const& grid();
+  /// Density, potential and field of the particles as they stand.
+  std::vector<MeshField const*> mesh_fields() override;
+
+  /// Those that make the field, then those that only pairs() knows.
+  std::vector<AnyEnsemble*> const& ensembles() const override;
+  void add_influences(double time) override;
+  void calculate(double time = 0) override;
+  std::unique_ptr<WholeSteps> whole_steps(std::vector<Mover> const& movers, double dt) override;
+  std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
+  Measures measure(double time = 0) override;
+  double length_scale(AnyEnsemble const& ensemble) const override;
+  std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
+  std::string report() const override;
+  std::vector<std::string> advice(double step_size) override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+ protected:
+  /// Replaces the solution of Poisson's equation (P3M): the mesh, the order, Green's function.
+  void solve_by(std::vector<std::size_t> cells, int order, GreensFunction green);
+
+ private:
+  template <class Real>
+  friend class MeshSteps;
+  struct Loaded;
+  struct Work;
+
+  void changed();
+  Work& work();
+  bool closed() const;
+  double total_strength() const;
+  std::vector<double> shares_inside(MeshGrid const& grid) const;
+  void add_background(Work& work) const;
+  void check_neutral() const;
+  AssignTask task_for(Work const& work, Loaded const& loaded) const;
+  void deposit(Work& work);
+  void solve(Work& work, bool with_potential);
+  void gather(Work& work, Loaded& loaded, bool potential, double* result, bool overwrite);
+  void add_stress(Work const& work, Measures& measures) const;
+  bool plain() const;
+
+  LaplaceLaw law_;
+  PairScheme pairs_;
+  std::vector<std::size_t> cells_;
+  std::array<FieldEnds, 3> ends_;
+  int order_ = 2;
+  PoissonForm form_ = PoissonForm::finite_difference;
+  Precision precision_ = Precision::full;
+  bool background_ = false;
+  double quantum_ = 0;
+  GreensFunction green_;
+  DensityAssignment density_assignment_;
+  PotentialCalculation potential_calculation_;
+  InfluenceField influence_field_;
+  Interpolation interpolation_;
+  std::vector<std::unique_ptr<Loaded>> loaded_;
+  std::unique_ptr<Work> work_;
+  std::size_t solves_ = 0;
+  mutable std::vector<AnyEnsemble*> supervised_;
+};
+
+}  // namespace boltzmann

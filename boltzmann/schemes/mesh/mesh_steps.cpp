@@ -1,0 +1,475 @@
+// Whole steps on a mesh: columns sorted in space, slots of the field, and the loop around the kernels.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/schemes/mesh/mesh_steps.hpp>
+#include <boltzmann/schemes/mesh/mesh_work.hpp>
+#include <boltzmann/schemes/mesh/step_task.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace boltzmann {
+
+namespace {
+
+constexpr std::size_t column_padding = 64 / sizeof(float);
+// Slots that fit the second-level cache need no order of particles.
+constexpr std::size_t slots_worth_sorting = 1U << 18U;
+// Particles are sorted again when the fastest one has come so many cells, or after so many steps.
+constexpr double cells_between_sorts = 2;
+constexpr int most_steps_between_sorts = 50;
+// Slots of the density that are few enough to be kept several times.
+constexpr std::size_t slots_worth_copies = 1U << 16U;
+
+template <class Real>
+StepKernels<Real> step_kernels(int dimension, int order) {
+  return for_instruction_set([&](auto set) {
+    if constexpr (std::is_same_v<Real, double>)
+      return double_steps<decltype(set)::value>().of[dimension - 1][order - 1];
+    else
+      return single_steps<decltype(set)::value>().of[dimension - 1][order - 1];
+  });
+}
+
+}  // namespace
+
+template <class Real>
+class MeshSteps final : public WholeSteps {
+ public:
+  using Fixed = typename StepTask<Real>::Fixed;
+
+  MeshSteps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt)
+      : scheme_(scheme),
+        work_(scheme.work()),
+        dimension_(scheme.box().dimension()),
+        dt_(dt),
+        kernels_(step_kernels<Real>(dimension_, scheme.order_)) {
+    choose_slots();
+    choose_bits();
+    for (auto& loaded : scheme.loaded_) {
+      auto const mover =
+          std::find_if(movers.begin(), movers.end(), [&](Mover const& m) { return m.ensemble == loaded->ensemble; });
+      add_columns(*loaded, mover->moves);
+    }
+    count_units();
+    deposit();
+    solve();
+  }
+
+  void step(double time) override {
+    for (auto& array : tallies_.arrays()) clear(*array);
+    for (auto& columns : columns_) {
+      if (columns.moves) {
+        accelerate(columns, time);
+        run(columns, kernels_.advance, true);
+        columns.task.pending = true;
+      } else {
+        run(columns, kernels_.deposit, true);
+      }
+    }
+    now_ = time + dt_;
+    sort_if_due();
+    solve();
+  }
+
+  void store() override {
+    for (auto& columns : columns_) {
+      if (!columns.moves) continue;
+      if (columns.task.pending) accelerate(columns, now_);  // the second kick of the last step is at its end
+      store(columns);
+    }
+  }
+
+ private:
+  struct Columns {
+    AnyEnsemble* ensemble;
+    MeshKind kind;
+    bool moves;
+    double mass, strength;
+    std::size_t size;
+    AlignedArray<Fixed> position[3], other_position[3];
+    AlignedArray<Real> velocity[3], other_velocity[3];
+    std::vector<std::uint32_t> order, other_order;  // the number of each particle
+    StepTask<Real> task;
+    double fastest = 0;    // square of a velocity in the last step
+    double travelled = 0;  // cells since the last sort
+    int steps = 0;
+  };
+
+  static void clear(AlignedArray<std::int64_t>& array) { std::fill_n(array.data(), array.size(), 0); }
+
+  void choose_slots() {
+    Ghosts const& ghosts = work_.ghosts;
+    slots_x_ = ghosts.cells(0) + 1;
+    slots_y_ = ghosts.nodes(1);
+    slots_ = slots_x_ * ghosts.nodes(1) * ghosts.nodes(2);
+    width_ = static_cast<std::size_t>(slot_width(scheme_.order_));
+    numbers_ = static_cast<std::size_t>(slot_numbers(dimension_, scheme_.order_));
+    copies_ = slots_ <= slots_worth_copies ? 4 : 1;
+    field_.resize(slots_ * numbers_);
+    tallies_.resize(slots_ * width_ * copies_);
+  }
+
+  /// Parts of a cell: as fine as the numbers allow, and no finer than what comes back from the rows' doubles.
+  void choose_bits() {
+    double largest = 1, furthest = 1;
+    for (int a = 0; a < dimension_; ++a) {
+      Box const& box = scheme_.box();
+      largest = std::max(largest, static_cast<double>(work_.ghosts.cells(a)));
+      furthest = std::max({furthest, std::abs(box.low(a)) / box.length(a), std::abs(box.high(a)) / box.length(a)});
+    }
+    int const cells = static_cast<int>(std::ceil(std::log2(largest)));
+    bits_ = std::is_same_v<Real, double> ? 49 - cells - static_cast<int>(std::ceil(std::log2(furthest))) : 30 - cells;
+    if constexpr (std::is_same_v<Real, float>) bits_ = std::min(bits_, 24);
+    if (bits_ < 8) throw Error("mesh: single precision has too few bits for so many cells; take precision full");
+    for (int a = 0; a < dimension_; ++a) {
+      part_[a] = work_.grid.spacing[a] / std::exp2(bits_);
+      end_[a] = static_cast<Fixed>(work_.ghosts.cells(a)) << bits_;
+    }
+  }
+
+  double position(Columns const& columns, int a, std::size_t i) const {
+    return scheme_.box().low(a) + static_cast<double>(columns.position[a][i]) * part_[a];
+  }
+
+  void add_columns(MeshScheme::Loaded const& loaded, bool moves) {
+    AnyEnsemble& ensemble = *loaded.ensemble;
+    Columns& columns = columns_.emplace_back();
+    columns.ensemble = &ensemble;
+    columns.kind = loaded.kind;
+    columns.moves = moves;
+    columns.size = ensemble.size();
+    columns.mass = ensemble.row(0)[loaded.kind.mass];
+    columns.strength = loaded.strengths[0];
+    if (columns.size > std::numeric_limits<std::uint32_t>::max())
+      throw Error(fmt::format("mesh: '{}' has {} particles; at most {} are possible", ensemble.name(), columns.size,
+                              std::numeric_limits<std::uint32_t>::max()));
+    std::size_t const padded = columns.size + column_padding;
+    for (int a = 0; a < dimension_; ++a) {
+      columns.position[a].resize(padded);
+      columns.velocity[a].resize(padded);
+    }
+    columns.order.resize(columns.size);
+    std::atomic<std::size_t> outside{AssignResult::nobody};
+    for_ranges(columns.size, mesh_grain, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        double const* row = ensemble.row(i);
+        columns.order[i] = static_cast<std::uint32_t>(i);
+        for (int a = 0; a < dimension_; ++a) {
+          Box const& box = scheme_.box();
+          double const at = box.periodic(a) ? box.wrapped(row[a], a) : row[a];
+          double const x = std::nearbyint((at - box.low(a)) / part_[a]);
+          double const v = row[columns.kind.velocity + a];
+          bool const inside = x >= 0 && x <= static_cast<double>(end_[a]) && std::isfinite(v);
+          if (!inside)  // the first one, whoever comes first
+            for (auto first = outside.load(); i < first && !outside.compare_exchange_weak(first, i);) {
+            }
+          // What rounds to the high edge of a periodic axis is at the low one.
+          bool const wrapped = scheme_.box().periodic(a) && x >= static_cast<double>(end_[a]);
+          columns.position[a][i] = inside && !wrapped ? static_cast<Fixed>(x) : 0;
+          columns.velocity[a][i] = static_cast<Real>(v);
+        }
+      }
+    });
+    if (outside != AssignResult::nobody) refuse(columns, outside);
+    StepTask<Real>& task = columns.task;
+    for (int a = 0; a < dimension_; ++a) {
+      task.end[a] = end_[a];
+      Boundary const boundary = scheme_.box().boundary(a);
+      task.boundary[a] = boundary == Boundary::periodic  ? StepBoundary::wraps
+                         : boundary == Boundary::bounded ? StepBoundary::reflects
+                                                         : StepBoundary::ends;
+      task.per_time[a] = static_cast<Real>(dt_ / part_[a]);
+    }
+    task.bits = bits_;
+    task.kick = static_cast<Real>(columns.strength / columns.mass * dt_ / 2);
+    task.slots_x = slots_x_;
+    task.slots_y = slots_y_;
+    task.copies = copies_;
+    task.field = field_.data();
+    double const longest = scheme_.length_scale(ensemble) / std::abs(dt_);
+    task.fastest_allowed = static_cast<Real>(std::min(longest * longest, 1e30));
+    set_turn(columns);
+    if (sorting()) sort(columns);
+  }
+
+  bool sorting() const { return slots_ * (numbers_ * sizeof(Real) + width_ * 8) > slots_worth_sorting; }
+
+  [[noreturn]] void refuse(Columns const& columns, std::size_t i) const {
+    double const* row = columns.ensemble->row(i);
+    for (int a = 0; a < dimension_; ++a)
+      if (std::isfinite(row[a]) && !(row[a] >= scheme_.box().low(a) && row[a] <= scheme_.box().high(a)))
+        throw PhysicsFailure(fmt::format("particle {} of '{}' is outside the mesh: {} = {}, the box goes from {} to {}",
+                                         i, columns.ensemble->name(), "xyz"[a], row[a], scheme_.box().low(a),
+                                         scheme_.box().high(a)));
+    throw PhysicsFailure(
+        fmt::format("particle {} of '{}' has a position or velocity that is not finite", i, columns.ensemble->name()));
+  }
+
+  /// The rotation of velocities in half a step: what it makes of the axes.
+  void set_turn(Columns& columns) {
+    auto const rotations = scheme_.pairs_.rotations(*columns.ensemble, true);
+    columns.task.turns = !rotations.empty() && columns.moves;
+    if (!columns.task.turns) return;
+    AlignedArray<double> particle(columns.ensemble->stride());
+    double* const row = particle.data();
+    for (int b = 0; b < dimension_; ++b) {
+      std::copy_n(columns.ensemble->row(0), columns.ensemble->stride(), row);
+      for (int a = 0; a < dimension_; ++a) row[columns.kind.velocity + a] = a == b ? 1 : 0;
+      for (auto const& rotation : rotations) rotation.kernel(rotation.law, {row, nullptr, dt_ / 2}, 0, 1);
+      for (int a = 0; a < dimension_; ++a)
+        columns.task.turn[3 * a + b] = static_cast<Real>(row[columns.kind.velocity + a]);
+    }
+  }
+
+  /// What strengths count, so that no sum can be too large.
+  void count_units() {
+    std::size_t particles = 0;
+    double greatest = 0;
+    for (auto const& columns : columns_) {
+      particles += columns.size;
+      greatest = std::max(greatest, std::abs(columns.strength));
+    }
+    double per_strength = counts_per_strength(greatest, particles);
+    if constexpr (std::is_same_v<Real, float>)
+      per_strength = std::min(per_strength, std::exp2(30 - std::ceil(std::log2(greatest > 0 ? greatest : 1))));
+    unit_ = 1 / (per_strength * work_.grid.cell_volume());
+    for (auto& columns : columns_) columns.task.charge = static_cast<Real>(columns.strength * per_strength);
+  }
+
+  void accelerate(Columns& columns, double time) {
+    double force[3] = {0, 0, 0};
+    scheme_.pairs_.add_outside(*columns.ensemble, columns.ensemble->row(0), time, force);
+    for (int a = 0; a < dimension_; ++a) columns.task.push[a] = static_cast<Real>(force[a] / columns.mass * dt_ / 2);
+  }
+
+  /// Runs a kernel over all particles of an ensemble, counting if `counts`.
+  void run(Columns& columns, StepKernel<Real> kernel, bool counts) {
+    StepTask<Real>& task = columns.task;
+    for (int a = 0; a < dimension_; ++a) {
+      task.position[a] = columns.position[a].data();
+      task.velocity[a] = columns.velocity[a].data();
+    }
+    std::vector<StepResult> results((columns.size + mesh_grain - 1) / mesh_grain);
+    int const threads = columns.size < mesh_worth_threads ? 1 : scheme_.threads();
+    if (counts) {
+      tallies_.count(columns.size, mesh_grain, threads, [&](std::size_t begin, std::size_t end, std::int64_t* density) {
+        StepTask<Real> mine = task;
+        mine.density = density;
+        kernel(mine, results[begin / mesh_grain], begin, end);
+      });
+    } else {
+      for_ranges(columns.size, mesh_grain, threads,
+                 [&](std::size_t begin, std::size_t end) { kernel(task, results[begin / mesh_grain], begin, end); });
+    }
+    // The kernel has moved what stands behind the last particle.
+    for (std::size_t i = columns.size; i < columns.size + column_padding; ++i)
+      for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
+    columns.fastest = 0;
+    bool failed = false;
+    for (auto const& result : results) {
+      columns.fastest = std::max(columns.fastest, result.fastest);
+      failed = failed || result.failed;
+    }
+    if (failed) explain(columns);
+  }
+
+  /// Somebody has failed: who?
+  [[noreturn]] void explain(Columns const& columns) const {
+    auto const& name = columns.ensemble->name();
+    std::size_t who = columns.size;
+    double fastest = 0;
+    for (std::size_t i = 0; i < columns.size; ++i) {
+      double square = 0;
+      for (int a = 0; a < dimension_; ++a) square += std::pow(static_cast<double>(columns.velocity[a][i]), 2);
+      if (!std::isfinite(square))
+        throw PhysicsFailure(
+            fmt::format("particle {} of '{}' has a velocity that is not finite", columns.order[i], name));
+      if (square > fastest) fastest = square, who = i;
+    }
+    double const allowed = scheme_.length_scale(*columns.ensemble), moved = std::sqrt(fastest) * std::abs(dt_);
+    if (moved > allowed)
+      throw PhysicsFailure(
+          fmt::format("particle {} of '{}' moved {:.4g} in one step, further than the length {:.4g} of "
+                      "the box; take a step below {:.3g}",
+                      columns.order[who], name, moved, allowed, 0.1 * std::abs(dt_) * allowed / moved));
+    // It was put on the low edge, so that it could do no harm.
+    for (std::size_t i = 0; i < columns.size; ++i)
+      for (int a = 0; a < dimension_; ++a)
+        if (columns.position[a][i] == 0 && columns.task.boundary[a] == StepBoundary::ends)
+          throw PhysicsFailure(
+              fmt::format("particle {} of '{}' has left the mesh along {}; make the box larger, or bound "
+                          "it",
+                          columns.order[i], name, "xyz"[a]));
+    throw PhysicsFailure(fmt::format("a particle of '{}' has left the mesh", name));
+  }
+
+  void deposit() {
+    for (auto& columns : columns_) run(columns, kernels_.deposit, true);
+  }
+
+  /// From counts to the slots of the field.
+  void solve() {
+    ++scheme_.solves_;
+    Ghosts const& ghosts = work_.ghosts;
+    std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
+    auto const& arrays = tallies_.arrays();
+    counts_.resize(ghosts.size());
+    std::size_t const grain = std::max<std::size_t>(1, 16384 / nx);
+    for_ranges(rows, grain, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+      std::fill(counts_.begin() + static_cast<std::ptrdiff_t>(begin * nx),
+                counts_.begin() + static_cast<std::ptrdiff_t>(end * nx), 0);
+      for (auto const& array : arrays)
+        for (std::size_t row = begin; row < end; ++row) {
+          std::int64_t const* from = array->data() + row * slots_x_ * copies_ * width_;
+          std::int64_t* const to = counts_.data() + row * nx;
+          for (std::size_t i = 0; i < slots_x_; ++i)
+            for (std::size_t copy = 0; copy < copies_; ++copy, from += width_)
+              for (int k = 0; k < ghosts.order(); ++k) to[i + static_cast<std::size_t>(k)] += from[k];
+        }
+    });
+    ghosts.fold(counts_, unit_, work_.density.components[0], scheme_.threads());
+    scheme_.add_background(work_);
+    work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components);
+    int const order = ghosts.order();
+    for_ranges(rows, grain, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+      std::vector<Real> line(nx);
+      for (std::size_t row = begin; row < end; ++row) {
+        std::size_t const j = row % ghosts.nodes(1), k = row / ghosts.nodes(1);
+        for (int c = 0; c < dimension_; ++c) {
+          double const* from = work_.field.components[static_cast<std::size_t>(c)].data() +
+                               work_.grid.index(0, ghosts.mesh_node(1, j), ghosts.mesh_node(2, k));
+          double const sign = ghosts.field_parity(1, j, c) * ghosts.field_parity(2, k, c);
+          for (std::size_t i = 0; i < nx; ++i)
+            line[i] = static_cast<Real>(sign * ghosts.field_parity(0, i, c) * from[ghosts.mesh_node(0, i)]);
+          Real* to = field_.data() + row * slots_x_ * numbers_ + static_cast<std::size_t>(c) * width_;
+          for (std::size_t i = 0; i < slots_x_; ++i, to += numbers_)
+            for (int n = 0; n < order; ++n) to[n] = line[i + static_cast<std::size_t>(n)];
+        }
+      }
+    });
+  }
+
+  void sort_if_due() {
+    if (!sorting()) return;
+    for (auto& columns : columns_) {
+      if (!columns.moves) continue;
+      double least = std::numeric_limits<double>::infinity();
+      for (int a = 0; a < dimension_; ++a) least = std::min(least, work_.grid.spacing[a]);
+      columns.travelled += 0.3 * std::sqrt(columns.fastest) * std::abs(dt_) / least;  // most are slower
+      if (++columns.steps >= most_steps_between_sorts || columns.travelled > cells_between_sorts) sort(columns);
+    }
+  }
+
+  /// Puts particles into the order of their cells. Nothing that is computed depends on it.
+  void sort(Columns& columns) {
+    std::size_t const size = columns.size;
+    Ghosts const& ghosts = work_.ghosts;
+    std::size_t const nx = ghosts.cells(0) + 1, ny = dimension_ > 1 ? ghosts.cells(1) + 1 : 1,
+                      nz = dimension_ > 2 ? ghosts.cells(2) + 1 : 1, cells = nx * ny * nz;
+    auto const cell_of = [&](std::size_t i) {
+      std::size_t cell = 0;
+      for (int a = dimension_ - 1; a >= 0; --a)
+        cell = cell * (a == 0 ? nx : a == 1 ? ny : nz) + static_cast<std::size_t>(columns.position[a][i] >> bits_);
+      return cell;
+    };
+    // As many parts as threads, and no more counters than particles.
+    std::size_t const parts = std::clamp<std::size_t>(
+        std::min<std::size_t>(static_cast<std::size_t>(scheme_.threads()), size / (cells + 1)), 1, 64);
+    std::vector<std::vector<std::uint32_t>> starts(parts);
+    std::size_t const part = (size + parts - 1) / parts;
+    for_ranges(parts, 1, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        starts[p].assign(cells, 0);
+        for (std::size_t i = p * part; i < std::min(size, (p + 1) * part); ++i) ++starts[p][cell_of(i)];
+      }
+    });
+    std::uint32_t next = 0;
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      for (std::size_t p = 0; p < parts; ++p) next += std::exchange(starts[p][cell], next);
+    std::size_t const padded = size + column_padding;
+    columns.other_order.resize(size);
+    for (int a = 0; a < dimension_; ++a) {
+      if (columns.other_position[a].size() != padded) columns.other_position[a].resize(padded);
+      if (columns.other_velocity[a].size() != padded) columns.other_velocity[a].resize(padded);
+    }
+    for_ranges(parts, 1, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p)
+        for (std::size_t i = p * part; i < std::min(size, (p + 1) * part); ++i) {
+          std::size_t const to = starts[p][cell_of(i)]++;
+          columns.other_order[to] = columns.order[i];
+          for (int a = 0; a < dimension_; ++a) {
+            columns.other_position[a][to] = columns.position[a][i];
+            columns.other_velocity[a][to] = columns.velocity[a][i];
+          }
+        }
+    });
+    std::swap(columns.order, columns.other_order);
+    for (int a = 0; a < dimension_; ++a) {
+      std::swap(columns.position[a], columns.other_position[a]);
+      std::swap(columns.velocity[a], columns.other_velocity[a]);
+    }
+    columns.steps = 0;
+    columns.travelled = 0;
+  }
+
+  void store(Columns& columns) {
+    AnyEnsemble& ensemble = *columns.ensemble;
+    StepTask<Real>& task = columns.task;
+    for (int a = 0; a < dimension_; ++a) {
+      task.position[a] = columns.position[a].data();
+      task.velocity[a] = columns.velocity[a].data();
+    }
+    for_ranges(columns.size, mesh_grain, columns.size < mesh_worth_threads ? 1 : scheme_.threads(),
+               [&](std::size_t begin, std::size_t end) {
+                 AlignedArray<Real> finished[3];
+                 StepTask<Real> mine = task;
+                 if (task.pending) {
+                   for (int a = 0; a < dimension_; ++a) {
+                     finished[a].resize(end - begin + column_padding);
+                     mine.finished[a] = finished[a].data();
+                   }
+                   mine.finished_from = begin;
+                   StepResult ignored;
+                   kernels_.finish(mine, ignored, begin, end);
+                 }
+                 for (std::size_t i = begin; i < end; ++i) {
+                   double* row = ensemble.row(columns.order[i]);
+                   for (int a = 0; a < dimension_; ++a) {
+                     row[a] = position(columns, a, i);
+                     row[columns.kind.velocity + a] =
+                         static_cast<double>(finished[a].size() > 0 ? finished[a][i - begin] : columns.velocity[a][i]);
+                   }
+                 }
+               });
+  }
+
+  MeshScheme& scheme_;
+  MeshScheme::Work& work_;
+  int dimension_;
+  double dt_;
+  StepKernels<Real> kernels_;
+  int bits_ = 0;
+  double part_[3] = {1, 1, 1};  // of a length
+  Fixed end_[3] = {};
+  std::size_t slots_x_ = 0, slots_y_ = 0, slots_ = 0, width_ = 0, numbers_ = 0, copies_ = 1;
+  double unit_ = 1;
+  double now_ = 0;
+  AlignedArray<Real> field_;
+  Tallies tallies_;
+  std::vector<std::int64_t> counts_;
+  std::vector<Columns> columns_;
+};
+
+std::unique_ptr<WholeSteps> make_mesh_steps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt) {
+  if (scheme.precision() == Precision::single) return std::make_unique<MeshSteps<float>>(scheme, movers, dt);
+  return std::make_unique<MeshSteps<double>>(scheme, movers, dt);
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,45 @@
+// What a mesh scheme works with: the solver, and arrays on its nodes. Private to this room.
+#pragma once
+
+#include <boltzmann/schemes/mesh/assign_task.hpp>
+#include <boltzmann/schemes/mesh/ghosts.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
+#include <boltzmann/schemes/mesh/tallies.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace boltzmann {
+
+struct MeshScheme::Loaded {
+  AnyEnsemble* ensemble;
+  MeshKind kind;
+  std::vector<double> strengths;
+
+  /// Asks the class for all strengths as they are now.
+  void refresh(int threads);
+};
+
+struct MeshScheme::Work {
+  Ghosts ghosts;
+  MeshGrid grid;  ///< of the solver
+  PoissonSolver solver;
+  MeshField density, potential, field;
+  Tallies tallies;                          ///< with ghosts
+  double total_strength = 0;                ///< at the last deposit
+  std::vector<double> inside;               ///< the share of each node's cell that is in the box, when wanted
+  std::vector<std::vector<double>> padded;  ///< the field (and the potential last) with ghosts, when wanted
+
+  Work(Ghosts ghosts, MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
+       GreensFunction const& green);
+  std::size_t bytes() const;
+};
+
+/// Counts per unit of strength so that neither a deposit (below 2^48) nor the sum of all (below 2^62) is too large, as
+/// a power of two.
+double counts_per_strength(double greatest, std::size_t particles);
+
+/// Particles of one range of a loop, and from how many on threads are worth it.
+inline constexpr std::size_t mesh_grain = 1U << 14U, mesh_worth_threads = 1U << 13U;
+
+}  // namespace boltzmann

@@ -1,0 +1,256 @@
+// A mesh with the optimal influence function, a pair scheme over copies of the particles, and the choice of both.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/laws/ewald_short.hpp>
+#include <boltzmann/schemes/mesh/p3m_scheme.hpp>
+#include <boltzmann/schemes/mesh/point_source.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+/// All particles as point sources, and the pair scheme over them.
+struct P3MScheme::Near {
+  std::unique_ptr<AnyEnsemble> sources;
+  int amount;  ///< where the strength stands in a row
+  PairScheme scheme;
+
+  Near(std::unique_ptr<AnyEnsemble> ensemble, int amount, Box const& box, EwaldShort const& law, double cutoff)
+      : sources(std::move(ensemble)), amount(amount), scheme(box, cutoff) {
+    PairKernels const kernels =
+        for_instruction_set([&](auto set) { return ewald_kernels<decltype(set)::value>().of[box.dimension() - 1]; });
+    scheme.add_pairs(*sources, *sources, kernels, PairScheme::keep(law), PairScheme::traits_of(law), cutoff);
+    scheme.shifted(false);  // the mesh has the rest of the energy
+  }
+
+  template <int D>
+  static std::unique_ptr<Near> make(Box const& box, EwaldShort const& law, double cutoff) {
+    return std::make_unique<Near>(std::make_unique<Ensemble<PointSource<D>>>("sources"),
+                                  offset_of<PointSource<D>>(&PointSource<D>::amount), box, law, cutoff);
+  }
+};
+
+P3MScheme::P3MScheme(Box box, LaplaceLaw const& law, double accuracy)
+    : MeshScheme(box, std::vector<std::size_t>(static_cast<std::size_t>(box.dimension()), 8), law),
+      near_law_(law),
+      accuracy_(accuracy) {
+  for (int a = 0; a < box.dimension(); ++a)
+    if (!box.periodic(a))
+      throw Error(
+          fmt::format("P3M: axis {} of the box is {}; mesh and pairs are put together in boxes that are periodic "
+                      "in every direction",
+                      "xyz"[a], to_string(box.boundary(a))));
+  if (!(accuracy >= 1e-10 && accuracy <= 0.1))
+    throw Error(fmt::format("P3M: an accuracy of {}; it must be between 1e-10 and 0.1", accuracy));
+}
+
+P3MScheme::~P3MScheme() = default;
+
+P3mSystem P3MScheme::system() const {
+  P3mSystem system;
+  system.dimension = box().dimension();
+  for (int a = 0; a < system.dimension; ++a) system.edges[a] = box().length(a);
+  system.constant = near_law_.constant;
+  CompensatedSum squares, strengths;
+  for (auto const* ensemble : Scheme::ensembles())
+    for (double const s : this->strengths(*ensemble)) {
+      if (s != 0) ++system.particles;
+      squares += s * s;
+      strengths += s;
+    }
+  system.sum_of_squares = squares.value();
+  system.sum_of_strengths = strengths.value();
+  return system;
+}
+
+void P3MScheme::choose(P3mParameters const& parameters) {
+  parameters_ = parameters;
+  int const D = box().dimension();
+  EwaldShort const law{near_law_.constant, parameters.alpha};
+  near_ = D == 1   ? Near::make<1>(box(), law, parameters.cutoff)
+          : D == 2 ? Near::make<2>(box(), law, parameters.cutoff)
+                   : Near::make<3>(box(), law, parameters.cutoff);
+  if (quantum_ > 0) near_->scheme.make_reversible(quantum_);
+  std::array<double, 3> edges{1, 1, 1};
+  for (int a = 0; a < D; ++a) edges[a] = box().length(a);
+  auto influence = std::make_shared<P3mInfluence>(D, edges, parameters.order, parameters.cells, parameters.alpha);
+  solve_by({parameters.cells.begin(), parameters.cells.begin() + D}, parameters.order,
+           [influence](std::array<double, 3> const& k) { return (*influence)(k); });
+}
+
+void P3MScheme::tune() {
+  if (tuned_) return;
+  P3mSystem const system = this->system();
+  int const D = system.dimension;
+  // The force between two mean strengths at the mean distance.
+  double const particles = std::max<double>(1, static_cast<double>(system.particles));
+  double const distance = std::pow(box().volume() / particles, 1.0 / D);
+  double const mean = std::abs(system.constant) * system.sum_of_squares / particles /
+                      (D == 1   ? 2
+                       : D == 2 ? 2 * pi * distance
+                                : 4 * pi * distance * distance);
+  if (!(mean > 0)) {  // nobody is there, or without strength
+    P3mSystem one = system;
+    one.particles = 2, one.sum_of_squares = 2;
+    choose(tune_p3m(one, 1e-3 * std::abs(system.constant) / std::pow(box().volume(), (D - 1.0) / D), threads()));
+    tuned_ = true;
+    return;
+  }
+  // With a first choice one learns how large forces are here. (Those of this law: what else acts says nothing about
+  // it.)
+  choose(tune_p3m(system, 0.01 * mean, threads()));
+  copy_particles();
+  near_->scheme.calculate();
+  MeshField const& field = *mesh_fields().back();
+  CompensatedSum squares;
+  std::vector<double> E;
+  std::size_t at = 0;
+  for (auto* ensemble : Scheme::ensembles()) {
+    MeshScheme::interpolate(field, *ensemble, E);
+    auto const strengths = this->strengths(*ensemble);
+    for (std::size_t i = 0; i < ensemble->size(); ++i, ++at)
+      for (int a = 0; a < D; ++a)
+        squares += square(strengths[i] * E[i * static_cast<std::size_t>(D) + static_cast<std::size_t>(a)] +
+                          near_->sources->influence(at)[a]);
+  }
+  double const rms = std::sqrt(squares.value() / particles);
+  double const scale = std::isfinite(rms) && rms > 0.05 * mean ? rms : mean;
+  choose(tune_p3m(system, accuracy_ * scale, threads()));
+  tuned_ = true;  // and not before: who is stopped on the way begins again
+}
+
+P3mParameters const& P3MScheme::parameters() {
+  tune();
+  return parameters_;
+}
+
+void P3MScheme::copy_particles() {
+  std::size_t total = 0;
+  for (auto const* ensemble : Scheme::ensembles()) total += ensemble->size();
+  AnyEnsemble& sources = *near_->sources;
+  if (sources.size() != total) sources.resize(total);
+  std::size_t at = 0;
+  for (auto const* ensemble : Scheme::ensembles()) {
+    auto const strengths = this->strengths(*ensemble);
+    for_ranges(ensemble->size(), 4096, threads(), [&, at](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        std::copy_n(ensemble->row(i), box().dimension(), sources.row(at + i));
+        sources.row(at + i)[near_->amount] = strengths[i];
+      }
+    });
+    at += ensemble->size();
+  }
+  near_->scheme.threads(threads());
+}
+
+void P3MScheme::add_influences(double time) {
+  tune();
+  MeshScheme::add_influences(time);
+  copy_particles();
+  near_->scheme.calculate(time);
+  std::size_t at = 0;
+  for (auto* ensemble : Scheme::ensembles()) {
+    std::size_t const components = ensemble->influence_size(), count = ensemble->size() * components;
+    if (count > 0) {
+      double const* from = near_->sources->influence(0) + at * components;
+      double* to = ensemble->influence(0);
+      for (std::size_t k = 0; k < count; ++k) to[k] += from[k];
+    }
+    at += ensemble->size();
+  }
+}
+
+Measures P3MScheme::measure(double time) {
+  tune();
+  Measures measures = MeshScheme::measure(time);
+  copy_particles();
+  Measures const near = near_->scheme.measure(time);
+  P3mSystem const system = this->system();
+  // A part goes with the square of each strength; with the background, the other with each strength times their sum.
+  double const constant = p3m_energy_constant(system, parameters_);
+  P3mSystem neutral = system;
+  neutral.sum_of_strengths = 0;
+  double const own = p3m_energy_constant(neutral, parameters_);
+  double const per_square = system.sum_of_squares > 0 ? own / system.sum_of_squares : 0;
+  double const per_strength = system.sum_of_strengths != 0 ? (constant - own) / system.sum_of_strengths : 0;
+  measures.potential += near.potential + constant;
+  std::size_t at = 0, number = 0;
+  for (auto const* ensemble : Scheme::ensembles()) {
+    auto const strengths = this->strengths(*ensemble);
+    auto& energies = measures.per_particle[number++];
+    for (std::size_t i = 0; i < ensemble->size(); ++i, ++at)
+      energies[i] += near.per_particle[0][at] + strengths[i] * (per_square * strengths[i] + per_strength);
+  }
+  return measures;
+}
+
+void P3MScheme::make_reversible(double quantum) {
+  quantum_ = quantum;
+  MeshScheme::make_reversible(quantum);
+  if (near_) near_->scheme.make_reversible(quantum);
+}
+
+std::size_t P3MScheme::bytes() const {
+  return MeshScheme::bytes() + (near_ ? near_->scheme.bytes() + near_->sources->bytes() : 0);
+}
+
+std::string P3MScheme::report() const {
+  std::string text = MeshScheme::report();
+  if (near_)
+    text += fmt::format(", order {}, alpha {:.4g}; near pairs within {:.4g}: {}", parameters_.order, parameters_.alpha,
+                        parameters_.cutoff, near_->scheme.report());
+  return text;
+}
+
+std::vector<std::string> P3MScheme::advice(double) {
+  P3mParameters const& chosen = parameters();
+  std::string cells;
+  for (int a = 0; a < box().dimension(); ++a) cells += fmt::format("{}{}", a ? " x " : "", chosen.cells[a]);
+  return {fmt::format("P3M for {:.1e}: mesh of {} cells, order {}, alpha {:.4g}, near pairs within {:.4g}", accuracy_,
+                      cells, chosen.order, chosen.alpha, chosen.cutoff)};
+}
+
+std::vector<double> P3MScheme::state() const {
+  std::vector<double> state{tuned_ ? 1.0 : 0.0,     static_cast<double>(parameters_.order),
+                            parameters_.alpha,      parameters_.cutoff,
+                            parameters_.error_near, parameters_.error_mesh};
+  for (auto const n : parameters_.cells) state.push_back(static_cast<double>(n));
+  auto const add = [&](std::vector<double> const& part) {
+    state.push_back(static_cast<double>(part.size()));
+    state.insert(state.end(), part.begin(), part.end());
+  };
+  add(MeshScheme::state());
+  add(near_ ? near_->scheme.state() : std::vector<double>{});
+  return state;
+}
+
+void P3MScheme::restore(std::span<double const> state) {
+  constexpr std::size_t own = 9;
+  auto const misfit = [] { return Error("the checkpoint's P3M state does not fit this simulation"); };
+  std::size_t at = own;
+  auto const next = [&] {
+    if (at >= state.size() || !(state[at] >= 0) || state[at] > static_cast<double>(state.size() - at)) throw misfit();
+    auto const count = static_cast<std::size_t>(state[at]);
+    if (at + 1 + count > state.size()) throw misfit();
+    at += count + 1;
+    return state.subspan(at - count, count);
+  };
+  auto const mesh_part = next(), near_part = next();
+  if (state[0] != 0) {
+    P3mParameters saved;
+    saved.order = static_cast<int>(state[1]);
+    saved.alpha = state[2], saved.cutoff = state[3], saved.error_near = state[4], saved.error_mesh = state[5];
+    for (std::size_t a = 0; a < 3; ++a) saved.cells[a] = static_cast<std::size_t>(state[6 + a]);
+    choose(saved);
+    tuned_ = true;
+    copy_particles();
+    near_->scheme.restore(near_part);
+  }
+  MeshScheme::restore(mesh_part);
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,55 @@
+// P3MScheme: mesh plus pairs. What a mesh can't resolve is summed over near pairs, so that forces between Laplace
+// particles in a periodic box have the accuracy that is asked for (Hockney and Eastwood, ch. 8).
+//
+//   P3MScheme scheme(Box(Vector{0., 0., 0.}, Vector{L, L, L}, Boundary::periodic), coulomb(k), 1e-5);
+//   scheme.load(sodium);
+//   scheme.load(chlorine);
+#pragma once
+
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
+#include <boltzmann/schemes/mesh/p3m_tuning.hpp>
+
+#include <memory>
+
+namespace boltzmann {
+
+class P3MScheme final : public MeshScheme {
+ public:
+  /// `accuracy`: the rms error of forces, as a part of their rms when the scheme first calculates. (Where forces nearly
+  /// vanish, as in a perfect crystal: as a part of the force between two mean strengths at the mean distance.) Mesh,
+  /// order, cut-off and splitting are chosen then. Error if the box is not periodic in every direction, the law is
+  /// softened, or the accuracy is not between 1e-10 and 0.1.
+  P3MScheme(Box box, LaplaceLaw const& law, double accuracy);
+  ~P3MScheme() override;
+
+  double accuracy() const { return accuracy_; }
+  /// What was chosen; chooses if that has not been done. Estimated errors are there, too.
+  P3mParameters const& parameters();
+
+  void add_influences(double time) override;
+  Measures measure(double time = 0) override;
+  void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
+  std::string report() const override;
+  std::vector<std::string> advice(double step_size) override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+ private:
+  struct Near;
+  template <int D>
+  struct NearIn;
+
+  void tune();
+  void choose(P3mParameters const& parameters);
+  P3mSystem system() const;
+  void copy_particles();
+
+  LaplaceLaw near_law_;
+  double accuracy_, quantum_ = 0;
+  bool tuned_ = false;
+  P3mParameters parameters_;
+  std::unique_ptr<Near> near_;
+};
+
+}  // namespace boltzmann
