@@ -265,6 +265,67 @@ TEST(Examples, CylinderHasSymmetricalTracksThatDoNotEnterIt) {
   EXPECT_GT(furthest, 12);  // through the whole picture
 }
 
+/// The number that a program prints after a text.
+double printed_after(std::string const& output, std::string const& text, std::size_t from = 0) {
+  auto const at = output.find(text, from);
+  if (at == std::string::npos) throw std::runtime_error("the program has not printed '" + text + "'");
+  return std::stod(output.substr(at + text.size()));
+}
+
+TEST(Examples, TwoStreamsGrowAndConserve) {
+  Example const example("two_stream");
+  if (!example.built()) GTEST_SKIP() << "examples/two_stream is not built";
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  EXPECT_EQ(table.rows, 121u);
+  EXPECT_LT(table.drift("total energy"), 5e-3 * table["total energy"].front());
+  // kT/2 for each ion, and 26 times that for each electron, at 5 thermal velocities; a part goes into the field.
+  double const erg = 0.5 * 1.380649e-16 * 160000 * 2000 * (26 + 1);
+  EXPECT_NEAR(table["kinetic energy"].front(), erg, 0.02 * erg);
+  EXPECT_GT(table.drift("kinetic energy"), 0.05 * erg);
+}
+
+TEST(Examples, LandauPrintsWhatTheoryHas) {
+  Example const example("landau");
+  if (!example.built()) GTEST_SKIP() << "examples/landau is not built";
+  ASSERT_TRUE(example.good());
+  EXPECT_NEAR(printed_after(example.out(), "frequency "), 1.415662, 0.02 * 1.415662);
+  EXPECT_NEAR(printed_after(example.out(), "damping "), 0.153359, 0.03 * 0.153359);
+}
+
+TEST(Examples, ColdBeamsPrintWhatTheoryHas) {
+  Example const example("cold_beams");
+  if (!example.built()) GTEST_SKIP() << "examples/cold_beams is not built";
+  ASSERT_TRUE(example.good());
+  auto const growth = [&](std::string const& run) {
+    return printed_after(example.out(), "growth ", example.out().find("k v0 = " + run));
+  };
+  EXPECT_NEAR(growth("0.6124"), 1 / std::sqrt(8), 0.01);
+  EXPECT_NEAR(growth("0.3000"), 0.2564, 0.01);
+  EXPECT_NEAR(growth("1.1000"), 0, 0.01);
+}
+
+TEST(Examples, PlasmasStayInEquilibrium) {
+  for (char const* name : {"langmuir", "electron_gas_2d"}) {
+    Example const example(name);
+    if (!example.built()) GTEST_SKIP() << "examples/" << name << " is not built";
+    ASSERT_TRUE(example.good());
+    auto const table = example.diagnoses();
+    EXPECT_EQ(table.rows, name == std::string("langmuir") ? 401u : 201u);
+    EXPECT_LT(table.drift("total energy"), 3e-3 * table["total energy"].front()) << name;
+    EXPECT_GT(table.drift("potential energy"), 0) << name;
+  }
+}
+
+TEST(Examples, OwnStagesOfAMeshAreTheBuiltInOnes) {
+  Example const example("own_mesh_stages");
+  if (!example.built()) GTEST_SKIP() << "examples/own_mesh_stages is not built";
+  ASSERT_TRUE(example.good());
+  EXPECT_LT(printed_after(example.out(), "differ by "), 1e-12);
+  auto const table = example.diagnoses();
+  EXPECT_LT(table.drift("total energy"), 2e-3 * table["total energy"].front());
+}
+
 TEST(ExampleSources, CopperFitsOnAPage) {
   auto const text = test::text_of(std::string(BOLTZMANN_SOURCE) + "/examples/copper.cpp");
   ASSERT_FALSE(text.empty());

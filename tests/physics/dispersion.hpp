@@ -1,7 +1,6 @@
 // Dispersion: which frequencies a plasma has, by kinetic theory and on a mesh; the truth for tests of plasmas.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>

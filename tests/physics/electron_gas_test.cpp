@@ -1,6 +1,5 @@
 // A gas of electrons in thermal equilibrium (scenarios/electron-gas-2d.toml): how much energy each wave of its field
 // has.
-#include <tests/physics/dispersion.hpp>
 #include <tests/physics/shipped.hpp>
 #include <tests/physics/waves.hpp>
 
@@ -86,7 +85,7 @@ TEST(ElectronGas, WavesHaveTheEnergyOfEquilibrium) {
 }
 
 // The shipped run: energy is conserved, and the field's comes down to what its waves have together in equilibrium,
-// 0.57.
+// 0.42.
 TEST(ElectronGas, TheShippedRunSettles) {
   auto const run = shipped("electron-gas-2d");
   double expected = 0;

@@ -49,9 +49,10 @@ void expect_same_bits(ScenarioSimulation const& a, ScenarioSimulation const& b) 
 std::vector<double> diagnosed(ScenarioSimulation& scenario) {
   std::vector<double> values;
   auto const measures = scenario.simulation->measure();
+  auto const mesh_fields = scenario.scheme->mesh_fields();
   for (auto& diagnosis : scenario.diagnoses)
     diagnosis->measure({scenario.simulation->ensembles(), scenario.scheme->box(), &measures, 1.0,
-                        scenario.simulation->time(), scenario.simulation->step()},
+                        scenario.simulation->time(), scenario.simulation->step(), mesh_fields},
                        values);
   return values;
 }

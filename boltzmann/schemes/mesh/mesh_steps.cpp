@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::size_t column_padding = 64 / sizeof(float);
 // Slots that fit the second-level cache need no order of particles.
-constexpr std::size_t slots_worth_sorting = 1U << 18U;
+constexpr std::size_t slots_worth_sorting = 1U << 13U;
 // Particles are sorted again when the fastest one has come so many cells, or after so many steps.
-constexpr double cells_between_sorts = 2;
+constexpr double cells_between_sorts = 5;
 constexpr int most_steps_between_sorts = 50;
 // Slots of the density that are few enough to be kept several times.
 constexpr std::size_t slots_worth_copies = 1U << 16U;
