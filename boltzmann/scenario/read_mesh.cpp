@@ -14,7 +14,11 @@ namespace {
 std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
   Item const* word = section.need("law", "law = \"coulomb\"");
   auto const name = word ? read_word(*word, "law", {"coulomb", "gravity"}, reading.context) : std::nullopt;
-  if (!name) return std::nullopt;
+  if (!name) {
+    section.know("k");
+    section.know("G");
+    return std::nullopt;
+  }
   LawInfo law = *find_law(*name);
   // A mesh smooths by its cells.
   std::erase_if(law.parameters, [](LawParameter const& parameter) { return parameter.name == "softening"; });
@@ -68,9 +72,10 @@ void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
   }
   if (!item.is(Item::Kind::array) || item.elements.size() != dimension) {
     reading.mistake(item.place,
-                    fmt::format("boundary: a word, or for each of the {} axes a word or a pair [low, high] is "
-                                "needed, not {}",
-                                dimension, found(item)));
+                    fmt::format("boundary: a word, or an array with a word or a pair [low, high] for each of the {} "
+                                "axes is needed, not {}{}",
+                                dimension, found(item),
+                                item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
     return;
   }
   for (std::size_t a = 0; a < dimension; ++a) {
@@ -90,6 +95,7 @@ void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
 }
 
 void read_plain_mesh(Section& section, LaplaceLaw const& law, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
   Item const* item = section.need("cells", "cells = 64");
   auto const cells = item ? read_cells(*item, reading) : std::nullopt;
   auto const assignment = section.word("assignment", {"ngp", "cic", "tsc"});
@@ -105,6 +111,7 @@ void read_plain_mesh(Section& section, LaplaceLaw const& law, Reading& reading) 
     if (poisson && *poisson == "spectral") mesh->form(PoissonForm::spectral);
     if (precision && *precision == "single") mesh->precision(Precision::single);
     if (boundary) read_boundary(*boundary, *mesh, reading);
+    if (reading.context.mistakes.count() == before) mesh->grid();  // refuses what is too large for the memory
     reading.result->mesh = mesh.get();
     reading.result->scheme = std::move(mesh);
   });
@@ -112,6 +119,7 @@ void read_plain_mesh(Section& section, LaplaceLaw const& law, Reading& reading) 
 
 void read_mesh(Item const& table, Reading& reading) {
   Section section(table, "[mesh]", reading.context);
+  reading.mesh.background_place = section.place("background");
   auto const law = read_law(section, reading);
   bool const background = section.boolean("background");
   Item const* accuracy_item = section.find("accuracy");
@@ -146,8 +154,10 @@ void read_mesh(Item const& table, Reading& reading) {
 
 void read_scheme(Section& document, Reading& reading) {
   ScenarioSimulation& result = *reading.result;
+  std::size_t const before = reading.context.mistakes.count();
   Item const* table = find_table(document, "mesh");
   if (table) read_mesh(*table, reading);
+  reading.mesh.usable = reading.context.mistakes.count() == before;
   if (!reading.box) return;
   if (!result.scheme) {
     auto pairs = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
@@ -163,6 +173,7 @@ void read_scheme(Section& document, Reading& reading) {
 void load_scheme(Section& document, Reading& reading) {
   ScenarioSimulation& result = *reading.result;
   if (!result.scheme) return;
+  std::size_t const before = reading.context.mistakes.count();
   if (result.mesh) {
     Item const& table = *find_table(document, "mesh");
     Section section(table, "[mesh]", reading.context);
@@ -170,7 +181,13 @@ void load_scheme(Section& document, Reading& reading) {
     bool const chosen = section.has("on");
     if (Item const* item = section.find("on")) {
       if (item->is(Item::Kind::array)) {
-        for (auto const& word : item->elements) on.push_back(reading.ensemble(word, "on"));
+        if (item->elements.empty())
+          reading.mistake(item->place, "on: no ensemble; name one or more, or leave it out: all that fit");
+        for (auto const& word : item->elements) {
+          on.push_back(reading.ensemble(word, "on"));
+          if (on.back() && std::find(on.begin(), on.end() - 1, on.back()) != on.end() - 1)
+            reading.mistake(word.place, fmt::format("on: '{}' twice", on.back()->name));
+        }
       } else {
         on.push_back(reading.ensemble(*item, "on"));
       }
@@ -194,13 +211,22 @@ void load_scheme(Section& document, Reading& reading) {
       guarded(reading, chosen ? section.place("on") : ensemble->place,
               [&] { result.mesh->load(*ensemble->particles, kind); });
     }
-    if (!any && !reading.ensembles.empty())
+    if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
       reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does",
                                                result.mesh->constant() > 0 ? "Coulomb" : "Kepler"));
   }
+  if (reading.context.mistakes.count() != before) reading.mesh.usable = false;
   // Those that no law acts on are supervised, too.
   for (auto const& ensemble : reading.ensembles)
     if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.pairs->load(*ensemble.particles); });
+}
+
+bool find_mesh_fields(Reading& reading) {
+  if (!reading.mesh.usable) return false;
+  if (!reading.result->scheme || !reading.mesh.fields.empty()) return true;
+  reading.mesh.usable = guarded(reading, reading.mesh.background_place,
+                                [&] { reading.mesh.fields = reading.result->scheme->mesh_fields(); });
+  return reading.mesh.usable;
 }
 
 }  // namespace boltzmann

@@ -1,6 +1,7 @@
 // Reads [[diagnoses]] and [output]: what is measured, written and drawn.
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/simulation/picture.hpp>
 
@@ -17,11 +18,6 @@ std::vector<std::string> column_names(Reading const& reading) {
   for (auto const& diagnosis : reading.result->diagnoses)
     for (auto const& column : diagnosis->columns()) names.push_back(column.name);
   return names;
-}
-
-std::vector<MeshField const*> mesh_fields(Reading const& reading) {
-  if (!reading.result->scheme) return {};
-  return reading.result->scheme->mesh_fields();
 }
 
 /// The axes that the box has; all three if it is not known.
@@ -98,8 +94,19 @@ void read_diagnosis(Item const& table, Reading& reading) {
   section.finish();
   if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
   for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
-  if (kind.of_mesh && !guarded(reading, word->place, [&] { parameters.mesh_fields = mesh_fields(reading); })) return;
-  guarded(reading, section.has("quantity") ? section.place("quantity") : word->place, [&] {
+  Place place = section.has("quantity") ? section.place("quantity") : word->place;
+  if (kind.of_mesh) {
+    if (!find_mesh_fields(reading)) {
+      reading.diagnoses_known = false;
+      return;
+    }
+    parameters.mesh_fields = reading.mesh.fields;
+    if (section.has("quantity") &&
+        !guarded(reading, place, [&] { mesh_quantity(parameters.mesh_fields, parameters.quantity); }))
+      return;
+    place = section.has("mode") ? section.place("mode") : section.has("axis") ? section.place("axis") : word->place;
+  }
+  guarded(reading, place, [&] {
     auto diagnosis = make_diagnosis(*name, parameters);
     auto const taken = column_names(reading);
     for (auto const& column : diagnosis->columns())
@@ -179,13 +186,17 @@ void read_picture(Item const& table, Reading& reading) {
     plain.size.clear();
     plain.file = plan.file;
     check_as("file", plain);
-    if (reading.context.mistakes.count() == before) {
+    bool const of_diagnoses = plan.drawing == "time-series" || plan.drawing == "wave-spectrum" ||
+                              (plan.drawing == "spectrum" && plan.x == "time");
+    bool const known =
+        (reading.diagnoses_known || !of_diagnoses) && (plan.drawing != "mesh" || find_mesh_fields(reading));
+    if (reading.context.mistakes.count() == before && known) {
       picture.drawing = plan.drawing;
       picture.x = plan.x;
       picture.y = plan.y;
       guarded(reading, section.has("y") ? section.place("y") : table.place, [&] {
         PictureSources sources;
-        if (plan.drawing == "mesh") sources.mesh_fields = mesh_fields(reading);
+        if (plan.drawing == "mesh") sources.mesh_fields = reading.mesh.fields;
         for (auto const& diagnosis : reading.result->diagnoses) sources.diagnoses.push_back(diagnosis.get());
         check(picture, ensembles, column_names(reading), sources);
       });
@@ -197,7 +208,9 @@ void read_picture(Item const& table, Reading& reading) {
 }  // namespace
 
 void read_diagnoses(Section& document, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
   for (Item const* table : find_tables(document, "diagnoses")) read_diagnosis(*table, reading);
+  if (reading.context.mistakes.count() != before) reading.diagnoses_known = false;
 }
 
 void read_output(Section& document, Item& resolved, Reading& reading) {
@@ -208,7 +221,7 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
     plan.diagnoses = section.integer("diagnoses", 0).value_or(0);
     plan.trajectory = section.integer("trajectory", 0).value_or(0);
     plan.mesh = section.integer("mesh", 0).value_or(0);
-    if (plan.mesh > 0 && !reading.result->mesh)
+    if (plan.mesh > 0 && !reading.result->mesh && reading.mesh.usable)
       reading.mistake(section.place("mesh"), "mesh: frames of a mesh are asked for, but the scenario has no [mesh]");
     plan.checkpoint = section.integer("checkpoint", 0).value_or(0);
     for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);

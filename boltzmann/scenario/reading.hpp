@@ -32,6 +32,12 @@ struct ReadRun {
   Place place, cutoff_place;
 };
 
+struct ReadMesh {
+  bool usable = true;      ///< false: there is a [mesh], but mistakes in it; what needs a mesh is not to be checked
+  Place background_place;  ///< or that of the table
+  std::vector<MeshField const*> fields;  ///< once somebody has asked for them
+};
+
 /// Everything that has been read so far. What could not be read is empty, and has left a mistake.
 struct Reading {
   ReadContext context;
@@ -40,7 +46,9 @@ struct Reading {
   int dimension = 0;  ///< of the box; 0: unknown
   std::optional<Box> box;
   ReadRun run;
+  ReadMesh mesh;
   std::vector<ReadEnsemble> ensembles;
+  bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
   std::vector<std::string> ensemble_names() const;
@@ -77,6 +85,9 @@ void read_scheme(Section& document, Reading& reading);
 void read_ensembles(Section& document, Reading& reading);
 /// Loads ensembles into the scheme.
 void load_scheme(Section& document, Reading& reading);
+/// What the mesh has on its nodes, calculated once; empty without one. False, and one mistake for all that ask, if it
+/// can't be calculated.
+bool find_mesh_fields(Reading& reading);
 void read_influences(Section& document, Reading& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.

@@ -24,6 +24,7 @@ std::string all_lines(std::vector<std::string> const& lines) {
 Place place_of(std::string const& message, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
     if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
+  if (reading.result->mesh && message.starts_with("mesh: ")) return reading.mesh.background_place;
   return reading.run.place;
 }
 
@@ -81,7 +82,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
     set_default(document, "run", "seed", Item::of_integer(1));
 
-  Reading reading{{mistakes, Base::si(), folder}, std::make_unique<ScenarioSimulation>(), true, 0, {}, {}, {}};
+  Reading reading{{mistakes, Base::si(), folder}, std::make_unique<ScenarioSimulation>(), true, 0, {}, {}, {}, {}};
   reading.result->name = name;
   try {
     build(document, reading);

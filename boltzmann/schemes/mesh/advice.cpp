@@ -42,22 +42,26 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, MeshKind const& kind,
 std::vector<std::string> MeshScheme::advice(double step_size) {
   std::vector<std::string> lines;
   MeshGrid const grid = make_grid(box(), cells_);
-  double widest = 0, particles = 0, frequency2 = 0, inverse_debye2 = 0, crossing = 0;
+  double widest = 0, particles = 0, frequency2 = 0, crossing = 0;
   for (int a = 0; a < box().dimension(); ++a) widest = std::max(widest, grid.spacing[a]);
-  bool cold = false;
+  std::vector<SpeciesOnMesh> all;
   for (auto const& loaded : loaded_) {
     if (loaded->ensemble->size() == 0) continue;
     loaded->refresh(threads());
-    auto const species = measure_species(*loaded->ensemble, loaded->kind, loaded->strengths, grid, law_.constant,
-                                         box().volume(), step_size);
+    SpeciesOnMesh const species = all.emplace_back(measure_species(*loaded->ensemble, loaded->kind, loaded->strengths,
+                                                                   grid, law_.constant, box().volume(), step_size));
     particles += species.particles;
     frequency2 += species.plasma_frequency2;
     crossing = std::max(crossing, species.crossing);
+  }
+  double inverse_debye2 = 0;
+  bool cold = false;
+  for (SpeciesOnMesh const& species : all) {
+    if (std::abs(species.plasma_frequency2) <= 0.01 * std::abs(frequency2)) continue;  // heavy ones follow slowly
     // A species whose thermal motion would not bring it a millionth of a cell far in a plasma period is cold.
-    double const reach2 = species.plasma_frequency2 > 0 ? species.thermal2 / species.plasma_frequency2 : 0;
-    if (species.plasma_frequency2 > 0 && reach2 < 1e-12 * widest * widest)
+    if (species.thermal2 <= 1e-12 * widest * widest * std::abs(species.plasma_frequency2))
       cold = true;
-    else if (species.thermal2 > 0)
+    else
       inverse_debye2 += species.plasma_frequency2 / species.thermal2;
   }
   if (particles == 0) return lines;
@@ -75,9 +79,9 @@ std::vector<std::string> MeshScheme::advice(double step_size) {
     double const quiet = order_ >= 3 ? 0.15 : order_ == 2 ? 0.3 : 1.0;
     if (debye < quiet)
       lines.push_back(
-          fmt::format("warning: the Debye length is {} of a cell; the mesh will heat the plasma until it is "
-                      "about {}: take a finer mesh{}",
-                      cold ? "0 (a cold species)" : fmt::format("{:.3g}", debye), quiet,
+          fmt::format("warning: {}; the mesh will heat the plasma until the Debye length is about {} of a "
+                      "cell: take a finer mesh{}",
+                      cold ? "a species is cold" : fmt::format("the Debye length is {:.3g} of a cell", debye), quiet,
                       order_ < 3 ? " or a higher assignment" : ""));
     if (per_step > 2)
       lines.push_back(

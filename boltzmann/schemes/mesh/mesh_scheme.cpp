@@ -106,6 +106,7 @@ MeshScheme::~MeshScheme() = default;
 void MeshScheme::changed() { work_.reset(); }
 
 void MeshScheme::boundary(int axis, FieldBoundary low, FieldBoundary high) {
+  refuse_choice("boundary");
   if (axis < 0 || axis >= box().dimension())
     throw Error(fmt::format("mesh: there is no axis {}; the box has {}", axis, box().dimension()));
   char const name = axis_name[axis];
@@ -125,7 +126,13 @@ void MeshScheme::boundary(int axis, FieldBoundary low, FieldBoundary high) {
   changed();
 }
 
+void MeshScheme::refuse_choice(char const* what) const {
+  if (chosen_by_accuracy_)
+    throw Error(fmt::format("mesh: the {} of P3M is chosen for the accuracy that was asked for", what));
+}
+
 void MeshScheme::assignment(int order) {
+  refuse_choice("assignment");
   if (order < 1 || order > highest_order)
     throw Error(fmt::format("mesh: an assignment of order {}; allowed are 1 (NGP), 2 (CIC), 3 (TSC) to {}", order,
                             highest_order));
@@ -134,6 +141,7 @@ void MeshScheme::assignment(int order) {
 }
 
 void MeshScheme::form(PoissonForm form) {
+  refuse_choice("form");
   form_ = form;
   changed();
 }
@@ -160,7 +168,8 @@ void MeshScheme::solve_by(std::vector<std::size_t> cells, int order, GreensFunct
   cells_ = std::move(cells);
   green_ = std::move(green);
   form_ = PoissonForm::spectral;
-  assignment(order);
+  order_ = order;
+  changed();
 }
 
 MeshScheme::Work& MeshScheme::work() {
@@ -293,10 +302,12 @@ void MeshScheme::deposit(Work& work) {
   for (auto const& loaded : loaded_) loaded->refresh(threads());
   work.total_strength = total_strength();
   check_neutral();
-  if (density_assignment_)
+  if (density_assignment_) {
+    work.density.components[0].assign(work.grid.size(), 0.0);
     density_assignment_(*this, work.density);
-  else
+  } else {
     assign_density(work.density);
+  }
   if (work.density.components[0].size() != work.grid.size())
     throw Error(fmt::format("mesh: the density has {} numbers, the mesh {} nodes", work.density.components[0].size(),
                             work.grid.size()));
@@ -531,7 +542,9 @@ Measures MeshScheme::measure(double time) {
 }
 
 void MeshScheme::add_stress(Work const& work, Measures& measures) const {
-  // Maxwell's stress of a periodic field: the integral of (E^2/2 delta_ab - E_a E_b) / C.
+  // Maxwell's stress of a periodic field: the integral of (E^2/2 delta_ab - E_a E_b) / C. In finite differences it
+  // belongs to the energy of E as it is there, not quite to half the strengths times potentials: on waves of some cells
+  // the two differ.
   int const D = box().dimension();
   bool periodic = !green_;
   for (int a = 0; a < D; ++a) periodic = periodic && box().periodic(a);

@@ -40,7 +40,8 @@ class MeshScheme : public Scheme {
   /// A mesh of so many cells along each axis over the box. `law` says what field strengths make (coulomb(k),
   /// gravity(G): div E = C rho); it can't be softened. The field is periodic where the box is, free space outside
   /// (FieldBoundary::open) on other axes unless boundary() says otherwise.
-  /// Error if the box has regions, an axis has no cells, or the mesh would take more memory than this machine has.
+  /// Error if the box has regions or an axis has no cells; at the first use, if the mesh would take more memory than
+  /// this machine has.
   MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const& law);
   ~MeshScheme() override;
 
@@ -82,7 +83,8 @@ class MeshScheme : public Scheme {
   // The four stages of section 4.4, each of which a user's function may replace.
   /// Gives the density of strength on the nodes.
   using DensityAssignment = std::function<void(MeshScheme& mesh, MeshField& density)>;
-  /// Solves laplacian phi = -C rho.
+  /// Solves laplacian phi = -C rho. Where the field is closed (periodic, Neumann) the mean of phi is zero: energies
+  /// count on that.
   using PotentialCalculation = std::function<void(MeshScheme& mesh, MeshField const& density, MeshField& potential)>;
   /// Gives E from phi: a component for each axis.
   using InfluenceField = std::function<void(MeshScheme& mesh, MeshField const& potential, MeshField& field)>;
@@ -127,6 +129,8 @@ class MeshScheme : public Scheme {
  protected:
   /// Replaces the solution of Poisson's equation (P3M): the mesh, the order, Green's function.
   void solve_by(std::vector<std::size_t> cells, int order, GreensFunction green);
+  /// From now on assignment(), form() and boundary() are refused.
+  void chosen_by_accuracy() { chosen_by_accuracy_ = true; }
 
  private:
   template <class Real>
@@ -136,6 +140,7 @@ class MeshScheme : public Scheme {
 
   void changed();
   Work& work();
+  void refuse_choice(char const* what) const;
   bool closed() const;
   double total_strength() const;
   std::vector<double> shares_inside(MeshGrid const& grid) const;
@@ -155,7 +160,7 @@ class MeshScheme : public Scheme {
   int order_ = 2;
   PoissonForm form_ = PoissonForm::finite_difference;
   Precision precision_ = Precision::full;
-  bool background_ = false;
+  bool background_ = false, chosen_by_accuracy_ = false;
   double quantum_ = 0;
   GreensFunction green_;
   DensityAssignment density_assignment_;

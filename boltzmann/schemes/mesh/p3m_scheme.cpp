@@ -46,6 +46,7 @@ P3MScheme::P3MScheme(Box box, LaplaceLaw const& law, double accuracy)
                       "xyz"[a], to_string(box.boundary(a))));
   if (!(accuracy >= 1e-10 && accuracy <= 0.1))
     throw Error(fmt::format("P3M: an accuracy of {}; it must be between 1e-10 and 0.1", accuracy));
+  chosen_by_accuracy();
 }
 
 P3MScheme::~P3MScheme() = default;
@@ -105,7 +106,7 @@ void P3MScheme::tune() {
   choose(tune_p3m(system, 0.01 * mean, threads()));
   copy_particles();
   near_->scheme.calculate();
-  MeshField const& field = *mesh_fields().back();
+  MeshField const& field = *MeshScheme::mesh_fields().back();
   CompensatedSum squares;
   std::vector<double> E;
   std::size_t at = 0;
@@ -145,6 +146,11 @@ void P3MScheme::copy_particles() {
     at += ensemble->size();
   }
   near_->scheme.threads(threads());
+}
+
+std::vector<MeshField const*> P3MScheme::mesh_fields() {
+  tune();
+  return MeshScheme::mesh_fields();
 }
 
 void P3MScheme::add_influences(double time) {

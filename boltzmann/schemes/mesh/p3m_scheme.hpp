@@ -26,6 +26,7 @@ class P3MScheme final : public MeshScheme {
   /// What was chosen; chooses if that has not been done. Estimated errors are there, too.
   P3mParameters const& parameters();
 
+  std::vector<MeshField const*> mesh_fields() override;
   void add_influences(double time) override;
   Measures measure(double time = 0) override;
   void make_reversible(double quantum) override;

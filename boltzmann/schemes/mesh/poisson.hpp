@@ -23,7 +23,10 @@ enum class FieldBoundary {
 /// field differs.
 enum class PoissonForm {
   finite_difference,  ///< three-point Laplacian, central differences (section 4.4 of the 1990 thesis)
-  spectral,           ///< k^2 and i k
+  /// k^2 and i k. Exact for smooth densities; but the field of single particles rings at the shortest waves (in 3D by
+  /// 11 % with cloud in cell, 5 % triangular, 2 % of order 4), which finite differences damp: for particles take a high
+  /// order.
+  spectral,
 };
 
 struct FieldEnds {

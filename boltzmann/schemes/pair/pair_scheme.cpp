@@ -464,7 +464,9 @@ bool PairScheme::acts_uniformly(AnyEnsemble const& ensemble) const {
   for (auto const& connected : connected_)
     if (connected->ensemble == &ensemble) return false;
   return std::all_of(external_.begin(), external_.end(), [&](auto const& external) {
-    return external->ensemble != &ensemble || (external->everyone && external->traits.uniform);
+    if (external->ensemble != &ensemble) return true;
+    bool const by_velocity = external->traits.velocity_dependent && !external->kernels.rotate;
+    return external->everyone && external->traits.uniform && !by_velocity;
   });
 }
 
