@@ -454,7 +454,7 @@ TEST(MeshAdvice, WarnsWhenAndOnlyWhen) {
     EXPECT_TRUE((Advised{.thermal = 0.98 * quiet / 32, .order = order}.warns("Debye length")));
     EXPECT_FALSE((Advised{.thermal = 1.02 * quiet / 32, .order = order}.warns("Debye length")));
   }
-  EXPECT_TRUE((Advised{.thermal = 0}.warns("0 (a cold species)")));
+  EXPECT_TRUE((Advised{.thermal = 0}.warns("a species is cold")));
   EXPECT_FALSE((Advised{.dt = 0.29}.warns("wp dt")));
   EXPECT_TRUE((Advised{.dt = 0.31}.warns("wp dt is 0.31; plasma oscillations are then off by 0.4 %")));
   EXPECT_FALSE((Advised{.dt = 1.99}.warns("unstable")));

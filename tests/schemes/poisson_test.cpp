@@ -620,15 +620,15 @@ TEST(Poisson, refusals) {
     return message([&] { PoissonSolver(grid_of(ends, cells, lengths), three(ends), PoissonForm::spectral, 1, green); });
   };
   EXPECT_EQ(line({{periodic, neumann}}, {4}),
-            "mesh: axis x is periodic at its low end and Neumann at its high end; periodic must be both or none");
+            "mesh: axis x is periodic at its low end and neumann at its high end; periodic must be both or none");
   EXPECT_EQ(line({{}, {dirichlet, open}}, {4, 4}),
-            "mesh: axis y is Dirichlet at its low end and open at its high end; open must be both or none");
+            "mesh: axis y is dirichlet at its low end and open at its high end; open must be both or none");
   EXPECT_EQ(line({{open, periodic}}, {4}),
             "mesh: axis x is open at its low end and periodic at its high end; periodic must be both or none");
   EXPECT_EQ(line({{dirichlet, dirichlet}}, {1}),
-            "mesh: axis x has 1 cell(s); with the ends Dirichlet and Dirichlet it needs 2 or more");
+            "mesh: axis x has 1 cell(s); with the ends dirichlet and dirichlet it needs 2 or more");
   EXPECT_EQ(line({{neumann, neumann}}, {0}),
-            "mesh: axis x has 0 cell(s); with the ends Neumann and Neumann it needs 1 or more");
+            "mesh: axis x has 0 cell(s); with the ends neumann and neumann it needs 1 or more");
   EXPECT_EQ(line({{}, {neumann, neumann}}, {4, 4}, [](std::array<double, 3> const&) { return 1.0; }),
             "mesh: axis y is not periodic; a Green function of one's own needs periodic axes");
   EXPECT_NE(line({{}}, {4}, [](std::array<double, 3> const&) { return NAN; }).find("it must be finite"),

@@ -39,6 +39,10 @@ struct MeshScheme::Work {
 /// a power of two.
 double counts_per_strength(double greatest, std::size_t particles);
 
+/// The components of a field, or a potential, with what stands on ghosts.
+void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
+         int threads);
+
 /// Particles of one range of a loop, and from how many on threads are worth it.
 inline constexpr std::size_t mesh_grain = 1U << 14U, mesh_worth_threads = 1U << 13U;
 

@@ -39,26 +39,12 @@ struct Axis {
   std::size_t folded_modes() const { return complex() ? modes / 2 + 1 : modes; }
 };
 
-char const* word(FieldBoundary boundary) {
-  switch (boundary) {
-    case FieldBoundary::periodic:
-      return "periodic";
-    case FieldBoundary::dirichlet:
-      return "Dirichlet";
-    case FieldBoundary::neumann:
-      return "Neumann";
-    case FieldBoundary::open:
-      return "open";
-  }
-  return "unknown";
-}
-
 Kind kind_of(FieldEnds const& ends, char name) {
   using enum FieldBoundary;
   for (FieldBoundary const both : {periodic, open})
     if ((ends.low == both) != (ends.high == both))
       throw Error(fmt::format("mesh: axis {} is {} at its low end and {} at its high end; {} must be both or none",
-                              name, word(ends.low), word(ends.high), word(both)));
+                              name, to_string(ends.low), to_string(ends.high), to_string(both)));
   if (ends.low == periodic) return Kind::periodic;
   if (ends.low == open) return Kind::open;
   if (ends.low == dirichlet) return ends.high == dirichlet ? Kind::dirichlet : Kind::dirichlet_neumann;
@@ -72,11 +58,11 @@ Axis make_axis(MeshGrid const& grid, FieldEnds const& ends, int a) {
   axis.kind = kind_of(ends, name);
   if (grid.periodic[a] != (axis.kind == Kind::periodic))
     throw Error(fmt::format("mesh: axis {} of the mesh is {}periodic, but the potential's ends are {} and {}", name,
-                            grid.periodic[a] ? "" : "not ", word(ends.low), word(ends.high)));
+                            grid.periodic[a] ? "" : "not ", to_string(ends.low), to_string(ends.high)));
   std::size_t const least = axis.kind == Kind::dirichlet ? 2 : 1;
   if (grid.nodes[a] < 1 || grid.cells(a) < least)
     throw Error(fmt::format("mesh: axis {} has {} cell(s); with the ends {} and {} it needs {} or more", name,
-                            grid.nodes[a] < 1 ? 0 : grid.cells(a), word(ends.low), word(ends.high), least));
+                            grid.nodes[a] < 1 ? 0 : grid.cells(a), to_string(ends.low), to_string(ends.high), least));
   if (!(grid.spacing[a] > 0 && std::isfinite(grid.spacing[a])))
     throw Error(fmt::format("mesh: the spacing along {} is {}; it must be finite and > 0", name, grid.spacing[a]));
   axis.nodes = grid.nodes[a];
@@ -840,6 +826,20 @@ void PoissonSolver::field(std::vector<double> const& potential, std::vector<std:
 void PoissonSolver::solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
                           std::vector<std::vector<double>>& field) {
   plans_->solve(density, constant, potential, &field);
+}
+
+std::string to_string(FieldBoundary boundary) {
+  switch (boundary) {
+    case FieldBoundary::periodic:
+      return "periodic";
+    case FieldBoundary::dirichlet:
+      return "dirichlet";
+    case FieldBoundary::neumann:
+      return "neumann";
+    case FieldBoundary::open:
+      return "open";
+  }
+  return "?";
 }
 
 void PoissonSolver::threads(int count) { plans_->threads = threads_for(plans_->grid, count); }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace boltzmann {
@@ -18,6 +19,9 @@ enum class FieldBoundary {
   neumann,    ///< no normal field: a plane of symmetry, an insulator
   open,       ///< (both ends) empty space outside
 };
+
+/// "periodic", "dirichlet", "neumann", "open".
+std::string to_string(FieldBoundary boundary);
 
 /// How derivatives along an axis are taken. Along open axes the potential is the spectral one in both forms; only the
 /// field differs.

@@ -1,0 +1,202 @@
+// The four stages of a mesh (section 4.4 of the 1990 thesis): from particles to density to potential to field and back
+// to particles.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/schemes/mesh/mesh_work.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+AssignTask MeshScheme::task_for(Work const& work, Loaded const& loaded) const {
+  AssignTask task;
+  task.rows = loaded.ensemble->row(0);
+  task.stride = loaded.ensemble->stride();
+  task.strength = loaded.strengths.data();
+  for (int a = 0; a < box().dimension(); ++a) {
+    task.low[a] = box().low(a);
+    task.periodic[a] = box().periodic(a);
+    task.cells[a] = cells_[a];
+    task.per_length[a] = static_cast<double>(cells_[a]) / box().length(a);
+  }
+  task.nodes_x = work.ghosts.nodes(0);
+  task.nodes_y = work.ghosts.nodes(1);
+  return task;
+}
+
+void MeshScheme::assign_density(MeshField& density) {
+  Work& work = this->work();
+  std::size_t particles = 0;
+  double greatest = 0;
+  for (auto const& loaded : loaded_) {
+    particles += loaded->ensemble->size();
+    for (double const s : loaded->strengths) {
+      if (!std::isfinite(s))
+        throw PhysicsFailure(
+            fmt::format("a particle of '{}' has a strength that is not finite", loaded->ensemble->name()));
+      greatest = std::max(greatest, std::abs(s));
+    }
+  }
+  double const per_strength = counts_per_strength(greatest, particles);
+  AssignKernels const kernels = for_instruction_set(
+      [&](auto set) { return assign_kernels<decltype(set)::value>().of[box().dimension() - 1][order_ - 1]; });
+  for (auto& array : work.tallies.arrays()) std::fill_n(array->data(), array->size(), 0);
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    std::size_t const size = ensemble.size();
+    AssignTask task = task_for(work, *loaded);
+    task.per_strength = per_strength;
+    std::vector<AssignResult> results((size + mesh_grain - 1) / mesh_grain);
+    work.tallies.count(size, mesh_grain, size < mesh_worth_threads ? 1 : threads(),
+                       [&](std::size_t begin, std::size_t end, std::int64_t* counts) {
+                         AssignTask mine = task;
+                         mine.counts = counts;
+                         kernels.assign(mine, results[begin / mesh_grain], begin, end);
+                       });
+    for (auto const& result : results)
+      if (result.outside != AssignResult::nobody) {
+        double const* x = ensemble.row(result.outside);
+        for (int a = 0; a < box().dimension(); ++a)
+          if (!(x[a] >= box().low(a) && x[a] <= box().high(a)))
+            throw PhysicsFailure(
+                std::isfinite(x[a])
+                    ? fmt::format("particle {} of '{}' is outside the mesh: {} = {}, the box goes from {} to {}",
+                                  result.outside, ensemble.name(), "xyz"[a], x[a], box().low(a), box().high(a))
+                    : fmt::format("particle {} of '{}' has a position that is not finite", result.outside,
+                                  ensemble.name()));
+      }
+  }
+  auto& arrays = work.tallies.arrays();
+  if (arrays.empty()) work.tallies.count(0, 1, 1, [](std::size_t, std::size_t, std::int64_t*) {});
+  std::vector<std::int64_t> counts(arrays[0]->data(), arrays[0]->data() + arrays[0]->size());
+  for (std::size_t k = 1; k < arrays.size(); ++k)
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += (*arrays[k])[i];
+  work.ghosts.fold(counts, 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
+}
+
+void MeshScheme::calculate_potential(MeshField const& density, MeshField& potential) {
+  work().solver.potential(density.components[0], law_.constant, potential.components[0]);
+}
+
+void MeshScheme::calculate_field(MeshField const& potential, MeshField& field) {
+  work().solver.field(potential.components[0], field.components);
+}
+
+void MeshScheme::deposit(Work& work) {
+  for (auto const& loaded : loaded_) loaded->refresh(threads());
+  work.total_strength = total_strength();
+  check_neutral();
+  if (density_assignment_) {
+    work.density.components[0].assign(work.grid.size(), 0.0);
+    density_assignment_(*this, work.density);
+  } else {
+    assign_density(work.density);
+  }
+  if (work.density.components[0].size() != work.grid.size())
+    throw Error(fmt::format("mesh: the density has {} numbers, the mesh {} nodes", work.density.components[0].size(),
+                            work.grid.size()));
+  add_background(work);
+}
+
+std::vector<double> MeshScheme::shares_inside(MeshGrid const& grid) const {
+  auto const share = [&](int a, std::size_t node) {
+    if (a >= box().dimension() || box().periodic(a)) return 1.0;
+    std::size_t const low = ends_[a].low == FieldBoundary::open ? static_cast<std::size_t>(nodes_before(order_)) : 0;
+    std::size_t const high = low + cells_[a];
+    return node < low || node > high ? 0.0 : node == low || node == high ? 0.5 : 1.0;
+  };
+  std::vector<double> shares(grid.size());
+  for (std::size_t k = 0; k < grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < grid.nodes[1]; ++j)
+      for (std::size_t i = 0; i < grid.nodes[0]; ++i)
+        shares[grid.index(i, j, k)] = share(0, i) * share(1, j) * share(2, k);
+  return shares;
+}
+
+void MeshScheme::add_background(Work& work) const {
+  if (!background_ || closed()) return;  // where the field is closed the mean is left out anyway
+  if (work.inside.empty()) work.inside = shares_inside(work.grid);
+  double const density = -work.total_strength / box().volume();
+  auto& nodes = work.density.components[0];
+  for (std::size_t k = 0; k < work.grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < work.grid.nodes[1]; ++j)
+      for (std::size_t i = 0; i < work.grid.nodes[0]; ++i) {
+        std::size_t const node = work.grid.index(i, j, k);
+        double share = work.inside[node];
+        std::array<std::size_t, 3> const at{i, j, k};
+        // At a plane of symmetry the image has the other half.
+        for (int a = 0; a < box().dimension(); ++a)
+          if (!box().periodic(a) && ends_[a].low != FieldBoundary::open &&
+              (at[static_cast<std::size_t>(a)] == 0 || at[static_cast<std::size_t>(a)] == work.grid.nodes[a] - 1))
+            share *= 2;
+        nodes[node] += share * density;
+      }
+}
+
+void MeshScheme::solve(Work& work, bool with_potential) {
+  ++solves_;
+  if (!potential_calculation_ && !influence_field_) {
+    work.solver.solve(work.density.components[0], law_.constant,
+                      with_potential ? &work.potential.components[0] : nullptr, work.field.components);
+    return;
+  }
+  auto const check = [&](MeshField const& result, std::size_t components) {
+    if (result.components.size() != components)
+      throw Error(fmt::format("mesh: the {} has {} components; it needs {}", result.name, result.components.size(),
+                              components));
+    for (auto const& component : result.components)
+      if (component.size() != work.grid.size())
+        throw Error(fmt::format("mesh: the {} has {} numbers, the mesh {} nodes", result.name, component.size(),
+                                work.grid.size()));
+  };
+  work.potential.components.resize(1);
+  work.potential.components[0].resize(work.grid.size());
+  if (potential_calculation_)
+    potential_calculation_(*this, work.density, work.potential);
+  else
+    calculate_potential(work.density, work.potential);
+  check(work.potential, 1);
+  work.field.components.resize(static_cast<std::size_t>(work.grid.dimension));
+  for (auto& component : work.field.components) component.resize(work.grid.size());
+  if (influence_field_)
+    influence_field_(*this, work.potential, work.field);
+  else
+    calculate_field(work.potential, work.field);
+  check(work.field, static_cast<std::size_t>(work.grid.dimension));
+}
+
+void MeshScheme::gather(Work& work, Loaded& loaded, bool potential, double* result, bool overwrite) {
+  AnyEnsemble const& ensemble = *loaded.ensemble;
+  if (ensemble.size() == 0) return;
+  int const D = box().dimension();
+  AssignTask task = task_for(work, loaded);
+  task.components = potential ? 1 : D;
+  for (int c = 0; c < task.components; ++c) task.field[c] = work.padded[static_cast<std::size_t>(c)].data();
+  task.result = result;
+  task.overwrite = overwrite;
+  AssignKernels const kernels =
+      for_instruction_set([&](auto set) { return assign_kernels<decltype(set)::value>().of[D - 1][order_ - 1]; });
+  for_ranges(ensemble.size(), mesh_grain, ensemble.size() < mesh_worth_threads ? 1 : threads(),
+             [&](std::size_t begin, std::size_t end) {
+               AssignResult ignored;
+               kernels.interpolate(task, ignored, begin, end);
+             });
+}
+
+void MeshScheme::interpolate(MeshField const& field, AnyEnsemble const& ensemble, std::vector<double>& E) {
+  for (auto const& loaded : loaded_)
+    if (loaded->ensemble == &ensemble) {
+      Work& work = this->work();
+      pad(work.ghosts, field, false, work.padded, threads());
+      E.resize(ensemble.size() * static_cast<std::size_t>(ensemble.dimension()));
+      Loaded unit{loaded->ensemble, loaded->kind, std::vector<double>(ensemble.size(), 1.0)};
+      gather(work, unit, false, E.data(), true);
+      return;
+    }
+  throw Error(fmt::format("mesh: ensemble '{}' is not loaded", ensemble.name()));
+}
+
+}  // namespace boltzmann

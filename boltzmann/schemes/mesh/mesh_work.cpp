@@ -1,0 +1,62 @@
+// Arrays on the nodes of a mesh, and how finely strengths are counted there.
+#include <boltzmann/schemes/mesh/mesh_work.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+double counts_per_strength(double greatest, std::size_t particles) {
+  if (!(greatest > 0)) return 1;
+  double const room = 61 - std::ceil(std::log2(static_cast<double>(particles) + 1));
+  return std::exp2(std::min(48.0, room) - std::ceil(std::log2(greatest)));
+}
+
+void MeshScheme::Loaded::refresh(int threads) {
+  strengths.resize(ensemble->size());
+  for_ranges(
+      ensemble->size(), mesh_grain, ensemble->size() < mesh_worth_threads ? 1 : threads,
+      [&](std::size_t begin, std::size_t end) { kind.strengths(ensemble->row(0), begin, end, strengths.data()); });
+}
+
+MeshScheme::Work::Work(Ghosts the_ghosts, MeshGrid const& the_grid, std::array<FieldEnds, 3> const& ends,
+                       PoissonForm form, int threads, GreensFunction const& green)
+    : ghosts(std::move(the_ghosts)), grid(the_grid), solver(the_grid, ends, form, threads, green) {
+  using namespace dimensions;
+  density = {"density", charge / (length * length * length), grid, std::vector<std::vector<double>>(1)};
+  potential = {"potential", energy / charge, grid, std::vector<std::vector<double>>(1)};
+  field = {"field", energy / charge / length, grid, std::vector<std::vector<double>>(grid.dimension)};
+  tallies.resize(ghosts.size());
+}
+
+std::size_t MeshScheme::Work::bytes() const {
+  std::size_t doubles = density.components[0].capacity() + potential.components[0].capacity();
+  for (auto const& component : field.components) doubles += component.capacity();
+  for (auto const& component : padded) doubles += component.capacity();
+  return doubles * sizeof(double) + tallies.bytes() + solver.bytes();
+}
+
+void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
+         int threads) {
+  padded.resize(field.components.size());
+  std::size_t const nx = ghosts.nodes(0), ny = ghosts.nodes(1), nz = ghosts.nodes(2);
+  MeshGrid const& grid = field.grid;
+  for (std::size_t c = 0; c < padded.size(); ++c) {
+    padded[c].resize(ghosts.size());
+    double const* from = field.components[c].data();
+    double* to = padded[c].data();
+    auto const parity = [&](int a, std::size_t g) {
+      return potential ? ghosts.parity(a, g) : ghosts.field_parity(a, g, static_cast<int>(c));
+    };
+    for_ranges(ny * nz, std::max<std::size_t>(1, 32768 / nx), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        std::size_t const j = row % ny, k = row / ny;
+        double const sign = parity(1, j) * parity(2, k);
+        double const* const mesh_row = from + grid.index(0, ghosts.mesh_node(1, j), ghosts.mesh_node(2, k));
+        for (std::size_t i = 0; i < nx; ++i) to[row * nx + i] = sign * parity(0, i) * mesh_row[ghosts.mesh_node(0, i)];
+      }
+    });
+  }
+}
+
+}  // namespace boltzmann
