@@ -24,8 +24,9 @@ constexpr std::size_t slots_worth_sorting = 1U << 13U;
 // Particles are sorted again when the fastest one has come so many cells, or after so many steps.
 constexpr double cells_between_sorts = 5;
 constexpr int most_steps_between_sorts = 50;
-// Slots of the density that are few enough to be kept several times.
-constexpr std::size_t slots_worth_copies = 1U << 16U;
+// Where many particles meet a slot, each waits for the one before, unless the slots of the density are kept several
+// times: so many particles to a slot are worth 2 and 4 copies.
+constexpr std::size_t worth_two_copies = 8, worth_four_copies = 64;
 
 template <class Real>
 StepKernels<Real> step_kernels(int dimension, int order) {
@@ -111,7 +112,9 @@ class MeshSteps final : public WholeSteps {
     slots_ = slots_x_ * ghosts.nodes(1) * ghosts.nodes(2);
     width_ = static_cast<std::size_t>(slot_width(scheme_.order_));
     numbers_ = static_cast<std::size_t>(slot_numbers(dimension_, scheme_.order_));
-    copies_ = slots_ <= slots_worth_copies ? 4 : 1;
+    std::size_t particles = 0;
+    for (auto const& loaded : scheme_.loaded_) particles += loaded->ensemble->size();
+    copies_ = particles >= worth_four_copies * slots_ ? 4 : particles >= worth_two_copies * slots_ ? 2 : 1;
     field_.resize(slots_ * numbers_);
     tallies_.resize(slots_ * width_ * copies_);
   }

@@ -349,7 +349,7 @@ class WholeStep {
     }
   }
 
-  Task const& task_;
+  Task const task_;  // a copy: nothing that is stored through pointers can change it
   Number fastest_ = Number(Real(0));
   Mask<Real, W> failed_ = Number(Real(0)) != Number(Real(0));
   alignas(64) Integer slot_[step_block];
