@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 
@@ -110,10 +111,11 @@ int command_line(int argc, char** argv) {
                   "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
       ->required();
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
-  sub->add_option("--drawing", render_options.drawing, "cartesian, phase-space, spectrum or time-series");
+  sub->add_option("--drawing", render_options.drawing, "cartesian, phase-space, spectrum, time-series or mesh");
   sub->add_option("--x", render_options.x,
                   "what is to the right: a field (phase-space), position.x or time (spectrum)");
-  sub->add_option("--y", render_options.y, "what is upwards: a field, or columns of diagnoses.csv (time-series)");
+  sub->add_option("--y", render_options.y,
+                  "what is upwards: a field, columns of diagnoses.csv (time-series), or what a mesh shows");
   sub->add_option("--colour,--color", render_options.colour,
                   "colour by a field, speed, kinetic-energy or potential-energy");
   sub->add_option("--size", render_options.size, "diameters by the same");
@@ -183,6 +185,7 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
   try {
     return command_line(argc, argv);
   } catch (ScenarioErrors const& errors) {

@@ -3,16 +3,20 @@
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/bzm/scenario_recording.hpp>
 #include <boltzmann/diagnoses/figure.hpp>
+#include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/files/trajectory.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
+#include <optional>
 
 namespace boltzmann::bzm {
 namespace {
@@ -62,8 +66,18 @@ class Frames {
                                        : fs::absolute(options.folder + "/").parent_path().filename().string()),
         reader_(options.folder + "/trajectory.h5") {
     if (reader_.frames() == 0) throw Error("'" + folder_ + "/trajectory.h5' has no frames");
-    if (!scenario.output.pictures.empty()) picture_ = picture_of(scenario.output.pictures[0]);
+    // The first picture of the scenario, or the first with that drawing; another drawing has nothing in common with it.
+    for (auto const& plan : scenario.output.pictures)
+      if (options.drawing.empty() || plan.drawing == options.drawing) {
+        picture_ = picture_of(plan);
+        break;
+      }
     if (!options.drawing.empty()) picture_.drawing = options.drawing;
+    if (picture_.drawing == "wave-spectrum")
+      throw Error(
+          "a wave spectrum can't be drawn from a trajectory: it is drawn when the run ends, from what its diagnosis "
+          "has "
+          "recorded; --drawing chooses another picture");
     if (!options.x.empty()) picture_.x = options.x;
     if (!options.y.empty()) picture_.y = options.y;
     if (!options.colour.empty()) picture_.colour = options.colour;
@@ -79,25 +93,49 @@ class Frames {
   Canvas canvas(std::int64_t number) {
     auto const frame = static_cast<std::size_t>(number);
     for (auto& ensemble : scenario_.ensembles) reader_.load(frame, *ensemble);
-    return draw(picture_, {*scenario_.simulation, scenario_.base, title_, reader_.steps()[frame],
-                           reader_.times()[frame], folder_});
+    Canvas drawn = draw(picture_, {*scenario_.simulation, scenario_.base, title_, reader_.steps()[frame],
+                                   reader_.times()[frame], folder_});
+    if (!axes_) return drawn;
+    Axis x = drawn.x_axis(), y = drawn.y_axis();
+    x.low = (*axes_)[0].low, x.high = (*axes_)[0].high;
+    y.low = (*axes_)[1].low, y.high = (*axes_)[1].high;
+    drawn.axes(x, y);
+    return drawn;
   }
   void write(std::int64_t frame, std::string const& path) { write_picture(canvas(frame), path, paper_); }
 
-  /// One scale of colours for all frames of a movie.
-  void fix_colours() {
-    if (picture_.colour.empty() || picture_.drawing != "cartesian") return;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::int64_t frame = 0; frame < count(); ++frame) {
+  /// One scale of colours and of axes for all frames of a movie.
+  void fix_scales() {
+    double const infinity = std::numeric_limits<double>::infinity();
+    double low = infinity, high = -infinity;
+    Canvas all;  // the corners of what each frame shows
+    std::array<Axis, 2> axes;
+    // What shows the past has most to show at the end.
+    bool const past = picture_.drawing == "time-series" || (picture_.drawing == "spectrum" && picture_.x == "time");
+    bool first = true, with_axes = true;
+    for (std::int64_t frame = past ? count() - 1 : 0; frame < count(); ++frame) {
       Canvas const drawn = canvas(frame);
       for (auto const& bar : drawn.colour_bars()) low = std::min(low, bar.low), high = std::max(high, bar.high);
+      with_axes = with_axes && drawn.frame();
+      if (auto const corners = content_corners(drawn))
+        for (auto const& [x, y] : *corners) all.point(x, y, ink);
+      std::array<Axis, 2> const now{drawn.x_axis(), drawn.y_axis()};
+      if (first) axes = now;
+      first = false;
+      for (std::size_t a = 0; a < 2; ++a) {  // those of the drawing itself, NaN if it leaves them open
+        axes[a].low = std::isnan(now[a].low) ? now[a].low : std::min(axes[a].low, now[a].low);
+        axes[a].high = std::isnan(now[a].high) ? now[a].high : std::max(axes[a].high, now[a].high);
+      }
     }
-    if (low <= high) picture_.low = low, picture_.high = high;
+    if (low <= high && !std::isfinite(picture_.low)) picture_.low = low;
+    if (low <= high && !std::isfinite(picture_.high)) picture_.high = high;
+    all.axes(axes[0], axes[1]);
+    if (with_axes && !all.points().empty()) axes_ = axis_ranges(all, 4.0 / 3);
   }
 
   /// Pictures 000000.png, 000001.png, ... of all frames.
   void write_all(std::string const& folder) {
-    fix_colours();
+    fix_scales();
     bool const terminal = isatty(STDERR_FILENO) == 1;
     for (std::int64_t frame = 0; frame < count(); ++frame) {
       write(frame, fmt::format("{}/{:06d}.png", folder, frame));
@@ -112,6 +150,7 @@ class Frames {
   TrajectoryReader reader_;
   Picture picture_;
   PictureOptions paper_;
+  std::optional<std::array<AxisRange, 2>> axes_;  // of a movie
 };
 
 }  // namespace
@@ -130,6 +169,10 @@ int render(RenderOptions const& options) {
   if (kind != Output::picture && options.frame) throw Error("--frame chooses one picture; a movie has all frames");
   if (options.frames_per_second < 1 || options.frames_per_second > 240)
     throw Error(fmt::format("a movie has 1 to 240 frames per second, not {}", options.frames_per_second));
+  if (!fs::exists(options.folder + "/trajectory.h5"))
+    throw Error("'" + options.folder +
+                "' has no trajectory.h5 to draw: the run was not asked for one; trajectory = 10 in [output], or --set "
+                "output.trajectory=10, stores a frame every 10 steps");
   auto const scenario = load_scenario(stored);
   scenario->simulation->check();
   Frames frames(options, *scenario);

@@ -67,7 +67,8 @@ int check(std::string const& name) {
   auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
   scenario->simulation->check();
   recording->check();
-  fmt::print("ok: {} particles ({:.3g} MB), {} steps\n", particles, static_cast<double>(bytes) / 1e6, scenario->steps);
+  fmt::print("ok: {} particle{} ({:.3g} MB), {} step{}\n", particles, particles == 1 ? "" : "s",
+             static_cast<double>(bytes) / 1e6, scenario->steps, scenario->steps == 1 ? "" : "s");
   return 0;
 }
 

@@ -18,6 +18,7 @@ Picture picture_of(PicturePlan const& plan) {
   picture.high = plan.high;
   picture.slice = plan.slice;
   picture.at = plan.at;
+  picture.logarithmic = plan.logarithmic;
   for (auto const& [frequency, speed] : plan.curves) picture.curves.push_back({frequency, speed});
   return picture;
 }

@@ -8,11 +8,13 @@
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <sstream>
@@ -119,6 +121,13 @@ void show_scenario(std::string const& name) {
   for (int a = 0; a < box.dimension(); ++a)
     fmt::print("  {}           {} to {}, {}\n", "xyz"[a], shown(box.low(a), dimensions::length),
                shown(box.high(a), dimensions::length), to_string(box.boundary(a)));
+  if (scenario->mesh) {
+    std::vector<std::string> cells;
+    for (int a = 0; a < box.dimension(); ++a)
+      cells.push_back(std::to_string(std::lround(box.length(a) / scenario->mesh->grid().spacing[a])));
+    bool const near = dynamic_cast<P3MScheme const*>(scenario->mesh) != nullptr;
+    fmt::print("  mesh        {} cells{}\n", join(cells, " x "), near ? ", and near pairs (P3M)" : "");
+  }
   fmt::print("\nbzm run {}\n", name);
 }
 
@@ -133,7 +142,8 @@ void show_class(ParticleClass const& one) {
         (static_cast<std::size_t>(numbers) + row_block - 1) / row_block * row_block * sizeof(double);
     fmt::print("  in {}D       {} bytes of memory for a particle and its influence", variant.dimension,
                variant.row_bytes);
-    fmt::print(";\n              laws with a cut-off take {} more, and 4 for each neighbour in their lists\n", bytes_with_lists(row));
+    fmt::print(";\n              laws with a cut-off take {} more, and 4 for each neighbour in their lists\n",
+               bytes_with_lists(row));
   }
   auto const& largest = one.variants.back();
   fmt::print("\n  fields in {}D\n", largest.dimension);

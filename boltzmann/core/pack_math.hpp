@@ -177,7 +177,9 @@ template <int W>
                          magic = 0x4330000000000000;  // magic: 2^52
   Mask<double, W> const subnormal = x < 0x1p-1022;
   x = select(subnormal, x * 0x1p54, x);
-  Bits<W> const moved = bits_of(x) + (one - root_half);
+  // Without a sign: lanes with NaN, whose result nobody takes, would overflow.
+  using Unsigned = typename register_of<std::uint64_t, W>::type;
+  Bits<W> const moved = (Bits<W>)((Unsigned)bits_of(x) + static_cast<std::uint64_t>(one - root_half));
   Real const biased = from_bits<W>((Bits<W>)((typename Mask<double, W>::Native)moved >> 52 & 0x7ff) | magic);
   return {from_bits<W>((moved & mantissa_bits) + root_half),
           biased - select(subnormal, Real(0x1p52 + 1077), Real(0x1p52 + 1023))};

@@ -403,21 +403,21 @@ Canvas draw_phase_space(std::span<Series const> species, Axis x, Axis y, std::st
   canvas.title(std::move(title));
   canvas.axes(std::move(x), std::move(y));
   std::size_t longest = 0, total = 0;
+  auto const colour = [&](std::size_t s) { return species[s].colour.value_or(species_colour(static_cast<int>(s))); };
   for (std::size_t s = 0; s < species.size(); ++s) {
     if (species[s].x.size() != species[s].y.size())
       throw Error("phase space of '" + species[s].label + "' has " + std::to_string(species[s].x.size()) + " x and " +
                   std::to_string(species[s].y.size()) + " y");
     longest = std::max(longest, species[s].x.size());
     total += species[s].x.size();
-    if (!species[s].label.empty()) canvas.legend(species[s].label, species_colour(static_cast<int>(s)));
+    if (!species[s].label.empty()) canvas.legend(species[s].label, colour(s));
   }
   float const size = std::clamp(fitting_point(total) * 1.6F, 1.6F, 9.0F);
   double const alpha = total > 300 ? 0.75 : 1;
   // Turn by turn, so that no species hides another.
   for (std::size_t i = 0; i < longest; ++i)
     for (std::size_t s = 0; s < species.size(); ++s)
-      if (i < species[s].x.size())
-        canvas.point(species[s].x[i], species[s].y[i], with_alpha(species_colour(static_cast<int>(s)), alpha), size);
+      if (i < species[s].x.size()) canvas.point(species[s].x[i], species[s].y[i], with_alpha(colour(s), alpha), size);
   return canvas;
 }
 
@@ -450,12 +450,13 @@ Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::str
   canvas.axes(std::move(x), std::move(y));
   canvas.grid(true);
   for (std::size_t s = 0; s < series.size(); ++s)
-    canvas.curve(series[s].x, series[s].y, species_colour(static_cast<int>(s)), series[s].label, 2.4F);
+    canvas.curve(series[s].x, series[s].y, series[s].colour.value_or(species_colour(static_cast<int>(s))),
+                 series[s].label, 2.4F);
   return canvas;
 }
 
 Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x, Axis y, std::string value_name,
-                  std::string value_unit, ColourMap map, std::string title) {
+                  std::string value_unit, ColourMap map, std::string title, ColourEnds const& ends) {
   Canvas canvas;
   canvas.title(std::move(title));
   auto complete = [](Axis& axis, int cells) {
@@ -467,10 +468,12 @@ Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x,
   Limits limits(values);
   if (limits.empty()) limits.low = limits.high = 0;
   if (map == ColourMap::diverging) limits.centre_on_zero();
+  if (std::isfinite(ends.low)) limits.low = ends.low;
+  if (std::isfinite(ends.high)) limits.high = ends.high;
   canvas.image(x.low, y.low, x.high, y.high, columns, rows, values, limits.low, limits.high, map);
   canvas.equal_aspect(x.unit == y.unit);
   canvas.axes(std::move(x), std::move(y));
-  canvas.colour_bar(std::move(value_name), std::move(value_unit), limits.low, limits.high, map);
+  canvas.colour_bar(std::move(value_name), std::move(value_unit), limits.low, limits.high, map, ends.factor);
   return canvas;
 }
 

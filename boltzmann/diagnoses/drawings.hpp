@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,6 +67,7 @@ Canvas draw_cartesian(std::span<double const> x, std::span<double const> y, std:
 struct Series {
   std::string label;
   std::span<double const> x, y;
+  std::optional<Colour> colour = {};  // the palette's without one
 };
 
 /// A point for each particle, a colour for each species (velocity over position, for example).
@@ -77,9 +80,17 @@ Canvas draw_spectrum(std::span<double const> frequency, std::span<double const> 
 /// A curve for each quantity over time; the time axis ends where the series end.
 Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::string title = "");
 
+/// What the ends of a colour bar stand for.
+struct ColourEnds {
+  double low = std::numeric_limits<double>::quiet_NaN();  // NaN: the smallest and the largest finite value, or -a and a
+  double high = std::numeric_limits<double>::quiet_NaN();  // with the diverging map
+  double factor = 1;                                       // values times this are in the bar's unit
+};
+
 /// Values on a mesh (columns x rows, row by row from the low end of y) that fills the axes from low to high (NaN: 0 and
-/// the number of cells), with a colour bar. The colours span the finite values, from -a to a with the diverging map.
+/// the number of cells), with a colour bar.
 Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x, Axis y, std::string value_name,
-                  std::string value_unit, ColourMap map = ColourMap::viridis, std::string title = "");
+                  std::string value_unit, ColourMap map = ColourMap::viridis, std::string title = "",
+                  ColourEnds const& ends = {});
 
 }  // namespace boltzmann

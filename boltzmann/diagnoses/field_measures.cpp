@@ -83,8 +83,8 @@ std::complex<double> field_mode(MeshQuantity const& quantity, std::array<int, 3>
                       : fmt::format("mode {} along {}: the axis is not periodic; only mode 0 is possible there",
                                     mode[a], "xyz"[a]));
     if (2 * std::abs(static_cast<std::int64_t>(mode[a])) > n)
-      throw Error(fmt::format("mode {} along {}: the mesh has {} nodes there, which show modes up to {}", mode[a],
-                              "xyz"[a], n, n / 2));
+      throw Error(fmt::format("mode {} along {}: the mesh has {} node{} there, which show{} modes up to {}", mode[a],
+                              "xyz"[a], n, n == 1 ? "" : "s", n == 1 ? "s" : "", n / 2));
     real = real && (mode[a] == 0 || 2 * std::abs(static_cast<std::int64_t>(mode[a])) == n);
     auto const share = shares(grid, a);
     double total = 0;

@@ -112,6 +112,18 @@ std::array<AxisRange, 2> axis_ranges(Canvas const& canvas, double width_to_heigh
   return {x_range, y_log ? logarithmic_range(canvas.y_axis(), y) : linear_range(canvas.y_axis(), y)};
 }
 
+std::optional<std::array<std::array<double, 2>, 2>> content_corners(Canvas const& canvas) {
+  bool const x_log = canvas.x_axis().logarithmic, y_log = canvas.y_axis().logarithmic;
+  Extent x{.positive_only = x_log}, y{.positive_only = y_log};
+  each_place(canvas, [&](double px, double py, double radius) {
+    if ((x_log && px <= 0) || (y_log && py <= 0)) return;
+    x.add_between(px, radius);
+    y.add_between(py, canvas.equal_aspect() ? radius : 0);
+  });
+  if (x.empty() || y.empty()) return std::nullopt;
+  return std::array{std::array{x.low, y.low}, std::array{x.high, y.high}};
+}
+
 std::size_t not_positive(Canvas const& canvas) {
   bool const x_log = canvas.x_axis().logarithmic, y_log = canvas.y_axis().logarithmic;
   if (!x_log && !y_log) return 0;

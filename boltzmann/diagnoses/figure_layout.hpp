@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/canvas.hpp>
 
 #include <array>
+#include <optional>
 
 namespace boltzmann {
 
@@ -22,6 +23,10 @@ struct AxisRange {
 /// padding on each side. An empty canvas shows 0..1 (logarithmic 1..10), a single value is shown with 5 % of itself (or
 /// 1) on either side. width_to_height of the drawing area is needed to give circles room on y.
 std::array<AxisRange, 2> axis_ranges(Canvas const& canvas, double width_to_height);
+
+/// The low and the high corner of all that the canvas draws, as x and y; of logarithmic axes what is positive. Nothing
+/// if there is nothing.
+std::optional<std::array<std::array<double, 2>, 2>> content_corners(Canvas const& canvas);
 
 /// How many elements and nodes have a coordinate that a logarithmic axis can't show.
 std::size_t not_positive(Canvas const& canvas);

@@ -81,8 +81,10 @@ void WaveSpectrum::restore(std::span<double const> state) {
   amplitudes_.assign(state.begin() + head, state.end());
 }
 
+bool WaveSpectrum::enough() const { return looks_ >= least_looks && std::abs(interval_) > 0; }
+
 WavePower WaveSpectrum::power() const {
-  if (looks_ < least_looks || !(std::abs(interval_) > 0))
+  if (!enough())
     throw Error(fmt::format("a wave spectrum needs {} or more looks at different times, not {}", least_looks, looks_));
   std::size_t const looks = looks_, columns = 2 * modes_ + 1, rows = looks / 2 + 1;
   WavePower result;

@@ -38,6 +38,8 @@ class WaveSpectrum final : public Diagnosis {
   std::string const& quantity() const { return quantity_; }
   int axis() const { return axis_; }
   std::size_t looks() const { return looks_; }
+  /// Whether there are looks enough for power().
+  bool enough() const;
   /// The spectrum of all looks so far, through Hann's window. Error for fewer than 4 looks.
   WavePower power() const;
 

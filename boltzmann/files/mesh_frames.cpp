@@ -35,7 +35,8 @@ double time_of(std::string const& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   std::size_t const at = text.find("TimeValue");
   std::size_t const begin = at == std::string::npos ? at : text.find('>', at);
-  if (begin == std::string::npos) throw Error(path + ": a mesh frame without TimeValue");
+  if (begin == std::string::npos)
+    throw Error(fmt::format("'{}' is no whole mesh frame; remove it to go on without", path));
   return std::strtod(text.c_str() + begin + 1, nullptr);
 }
 

@@ -107,7 +107,7 @@ Wave read_wave(Section& section, Reading& reading) {
   int const axis = read_axis(section, "axis", 0, reading);
   double const phase = section.quantity("phase", dimensions::angle).value_or(0);
   auto const mode = section.integer("mode", 1);
-  auto const wave_number = section.quantity("wave_number", dimensions::wave_number);
+  auto const wave_number = section.quantity("wave_number", dimensions::wave_number, positive);
   if (section.has("mode") == section.has("wave_number"))
     reading.mistake(section.place("wave_number"),
                     "a wave needs 'mode', its periods in the box, or 'wave_number', 2 pi over its length: one of them");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace boltzmann {
 namespace {
@@ -194,6 +195,8 @@ void load_scheme(Section& document, Reading& reading) {
     } else {
       for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
     }
+    bool const repel = result.mesh->constant() > 0;
+    char const* const fitting = repel ? "Coulomb" : "Kepler";
     bool any = false;
     for (auto* ensemble : on) {
       if (!ensemble || !ensemble->particles || !ensemble->kind) return;
@@ -202,9 +205,18 @@ void load_scheme(Section& document, Reading& reading) {
       if (!can && !chosen) continue;
       if (!kind.strengths) {
         reading.mistake(section.place("on"),
-                        fmt::format("on: '{}' is of class {}, which makes no field; classes that do: "
-                                    "Coulomb, Kepler",
-                                    ensemble->name, ensemble->kind->name));
+                        fmt::format("on: '{}' is of class {}, which makes no field; the class that does: {}",
+                                    ensemble->name, ensemble->kind->name, fitting));
+        reading.mesh.usable = false;
+        return;
+      }
+      if (!can) {
+        reading.mistake(section.place("on"),
+                        fmt::format("on: '{}' is of class {}, which the law '{}' does not act on; write law = \"{}\", "
+                                    "or choose class {}",
+                                    ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity",
+                                    repel ? "gravity" : "coulomb", fitting));
+        reading.mesh.usable = false;
         return;
       }
       any = true;
@@ -212,8 +224,7 @@ void load_scheme(Section& document, Reading& reading) {
               [&] { result.mesh->load(*ensemble->particles, kind); });
     }
     if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
-      reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does",
-                                               result.mesh->constant() > 0 ? "Coulomb" : "Kepler"));
+      reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does", fitting));
   }
   if (reading.context.mistakes.count() != before) reading.mesh.usable = false;
   // Those that no law acts on are supervised, too.
@@ -221,11 +232,21 @@ void load_scheme(Section& document, Reading& reading) {
     if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.pairs->load(*ensemble.particles); });
 }
 
-bool find_mesh_fields(Reading& reading) {
+bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {
   if (!reading.mesh.usable) return false;
-  if (!reading.result->scheme || !reading.mesh.fields.empty()) return true;
-  reading.mesh.usable = guarded(reading, reading.mesh.background_place,
-                                [&] { reading.mesh.fields = reading.result->scheme->mesh_fields(); });
+  if (!reading.mesh.fields.empty()) return true;
+  if (!reading.result->mesh) {
+    reading.mistake(place, fmt::format("{} needs a mesh, but the scenario has no [mesh]", what));
+    return reading.mesh.usable = false;
+  }
+  for (auto const& ensemble : reading.ensembles)
+    if (!ensemble.particles) return false;
+  try {
+    reading.mesh.fields = reading.result->scheme->mesh_fields();
+  } catch (std::runtime_error const& failure) {  // of the user's input or, with particles outside, of the physics
+    reading.mistake(place_of(failure.what(), reading), failure.what());
+    reading.mesh.usable = false;
+  }
   return reading.mesh.usable;
 }
 

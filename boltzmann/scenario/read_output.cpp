@@ -96,7 +96,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
   for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
   Place place = section.has("quantity") ? section.place("quantity") : word->place;
   if (kind.of_mesh) {
-    if (!find_mesh_fields(reading)) {
+    if (!find_mesh_fields(reading, word->place, fmt::format("diagnosis '{}'", *name))) {
       reading.diagnoses_known = false;
       return;
     }
@@ -131,40 +131,98 @@ void read_curves(Section& section, PicturePlan& plan, Reading& reading) {
     Section curve(element, "curve", reading.context);
     auto const frequency = curve.quantity("frequency", dimensions::frequency, not_negative);
     auto const speed = curve.quantity("speed", dimensions::velocity, not_negative);
+    if (element.entries.empty())
+      reading.mistake(element.place,
+                      "curve: it has neither 'frequency' nor 'speed'; omega^2 = frequency^2 + speed^2 k^2");
     curve.finish();
     plan.curves.push_back({frequency.value_or(0), speed.value_or(0)});
   }
 }
 
-void read_picture(Item const& table, Reading& reading) {
-  std::size_t const before = reading.context.mistakes.count();
-  Section section(table, "[[output.pictures]]", reading.context);
-  Picture picture;
-  PicturePlan plan;
-  plan.drawing = section.has("drawing") ? section.word("drawing", drawing_names()).value_or("cartesian") : "cartesian";
-  section.allow("drawing");
-  plan.x = section.text("x").value_or("");
-  plan.y = section.text("y").value_or("");
+/// The ends of the colours: quantities of that dimension.
+void read_ends(Section& section, PicturePlan& plan, Dimension dimension) {
+  if (auto const low = section.quantity("low", dimension)) plan.low = *low;
+  if (auto const high = section.quantity("high", dimension)) plan.high = *high;
+}
+
+/// The part of a 3D mesh that is shown.
+void read_slice(Section& section, PicturePlan& plan, Reading& reading) {
+  if (reading.dimension == 1 || reading.dimension == 2) {
+    for (char const* key : {"slice", "at"})
+      if (section.find(key))
+        reading.mistake(section.place(key), fmt::format("{}: slices are of a mesh in 3D; in {}D the whole is shown",
+                                                        key, reading.dimension));
+    return;
+  }
+  plan.slice = section.word("slice", axis_names(reading)).value_or("z");
+  auto const at = section.quantity("at", dimensions::length);
+  if (!at) return;
+  plan.at = *at;
+  int const axis = plan.slice[0] - 'x';
+  if (reading.box && reading.dimension == 3 && (*at < reading.box->low(axis) || *at > reading.box->high(axis)))
+    reading.mistake(section.place("at"), fmt::format("at: {} is outside the box, which goes from {} to {} along {}",
+                                                     *at, reading.box->low(axis), reading.box->high(axis), plan.slice));
+}
+
+/// What a run records for pictures to show.
+struct Recorded {
+  bool trajectory, diagnoses;
+};
+
+/// What colours and sizes of particles show.
+void read_particle_style(Section& section, PicturePlan& plan, Reading& reading, Recorded recorded) {
   plan.colour = section.text("colour").value_or("");
   plan.size = section.text("size").value_or("");
   plan.trace = section.boolean("trace");
+  if (plan.trace && !recorded.trajectory)
+    reading.mistake(section.place("trace"),
+                    "trace: tracks are those of the trajectory; add e.g. trajectory = 10 to [output]");
   Dimension colour_dimension = dimensions::none;
   for (auto const& ensemble : reading.ensembles)
     if (ensemble.particles)
       for (auto const& quantity : quantities(*ensemble.particles))
         if (quantity.name == plan.colour) colour_dimension = quantity.dimension;
-  for (auto const& [key, end] : {std::pair{"low", &plan.low}, std::pair{"high", &plan.high}}) {
+  for (char const* key : {"low", "high"})
     if (section.has(key) && plan.colour.empty())
       reading.mistake(section.place(key),
                       fmt::format("{}: an end of the colours, but the picture has no 'colour'", key));
-    if (auto const value = section.quantity(key, colour_dimension)) *end = *value;
+  read_ends(section, plan, colour_dimension);
+}
+
+void read_picture(Item const& table, Reading& reading, Recorded recorded) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[[output.pictures]]", reading.context);
+  Picture picture;
+  PicturePlan plan;
+  plan.drawing = "cartesian";
+  if (Item const* item = section.find("drawing")) {
+    auto const drawing = read_word(*item, "drawing", drawing_names(), reading.context);
+    if (!drawing) return;
+    plan.drawing = *drawing;
+    section.rename(fmt::format("[[output.pictures]] '{}'", plan.drawing));
   }
+  bool const on_mesh = plan.drawing == "mesh" || plan.drawing == "wave-spectrum";
+  if (!on_mesh) plan.x = section.text("x").value_or("");
+  plan.y = section.text("y").value_or("");
+  if (!on_mesh && plan.drawing != "time-series") read_particle_style(section, plan, reading, recorded);
   if (auto const file = section.text("file")) plan.file = *file;
   if (plan.drawing == "mesh") {
-    plan.slice = section.word("slice", axis_names(reading)).value_or("z");
-    if (auto const at = section.quantity("at", dimensions::length)) plan.at = *at;
+    read_slice(section, plan, reading);
+    Dimension dimension = dimensions::none;
+    if ((section.has("low") || section.has("high")) &&
+        find_mesh_fields(reading, section.place("drawing"), "a picture of the mesh"))
+      for (auto const* field : reading.mesh.fields)
+        if ((plan.y.empty() ? "potential" : plan.y).starts_with(field->name)) dimension = field->dimension;
+    read_ends(section, plan, dimension);
   }
   if (plan.drawing == "wave-spectrum") read_curves(section, plan, reading);
+  if (plan.drawing == "time-series") plan.logarithmic = section.boolean("logarithmic");
+  bool const of_diagnoses = plan.drawing == "time-series" || plan.drawing == "wave-spectrum" ||
+                            (plan.drawing == "spectrum" && plan.x == "time");
+  if (of_diagnoses && !recorded.diagnoses)
+    reading.mistake(section.place("drawing"), fmt::format("a picture '{}' shows what diagnoses have recorded, but "
+                                                          "diagnoses = 0 in [output]: none",
+                                                          plan.drawing));
   section.finish();
   for (auto const& other : reading.result->output.pictures)
     if (other.file == plan.file)
@@ -186,13 +244,13 @@ void read_picture(Item const& table, Reading& reading) {
     plain.size.clear();
     plain.file = plan.file;
     check_as("file", plain);
-    bool const of_diagnoses = plan.drawing == "time-series" || plan.drawing == "wave-spectrum" ||
-                              (plan.drawing == "spectrum" && plan.x == "time");
     bool const known =
-        (reading.diagnoses_known || !of_diagnoses) && (plan.drawing != "mesh" || find_mesh_fields(reading));
+        (reading.diagnoses_known || !of_diagnoses) &&
+        (plan.drawing != "mesh" || find_mesh_fields(reading, section.place("drawing"), "a picture of the mesh"));
+    picture.drawing = plan.drawing;
+    picture.x = plan.x;
+    if (plan.drawing == "phase-space" || (plan.drawing == "spectrum" && plan.x != "time")) check_as("x", picture);
     if (reading.context.mistakes.count() == before && known) {
-      picture.drawing = plan.drawing;
-      picture.x = plan.x;
       picture.y = plan.y;
       guarded(reading, section.has("y") ? section.place("y") : table.place, [&] {
         PictureSources sources;
@@ -218,13 +276,16 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
   OutputPlan& plan = reading.result->output;
   if (table) {
     Section section(*table, "[output]", reading.context);
-    plan.diagnoses = section.integer("diagnoses", 0).value_or(0);
-    plan.trajectory = section.integer("trajectory", 0).value_or(0);
+    auto const diagnoses = section.integer("diagnoses", 0);
+    plan.diagnoses = diagnoses.value_or(0);
+    auto const trajectory = section.integer("trajectory", 0);
+    plan.trajectory = trajectory.value_or(0);
     plan.mesh = section.integer("mesh", 0).value_or(0);
-    if (plan.mesh > 0 && !reading.result->mesh && reading.mesh.usable)
-      reading.mistake(section.place("mesh"), "mesh: frames of a mesh are asked for, but the scenario has no [mesh]");
+    if (plan.mesh > 0) find_mesh_fields(reading, section.place("mesh"), "mesh: a series of frames");
     plan.checkpoint = section.integer("checkpoint", 0).value_or(0);
-    for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);
+    // What could not be read has been told of.
+    Recorded const recorded{plan.trajectory > 0 || (section.has("trajectory") && !trajectory), diagnoses != 0};
+    for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading, recorded);
     section.finish();
   }
   bool const has_interval = table && table->find("diagnoses");

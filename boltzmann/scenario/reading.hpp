@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace boltzmann {
@@ -69,6 +70,9 @@ bool guarded(Reading& reading, Place const& place, Function const& function) {
   }
 }
 
+/// Where the ensemble is loaded that an error of a lower room names.
+Place place_of(std::string const& message, Reading const& reading);
+
 /// Which particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
 /// `ensemble` may be null: then only the form is checked.
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
@@ -85,9 +89,9 @@ void read_scheme(Section& document, Reading& reading);
 void read_ensembles(Section& document, Reading& reading);
 /// Loads ensembles into the scheme.
 void load_scheme(Section& document, Reading& reading);
-/// What the mesh has on its nodes, calculated once; empty without one. False, and one mistake for all that ask, if it
-/// can't be calculated.
-bool find_mesh_fields(Reading& reading);
+/// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
+/// calculated, with one mistake for all that ask.
+bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);
 void read_influences(Section& document, Reading& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.

@@ -20,14 +20,6 @@ std::string all_lines(std::vector<std::string> const& lines) {
   return text;
 }
 
-/// The ensemble that an error of a lower room names, for its place.
-Place place_of(std::string const& message, Reading const& reading) {
-  for (auto const& ensemble : reading.ensembles)
-    if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
-  if (reading.result->mesh && message.starts_with("mesh: ")) return reading.mesh.background_place;
-  return reading.run.place;
-}
-
 void build(Item& document, Reading& reading) {
   Section top(document, "the scenario", reading.context);
   ScenarioSimulation& result = *reading.result;
@@ -95,6 +87,13 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
 }
 
 }  // namespace
+
+Place place_of(std::string const& message, Reading const& reading) {
+  for (auto const& ensemble : reading.ensembles)
+    if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
+  if (reading.result->mesh && message.starts_with("mesh: ")) return reading.mesh.background_place;
+  return reading.run.place;
+}
 
 ScenarioErrors::ScenarioErrors(std::vector<std::string> all) : Error(all_lines(all)), lines(std::move(all)) {}
 

@@ -49,6 +49,7 @@ struct PicturePlan {
   std::string slice = "z";                               ///< mesh in 3D: the axis that the slice is normal to
   double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
   std::vector<std::array<double, 2>> curves;             ///< wave-spectrum: frequency and speed of each curve over it
+  bool logarithmic = false;                              ///< time-series: the values on a logarithmic axis
 };
 
 /// How often what is written.

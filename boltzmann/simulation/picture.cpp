@@ -74,11 +74,23 @@ std::vector<AnyEnsemble*> ensembles_of(Simulation const& simulation) {
   return all;
 }
 
-// The wave spectrum that a run records.
-WaveSpectrum const& recorded_waves(std::vector<Diagnosis const*> const& diagnoses) {
+// The wave spectrum of a quantity that a run records; the first one if none is named.
+WaveSpectrum const& recorded_waves(std::vector<Diagnosis const*> const& diagnoses, std::string const& quantity) {
+  std::vector<std::string> recorded;
   for (auto const* diagnosis : diagnoses)
-    if (auto const* waves = dynamic_cast<WaveSpectrum const*>(diagnosis)) return *waves;
+    if (auto const* waves = dynamic_cast<WaveSpectrum const*>(diagnosis)) {
+      if (quantity.empty() || waves->quantity() == quantity) return *waves;
+      recorded.push_back(waves->quantity());
+    }
+  if (!recorded.empty())
+    throw Error("no diagnosis wave-spectrum records '" + quantity + "'; recorded is " + join(recorded) +
+                did_you_mean(quantity, recorded));
   throw Error("a picture of the wave spectrum needs the diagnosis wave-spectrum, and is drawn when the run ends");
+}
+
+void check_spectrum_axis(std::string const& x) {
+  if (!x.starts_with("position."))
+    throw Error("a spectrum is over position.x, position.y, position.z or time, not '" + x + "'");
 }
 
 std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
@@ -343,7 +355,7 @@ class Drawer {
     auto const vx = values(x), vy = values(y);
     std::vector<Series> series;
     for (std::size_t e = 0; e < ensembles_.size(); ++e)
-      series.push_back({ensembles_.size() > 1 ? ensembles_[e]->name() : "", vx[e], vy[e]});
+      series.push_back({ensembles_.size() > 1 ? ensembles_[e]->name() : "", vx[e], vy[e], colour(static_cast<int>(e))});
     Axis x_axis = axis(mx.label, mx.dimension);
     if (x.starts_with("position.") && box().periodic(x.back() - 'x')) {
       x_axis.low = box().low(x.back() - 'x');
@@ -403,8 +415,7 @@ class Drawer {
     std::string const x = picture_.x.empty() ? "position.x" : picture_.x;
     std::string const y = picture_.y.empty() ? "velocity.x" : picture_.y;
     auto const mx = meaning(ensembles_, x), my = meaning(ensembles_, y);
-    if (!x.starts_with("position."))
-      throw Error("a spectrum is over position.x, position.y, position.z or time, not '" + x + "'");
+    check_spectrum_axis(x);
     if (needs_influence(y)) refresh_influence();
     for (auto const* ensemble : ensembles_) {
       if (!has_quantity(*ensemble, y)) continue;
@@ -453,16 +464,35 @@ class Drawer {
       series.push_back({columns.size() == 1 ? ""
                         : same              ? heading(data.header[c]).name
                                             : data.header[c],
-                        data.columns[1], data.columns[c]});
+                        data.columns[1],
+                        data.columns[c],
+                        {}});
     std::string const label = columns.size() == 1 ? heading(data.header[columns[0]]).name : "";
-    return draw_time_series(series, {"time", heading(data.header[1]).unit}, {label, same ? common : ""}, title(false));
+    Axis y{label, same ? common : ""};
+    y.logarithmic = picture_.logarithmic;
+    if (y.logarithmic) {  // a value that is zero but for rounding must not press all others together
+      double least = std::numeric_limits<double>::infinity(), largest = 0;
+      for (auto const& one : series)
+        for (double const v : one.y)
+          if (v > 0 && std::isfinite(v)) least = std::min(least, v), largest = std::max(largest, v);
+      if (least < 1e-12 * largest) y.low = 1e-12 * largest;
+    }
+    return draw_time_series(series, {"time", heading(data.header[1]).unit}, y, title(false));
+  }
+
+  // A run that was stopped early is no reason to fail: the picture says why it is empty.
+  Canvas too_few(std::string const& why) const {
+    Canvas canvas;
+    canvas.title(title(false));
+    canvas.note(why);
+    return canvas;
   }
 
   Canvas spectrum_in_time() const {
     auto const data = table();
     auto const column = chosen(data)[0];
     auto const& time = data.columns[1];
-    if (time.size() < 2) throw Error("a spectrum over time needs 2 or more rows of diagnoses.csv");
+    if (time.size() < 2) return too_few("a spectrum over time needs 2 or more rows of diagnoses.csv");
     double const spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     auto const spectrum = power_spectrum(data.columns[column], spacing, SpectrumMethod::welch, true);
     std::string const unit = heading(data.header[1]).unit;
@@ -489,8 +519,9 @@ class Drawer {
       Values x;
       for (std::size_t i = 0; i < grid.nodes[0]; ++i) x.push_back(grid.position(0, i));
       Series const curve{"", x, quantity.values()};
-      return draw_time_series({&curve, 1}, axis("x", dimensions::length), axis(quantity.label, quantity.dimension()),
-                              title());
+      Axis y = axis(quantity.label, quantity.dimension());
+      y.low = picture_.low, y.high = picture_.high;
+      return draw_time_series({&curve, 1}, axis("x", dimensions::length), y, title());
     }
     int const normal = grid.dimension == 3 ? picture_.slice[0] - 'x' : 2;
     int const right = normal == 0 ? 1 : 0, up = normal == 2 ? 1 : 2;
@@ -506,13 +537,19 @@ class Drawer {
       for (std::size_t column = 0; column < grid.nodes[right]; ++column) {
         std::array<std::size_t, 3> node{};
         node[right] = column, node[up] = row, node[normal] = slice;
-        shown.push_back(factor * quantity.values()[grid.index(node[0], node[1], node[2])]);
+        shown.push_back(quantity.values()[grid.index(node[0], node[1], node[2])]);
       }
-    bool const signed_values = std::any_of(shown.begin(), shown.end(), [](double v) { return v < 0; }) &&
-                               std::any_of(shown.begin(), shown.end(), [](double v) { return v > 0; });
+    // Ends that are given decide for all frames of a movie.
+    bool const negative = std::isfinite(picture_.low)
+                              ? picture_.low < 0
+                              : std::any_of(shown.begin(), shown.end(), [](double v) { return v < 0; });
+    bool const positive = std::isfinite(picture_.high)
+                              ? picture_.high > 0
+                              : std::any_of(shown.begin(), shown.end(), [](double v) { return v > 0; });
     Canvas canvas = draw_field(static_cast<int>(grid.nodes[right]), static_cast<int>(grid.nodes[up]), shown,
                                mesh_axis(grid, right), mesh_axis(grid, up), quantity.label, unit,
-                               signed_values ? ColourMap::diverging : ColourMap::viridis, title());
+                               negative && positive ? ColourMap::diverging : ColourMap::viridis, title(),
+                               {picture_.low, picture_.high, factor});
     if (grid.dimension == 3)
       canvas.note(fmt::format("slice at {} = {}", "xyz"[normal],
                               quantity_text(grid.position(normal, slice), dimensions::length, context_.base, 4)));
@@ -521,7 +558,8 @@ class Drawer {
 
   // Power over wave number and frequency; colours by its logarithm, over six decades.
   Canvas wave_spectrum() const {
-    WaveSpectrum const& waves = recorded_waves(context_.diagnoses);
+    WaveSpectrum const& waves = recorded_waves(context_.diagnoses, picture_.y);
+    if (!waves.enough()) return too_few(fmt::format("a wave spectrum needs 4 or more looks, not {}", waves.looks()));
     WavePower const spectrum = waves.power();
     auto const& k = spectrum.wave_number;
     auto const& omega = spectrum.frequency;
@@ -595,13 +633,16 @@ void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, s
   known(picture.colour);
   known(picture.size);
   if (picture.drawing == "phase-space") known(picture.x), known(picture.y);
-  if (picture.drawing == "spectrum" && picture.x != "time") known(picture.x), known(picture.y);
+  if (picture.drawing == "spectrum" && picture.x != "time") {
+    if (!picture.x.empty()) check_spectrum_axis(picture.x);
+    known(picture.x), known(picture.y);
+  }
   if (picture.drawing == "mesh") {
     mesh_quantity(sources.mesh_fields, mesh_name(picture));
     if (picture.slice != "x" && picture.slice != "y" && picture.slice != "z")
       throw Error("a slice is normal to x, y or z, not '" + picture.slice + "'");
   }
-  if (picture.drawing == "wave-spectrum") recorded_waves(sources.diagnoses);
+  if (picture.drawing == "wave-spectrum") recorded_waves(sources.diagnoses, picture.y);
   if (picture.drawing == "time-series" || (picture.drawing == "spectrum" && picture.x == "time")) {
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
     for (auto const& word : split(picture.y))

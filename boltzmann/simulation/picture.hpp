@@ -25,16 +25,19 @@ struct Picture {
   std::string x = {};  ///< phase-space: a field, "position.x". spectrum: "position.x" (across space) or "time"
   std::string y = {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over
                        ///< time. time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's
-                       ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential
+                       ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential.
+                       ///< wave-spectrum: which of those recorded, by its quantity; empty: the first
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
   bool trace = false;                ///< also the tracks through all frames of trajectory.h5 (cartesian, phase-space)
-  double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours; NaN: of the state
+  double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours, or of the
+                                                          ///< axis of a mesh in 1D; NaN: of the state
   double high = std::numeric_limits<double>::quiet_NaN();
   std::string slice = "z";                               ///< mesh in 3D: the axis that the slice is normal to
   double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
   std::vector<Dispersion> curves = {};                   ///< wave-spectrum: drawn over it
+  bool logarithmic = false;  ///< time-series: the values on a logarithmic axis, 12 decades at most
 };
 
 /// "cartesian", "phase-space", "spectrum", "time-series", "mesh", "wave-spectrum".

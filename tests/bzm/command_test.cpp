@@ -6,7 +6,10 @@
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/version.hpp>
 
+#include <cairo/cairo.h>
 #include <cmath>
+#include <cstdint>
+#include <set>
 
 namespace boltzmann {
 namespace {
@@ -210,6 +213,124 @@ TEST(Run, ADiskThatIsFullAtTheStartLeavesNothing) {
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system is not allowed here";
   expect_one_line(folder.run({"--out", "disk/out", "--quiet"}), 2, {"No space left on device"});
   EXPECT_FALSE(fs::exists(folder / "disk/out"));
+}
+
+TEST(Run, ALimitOnFilesIsToldLikeAFullDisk) {
+  GasFolder folder;
+  Process process({"/bin/bash", "-c",
+                   "ulimit -f 500; exec " + bzm_words({})[0] +
+                       " run gas.toml --steps 100000 --out out --quiet --set output.trajectory=10"},
+                  folder.string());
+  expect_one_line(process.wait(), 1, {"File too large", "the last checkpoint is intact: out/checkpoint.h5 (step "});
+}
+
+// A small plasma with all drawings that a mesh has.
+struct PlasmaFolder : Folder {
+  PlasmaFolder() {
+    write_text(path("plasma.toml"), R"(
+[units]
+base = "reduced"
+[box]
+low = [0]
+high = [6.283185307179586]
+boundary = "periodic"
+[run]
+step = 0.1
+steps = 40
+[mesh]
+law = "coulomb"
+k = 1
+cells = 16
+background = true
+[[ensembles]]
+name = "electrons"
+class = "Coulomb"
+number = 256
+mass = 0.02
+charge = -0.02
+load = { kind = "ripple", mode = 1, amplitude = 0.2, quiet = true }
+[[diagnoses]]
+kind = "field-energy"
+[[diagnoses]]
+kind = "wave-spectrum"
+[output]
+diagnoses = 2
+[[output.pictures]]
+drawing = "wave-spectrum"
+[[output.pictures]]
+drawing = "mesh"
+y = "field.x"
+file = "field.png"
+[[output.pictures]]
+drawing = "time-series"
+y = "field energy"
+logarithmic = true
+file = "energy.png"
+)");
+  }
+  std::string path(std::string const& name) const { return (*this / name).string(); }
+  Outcome run(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"run", "plasma.toml", "--quiet"});
+    return bzm(more, string());
+  }
+};
+
+TEST(Run, DrawsWavesOrSaysWhyThereAreNone) {
+  PlasmaFolder folder;
+  // Stopped before there is a spectrum: that is no failure, and all pictures are there.
+  for (auto const* steps : {"0", "1", "4", "40"}) {
+    auto const run = folder.run({"--out", steps, "--steps", steps});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (auto const* file : {"picture.png", "field.png", "energy.png"})
+      EXPECT_GT(fs::file_size(folder / steps / file), 1000U) << steps << " " << file;
+  }
+}
+
+TEST(Render, OfAMesh) {
+  PlasmaFolder folder;
+  ASSERT_EQ(folder.run({"--out", "without"}).status, 0);
+  expect_one_line(bzm({"render", "without", "-o", "x.png"}, folder.string()), 2,
+                  {"'without' has no trajectory.h5", "output.trajectory=10"});
+  ASSERT_EQ(folder.run({"--out", "out", "--set", "output.trajectory=10"}).status, 0);
+  expect_one_line(bzm({"render", "out", "-o", "x.png"}, folder.string()), 2, {"wave spectrum", "when the run ends"});
+  // That of the scenario with this drawing, and so what the run has drawn at its end.
+  EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--drawing", "mesh"}, folder.string()).status, 0);
+  EXPECT_EQ(text_of(folder / "x.png"), text_of(folder / "out/field.png"));
+  EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--drawing", "mesh", "--y", "density"}, folder.string()).status, 0);
+  expect_one_line(bzm({"render", "out", "-o", "x.png", "--drawing", "mesh", "--y", "densty"}, folder.string()), 2,
+                  {"no 'densty'", "did you mean 'density'?"});
+  // Another drawing has nothing of the scenario's first picture.
+  EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--drawing", "phase-space"}, folder.string()).status, 0);
+}
+
+TEST(Render, FramesOfAMovieHaveOneScale) {
+  PlasmaFolder folder;
+  ASSERT_EQ(folder.run({"--out", "out", "--set", "output.trajectory=4"}).status, 0);
+  // The numbers at the ticks of the y axis.
+  auto const left_of_the_frame = [&](std::string const& file) {
+    cairo_surface_t* picture = cairo_image_surface_create_from_png((folder / file).c_str());
+    EXPECT_EQ(cairo_surface_status(picture), CAIRO_STATUS_SUCCESS) << file;
+    std::vector<std::uint8_t> pixels;
+    for (int y = 120; y < cairo_image_surface_get_height(picture) - 60; ++y) {
+      auto const* row = cairo_image_surface_get_data(picture) + y * cairo_image_surface_get_stride(picture);
+      pixels.insert(pixels.end(), row, row + 4 * 70);
+    }
+    cairo_surface_destroy(picture);
+    return pixels;
+  };
+  for (std::string const drawing : {"phase-space", "mesh", "time-series"}) {
+    auto const frames = bzm({"render", "out", "-o", drawing + "/", "--drawing", drawing}, folder.string());
+    ASSERT_EQ(frames.status, 0) << frames.err;
+    EXPECT_EQ(frames.out, drawing + "/: 11 pictures\n");
+    auto const first = left_of_the_frame(drawing + "/000000.png");
+    EXPECT_GT(std::set<std::uint8_t>(first.begin(), first.end()).size(), 10U) << "there is something";
+    for (auto const* frame : {"/000003.png", "/000010.png"})
+      EXPECT_TRUE(first == left_of_the_frame(drawing + frame)) << drawing << frame;
+    // Alone, the start has a scale of its own.
+    ASSERT_EQ(bzm({"render", "out", "-o", "alone.png", "--frame", "0", "--drawing", drawing}, folder.string()).status,
+              0);
+    EXPECT_TRUE(first != left_of_the_frame("alone.png")) << drawing;
+  }
 }
 
 TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {

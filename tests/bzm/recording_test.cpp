@@ -169,6 +169,41 @@ TEST(Recording, RefusesPlansThatCannotBe) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST(Pictures, OverTimeCanBeLogarithmic) {
+  Folder folder;
+  Pair pair;
+  Recording recording(pair.simulation, Base::reduced(), folder / "out");
+  recording.diagnoses(5, {"energies"});
+  run_with_progress(recording, 20, {.quiet = true});
+  auto const drawn = [&](bool logarithmic) {
+    return draw({.drawing = "time-series", .y = "kinetic energy", .logarithmic = logarithmic},
+                {pair.simulation, Base::reduced(), "", 20, 0.02, folder / "out"});
+  };
+  EXPECT_TRUE(drawn(true).y_axis().logarithmic);
+  EXPECT_FALSE(drawn(true).x_axis().logarithmic);
+  EXPECT_FALSE(drawn(false).y_axis().logarithmic);
+  EXPECT_EQ(drawn(true).curves()[0].y, drawn(false).curves()[0].y);
+  EXPECT_TRUE(std::isnan(drawn(true).y_axis().low)) << "all of it is shown";
+  // One value that is zero but for rounding does not press the others together.
+  write_text(folder / "out/diagnoses.csv", "step,time,kinetic energy\n0,0,1e-30\n5,1,0\n10,2,3e-4\n15,3,7\n");
+  EXPECT_DOUBLE_EQ(drawn(true).y_axis().low, 7e-12);
+  EXPECT_TRUE(std::isnan(drawn(false).y_axis().low));
+}
+
+TEST(Pictures, ParticlesHaveTheColoursOfTheirEnsembles) {
+  Folder folder;
+  Pair pair;
+  pair.atoms.appearance.colour = "seagreen";
+  pair.simulation.check();
+  for (auto const* drawing : {"cartesian", "phase-space"}) {
+    Canvas const canvas = draw({.drawing = drawing}, {pair.simulation, Base::reduced(), "", 0, 0.0, folder.string()});
+    std::vector<Colour> colours;
+    for (auto const& circle : canvas.circles()) colours.push_back(with_alpha(circle.colour, 1));
+    for (auto const& point : canvas.points()) colours.push_back(with_alpha(point.colour, 1));
+    EXPECT_EQ(colours, std::vector<Colour>(2, colour_named("seagreen"))) << drawing;
+  }
+}
+
 TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
   Folder folder;
   Pair pair;

@@ -57,6 +57,17 @@ void expect_same_trajectory(fs::path const& one, fs::path const& other) {
             << field.name << " of " << ensemble.name << " in frame " << frame;
 }
 
+void expect_same_mesh_frames(fs::path const& one, fs::path const& other) {
+  EXPECT_EQ(text_of(one / "mesh.pvd"), text_of(other / "mesh.pvd"));
+  std::size_t frames = 0;
+  for (auto const& entry : fs::directory_iterator(one / "mesh")) {
+    ++frames;
+    EXPECT_EQ(text_of(entry.path()), text_of(other / "mesh" / entry.path().filename())) << entry.path();
+  }
+  EXPECT_GT(frames, 4U);
+  EXPECT_EQ(frames, static_cast<std::size_t>(std::distance(fs::directory_iterator(other / "mesh"), {})));
+}
+
 /// A folder with a scenario of its own, gas.toml.
 struct GasFolder : Folder {
   GasFolder() { EXPECT_EQ(bzm({"new", "gas"}, string()).status, 0); }
@@ -67,9 +78,12 @@ class KilledAndResumed : public testing::TestWithParam<std::tuple<std::string, s
 TEST_P(KilledAndResumed, LeavesWhatARunWithoutAStopLeaves) {
   auto const& [scenario, threads] = GetParam();
   Folder folder;
-  std::vector<std::string> const plan{"--set",  "output.diagnoses=10",  "--set",     "output.trajectory=20",
-                                      "--set",  "output.checkpoint=50", "--threads", threads,
-                                      "--quiet"};
+  std::vector<std::string> plan{"--set",  "output.diagnoses=10",  "--set",     "output.trajectory=20",
+                                "--set",  "output.checkpoint=50", "--threads", threads,
+                                "--quiet"};
+  bool const on_mesh =
+      text_of(fs::path(BOLTZMANN_SOURCE) / "scenarios" / (scenario + ".toml")).find("\n[mesh]") != std::string::npos;
+  if (on_mesh) plan.insert(plan.end(), {"--set", "output.mesh=25"});
   auto const with = [&](std::vector<std::string> words) {
     words.insert(words.end(), plan.begin(), plan.end());
     return words;
@@ -93,10 +107,12 @@ TEST_P(KilledAndResumed, LeavesWhatARunWithoutAStopLeaves) {
     EXPECT_EQ(lines_in(text_of(folder / "whole/diagnoses.csv")), 2 + static_cast<std::size_t>(stopped_at + 70) / 10);
   }
   expect_same_trajectory(folder / "whole", folder / "stopped");
+  if (on_mesh) expect_same_mesh_frames(folder / "whole", folder / "stopped");
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, KilledAndResumed,
-                         testing::Combine(testing::Values("copper", "rod", "three-body", "cylinder", "atmosphere"),
+                         testing::Combine(testing::Values("copper", "rod", "three-body", "cylinder", "atmosphere",
+                                                          "two-stream", "langmuir", "electron-gas-2d", "molten-salt"),
                                           testing::Values("1", "2")),
                          [](auto const& info) {
                            std::string name = std::get<0>(info.param) + "_" + std::get<1>(info.param);

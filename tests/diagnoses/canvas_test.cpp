@@ -874,6 +874,11 @@ TEST(DrawingRecords, OfPhaseSpaceSpectraAndSeries) {
   EXPECT_EQ(phase.points()[1].y, 1) << "species turn by turn";
   ASSERT_EQ(phase.legend_entries().size(), 2U);
   EXPECT_EQ(phase.legend_entries()[1].label, "ions");
+  EXPECT_EQ(phase.legend_entries()[1].colour, species_colour(1));
+  std::vector<Series> const coloured = {{"electrons", t, v, colour_named("navy")}, {"ions", t, w}};
+  EXPECT_EQ(draw_phase_space(coloured, {}, {}).legend_entries()[0].colour, colour_named("navy"));
+  EXPECT_EQ(with_alpha(draw_phase_space(coloured, {}, {}).points()[0].colour, 1), colour_named("navy"));
+  EXPECT_EQ(draw_time_series(coloured, {}, {}).curves()[0].colour, colour_named("navy"));
   Canvas const energies = draw_time_series(series, {"t", "s"}, {"E", "erg"});
   ASSERT_EQ(energies.curves().size(), 2U);
   EXPECT_EQ(energies.curves()[0].label, "electrons");
@@ -884,6 +889,11 @@ TEST(DrawingRecords, OfPhaseSpaceSpectraAndSeries) {
   Canvas const field =
       draw_field(3, 1, std::vector<double>{-1, 0, 4}, {"x", "cm"}, {"y", "cm"}, "potential", "", ColourMap::diverging);
   EXPECT_EQ(field.colour_bars()[0].low, -4) << "symmetric around zero";
+  Canvas const scaled = draw_field(3, 1, std::vector<double>{-1, 0, 4}, {"x", "cm"}, {"y", "cm"}, "potential", "V",
+                                   ColourMap::viridis, "", {-8, nan, 300});
+  EXPECT_EQ(scaled.colour_bars()[0].low, -8);
+  EXPECT_EQ(scaled.colour_bars()[0].high, 4);
+  EXPECT_EQ(scaled.colour_bars()[0].factor, 300);
   EXPECT_EQ(field.images()[0].pixels.size(), 3U);
 }
 

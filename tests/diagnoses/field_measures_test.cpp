@@ -493,10 +493,12 @@ TEST(MeshScenarios, MistakesHaveOneLine) {
   auto const says = [](std::string const& mesh, std::string const& more) {
     return message([&] { parse_scenario(scenario(mesh, more), "test.toml"); });
   };
-  EXPECT_NE(says("", "[[diagnoses]]\nkind = \"field-energy\"\n").find("there is no mesh in this simulation"),
+  EXPECT_NE(says("", "[[diagnoses]]\nkind = \"field-energy\"\n")
+                .find("'field-energy' needs a mesh, but the scenario has no [mesh]"),
             std::string::npos);
   EXPECT_NE(says("", "[output]\nmesh = 5\n").find("the scenario has no [mesh]"), std::string::npos);
-  EXPECT_NE(says("", "[[output.pictures]]\ndrawing = \"mesh\"\n").find("there is no mesh"), std::string::npos);
+  EXPECT_NE(says("", "[[output.pictures]]\ndrawing = \"mesh\"\n").find("the scenario has no [mesh]"),
+            std::string::npos);
   EXPECT_NE(says(with_mesh, "[[output.pictures]]\ndrawing = \"mesh\"\ny = \"field.y\"\n").find("has no 'field.y'"),
             std::string::npos);
   EXPECT_NE(

@@ -131,6 +131,12 @@ TEST(MeshFrames, IndexIsWhatIsThere) {
   EXPECT_FALSE(std::filesystem::exists(folder / "mesh/000000200.vti"));
   again.write(200, 0.2, fields);
   EXPECT_EQ(read_text(folder / "mesh.pvd"), index(first + second + third));
+  // A frame that is cut off is named; those after the last step are removed unread.
+  std::filesystem::resize_file(folder / "mesh/000000200.vti", 100);
+  MeshFrames::append_to(folder / "", 150);
+  std::filesystem::resize_file(folder / "mesh/000000100.vti", 100);
+  std::string const refused = message([&] { MeshFrames::append_to(folder / "", 150); });
+  EXPECT_NE(refused.find("mesh/000000100.vti' is no whole mesh frame; remove it"), std::string::npos) << refused;
   MeshFrames::remove(folder / "");
   EXPECT_FALSE(std::filesystem::exists(folder / "mesh.pvd"));
   EXPECT_FALSE(std::filesystem::exists(folder / "mesh/000000000.vti"));

@@ -71,6 +71,91 @@ std::string const vortices =
     "load = { kind = \"positions\", positions = [[1, 1], [2, 3]] }\n"  // 40
     "vorticity = 1\n";                                                 // 41
 
+/// A mesh and all that looks at it, without mistakes.
+std::string const plasma =
+    "[units]\n"                                                                           // 1
+    "base = \"reduced\"\n"                                                                // 2
+    "[box]\n"                                                                             // 3
+    "low = [0, 0]\n"                                                                      // 4
+    "high = [8, 8]\n"                                                                     // 5
+    "boundary = \"periodic\"\n"                                                           // 6
+    "[run]\n"                                                                             // 7
+    "step = 0.1\n"                                                                        // 8
+    "steps = 20\n"                                                                        // 9
+    "[mesh]\n"                                                                            // 10
+    "law = \"coulomb\"\n"                                                                 // 11
+    "k = 0.08\n"                                                                          // 12
+    "cells = [8, 8]\n"                                                                    // 13
+    "assignment = \"cic\"\n"                                                              // 14
+    "poisson = \"spectral\"\n"                                                            // 15
+    "boundary = \"periodic\" # field\n"                                                   // 16
+    "background = true\n"                                                                 // 17
+    "precision = \"full\"\n"                                                              // 18
+    "on = \"electrons\"\n"                                                                // 19
+    "[[ensembles]]\n"                                                                     // 20
+    "name = \"electrons\"\n"                                                              // 21
+    "class = \"Coulomb\"\n"                                                               // 22
+    "number = 64\n"                                                                       // 23
+    "charge = -1\n"                                                                       // 24
+    "load = { kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }\n"             // 25
+    "temperature = 0.1\n"                                                                 // 26
+    "quiet = true\n"                                                                      // 27
+    "velocity_ripple = { axis = \"y\", mode = 1, amplitude = 0.1, component = \"x\" }\n"  // 28
+    "[[influences]]\n"                                                                    // 29
+    "law = \"uniform-magnetic-field\"\n"                                                  // 30
+    "on = \"electrons\"\n"                                                                // 31
+    "field = 0.5\n"                                                                       // 32
+    "[[diagnoses]]\n"                                                                     // 33
+    "kind = \"field-energy\"\n"                                                           // 34
+    "[[diagnoses]]\n"                                                                     // 35
+    "kind = \"field-mode\"\n"                                                             // 36
+    "mode = [1, 0]\n"                                                                     // 37
+    "quantity = \"field.y\"\n"                                                            // 38
+    "[[diagnoses]]\n"                                                                     // 39
+    "kind = \"wave-spectrum\"\n"                                                          // 40
+    "quantity = \"field.x\"\n"                                                            // 41
+    "axis = \"x\"\n"                                                                      // 42
+    "modes = 3\n"                                                                         // 43
+    "[output]\n"                                                                          // 44
+    "diagnoses = 5\n"                                                                     // 45
+    "mesh = 10\n"                                                                         // 46
+    "[[output.pictures]]\n"                                                               // 47
+    "drawing = \"mesh\"\n"                                                                // 48
+    "y = \"potential\"\n"                                                                 // 49
+    "[[output.pictures]]\n"                                                               // 50
+    "drawing = \"wave-spectrum\"\n"                                                       // 51
+    "curve = { frequency = 1, speed = 1 }\n"                                              // 52
+    "file = \"waves.png\"\n"                                                              // 53
+    "[[output.pictures]]\n"                                                               // 54
+    "drawing = \"time-series\"\n"                                                         // 55
+    "y = \"field energy\"\n"                                                              // 56
+    "logarithmic = true\n"                                                                // 57
+    "file = \"energy.png\"\n";                                                            // 58
+
+/// The plasma with one piece replaced by another.
+std::string plasma_with(std::string const& old, std::string const& now) { return with(old, now, plasma); }
+std::string plasma_load(std::string const& table) {
+  return plasma_with("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }", table);
+}
+std::string cells(std::string const& value) { return plasma_with("[8, 8]\nass", value + "\nass"); }
+std::string field_boundary(std::string const& value) { return plasma_with("\"periodic\" # field", value); }
+std::string const mesh_table =
+    plasma.substr(plasma.find("[mesh]"), plasma.find("[[ensembles]]") - plasma.find("[mesh]"));
+std::string accuracy(std::string const& value) {
+  return plasma_with(mesh_table, "[mesh]\nlaw = \"coulomb\"\nk = 1\nbackground = true\naccuracy = " + value + "\n");
+}
+std::string const magnet =
+    plasma.substr(plasma.find("[[influences]]"), plasma.find("[[diagnoses]]") - plasma.find("[[influences]]"));
+/// The plasma in 3D.
+std::string in_space(std::string const& old, std::string const& now) {
+  std::string text = with("low = [0, 0]", "low = [0, 0, 0]", plasma);
+  text = with("high = [8, 8]", "high = [8, 8, 8]", text);
+  text = with("cells = [8, 8]", "cells = 8", text);
+  text = with("field = 0.5", "field = [0, 0, 0.5]", text);
+  text = with("mode = [1, 0]", "mode = [1, 0, 0]", text);
+  return with(old, now, text);
+}
+
 struct Row {
   std::string name, text, place;
   std::vector<std::string> parts;
@@ -212,6 +297,21 @@ std::vector<Row> const rows{
      "36:5",
      {"kinetic enrgy", "did you mean 'kinetic energy'?"}},
     {"unknown kind of picture", with("picture.png", "picture.gif"), "36:8", {"picture.gif", ".svg"}},
+    // Pictures.
+    {"tracks without a trajectory", with("colour = \"speed\"", "trace = true"), "35:9", {"trace", "trajectory = 10"}},
+    {"spectrum over a velocity",
+     with("colour = \"speed\"", "drawing = \"spectrum\"\nx = \"velocity.x\""),
+     "36:5",
+     {"position.x", "time", "'velocity.x'"}},
+    {"unknown x of a picture",
+     with("colour = \"speed\"", "drawing = \"phase-space\"\nx = \"potision.x\"\ny = \"velocity.x\""),
+     "36:5",
+     {"'potision.x'", "did you mean 'position.x'?"}},
+    {"picture of what an unknown diagnosis records",
+     with("colour = \"speed\"", "drawing = \"time-series\"\ny = \"kinetic energy\"",
+          with("\"energies\"", "\"energy\"")),
+     "31:8",
+     {"unknown diagnosis 'energy'"}},
     // Names.
     {"two ensembles of one name",
      plus("[[ensembles]]\nname = \"atoms\"\nclass = \"Newton\"\n"
@@ -366,6 +466,255 @@ std::vector<Row> const rows{
     {"negative steps on the command line", good, "--steps=-5", {"steps", "zero or more"}, {{}, -5, {}, {}}},
 };
 
+// Mistakes around a mesh. One mistake is one line: what would have looked at the mesh says nothing more.
+std::vector<Row> const mesh_rows{
+    {"mesh without a law", plasma_with("law = \"coulomb\"\n", ""), "10:1", {"[mesh] has no 'law'", "coulomb"}},
+    {"mesh with an unknown law",
+     plasma_with("\"coulomb\"", "\"columb\""),
+     "11:7",
+     {"unknown law 'columb'", "gravity", "did you mean 'coulomb'?"}},
+    {"mesh with the law of atoms", plasma_with("\"coulomb\"", "\"morse\""), "11:7", {"'morse'", "coulomb, gravity"}},
+    {"mesh without k", plasma_with("k = 0.08\n", ""), "10:1", {"'coulomb' needs 'k'", "k = 1"}},
+    {"mesh with a negative k", plasma_with("k = 0.08", "k = -1"), "12:5", {"k: -1", "positive"}},
+    {"mesh with a softening",
+     plasma_with("k = 0.08", "k = 0.08\nsoftening = 1"),
+     "13:1",
+     {"unknown key 'softening' in [mesh]", "cells"}},
+    {"unknown key of a mesh",
+     plasma_with("precision = \"full\"", "precison = \"full\""),
+     "18:1",
+     {"unknown key 'precison' in [mesh]", "did you mean 'precision'?"}},
+    {"mesh without cells", plasma_with("cells = [8, 8]\n", ""), "10:1", {"[mesh] has no 'cells'", "cells = 64"}},
+    {"cells as a text", cells("\"64\""), "13:9", {"cells", "whole number", "'64'"}},
+    {"cells with a fraction", cells("64.5"), "13:9", {"cells", "whole number", "64.5"}},
+    {"no cells", cells("0"), "13:9", {"cells: 0", "between 1"}},
+    {"no cells on one axis", cells("[8, 0]"), "13:13", {"cells: 0", "between 1"}},
+    {"cells of another dimension", cells("[8, 8, 8]"), "13:9", {"3 numbers for 2 axes", "one for all"}},
+    {"cells beyond the memory", cells("1000000000"), "13:9", {"1e+18 nodes", "GiB", "this machine has"}},
+    {"cells beyond the memory in 3D",
+     in_space("cells = 8\n", "cells = 100000\n"),
+     "13:9",
+     {"1e+15 nodes", "GiB", "this machine has"}},
+    {"unknown assignment",
+     plasma_with("\"cic\"", "\"tcs\""),
+     "14:14",
+     {"unknown assignment 'tcs'", "ngp, cic, tsc", "did you mean 'tsc'?"}},
+    {"assignment as a number", plasma_with("\"cic\"", "2"), "14:14", {"assignment: a text", "2"}},
+    {"unknown poisson",
+     plasma_with("\"spectral\"", "\"spectrl\""),
+     "15:11",
+     {"unknown poisson 'spectrl'", "finite-difference", "did you mean 'spectral'?"}},
+    {"unknown boundary of a field",
+     field_boundary("\"peroidic\""),
+     "16:12",
+     {"unknown boundary 'peroidic'", "dirichlet", "did you mean 'periodic'?"}},
+    {"open field in a periodic box",
+     field_boundary("\"open\""),
+     "16:12",
+     {"axis x of the box is periodic", "not open"}},
+    {"one end periodic", field_boundary("[[\"periodic\", \"open\"], \"periodic\"]"), "16:13", {"axis x", "periodic"}},
+    {"one end of a field", field_boundary("[[\"periodic\"], \"periodic\"]"), "16:13", {"two ends", "[low, high]"}},
+    {"boundaries of a field in another dimension",
+     field_boundary("[\"periodic\"]"),
+     "16:12",
+     {"2 axes", "an array of 1"}},
+    {"boundary of a field as a number", field_boundary("3"), "16:12", {"boundary", "word", "3"}},
+    {"background as a text",
+     plasma_with("background = true", "background = \"yes\""),
+     "17:14",
+     {"true or false", "'yes'"}},
+    {"not neutral",
+     plasma_with("background = true", "background = false"),
+     "17:14",
+     {"sum to -64", "periodic", "background = true"}},
+    {"not neutral without the key",
+     plasma_with("background = true\n", ""),
+     "10:1",
+     {"sum to -64", "background = true"}},
+    {"unknown precision",
+     plasma_with("\"full\"", "\"singel\""),
+     "18:13",
+     {"unknown precision 'singel'", "full, single", "did you mean 'single'?"}},
+    {"mesh on nobody", plasma_with("on = \"electrons\"\n[[e", "on = []\n[[e"), "19:6", {"on: no ensemble"}},
+    {"mesh on a stranger",
+     plasma_with("on = \"electrons\"\n[[e", "on = \"electron\"\n[[e"),
+     "19:6",
+     {"no ensemble 'electron'", "did you mean 'electrons'?"}},
+    {"mesh twice on one",
+     plasma_with("on = \"electrons\"\n[[e", "on = [\"electrons\", \"electrons\"]\n[[e"),
+     "19:20",
+     {"'electrons' twice"}},
+    {"mesh on a class without charge",
+     with("charge = -1\n", "", with("\"Coulomb\"", "\"Newton\"", plasma_with(magnet, ""))),
+     "19:6",
+     {"'electrons' is of class Newton", "no field", "Coulomb"}},
+    {"mesh for nobody",
+     with("charge = -1\n", "",
+          with("\"Coulomb\"", "\"Newton\"", with("on = \"electrons\"\n[[e", "[[e", plasma_with(magnet, "")))),
+     "10:1",
+     {"no ensemble makes a field", "Coulomb"}},
+    {"charges on a mesh of gravity",
+     plasma_with("law = \"coulomb\"\nk", "law = \"gravity\"\nG"),
+     "19:6",
+     {"class Coulomb", "'gravity' does not act on", "law = \"coulomb\"", "Kepler"}},
+    {"accuracy as a text", accuracy("\"high\""), "14:12", {"accuracy", "'high'"}},
+    {"too low an accuracy", accuracy("0.5"), "14:12", {"0.5", "between 1e-10 and 0.1"}},
+    {"negative accuracy", accuracy("-1e-4"), "14:12", {"accuracy: -0.0001", "positive"}},
+    {"accuracy and cells", accuracy("1e-3\ncells = 8"), "15:9", {"cells: with 'accuracy' it is chosen"}},
+    {"no mesh", plasma_with(mesh_table, ""), "24:8", {"'field-energy' needs a mesh", "no [mesh]"}},
+    {"a list of meshes", plasma_with("[mesh]", "[[mesh]]"), "10:1", {"mesh: a table is needed, [mesh]"}},
+    {"a mesh among regions",
+     with("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }", "{ kind = \"random\" }",
+          plasma_with("[run]", "[[box.regions]]\nlow = [1, 1]\nhigh = [2, 2]\nside = \"keep-out\"\n[run]")),
+     "17:9",
+     {"the box has regions"}},
+    // Loads.
+    {"unknown load of a plasma", plasma_load("{ kind = \"riple\" }"), "25:17", {"'riple'", "did you mean 'ripple'?"}},
+    {"quiet load with a wave", plasma_load("{ kind = \"quiet\", mode = 1 }"), "25:26", {"unknown key 'mode' in load"}},
+    {"ripple without an amplitude", plasma_load("{ kind = \"ripple\", mode = 1 }"), "25:8", {"no 'amplitude'"}},
+    {"ripple without a wave",
+     plasma_load("{ kind = \"ripple\", amplitude = 0.1 }"),
+     "25:8",
+     {"'mode'", "'wave_number'"}},
+    {"ripple with two waves",
+     plasma_load("{ kind = \"ripple\", mode = 1, wave_number = 1, amplitude = 0.1 }"),
+     "25:51",
+     {"'mode'", "'wave_number'", "one of them"}},
+    {"ripple of no period",
+     plasma_load("{ kind = \"ripple\", mode = 0, amplitude = 0.1 }"),
+     "25:34",
+     {"mode: 0", "1 or more"}},
+    {"ripple of no wave number",
+     plasma_load("{ kind = \"ripple\", wave_number = 0, amplitude = 0.1 }"),
+     "25:41",
+     {"wave_number: 0", "positive"}},
+    {"ripple of half a period",
+     plasma_load("{ kind = \"ripple\", mode = 1.5, amplitude = 0.1 }"),
+     "25:34",
+     {"mode", "whole number", "1.5"}},
+    {"ripple above one",
+     plasma_load("{ kind = \"ripple\", mode = 1, amplitude = 1.5 }"),
+     "25:49",
+     {"amplitude: 1.5", "between -1 and 1"}},
+    {"ripple along no axis",
+     plasma_load("{ kind = \"ripple\", axis = \"z\", mode = 1, amplitude = 0.1 }"),
+     "25:34",
+     {"unknown axis 'z'", "x, y"}},
+    {"quiet ripple as a number",
+     plasma_load("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = 1 }"),
+     "25:62",
+     {"quiet: true or false"}},
+    {"quiet load without a number", plasma_with("number = 64\n", ""), "24:8", {"load \"ripple\" needs 'number'"}},
+    {"quiet velocities without a temperature",
+     plasma_with("temperature = 0.1\n", ""),
+     "26:9",
+     {"quiet: it belongs to 'temperature'"}},
+    {"velocity ripple as a number",
+     plasma_with("{ axis = \"y\", mode = 1, amplitude = 0.1, component = \"x\" }", "3"),
+     "28:19",
+     {"velocity_ripple: a table is needed", "3"}},
+    {"velocity ripple with a unit",
+     plasma_with("0.1, component", "\"0.1 m\", component"),
+     "28:55",
+     {"amplitude", "length", "velocity"}},
+    {"velocity ripple of no component",
+     plasma_with("component = \"x\"", "component = \"z\""),
+     "28:72",
+     {"unknown component 'z'", "x, y"}},
+    {"unknown key of a velocity ripple",
+     plasma_with("component = \"x\"", "componet = \"x\""),
+     "28:60",
+     {"unknown key 'componet' in velocity_ripple", "did you mean 'component'?"}},
+    // The magnetic field.
+    {"magnetic field without a field", plasma_with("field = 0.5\n", ""), "29:1", {"needs 'field'", "in 2D one number"}},
+    {"magnetic field in the plane",
+     plasma_with("field = 0.5", "field = [0, 0, 1]"),
+     "32:9",
+     {"3 components", "1 is needed"}},
+    {"magnetic field as a number in 3D",
+     in_space("field = [0, 0, 0.5]", "field = 0.5"),
+     "32:9",
+     {"array of 3 numbers", "0.5"}},
+    {"magnetic field on the reversible leap-frog",
+     plasma_with("number = 64", "integrator = \"reversible-leap-frog\"\nnumber = 64"),
+     "26:8",
+     {"reversible", "velocities", "use leap-frog"}},
+    // Diagnoses.
+    {"unknown diagnosis of a mesh",
+     plasma_with("\"field-energy\"", "\"field-enery\""),
+     "34:8",
+     {"unknown diagnosis 'field-enery'", "did you mean 'field-energy'?"}},
+    {"field energy of an ensemble",
+     plasma_with("\"field-energy\"", "\"field-energy\"\nensembles = \"electrons\""),
+     "35:1",
+     {"unknown key 'ensembles'", "'field-energy'"}},
+    {"mode without a mode", plasma_with("mode = [1, 0]\n", ""), "35:1", {"no 'mode'", "mode = [3]"}},
+    {"mode of another dimension", plasma_with("mode = [1, 0]", "mode = 1"), "37:8", {"1 number", "2 axes"}},
+    {"mode with a fraction", plasma_with("mode = [1, 0]", "mode = [1.5, 0]"), "37:9", {"mode", "whole number"}},
+    {"mode beyond the mesh",
+     plasma_with("mode = [1, 0]", "mode = [5, 0]"),
+     "37:8",
+     {"mode 5 along x", "8 nodes", "up to 4"}},
+    {"unknown quantity of a mode",
+     plasma_with("\"field.y\"", "\"field.z\""),
+     "38:12",
+     {"no 'field.z'", "density, potential, field.x, field.y"}},
+    {"waves along no axis", plasma_with("axis = \"x\"", "axis = \"z\""), "42:8", {"unknown axis 'z'"}},
+    {"no waves", plasma_with("modes = 3", "modes = 0"), "43:9", {"modes: 0", "1 or more"}},
+    {"unknown quantity of waves",
+     plasma_with("\"field.x\"", "\"feld.x\""),
+     "41:12",
+     {"'feld.x'", "did you mean 'field.x'?"}},
+    // Frames and pictures.
+    {"mesh frames as a text", plasma_with("mesh = 10", "mesh = \"all\""), "46:8", {"mesh: a whole number", "'all'"}},
+    {"negative interval of mesh frames", plasma_with("mesh = 10", "mesh = -1"), "46:8", {"-1", "zero or more"}},
+    {"unknown quantity of a mesh picture",
+     plasma_with("\"potential\"", "\"potental\""),
+     "49:5",
+     {"no 'potental'", "did you mean 'potential'?"}},
+    {"mesh picture of particles",
+     plasma_with("y = \"potential\"", "colour = \"speed\""),
+     "49:1",
+     {"unknown key 'colour' in [[output.pictures]] 'mesh'", "slice"}},
+    {"slice of a plane", plasma_with("y = \"potential\"", "slice = \"x\""), "49:9", {"slice", "3D", "2D"}},
+    {"slice along no axis", in_space("y = \"potential\"", "slice = \"w\""), "49:9", {"unknown slice 'w'", "x, y, z"}},
+    {"slice outside the box", in_space("y = \"potential\"", "at = 9"), "49:6", {"at: 9", "from 0 to 8 along z"}},
+    {"ends of a mesh picture with a unit",
+     plasma_with("y = \"potential\"", "low = \"1 m\""),
+     "49:7",
+     {"low", "length", "electric potential"}},
+    {"waves that nobody records",
+     with("[[diagnoses]]\nkind = \"wave-spectrum\"\nquantity = \"field.x\"\naxis = \"x\"\nmodes = 3\n", "", plasma),
+     "45:1",
+     {"needs the diagnosis wave-spectrum"}},
+    {"waves of another quantity",
+     plasma_with("curve =", "y = \"density\"\ncurve ="),
+     "52:5",
+     {"'density'", "recorded is field.x"}},
+    {"curve as a number", plasma_with("{ frequency = 1, speed = 1 }", "1"), "52:9", {"curve: a table is needed", "1"}},
+    {"curve of nothing",
+     plasma_with("{ frequency = 1, speed = 1 }", "{}"),
+     "52:9",
+     {"neither 'frequency' nor 'speed'"}},
+    {"unknown key of a curve",
+     plasma_with("{ frequency = 1, speed = 1 }", "{ frequenzy = 1 }"),
+     "52:11",
+     {"unknown key 'frequenzy' in curve", "did you mean 'frequency'?"}},
+    {"logarithmic as a text",
+     plasma_with("logarithmic = true", "logarithmic = \"yes\""),
+     "57:15",
+     {"logarithmic: true or false"}},
+    {"logarithmic mesh",
+     plasma_with("y = \"potential\"", "logarithmic = true"),
+     "49:1",
+     {"unknown key 'logarithmic' in [[output.pictures]] 'mesh'"}},
+    {"diagnoses that are never taken",
+     with("drawing = \"wave-spectrum\"\ncurve = { frequency = 1, speed = 1 }\n", "",
+          plasma_with("diagnoses = 5", "diagnoses = 0")),
+     "53:11",
+     {"'time-series'", "diagnoses = 0"}},
+};
+
 std::vector<std::string> mistakes_of(std::string const& text, Overrides const& overrides = {}) {
   try {
     parse_scenario(text, "test.toml", overrides);
@@ -377,6 +726,39 @@ std::vector<std::string> mistakes_of(std::string const& text, Overrides const& o
 
 TEST(Mistakes, TheGoodScenarioHasNone) {
   for (auto const& line : mistakes_of(good)) ADD_FAILURE() << line;
+}
+
+TEST(Mistakes, TheGoodPlasmaHasNone) {
+  for (auto const& line : mistakes_of(plasma)) ADD_FAILURE() << line;
+  for (auto const& line : mistakes_of(in_space("y = \"potential\"", "slice = \"x\"\nat = 2\nlow = -1\nhigh = 1")))
+    ADD_FAILURE() << line;
+  for (auto const& line : mistakes_of(accuracy("1e-3"))) ADD_FAILURE() << line;
+}
+
+TEST(Mistakes, SeveralOfAMeshAreTold) {
+  std::string text = with("\"cic\"", "\"cci\"", plasma);    // 14:14
+  text = with("\"ripple\"", "\"rippel\"", text);            // 25:17
+  text = with("mode = [1, 0]", "mode = [\"a\", 0]", text);  // 37:9
+  text = with("frequency = 1", "frequenzy = 1", text);      // 52:11
+  auto const lines = mistakes_of(text);
+  ASSERT_EQ(lines.size(), 4U) << testing::PrintToString(lines);
+  std::vector<std::string> const places{"14:14", "25:17", "37:9", "52:11"};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(lines[i].find("test.toml:" + places[i] + ": "), 0U) << lines[i];
+}
+
+TEST(Mistakes, ParticlesOutsideAnOpenMeshAreTold) {
+  std::string text =
+      with("boundary = \"periodic\"\n", "boundary = \"open\"\n", plasma.substr(0, plasma.find("[[influences]]")));
+  text = with("\"periodic\" # field", "\"open\"", text);
+  text = with("number = 64\n", "", text);
+  text = with("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }",
+              "{ kind = \"positions\", positions = [[4, 4], [9, 4]] }", text);
+  for (std::string const more : {"", "[[diagnoses]]\nkind = \"field-energy\"\n"}) {
+    auto const lines = mistakes_of(text + more);
+    ASSERT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
+    EXPECT_EQ(lines[0],
+              "test.toml:24:8: particle 1 of 'electrons' is outside the mesh: x = 9, the box goes from 0 to 8");
+  }
 }
 
 TEST(Mistakes, TheGoodScenarioWithVorticesHasNone) {
@@ -396,12 +778,14 @@ TEST_P(MistakesTable, IsToldInOneLine) {
   EXPECT_EQ(lines[0].find('\n'), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenario, MistakesTable, testing::ValuesIn(rows), [](auto const& info) {
+std::string row_name(testing::TestParamInfo<Row> const& info) {
   std::string name;
   for (char const c : info.param.name)
     if (std::isalnum(static_cast<unsigned char>(c))) name += c;
   return name + std::to_string(info.index);
-});
+}
+INSTANTIATE_TEST_SUITE_P(Scenario, MistakesTable, testing::ValuesIn(rows), row_name);
+INSTANTIATE_TEST_SUITE_P(Mesh, MistakesTable, testing::ValuesIn(mesh_rows), row_name);
 
 TEST(Mistakes, AreAllToldInTheOrderOfTheFile) {
   std::string text = with("base = \"custom\"", "base = \"custom\"\nlenght = 1");  // 4:1

@@ -32,7 +32,8 @@ enum class Assignment { ngp = 1, cic = 2, tsc = 3 };
 /// What particles are stored in while a run goes through the mesh's own loop; the user's rows are doubles always.
 enum class Precision {
   full,    ///< doubles
-  single,  ///< velocities as floats, positions as 2^-20 to 2^-30 parts of a cell: half the memory, and faster
+  single,  ///< velocities as floats, positions as integers of 32 bits (2^-24 of a cell, or 2^-29 of the
+           ///< longest axis if that is more): half the memory, and faster
 };
 
 class MeshScheme : public Scheme {

@@ -128,7 +128,7 @@ class MeshSteps final : public WholeSteps {
       furthest = std::max({furthest, std::abs(box.low(a)) / box.length(a), std::abs(box.high(a)) / box.length(a)});
     }
     int const cells = static_cast<int>(std::ceil(std::log2(largest)));
-    bits_ = std::is_same_v<Real, double> ? 49 - cells - static_cast<int>(std::ceil(std::log2(furthest))) : 30 - cells;
+    bits_ = std::is_same_v<Real, double> ? 49 - cells - static_cast<int>(std::ceil(std::log2(furthest))) : 29 - cells;
     if constexpr (std::is_same_v<Real, float>) bits_ = std::min(bits_, 24);
     if (bits_ < 8) throw Error("mesh: single precision has too few bits for so many cells; take precision full");
     for (int a = 0; a < dimension_; ++a) {

@@ -316,7 +316,7 @@ class WholeStep {
           break;
         case StepBoundary::reflects: {
           Native const below = x<0, above = x> end;
-          x = below ? -x : above ? 2 * end - x : x;
+          x = below ? -x : above ? end - (x - end) : x;  // 2 end may not fit
           v[a] = select(Mask<Real, W>{below | above}, -v[a], v[a]);
           break;
         }
