@@ -1,4 +1,5 @@
-// The Lennard-Jones melt (rho* 0.8442, T* 1.44, cut-off 2.5, skin 0.3): atom-steps per second, and which part of a step is not pairs.
+// The Lennard-Jones melt (rho* 0.8442, T* 1.44, cut-off 2.5, skin 0.3): atom-steps per second, and which part of a step
+// is not pairs.
 #include <boltzmann/boltzmann.hpp>
 
 #include <chrono>
@@ -38,8 +39,10 @@ int main(int argc, char** argv) {
     since = std::chrono::steady_clock::now();
     for (int n = 0; n < 20; ++n) scheme.calculate();
     double const pairs = seconds(since) / 20;
-    std::printf("%zu atoms, %d thread%s: %.2f million atom-steps/s; a step %.2f ms, influences without list building %.2f ms; %s\n",
-                atoms.size(), threads, threads > 1 ? "s" : "", static_cast<double>(atoms.size()) / whole * 1e-6, whole * 1e3,
-                pairs * 1e3, scheme.report().c_str());
+    std::printf(
+        "%zu atoms, %d thread%s: %.2f million atom-steps/s; a step %.2f ms, influences without list building %.2f ms; "
+        "%s\n",
+        atoms.size(), threads, threads > 1 ? "s" : "", static_cast<double>(atoms.size()) / whole * 1e-6, whole * 1e3,
+        pairs * 1e3, scheme.report().c_str());
   }
 }

@@ -1,4 +1,5 @@
-// Radiation damage in copper (section 6.3 of the 1990 thesis): one atom of a lattice is knocked on and displaces others.
+// Radiation damage in copper (section 6.3 of the 1990 thesis): one atom of a lattice is knocked on and displaces
+// others.
 #include <boltzmann/boltzmann.hpp>
 
 using namespace boltzmann;

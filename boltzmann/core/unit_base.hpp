@@ -65,16 +65,17 @@ class Base {
   double from_si(double si, Dimension) const;
   double to_si(double number, Dimension) const;
 
-  /// How numbers of this base are shown to people: number * factor, in a unit that people know ("angstrom", "eV", "fs").
+  /// How numbers of this base are shown to people: number * factor, in a unit that people know ("angstrom", "eV",
+  /// "fs").
   struct Display {
     std::string unit;
     double factor = 1;
   };
   Display display(Dimension) const;
 
-  /// The unit of this base itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the base are
-  /// known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and in a
-  /// reduced base. parse_quantity reads it back (with a "1 " before it where there is no number).
+  /// The unit of this base itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the
+  /// base are known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and
+  /// in a reduced base. parse_quantity reads it back (with a "1 " before it where there is no number).
   std::string unit_name(Dimension) const;
 
   Scale scale() const { return scale_; }

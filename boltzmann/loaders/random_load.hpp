@@ -33,8 +33,8 @@ struct MaxwellianOptions {
   bool exact_temperature = false;
   /// A velocity that all get on top: beams and streams.
   std::array<double, 3> drift{0, 0, 0};
-  /// No noise: the velocities are the quantiles of the distribution, in an order that gives all of it to particles whose
-  /// numbers follow each other. After a quiet load every cell so has the whole distribution.
+  /// No noise: the velocities are the quantiles of the distribution, in an order that gives all of it to particles
+  /// whose numbers follow each other. After a quiet load every cell so has the whole distribution.
   bool quiet = false;
 };
 

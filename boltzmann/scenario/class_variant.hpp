@@ -22,7 +22,8 @@ ClassVariant variant_of() {
         return std::make_unique<Ensemble<P>>(std::move(name), size);
       },
       [](AnyEnsemble& ensemble, Method method) { return make_integrator(static_cast<Ensemble<P>&>(ensemble), method); },
-      P::template fields<P>().fields, sizeof(Row<P>) + sizeof(typename P::Influence),
+      P::template fields<P>().fields,
+      sizeof(Row<P>) + sizeof(typename P::Influence),
       mesh_kind_of<P>()};
 }
 

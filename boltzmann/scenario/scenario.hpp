@@ -45,11 +45,11 @@ struct PicturePlan {
   std::string file = "picture.png";
   double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours, in the base;
   double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN: those of the state
-  bool trace = false;  ///< draw the tracks of all frames, not the last state
-  std::string slice = "z";                               ///< mesh in 3D: the axis that the slice is normal to
-  double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
-  std::vector<std::array<double, 2>> curves;             ///< wave-spectrum: frequency and speed of each curve over it
-  bool logarithmic = false;                              ///< time-series: the values on a logarithmic axis
+  bool trace = false;                                      ///< draw the tracks of all frames, not the last state
+  std::string slice = "z";                                 ///< mesh in 3D: the axis that the slice is normal to
+  double at = std::numeric_limits<double>::quiet_NaN();    ///< where on it; NaN: in the middle
+  std::vector<std::array<double, 2>> curves;               ///< wave-spectrum: frequency and speed of each curve over it
+  bool logarithmic = false;                                ///< time-series: the values on a logarithmic axis
 };
 
 /// How often what is written.

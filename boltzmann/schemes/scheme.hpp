@@ -62,12 +62,12 @@ class Scheme {
   }
   /// Energies and virial of the state as it stands.
   virtual Measures measure(double time = 0) = 0;
-  /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise. They
-  /// live until the next call.
+  /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise.
+  /// They live until the next call.
   virtual std::vector<MeshField const*> mesh_fields() { return {}; }
 
-  /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any more,
-  /// until they are asked for again with `taken` false.
+  /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
+  /// more, until they are asked for again with `taken` false.
   virtual std::vector<Rotation> rotations(AnyEnsemble const& /*ensemble*/, bool /*taken*/) { return {}; }
 
   /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite

@@ -58,7 +58,8 @@ TEST(Guide, ProgramsCompileAndRun) {
     std::ofstream(source) << block.text;
     auto const program = source.parent_path() / source.stem();
     auto const since = std::chrono::steady_clock::now();
-    ASSERT_EQ(std::system((bzm + " build " + source.string() + " -o " + program.string() + " > /dev/null").c_str()), 0) << block.page;
+    ASSERT_EQ(std::system((bzm + " build " + source.string() + " -o " + program.string() + " > /dev/null").c_str()), 0)
+        << block.page;
     double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
     std::printf("[ COMPILE  ] %s: %.1f s\n", source.filename().c_str(), seconds);
     EXPECT_EQ(std::system(("cd " + folder().string() + " && " + program.string()).c_str()), 0) << block.page;

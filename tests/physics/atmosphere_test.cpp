@@ -35,7 +35,8 @@ TEST(Atmosphere, StaysExponential) {
     double distance = 0;
     for (std::size_t i = 0; i < h.size(); ++i) {
       double const expected = (1 - std::exp(-rate * h[i])) / all;
-      distance = std::max(distance, std::abs(expected - (static_cast<double>(i) + 0.5) / static_cast<double>(h.size())));
+      distance =
+          std::max(distance, std::abs(expected - (static_cast<double>(i) + 0.5) / static_cast<double>(h.size())));
     }
     EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(h.size()))) << when;  // 0.1 % level
   };

@@ -1,4 +1,5 @@
-// Radiation damage in copper (section 6.3): the lattice energy is the lattice sum, the knock-on's energy stays in the metal.
+// Radiation damage in copper (section 6.3): the lattice energy is the lattice sum, the knock-on's energy stays in the
+// metal.
 #include "shipped.hpp"
 
 #include <boltzmann/laws/lennard_jones.hpp>
@@ -10,7 +11,8 @@
 namespace boltzmann {
 namespace {
 
-// Triangular lattice, spacing r0, cut-off 3 r0: shells of 6 at 1, 6 at sqrt 3, 6 at 2, 12 at sqrt 7 (the shell at 3 is cut).
+// Triangular lattice, spacing r0, cut-off 3 r0: shells of 6 at 1, 6 at sqrt 3, 6 at 2, 12 at sqrt 7 (the shell at 3 is
+// cut).
 TEST(Copper, EnergyOfTheLattice) {
   auto const phi = [](double r2) { return std::pow(r2, -6) - 2 * std::pow(r2, -3); };
   double const expected = 3 * phi(1) + 3 * phi(3) + 3 * phi(4) + 6 * phi(7);

@@ -58,7 +58,8 @@ TEST(Cylinder, StreamFunctionStaysConstantAlongEachTrack) {
     drift = std::max(drift, std::abs(stream_function(lines, z) - start[i]));
     furthest = std::max(furthest, std::abs(z - from[i]));
   }
-  std::printf("[ CYLINDER ] stream function drifts by %.2g of %.2g; the furthest track is %.3g long\n", drift, scale, furthest);
+  std::printf("[ CYLINDER ] stream function drifts by %.2g of %.2g; the furthest track is %.3g long\n", drift, scale,
+              furthest);
   EXPECT_GT(furthest, 4);
   EXPECT_LT(drift, 1e-5);
 }
@@ -74,7 +75,8 @@ TEST(Cylinder, NoFlowThroughTheCylinderAndTheCircleTheoremAlongIt) {
   }
   int const count = 72;
   Ensemble<Euler<2>> rim("rim", count);
-  for (int i = 0; i < count; ++i) rim[i].position = {R * std::cos(2 * pi * i / count), R * std::sin(2 * pi * i / count)};
+  for (int i = 0; i < count; ++i)
+    rim[i].position = {R * std::cos(2 * pi * i / count), R * std::sin(2 * pi * i / count)};
   PairScheme field(Box(Vector{-4., -4.}, Vector{4., 4.}));
   field.between(rim, vortices, one_way(BiotSavart{}));
   field.calculate();
@@ -88,7 +90,8 @@ TEST(Cylinder, NoFlowThroughTheCylinderAndTheCircleTheoremAlongIt) {
     for (auto const& line : lines)
       if (std::abs(line.z) > R) {
         Complex const image = R * R / std::conj(line.z);
-        conjugate_velocity += Complex(0, -line.circulation / (2 * pi)) * (1.0 / (z - line.z) - 1.0 / (z - image) + 1.0 / z);
+        conjugate_velocity +=
+            Complex(0, -line.circulation / (2 * pi)) * (1.0 / (z - line.z) - 1.0 / (z - image) + 1.0 / z);
       }
     EXPECT_NEAR(v[0], conjugate_velocity.real(), 1e-12);
     EXPECT_NEAR(v[1], -conjugate_velocity.imag(), 1e-12);

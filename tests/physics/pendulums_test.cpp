@@ -22,7 +22,8 @@ TEST(Pendulums, EnergyIsConserved) {
   EXPECT_LT(largest / start, 2e-3);
 }
 
-// Small swings: in phase the spring keeps its length, omega^2 = g / l; in opposition it is stretched twice, omega^2 = g / l + 2 kappa / m.
+// Small swings: in phase the spring keeps its length, omega^2 = g / l; in opposition it is stretched twice, omega^2 = g
+// / l + 2 kappa / m.
 double period(double first, double second) {
   double const m = 1, length = 10, g = 10;
   Ensemble<Pendulum<>> pendulums("pendulums", 2);

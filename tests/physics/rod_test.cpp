@@ -28,7 +28,8 @@ TEST(Rod, FollowsTheExactChain) {
       double amplitude = 0;
       for (std::size_t q = 0; q < moving; ++q) amplitude += u[q] * std::cos((static_cast<double>(q) + 0.5) * theta);
       amplitude *= 2 / (static_cast<double>(moving) + 0.5);
-      sum += amplitude * std::cos((static_cast<double>(p) + 0.5) * theta) * std::cos(2 * omega0 * std::sin(theta / 2) * t);
+      sum +=
+          amplitude * std::cos((static_cast<double>(p) + 0.5) * theta) * std::cos(2 * omega0 * std::sin(theta / 2) * t);
     }
     return sum;
   };

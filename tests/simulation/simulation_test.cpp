@@ -20,8 +20,7 @@ struct Liquid {
   PairScheme scheme;
   Simulation simulation;
 
-  Liquid(Boundary boundary, Method method, int threads)
-      : scheme(box(boundary), 2.5), simulation(scheme, 0.004) {
+  Liquid(Boundary boundary, Method method, int threads) : scheme(box(boundary), 2.5), simulation(scheme, 0.004) {
     std::mt19937_64 random(5);
     for (std::size_t i = 0; i < atoms.size(); ++i) {
       std::size_t rest = i;
@@ -105,7 +104,8 @@ void restart(Boundary boundary, Method method, std::uint64_t at) {
   EXPECT_EQ(second.simulation.step(), static_cast<std::int64_t>(at));
   EXPECT_EQ(second.simulation.time(), first.simulation.time());
   second.simulation.run(60 - at);
-  EXPECT_EQ(whole.rows(), second.rows()) << D << "D " << to_string(boundary) << " " << to_string(method) << " at " << at;
+  EXPECT_EQ(whole.rows(), second.rows()) << D << "D " << to_string(boundary) << " " << to_string(method) << " at "
+                                         << at;
   first.simulation.run(60 - at);
   EXPECT_EQ(whole.rows(), first.rows()) << "saving changed the run";
 }
@@ -165,8 +165,8 @@ TEST(Simulation, EnergyDriftOfALiquid) {
 TEST(Simulation, ZeroOneAndTwoParticlesRunEverywhere) {
   for (std::size_t const count : {0, 1, 2})
     for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic})
-      for (Method const method : {Method::euler, Method::leap_frog, Method::rk2, Method::rk4, Method::reversible_leap_frog,
-                                  Method::deactivate}) {
+      for (Method const method : {Method::euler, Method::leap_frog, Method::rk2, Method::rk4,
+                                  Method::reversible_leap_frog, Method::deactivate}) {
         Ensemble<Newton<2>> atoms("atoms", count);
         for (std::size_t i = 0; i < count; ++i) {
           atoms[i].position = {1.0 + 1.1 * static_cast<double>(i), 2};
@@ -296,7 +296,8 @@ TEST(Simulation, FailuresNameStepAndParticle) {
     Simulation simulation(scheme, 0.05);
     simulation.integrate(atoms, Method::leap_frog);
     auto const text = message_of<Error>(simulation);
-    EXPECT_NE(text.find("particle 0 of 'atoms' and particle 2 of 'atoms' are at the same place"), std::string::npos) << text;
+    EXPECT_NE(text.find("particle 0 of 'atoms' and particle 2 of 'atoms' are at the same place"), std::string::npos)
+        << text;
   }
   {  // outside of a bounded box, not finite, no integrator, a senseless step
     Ensemble<Newton<2>> atoms("atoms", 3);
