@@ -460,6 +460,7 @@ class Drawer {
     bool const same =
         std::all_of(columns.begin(), columns.end(), [&](auto c) { return heading(data.header[c]).unit == common; });
     std::vector<Series> series;
+    series.reserve(columns.size());
     for (auto const c : columns)
       series.push_back({columns.size() == 1 ? ""
                         : same              ? heading(data.header[c]).name

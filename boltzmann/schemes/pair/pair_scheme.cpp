@@ -259,7 +259,8 @@ void PairScheme::move(std::vector<Moved> const& moved) {
       for (auto const& [mirror, rows] : moved)
         if (mirror == near.source_mirror)
           for (auto const row : rows)
-            near.target_mirror->owned_near(mirror->references() + 4 * row, near.cutoff + skin_, affected[n]);
+            near.target_mirror->owned_near(mirror->references() + 4 * std::size_t{row}, near.cutoff + skin_,
+                                           affected[n]);
     }
   };
   look_around();
@@ -561,7 +562,7 @@ std::vector<double> PairScheme::state() const {
     state.push_back(static_cast<double>(mirror->moved().size()));
     for (auto const row : mirror->moved()) {
       state.push_back(mirror->order()[row]);
-      double const* reference = mirror->references() + 4 * row;
+      double const* reference = mirror->references() + 4 * std::size_t{row};
       state.insert(state.end(), reference, reference + 3);
     }
   }
