@@ -1,4 +1,5 @@
-// Wrapping and reflecting, and the refusals of particles that can't be where they are.
+// Wrapping, reflecting and mirroring, where moving walls are, and the refusals of particles that can't be where they
+// are.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -13,6 +14,7 @@ namespace boltzmann {
 namespace {
 
 constexpr char const* axis_name = "xyz";
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grain = 2048, worth_threads = 1U << 13U;  // particles
 
 std::string who(AnyEnsemble const& particles, std::size_t i) {
@@ -36,6 +38,28 @@ void reflect(double wall, double* x, double* v) {
   if (v) *v = -*v;
 }
 
+constexpr std::array<Box::End, 2> both_ends{Box::End::low, Box::End::high};
+char const* word(Box::End end) { return end == Box::End::low ? "low" : "high"; }
+
+/// Images at walls where a quantity is `at[k]`, one after the other: x -> 2 at[0] - x -> 2 at[1] - (2 at[0] - x) ...;
+/// the mean of all orders, which is each of them where the walls agree: even numbers of walls leave x, odd ones turn it
+/// about the walls' mean.
+class OddImages {
+ public:
+  void beyond(double at) {
+    sum_ += at;
+    ++count_;
+  }
+  ImageMap map() const {
+    if (count_ % 2 == 0) return {};
+    return {-1, 2 * sum_ / count_};
+  }
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
+
 }  // namespace
 
 std::string to_string(Boundary boundary) {
@@ -46,18 +70,27 @@ std::string to_string(Boundary boundary) {
       return "bounded";
     case Boundary::periodic:
       return "periodic";
+    case Boundary::mirror:
+      return "mirror";
   }
   return "?";
 }
 
 Box::Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, std::array<Boundary, 3> boundaries)
-    : dimension_(dimension), low_(low), high_(high), boundaries_(boundaries), all_open_(true) {
+    : dimension_(dimension),
+      low_(low),
+      high_(high),
+      first_low_(low),
+      first_high_(high),
+      boundaries_(boundaries),
+      all_open_(true) {
   if (dimension < 1 || dimension > 3) throw Error(fmt::format("a box has 1, 2 or 3 dimensions, not {}", dimension));
   for (int a = 0; a < dimension; ++a) {
     if (!std::isfinite(low[a]) || !std::isfinite(high[a]) || !(low[a] < high[a]))
       throw Error(
           fmt::format("box: on axis {} the low edge {} is not below the high edge {}", axis_name[a], low[a], high[a]));
     if (boundaries[a] != Boundary::open) all_open_ = false;
+    if (boundaries[a] == Boundary::mirror) any_wall_ = true, walled_[a] = {true, true};
   }
 }
 
@@ -71,6 +104,86 @@ double Box::volume() const {
   double product = 1;
   for (int a = 0; a < dimension_; ++a) product *= length(a);
   return product;
+}
+
+void Box::check_mirror(int axis) const {
+  if (axis < 0 || axis >= dimension_)
+    throw Error(fmt::format("wall: a box of {} dimensions has no axis number {}", dimension_, axis));
+  if (boundaries_[axis] != Boundary::mirror)
+    throw Error(fmt::format("wall: axis {} is {}; only a mirror axis has walls", axis_name[axis],
+                            to_string(boundaries_[axis])));
+}
+
+Wall const& Box::wall(int axis, End end) const {
+  check_mirror(axis);
+  if (!walled(axis, end))
+    throw Error(fmt::format("wall: the {} end of axis {} is open, there is no wall", word(end), axis_name[axis]));
+  return walls_[axis][static_cast<int>(end)];
+}
+
+void Box::wall(int axis, End end, Wall const& wall) {
+  check_mirror(axis);
+  for (double const u : wall.velocity)
+    if (!std::isfinite(u))
+      throw Error(
+          fmt::format("wall: the velocity of the {} wall of axis {} is not finite: {}", word(end), axis_name[axis], u));
+  if (std::isinf(wall.temperature))
+    throw Error(fmt::format("wall: the temperature of the {} wall of axis {} is not finite: {}", word(end),
+                            axis_name[axis], wall.temperature));
+  walls_[axis][static_cast<int>(end)] = wall;
+  walled_[axis][static_cast<int>(end)] = true;
+  find_moving_walls();
+}
+
+void Box::open_end(int axis, End end) {
+  check_mirror(axis);
+  auto& walled = walled_[axis];
+  if (!walled[end == End::low ? 1 : 0])
+    throw Error(fmt::format("wall: no wall would be left on axis {}; make the axis open", axis_name[axis]));
+  walled[static_cast<int>(end)] = false;
+  find_moving_walls();
+}
+
+void Box::find_moving_walls() {
+  walls_move_ = false;
+  for (int a = 0; a < dimension_; ++a)
+    for (End const end : both_ends)
+      if (walled(a, end) && walls_[a][static_cast<int>(end)].velocity[a] != 0) walls_move_ = true;
+}
+
+void Box::move_walls(double time) {
+  if (!walls_move_) return;
+  auto low = first_low_, high = first_high_;
+  for (int a = 0; a < dimension_; ++a) {
+    if (walled(a, End::low)) low[a] += walls_[a][0].velocity[a] * time;
+    if (walled(a, End::high)) high[a] += walls_[a][1].velocity[a] * time;
+    if (!(low[a] < high[a]))
+      throw PhysicsFailure(
+          fmt::format("the walls of axis {} have met: at time {} the low end is at {} and the high end at {}",
+                      axis_name[a], time, low[a], high[a]));
+  }
+  low_ = low;
+  high_ = high;
+}
+
+ImageMap Box::velocity_image(std::array<int, 3> const& side, int component) const {
+  OddImages odd;
+  for (int a = 0; a < dimension_; ++a) {
+    if (side[a] == 0) continue;
+    Wall const& wall = walls_[a][side[a] < 0 ? 0 : 1];
+    if (a == component || !wall.slips) odd.beyond(wall.velocity[component]);
+  }
+  return odd.map();
+}
+
+ImageMap Box::temperature_image(std::array<int, 3> const& side) const {
+  OddImages odd;
+  for (int a = 0; a < dimension_; ++a) {
+    if (side[a] == 0) continue;
+    Wall const& wall = walls_[a][side[a] < 0 ? 0 : 1];
+    if (!std::isnan(wall.temperature)) odd.beyond(wall.temperature);
+  }
+  return odd.map();
 }
 
 void Box::check_dimension(int of_region) const {
@@ -99,10 +212,13 @@ void Box::check(AnyEnsemble const& particles) const {
             throw Error(fmt::format("{} has a {} that is not finite: {}", who(particles, i), field.name, x[k]));
         throw Error(fmt::format("{} has a field that is not finite: {}", who(particles, i), x[k]));
       }
-    for (int a = 0; a < dimension_; ++a)
-      if (boundary(a) == Boundary::bounded && !(x[a] >= low_[a] && x[a] <= high_[a]))
-        throw Error(fmt::format("{} is outside the box: {} = {}, the bounded axis goes from {} to {}",
-                                who(particles, i), axis_name[a], x[a], low_[a], high_[a]));
+    for (int a = 0; a < dimension_; ++a) {
+      bool const bounded = boundary(a) == Boundary::bounded;
+      if (((bounded || walled(a, End::low)) && x[a] < low_[a]) ||
+          ((bounded || walled(a, End::high)) && x[a] > high_[a]))
+        throw Error(fmt::format("{} is outside the box: {} = {}, the {} axis goes from {} to {}", who(particles, i),
+                                axis_name[a], x[a], to_string(boundary(a)), low_[a], high_[a]));
+    }
     for (auto const& region : regions_) {
       if (region.side == Region::Side::keep_out && strictly_inside(region, dimension_, x))
         throw Error(fmt::format("{} is inside a region that keeps particles out", who(particles, i)));
@@ -139,7 +255,7 @@ void Box::apply(AnyEnsemble& particles, int threads) const {
         "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
         who(particles, i), axis_name[a], x, low_[a], high_[a]));
   };
-  auto const bring_back = [&](std::size_t i, int a) {
+  auto const bring_back = [&](std::size_t i, int a, std::array<int, 3>& mirrored) {
     double const low = low_[a], high = high_[a], length = high - low;
     double* x = particles.row(i) + a;
     double const before = *x;
@@ -152,23 +268,32 @@ void Box::apply(AnyEnsemble& particles, int threads) const {
         *x -= length;
         if (*x < low) *x = low;
       }
+    } else if (boundary(a) == Boundary::mirror) {
+      if (*x != high) {
+        mirrored[a] = *x < low ? -1 : 1;
+        *x = 2 * (*x < low ? low : high) - *x;
+      }
     } else if (*x != high) {
       reflect(*x < low ? low : high, x, velocity ? particles.row(i) + velocity->offset + a : nullptr);
     }
     if (!(*x >= low && *x <= high)) fail(i, a, before);
   };
   std::array<double, 3> low = low_, high = high_;
-  for (int a = 0; a < dimension_; ++a)
-    if (boundary(a) == Boundary::open) {
-      low[a] = -std::numeric_limits<double>::infinity();
-      high[a] = std::numeric_limits<double>::infinity();
-    }
+  for (int a = 0; a < dimension_; ++a) {
+    bool const mirror = boundary(a) == Boundary::mirror, open = boundary(a) == Boundary::open;
+    if (open || (mirror && !walled(a, End::low))) low[a] = -infinity;
+    if (open || (mirror && !walled(a, End::high))) high[a] = infinity;
+  }
   for_ranges(particles.size(), grain, particles.size() < worth_threads ? 1 : threads,
              [&](std::size_t begin, std::size_t end) {
                for (std::size_t i = begin; i < end; ++i) {
                  double const* x = particles.row(i);
+                 std::array<int, 3> mirrored{};
                  for (int a = 0; a < dimension_; ++a)
-                   if (!(x[a] >= low[a] && x[a] < high[a]) && boundary(a) != Boundary::open) bring_back(i, a);
+                   if (!(x[a] >= low[a] && x[a] < high[a]) && boundary(a) != Boundary::open) bring_back(i, a, mirrored);
+                 if (!any_wall_ || !velocity || mirrored == std::array<int, 3>{}) continue;
+                 double* v = particles.row(i) + velocity->offset;
+                 for (int c = 0; c < dimension_; ++c) v[c] = velocity_image(mirrored, c)(v[c]);
                }
              });
   for (auto const& region : regions_)
@@ -201,8 +326,7 @@ void Box::apply(AnyEnsemble& particles, int threads) const {
 void Box::on_grid(double quantum) {
   auto const rounded = [&](double x) { return quantum * std::nearbyint(x / quantum); };
   for (int a = 0; a < dimension_; ++a) {
-    low_[a] = rounded(low_[a]);
-    high_[a] = rounded(high_[a]);
+    for (double* edge : {&low_[a], &high_[a], &first_low_[a], &first_high_[a]}) *edge = rounded(*edge);
     for (auto& region : regions_) {
       region.low[a] = rounded(region.low[a]);
       region.high[a] = rounded(region.high[a]);

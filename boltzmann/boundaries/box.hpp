@@ -1,9 +1,11 @@
-// The space of a simulation: a box with a boundary kind per axis, and regions installed inside it (sections 4.1, 4.2).
+// The space of a simulation: a box with a boundary kind per axis, walls that mirror (and may move), and regions
+// installed inside it (sections 4.1, 4.2).
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -17,9 +19,28 @@ enum class Boundary {
   open,      ///< particles leave freely
   bounded,   ///< elastic reflection
   periodic,  ///< what leaves on one side enters on the other
+  mirror,    ///< beyond its walls every particle has an image (see Wall)
 };
 
 std::string to_string(Boundary boundary);
+
+/// A wall at one end of a mirror axis: what the image beyond it of a particle with velocity v and temperature T has.
+struct Wall {
+  /// The image's velocity: 2 u - v (u that of the wall) along the wall's normal, and along the wall itself v if
+  /// particles slip on it, else 2 u - v there, too: then matter at the wall moves with it.
+  bool slips = true;
+  /// Of the wall; along its normal it makes a piston: the wall is at edge + velocity * time.
+  std::array<double, 3> velocity{};
+  /// Of the wall: the image has 2 temperature - T. NaN: an insulated wall, the image has T.
+  double temperature = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What a number of a particle is in an image: sign * x + shift; as it stands, a zero's sign included, unless said
+/// otherwise.
+struct ImageMap {
+  double sign = 1, shift = -0.0;
+  double operator()(double x) const { return sign * x + shift; }
+};
 
 /// An axis-aligned block inside the space whose faces reflect particles elastically.
 struct Region {
@@ -30,6 +51,8 @@ struct Region {
 
 class Box {
  public:
+  enum class End { low, high };
+
   /// A box from `low` to `high` with the same boundary kind on every axis, or one kind per axis.
   /// Error if low is not below high on some axis, or an edge is not finite.
   template <int D>
@@ -48,8 +71,31 @@ class Box {
   bool periodic(int axis) const { return boundaries_[axis] == Boundary::periodic; }
   bool any_periodic() const;
   bool all_open() const { return all_open_; }
-  /// Length, area or volume of the box.
+  /// Length, area or volume of the box (as its walls stand now).
   double volume() const;
+
+  /// Whether particles are mirrored at this end: at both ends of a mirror axis, unless one was opened.
+  bool walled(int axis, End end) const { return walled_[axis][static_cast<int>(end)]; }
+  bool any_wall() const { return any_wall_; }
+  /// The wall at this end. Error if there is none.
+  Wall const& wall(int axis, End end) const;
+  /// Puts this wall there (and closes the end again, if it was open); until then it slips, rests and is insulated.
+  /// Error if the axis is no mirror, or the wall's velocity or temperature is infinite (or its velocity no number).
+  void wall(int axis, End end, Wall const& wall);
+  /// Takes the wall away: particles leave freely at this end, and have no images beyond it. Error if the axis is no
+  /// mirror, or no wall would be left.
+  void open_end(int axis, End end);
+  /// Whether some wall moves along its normal.
+  bool walls_move() const { return walls_move_; }
+  /// Puts moving walls where they are at this time since the start of the run, edge + velocity * time; low(), high(),
+  /// length() and volume() follow. PhysicsFailure if a wall meets the other end of its axis.
+  void move_walls(double time);
+
+  /// What a particle's velocity component (temperature) is in its image beyond the given ends: side[a] is -1 for the
+  /// wall at the low end of axis a, 1 for that at the high end, else 0. Beyond several walls the images are composed;
+  /// where these walls differ, so that the order would matter, it is the mean of all orders.
+  ImageMap velocity_image(std::array<int, 3> const& side, int component) const;
+  ImageMap temperature_image(std::array<int, 3> const& side) const;
 
   /// Installs a region. Error if it is not a block of this space.
   void install(Region const& region);
@@ -60,8 +106,8 @@ class Box {
   }
   std::vector<Region> const& regions() const { return regions_; }
 
-  /// Throws Error for the first particle that is not finite, is outside a bounded axis, or on the wrong side of a
-  /// region.
+  /// Throws Error for the first particle that is not finite, is outside a bounded axis, beyond a wall, or on the wrong
+  /// side of a region.
   void check(AnyEnsemble const& particles) const;
 
   /// The coordinate moved by whole lengths of a periodic axis to where low <= x < high.
@@ -70,8 +116,8 @@ class Box {
   void wrap(AnyEnsemble& particles) const;
 
   /// Brings every particle that has left back: periodic axes wrap, bounded axes and regions reflect position and
-  /// velocity. PhysicsFailure if a particle has moved so far that one reflection does not bring it back, or is not
-  /// finite.
+  /// velocity, beyond a wall a particle is replaced by its image (position and velocity). PhysicsFailure if a particle
+  /// has moved so far that one reflection does not bring it back, or is not finite.
   void apply(AnyEnsemble& particles, int threads = 1) const;
 
   /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog.
@@ -95,11 +141,16 @@ class Box {
   }
 
   void check_dimension(int of_region) const;
+  void check_mirror(int axis) const;
+  void find_moving_walls();
 
   int dimension_;
   std::array<double, 3> low_, high_;
+  std::array<double, 3> first_low_, first_high_;  // at time 0
   std::array<Boundary, 3> boundaries_;
-  bool all_open_;
+  bool all_open_, any_wall_ = false, walls_move_ = false;
+  std::array<std::array<bool, 2>, 3> walled_{};  // at the low and at the high end
+  std::array<std::array<Wall, 2>, 3> walls_{};
   std::vector<Region> regions_;
 };
 

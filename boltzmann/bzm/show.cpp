@@ -7,6 +7,7 @@
 #include <boltzmann/laws/catalogue.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
@@ -75,6 +76,12 @@ std::vector<Named> laws() {
   for (auto const& law : law_catalogue()) all.push_back({std::string(law.name), std::string(law.doc)});
   return all;
 }
+std::vector<Named> materials() {
+  std::vector<Named> all;
+  for (auto const& material : material_catalogue())
+    all.push_back({std::string(material.name), std::string(material.doc)});
+  return all;
+}
 std::vector<Named> integrators() {
   std::vector<Named> all;
   for (auto const& name : method_names()) all.push_back({name, integrator_doc(name)});
@@ -101,8 +108,9 @@ struct Section {
   char const* name;
   std::vector<Named> (*entries)();
 };
-constexpr Section sections[] = {{"scenarios", scenarios},     {"classes", classes},     {"laws", laws},
-                                {"integrators", integrators}, {"diagnoses", diagnoses}, {"units", unit_list}};
+constexpr Section sections[] = {{"scenarios", scenarios}, {"classes", classes},         {"laws", laws},
+                                {"materials", materials}, {"integrators", integrators}, {"diagnoses", diagnoses},
+                                {"units", unit_list}};
 
 void show_scenario(std::string const& name) {
   std::string const path = find_scenario(name);
@@ -128,6 +136,7 @@ void show_scenario(std::string const& name) {
     bool const near = dynamic_cast<P3MScheme const*>(scenario->mesh) != nullptr;
     fmt::print("  mesh        {} cells{}\n", join(cells, " x "), near ? ", and near pairs (P3M)" : "");
   }
+  if (scenario->smooth) fmt::print("  smooth      the weight is {}\n", to_string(scenario->smooth->shape()));
   fmt::print("\nbzm run {}\n", name);
 }
 
@@ -142,13 +151,16 @@ void show_class(ParticleClass const& one) {
         (static_cast<std::size_t>(numbers) + row_block - 1) / row_block * row_block * sizeof(double);
     fmt::print("  in {}D       {} bytes of memory for a particle and its influence", variant.dimension,
                variant.row_bytes);
-    fmt::print(";\n              laws with a cut-off take {} more, and 4 for each neighbour in their lists\n",
-               bytes_with_lists(row));
+    if (one.matter == Matter::none)
+      fmt::print(";\n              laws with a cut-off take {} more, and 4 for each neighbour in their lists\n",
+                 bytes_with_lists(row));
+    else
+      fmt::print("\n");
   }
   auto const& largest = one.variants.back();
   fmt::print("\n  fields in {}D\n", largest.dimension);
   for (auto const& field : largest.fields)
-    fmt::print("    {:<12} {:<10} {:<22} {}\n", field.name,
+    fmt::print("    {:<15} {:<10} {:<22} {}\n", field.name,
                field.components == 1 ? "number" : fmt::format("{} numbers", field.components), name_of(field.dimension),
                field.doc);
   fmt::print("\n  quantities for pictures and diagnoses\n");
@@ -180,6 +192,41 @@ void show_law(LawInfo const& law) {
                parameter.default_text.empty() ? "" : fmt::format("; {} unless told", parameter.default_text));
   }
   fmt::print("\n  in C++: #include <{}>, {}\n", law.header, law.type);
+}
+
+void print_parameters(std::vector<MaterialParameter> const& parameters) {
+  for (auto const& parameter : parameters) {
+    auto const examples = example_units(parameter.dimension(3));
+    std::string usual;
+    if (parameter.usual && std::isinf(*parameter.usual))
+      usual = "; unlimited unless told";
+    else if (parameter.usual)
+      usual = fmt::format("; {} unless told{}", *parameter.usual,
+                          parameter.usual_with_units ? "" : " (in the base \"reduced\")");
+    fmt::print("    {:<19} {}; {}, {}{}\n", parameter.name, parameter.doc,
+               parameter.dimension(3) == dimensions::none
+                   ? "a number"
+                   : fmt::format("in {}", examples.empty() ? name_of(parameter.dimension(3)) : join(examples, " or ")),
+               parameter.range == MaterialRange::positive       ? "positive"
+               : parameter.range == MaterialRange::non_negative ? "not negative"
+               : parameter.range == MaterialRange::above_one    ? "above 1"
+                                                                : "of any size",
+               usual);
+  }
+}
+
+void show_material(MaterialInfo const& material) {
+  fmt::print("material {}: {}\n\n  equation of state   {}\n", material.name, material.doc, material.formula);
+  if (material.barotropic) fmt::print("  has no temperature: pressure and energy follow from the density alone\n");
+  fmt::print("\n  in an ensemble of class Smooth or Solid: material = {{ kind = \"{}\", ... }}\n", material.name);
+  print_parameters(material.parameters);
+  if (material.tabulated) fmt::print("    points or file      at least two, of rising density\n");
+  fmt::print("\n  with any material\n");
+  print_parameters(flux_parameters());
+  fmt::print("\n  of class Solid, in elastic = {{ ... }} inside the material\n");
+  print_parameters(elastic_parameters());
+  fmt::print("\n  units are those in 3D; in 2D and 1D volumes are areas and lengths\n");
+  fmt::print("  in C++: #include <{}>, {}\n", material.header, material.type);
 }
 
 void show_diagnosis(DiagnosisKind const& kind) {
@@ -243,6 +290,10 @@ int show(std::string const& name) {
       show_law(law);
       return 0;
     }
+  if (auto const* material = find_material(name)) {
+    show_material(*material);
+    return 0;
+  }
   for (auto const& kind : diagnosis_kinds())
     if (kind.name == name) {
       show_diagnosis(kind);

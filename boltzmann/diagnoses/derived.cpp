@@ -17,8 +17,10 @@ struct Entry {
   std::function<double(std::size_t)> value;
 };
 
-/// The component of a vector as a word: x, y, z; further ones are numbered from 3.
-std::string component_name(int component) {
+/// The component of a vector as a word: x, y, z; of a tensor xx, xy, ...; of anything else numbered from 3.
+std::string component_name(Field const& field, int dimension, int component) {
+  if (dimension > 1 && field.components == dimension * dimension)
+    return {"xyz"[component / dimension], "xyz"[component % dimension]};
   return component < 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
 }
 
@@ -39,15 +41,15 @@ std::vector<Entry> table_of(AnyEnsemble const& ensemble, std::span<double const>
       auto const value = [particles, at = field.offset + c](std::size_t i) { return particles->row(i)[at]; };
       bool const along_axes = field.components > 1 || field.name == "position" || field.name == "velocity";
       if (field.components == 1) add(field.name, field.dimension, value);
-      if (along_axes) add(field.name + "." + component_name(c), field.dimension, value);
+      if (along_axes) add(field.name + "." + component_name(field, ensemble.dimension(), c), field.dimension, value);
     }
   bool const body = carries_momentum(ensemble), has_velocity = ensemble.find_field("velocity") != nullptr;
   int const dimension = ensemble.dimension();
   if (static_cast<std::size_t>(dimension) <= ensemble.influence_size()) {
     for (int c = 0; c < dimension; ++c) {
       auto const value = [particles, c](std::size_t i) { return particles->influence(i)[c]; };
-      if (!has_velocity) add("velocity." + component_name(c), dimensions::velocity, value);
-      add("influence." + component_name(c), body ? dimensions::force : dimensions::velocity, value);
+      if (!has_velocity) add(std::string("velocity.") + "xyz"[c], dimensions::velocity, value);
+      add(std::string("influence.") + "xyz"[c], body ? dimensions::force : dimensions::velocity, value);
     }
   }
   if (has_velocities(ensemble))
@@ -64,6 +66,11 @@ std::vector<Entry> table_of(AnyEnsemble const& ensemble, std::span<double const>
           for (int a = 0; a < dimension; ++a) square += v[a] * v[a];
           return 0.5 * particles->row(i)[mass] * square;
         });
+  Field const *mass = ensemble.find_field("mass"), *heat = ensemble.find_field("specific_energy");
+  if (mass != nullptr && heat != nullptr)
+    add("internal-energy", dimensions::energy, [particles, m = mass->offset, e = heat->offset](std::size_t i) {
+      return particles->row(i)[m] * particles->row(i)[e];
+    });
   bool const known = potential_energy.size() == ensemble.size();
   add("potential-energy", dimensions::energy, [known, potential_energy](std::size_t i) {
     return known ? potential_energy[i] : std::numeric_limits<double>::quiet_NaN();

@@ -18,10 +18,10 @@ struct QuantityMeaning {
   Dimension dimension;
 };
 
-/// All names that are allowed for an ensemble: its fields ("mass", "position.x"; in 1D also "position"), "speed",
-/// "kinetic-energy" (with mass and velocity), "influence.x" (a force for classes with mass and velocity, else a
-/// velocity: its first dimension() components) and "potential-energy". A class without velocity has its influence for
-/// "velocity.x".
+/// All names that are allowed for an ensemble: its fields ("mass", "position.x", "stress.xy"; in 1D also "position"),
+/// "speed", "kinetic-energy" (with mass and velocity), "internal-energy" (with mass and specific_energy), "influence.x"
+/// (a force for classes with mass and velocity, else a velocity: its first dimension() components) and
+/// "potential-energy". A class without velocity has its influence for "velocity.x".
 std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble);
 
 /// Meaning of one name; Error with all names that are allowed, and the nearest.

@@ -2,7 +2,9 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
+#include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 
@@ -211,6 +213,58 @@ class Pressure final : public SystemDiagnosis {
       values.insert(values.end(), tensor[a].begin(), tensor[a].begin() + dimension());
   }
 };
+
+/// S / N k of an ideal gas (figure 3 of SPAM): of all ensembles that have what it needs, or of each named one.
+class EntropyDiagnosis final : public SystemDiagnosis {
+ public:
+  explicit EntropyDiagnosis(DiagnosisParameters const& parameters)
+      : SystemDiagnosis(parameters), options_{{parameters.weight, parameters.range}, parameters.gamma, {}} {
+    std::vector<AnyEnsemble const*> chosen;
+    for (auto const& name : parameters.ensembles) chosen.push_back(&ensemble_named(parameters.available, name));
+    if (chosen.empty()) chosen = suitable(parameters.available);
+    if (chosen.empty()) chosen = parameters.available;
+    for (auto const* ensemble : chosen) {
+      if (!has_entropy(*ensemble))
+        throw Error(fmt::format("ensemble '{}' of class {} has no entropy: it needs mass, velocity and specific_energy",
+                                ensemble->name(), ensemble->class_name()));
+      if (!(parameters.range >= 0))
+        throw Error(fmt::format("the range of an entropy must be above 0, it is {}", parameters.range));
+      if (parameters.range == 0 && ensemble->find_field("range") == nullptr)
+        throw Error(fmt::format("ensemble '{}' of class {} has no range of its own: an entropy of it needs 'range'",
+                                ensemble->name(), ensemble->class_name()));
+    }
+    if (parameters.gamma != 0 && !(parameters.gamma > 1))
+      throw Error(fmt::format("an entropy needs a gamma above 1, it is {}", parameters.gamma));
+  }
+  std::vector<Column> columns_of_one() const override {
+    std::vector<Column> columns;
+    for (char const* heat : {"", " without fluctuations", " with all motion"})
+      for (char const* way : {"sum", "integral"})
+        columns.push_back({fmt::format("entropy {}{}", way, heat), dimensions::none});
+    return columns;
+  }
+  void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
+    SmoothEntropy const s = smooth_entropy(suitable(of), sample.box, options_);
+    for (Entropy const& one : {s.with_fluctuations, s.without_fluctuations, s.with_all_motion})
+      values.insert(values.end(), {one.sum, one.integral});
+  }
+
+ private:
+  static std::vector<AnyEnsemble const*> suitable(Ensembles of) {
+    std::vector<AnyEnsemble const*> all;
+    for (auto const* ensemble : of)
+      if (has_entropy(*ensemble)) all.push_back(ensemble);
+    return all;
+  }
+
+  EntropyOptions options_;
+};
+
+std::unique_ptr<Diagnosis> make_heat_flux(DiagnosisParameters const& parameters) {
+  int const axis = parameters.axis.empty() ? dimension_of(parameters) - 1 : parameters.axis[0] - 'x';
+  return std::make_unique<HeatFlux>(parameters.available,
+                                    HeatFluxOptions{axis, parameters.conductivity, parameters.since});
+}
 
 // ---- Of a group of particles ----
 
@@ -475,6 +529,14 @@ std::vector<Entry> const& table() {
         {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},
          make<Pressure>},
         {{"number", "number of particles and their mass", {"ensembles"}}, make<Number>},
+        {{"entropy",
+          "entropy S / N k of an ideal gas of smooth particles, with and without the fluctuations of their velocities",
+          {"ensembles", "weight", "range", "gamma"}},
+         make<EntropyDiagnosis>},
+        {{"heat-flux",
+          "heat conducted and carried by the flow between two walls, and Nusselt's number with its mean and spread",
+          {"axis", "conductivity", "since"}},
+         make_heat_flux},
         {{"drag", "mean velocity of a group of particles: its change is the drag", group}, make<Drag>},
         {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", group},
          make<VelocityDiffusion>},
@@ -514,6 +576,11 @@ void refuse_unused(DiagnosisKind const& kind, DiagnosisParameters const& paramet
   check("mode", !parameters.mode.empty());
   check("axis", !parameters.axis.empty());
   check("modes", parameters.modes != 0);
+  check("weight", parameters.weight != WeightShape::lucy);
+  check("range", parameters.range != 0);
+  check("gamma", parameters.gamma != 0);
+  check("conductivity", parameters.conductivity != 0);
+  check("since", parameters.since != 0);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/diagnoses/smooth_field.hpp>
 
 #include <array>
 #include <cstdint>
@@ -33,8 +34,13 @@ struct DiagnosisParameters {
   std::vector<MeshField const*> mesh_fields =
       {};                      ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
   std::vector<int> mode = {};  ///< field-mode: periods in the box along each axis
-  std::string axis = {};       ///< wave-spectrum: "x", "y" or "z"
+  std::string axis = {};       ///< wave-spectrum, heat-flux: "x", "y" or "z"
   std::size_t modes = 0;       ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
+  WeightShape weight = WeightShape::lucy;  ///< entropy: of the averages
+  double range = 0;                        ///< entropy: of the weight; 0: each particle's own
+  double gamma = 0;                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D
+  double conductivity = 0;                 ///< heat-flux: of the material
+  double since = 0;                        ///< heat-flux: the time from which means are taken
 };
 
 /// One kind of diagnosis.
@@ -45,8 +51,8 @@ struct DiagnosisKind {
   bool of_mesh = false;              ///< it looks at what a mesh has on its nodes
 };
 
-/// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, drag, velocity-diffusion,
-/// extremes; of a mesh field-energy, field-mode, wave-spectrum.
+/// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, entropy, heat-flux,
+/// drag, velocity-diffusion, extremes; of a mesh field-energy, field-mode, wave-spectrum.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
 
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or

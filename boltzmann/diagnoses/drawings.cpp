@@ -1,6 +1,7 @@
 // Particles, phase space, spectra, time series and fields as marks on a canvas.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/canvas_ticks.hpp>
+#include <boltzmann/diagnoses/contours.hpp>
 #include <boltzmann/diagnoses/drawings.hpp>
 
 #include <algorithm>
@@ -455,14 +456,20 @@ Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::str
   return canvas;
 }
 
+namespace {
+
+// The axes of a mesh of so many cells, from low to high.
+void complete(Axis& axis, int cells) {
+  if (!std::isfinite(axis.low)) axis.low = 0;
+  if (!std::isfinite(axis.high)) axis.high = axis.low + std::max(cells, 1);
+}
+
+}  // namespace
+
 Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x, Axis y, std::string value_name,
                   std::string value_unit, ColourMap map, std::string title, ColourEnds const& ends) {
   Canvas canvas;
   canvas.title(std::move(title));
-  auto complete = [](Axis& axis, int cells) {
-    if (!std::isfinite(axis.low)) axis.low = 0;
-    if (!std::isfinite(axis.high)) axis.high = axis.low + std::max(cells, 1);
-  };
   complete(x, columns);
   complete(y, rows);
   Limits limits(values);
@@ -474,6 +481,58 @@ Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x,
   canvas.equal_aspect(x.unit == y.unit);
   canvas.axes(std::move(x), std::move(y));
   canvas.colour_bar(std::move(value_name), std::move(value_unit), limits.low, limits.high, map, ends.factor);
+  return canvas;
+}
+
+Canvas draw_contours(MeshGrid const& grid, std::span<double const> values, std::span<double const> levels, Axis x,
+                     Axis y, std::string value_name, std::string value_unit, std::string title,
+                     ColourEnds const& ends) {
+  auto const lines = contour_lines(grid, values, levels);
+  Canvas canvas;
+  canvas.title(std::move(title));
+  for (int a = 0; a < 2; ++a) {
+    Axis& axis = a == 0 ? x : y;
+    if (!std::isfinite(axis.low)) axis.low = grid.low[a];
+    if (!std::isfinite(axis.high)) axis.high = grid.low[a] + static_cast<double>(grid.cells(a)) * grid.spacing[a];
+  }
+  Limits limits(levels);
+  if (limits.empty()) limits.low = limits.high = 0;
+  if (std::isfinite(ends.low)) limits.low = ends.low;
+  if (std::isfinite(ends.high)) limits.high = ends.high;
+  for (auto const& line : lines) {
+    Colour const colour = map_colour(ColourMap::viridis, place_between(limits.low, limits.high, line.level));
+    for (auto const& part : inside_box(line, grid)) canvas.curve(part.x, part.y, colour, "", 2.2F);
+  }
+  canvas.equal_aspect(x.unit == y.unit);
+  canvas.axes(std::move(x), std::move(y));
+  canvas.colour_bar(std::move(value_name), std::move(value_unit), limits.low, limits.high, ColourMap::viridis,
+                    ends.factor);
+  return canvas;
+}
+
+Canvas draw_bands(int columns, int rows, std::span<double const> values, std::span<double const> levels, Axis x, Axis y,
+                  std::string const& value_name, std::string const& value_unit, std::string title, double factor) {
+  if (!std::is_sorted(levels.begin(), levels.end())) throw Error("the levels of bands must ascend");
+  Canvas canvas;
+  canvas.title(std::move(title));
+  complete(x, columns);
+  complete(y, rows);
+  auto const top = static_cast<double>(levels.size());
+  std::vector<double> bands(values.begin(), values.end());
+  for (double& v : bands)
+    if (!std::isnan(v)) v = static_cast<double>(std::upper_bound(levels.begin(), levels.end(), v) - levels.begin());
+  canvas.image(x.low, y.low, x.high, y.high, columns, rows, bands, 0, top, ColourMap::grey);
+  canvas.equal_aspect(x.unit == y.unit);
+  canvas.axes(std::move(x), std::move(y));
+  auto const text = [&](std::size_t level) {
+    return number_text(levels[level] * factor) + (value_unit.empty() ? "" : " " + value_unit);
+  };
+  for (std::size_t band = levels.size() + 1; band-- > 0 && !levels.empty();) {
+    std::string where = value_name;
+    if (band > 0) where.append(band == levels.size() ? " above " : " ").append(text(band - 1));
+    if (band < levels.size()) where.append(band == 0 ? " below " : " to ").append(text(band));
+    canvas.legend(where, map_colour(ColourMap::grey, place_between(0, top, static_cast<double>(band))));
+  }
   return canvas;
 }
 

@@ -1,7 +1,8 @@
-// Drawings: particles in space, phase space, spectra and time series on a canvas, from plain arrays of numbers.
+// Drawings: particles in space, phase space, spectra, time series and fields on a canvas, from plain arrays of numbers.
 #pragma once
 
 #include <boltzmann/diagnoses/canvas.hpp>
+#include <boltzmann/schemes/mesh/mesh_field.hpp>
 
 #include <array>
 #include <cstddef>
@@ -92,5 +93,17 @@ struct ColourEnds {
 Canvas draw_field(int columns, int rows, std::span<double const> values, Axis x, Axis y, std::string value_name,
                   std::string value_unit, ColourMap map = ColourMap::viridis, std::string title = "",
                   ColourEnds const& ends = {});
+
+/// The lines along which values on the nodes of a plane grid are at the levels, coloured by level, with a colour bar
+/// from the lowest to the highest one unless `ends` says otherwise. Axes without ends show the whole grid.
+Canvas draw_contours(MeshGrid const& grid, std::span<double const> values, std::span<double const> levels, Axis x,
+                     Axis y, std::string value_name, std::string value_unit, std::string title = "",
+                     ColourEnds const& ends = {});
+
+/// What is between levels (ascending) in one shade each, the lowest darkest; the legend tells the levels. With the mean
+/// for the only level, what is above average is white and what is below it black. The mesh is as in draw_field.
+Canvas draw_bands(int columns, int rows, std::span<double const> values, std::span<double const> levels, Axis x, Axis y,
+                  std::string const& value_name, std::string const& value_unit, std::string title = "",
+                  double factor = 1);
 
 }  // namespace boltzmann

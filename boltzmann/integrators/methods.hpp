@@ -41,6 +41,11 @@ template <class F, int D, class... V>
   }
   (std::make_index_sequence<D>{});
 }
+template <class F, int D, class... T>
+[[gnu::always_inline]] inline void each_component(F const& f, Tensor<D>& x, T&... more) {
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < D; ++b) f(x.component[a][b], more.component[a][b]...);
+}
 
 /// True for the position among the fields that the equations of motion name.
 template <class P, class Member>
@@ -166,6 +171,8 @@ class Alternating : public MethodOf<P> {
 };
 
 /// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, seen from the whole steps.
+/// Where influences depend on what is kicked (P::velocity_dependent), the drift's end is predicted: the second kick takes
+/// the prediction back and adds its own. That keeps the second order.
 template <class P>
 class LeapFrog final : public Alternating<P> {
  public:
@@ -177,14 +184,36 @@ class LeapFrog final : public Alternating<P> {
     auto const plain = [](double& x, double dx) { x += dx; };
     if (stage == 0) {
       for (auto const& rotation : rotations_) turn(rotation, 0.5 * dt);
+      if constexpr (predicts) kicks_.resize(this->ensemble_.size());
       this->each([&](std::size_t i, LargestMove& move) {
         this->kick(i, 0.5 * dt, plain);
         this->drift(i, dt, move, plain);
+        if constexpr (predicts) {
+          P &p = this->ensemble_[i], &kick = kicks_[i];
+          this->equations(i, [&](auto member, auto const& derivative) {
+            if constexpr (!is_position<P, decltype(member)>)
+              each_component(
+                  [&](double& x, double& dx, double rate) {
+                    dx = 0.5 * dt * rate;
+                    x += dx;
+                  },
+                  p.*member, kick.*member, derivative);
+          });
+        }
       });
       return Motion::final;
     }
     this->each_again([&](std::size_t i, LargestMove& move) {
-      this->kick(i, 0.5 * dt, plain);
+      if constexpr (predicts) {
+        P &p = this->ensemble_[i], &kick = kicks_[i];
+        this->equations(i, [&](auto member, auto const& derivative) {
+          if constexpr (!is_position<P, decltype(member)>)
+            each_component([&](double& x, double& dx, double rate) { x += 0.5 * dt * rate - dx; }, p.*member,
+                           kick.*member, derivative);
+        });
+      } else {
+        this->kick(i, 0.5 * dt, plain);
+      }
       move.take(norm2(this->ensemble_[i].velocity), i);
     });
     // In the opposite order, so that the step looks the same backwards. A velocity that is finite stays so.
@@ -193,6 +222,12 @@ class LeapFrog final : public Alternating<P> {
   }
 
  private:
+  static constexpr bool predicts = [] {
+    if constexpr (requires { P::velocity_dependent; })
+      return static_cast<bool>(P::velocity_dependent);
+    else
+      return false;
+  }();
   void turn(Rotation const& rotation, double time) {
     auto const& only = rotation.only;
     std::size_t const count = only ? only->size() : this->ensemble_.size();
@@ -202,6 +237,7 @@ class LeapFrog final : public Alternating<P> {
   }
 
   std::vector<Rotation> rotations_;
+  std::vector<P> kicks_;  // of the prediction
 };
 
 template <class P>

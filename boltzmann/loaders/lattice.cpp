@@ -138,6 +138,64 @@ double spacing_for_density(Lattice kind, int dimension, double number_density) {
   return std::pow(static_cast<double>(cell.sites.size()) / (volume * number_density), 1.0 / dimension);
 }
 
+namespace {
+
+/// How many cells there are along each axis.
+std::array<double, 3> cells_of(Filling const& filling, int dimension) {
+  if (filling.kind == Lattice::fcc || filling.kind == Lattice::bcc)
+    throw Error(
+        fmt::format("lattice {} does not fill blocks of any size; square and triangular do", to_string(filling.kind)));
+  check(LatticeBlock{filling.kind, filling.spacing, {1, 1, 1}, filling.low}, dimension);
+  Cell const cell = cell_of(filling.kind, dimension);
+  std::array<double, 3> cells{1, 1, 1};
+  for (int a = 0; a < dimension; ++a) {
+    double const length = filling.high[a] - filling.low[a];
+    if (!(length > 0) || !std::isfinite(length))
+      throw Error(fmt::format("lattice: a block from {} to {} can't be filled", filling.low[a], filling.high[a]));
+    double const wanted = length / (cell.edges[a] * filling.spacing);
+    bool const pairs = filling.kind == Lattice::triangular && a == 1;
+    cells[a] = pairs ? 2 * std::max(1.0, std::round(wanted / 2)) : std::max(1.0, std::round(wanted));
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::size_t site_count(Filling const& filling, int dimension) {
+  auto const cells = cells_of(filling, dimension);
+  double const count = cells[0] * cells[1] * cells[2];
+  if (count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(fmt::format("lattice: a block of {:.0f} cells has too many sites", count));
+  return static_cast<std::size_t>(count);
+}
+
+std::vector<Place> lattice_sites(Filling const& filling, int dimension) {
+  std::size_t const count = site_count(filling, dimension);
+  auto const cells = cells_of(filling, dimension);
+  bool const shifted = filling.kind == Lattice::triangular;
+  std::vector<Place> places;
+  places.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    auto const x = static_cast<std::size_t>(cells[0]), y = static_cast<std::size_t>(cells[1]);
+    std::array<std::size_t, 3> const number{k % x, k / x % y, k / x / y};
+    Place place{0, 0, 0};
+    for (int a = 0; a < dimension; ++a) {
+      double const middle = shifted && a == 0 ? (number[1] % 2 == 0 ? 0.25 : 0.75) : 0.5;
+      double const part = (static_cast<double>(number[a]) + middle) / cells[a];
+      place[a] = filling.low[a] + part * (filling.high[a] - filling.low[a]);
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+double site_volume(Filling const& filling, int dimension) {
+  auto const cells = cells_of(filling, dimension);
+  double volume = 1;
+  for (int a = 0; a < dimension; ++a) volume *= (filling.high[a] - filling.low[a]) / cells[a];
+  return volume;
+}
+
 std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block, bool resize) {
   std::size_t const count = site_count(block, ensemble.dimension());
   if (ensemble.size() != count) {

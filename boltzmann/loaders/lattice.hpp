@@ -46,6 +46,21 @@ LatticeBlock centred(LatticeBlock block, Box const& box);
 /// The distance of nearest neighbours at which the lattice has that many sites per length, area or volume.
 double spacing_for_density(Lattice kind, int dimension, double number_density);
 
+/// A lattice that fills the block from `low` to `high` exactly: as many cells along each axis as come nearest to this
+/// spacing, stretched to fit, with a site in the middle of each. A triangular lattice has an even number of rows, so
+/// that it also fills a periodic box. For particles that carry mass: each has the same share of the volume.
+struct Filling {
+  Lattice kind = Lattice::square;  ///< or triangular
+  double spacing = 1;
+  std::array<double, 3> low{0, 0, 0}, high{1, 1, 1};
+};
+/// Error if it can't be filled by that lattice, the spacing is not positive or low is not below high.
+std::size_t site_count(Filling const& filling, int dimension);
+/// In the order x fastest, then y, then z.
+std::vector<std::array<double, 3>> lattice_sites(Filling const& filling, int dimension);
+/// The length, area or volume that each site has.
+double site_volume(Filling const& filling, int dimension);
+
 /// Puts particle k on site k. Returns how many were placed: all of the ensemble. Error if the ensemble has not as many
 /// particles as the block has sites, unless `resize` allows to make it so.
 std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block, bool resize = false);

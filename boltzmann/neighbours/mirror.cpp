@@ -1,4 +1,4 @@
-// Sorting, periodic images, and following the particles between two builds.
+// Sorting, images, and following the particles between two builds.
 #include <boltzmann/neighbours/mirror.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -16,10 +16,11 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t block = 256;                        // rows that share a largest displacement
+constexpr std::size_t together = 256;                     // rows that share a largest displacement
 constexpr std::size_t refresh_grain = 2048;               // a multiple of it
 constexpr std::size_t most_rows = std::size_t{1} << 30U;  // items are 32 bits
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+constexpr char const* axis_name = "xyz";
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
   throw PhysicsFailure(
@@ -39,6 +40,28 @@ std::int32_t opposite(std::int32_t steps) {
 
 }  // namespace
 
+Mirror::Mirror(AnyEnsemble const& ensemble, Box const& box, std::size_t extra_blocks)
+    : ensemble_(&ensemble), box_(&box), extra_blocks_(extra_blocks), components_(row_block * all_blocks()) {
+  for (auto const& [name, rule] : {std::pair{"position", ImageRule::position}, {"velocity", ImageRule::velocity}}) {
+    Field const* field = ensemble.find_field(name);
+    if (!field || field->components != box.dimension()) continue;  // a class' own, of another meaning
+    for (int a = 0; a < field->components; ++a) components_[field->offset + a] = {rule, a, 0};
+  }
+}
+
+void Mirror::components(std::vector<ImageComponent> components) {
+  if (components.size() != row_block * all_blocks())
+    throw Error(fmt::format("images of '{}': there are rules for {} numbers of a row, which has {}", ensemble_->name(),
+                            components.size(), row_block * all_blocks()));
+  for (auto const& component : components)
+    for (int const axis : {component.axis, component.axis2})
+      if (axis < 0 || axis >= box_->dimension())
+        throw Error(fmt::format("images of '{}': a rule names axis {}, the box has {} (from 0)", ensemble_->name(),
+                                axis, box_->dimension()));
+  components_ = std::move(components);
+  if (!reference_map_.empty()) find_image_maps();
+}
+
 void Mirror::build(double reach, int threads) {
   int const dimension = box_->dimension();
   std::vector<double> references(ensemble_->size() * dimension);
@@ -54,7 +77,18 @@ void Mirror::build(double reach, int threads) {
 }
 
 void Mirror::build(double reach, std::span<double const> references, int threads) {
+  build(reach, references, edges(), threads);
+}
+
+void Mirror::build(double reach, std::span<double const> references, Edges const& edges, int threads) {
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) && reach > edges[3 + a] - edges[a])
+      throw Error(fmt::format(
+          "neighbours of '{}' are found up to a distance of {}, the walls of axis {} are {} apart: they must "
+          "not be nearer to each other than that",
+          ensemble_->name(), reach, axis_name[a], edges[3 + a] - edges[a]));
   reach_ = reach;
+  built_edges_ = edges;
   moved_.clear();
   built_.clear();
   images_.clear();
@@ -62,24 +96,26 @@ void Mirror::build(double reach, std::span<double const> references, int threads
   sort(reach, references, threads);
   add_ghosts(threads);
   if (total() >= most_rows)
-    throw Error(fmt::format("ensemble '{}' has {} particles and periodic images within reach, lists allow {}",
-                            ensemble_->name(), total(), most_rows - 1));
+    throw Error(fmt::format("ensemble '{}' has {} particles and images within reach, lists allow {}", ensemble_->name(),
+                            total(), most_rows - 1));
   capacity_ = 0;
   make_room(total() + 1);
-  largest2_.assign(owned() / block + 1, 0.0);
+  largest2_.assign(owned() / together + 1, 0.0);
   sort_all(threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
-  for (std::size_t b = 0; b < blocks(); ++b)
-    std::fill_n(rows_.data() + b * block_stride(), row_block * (owned() + 1), nowhere);
+  for (std::size_t b = 0; b < all_blocks(); ++b)
+    std::fill_n(block(b), row_block * ((b < blocks() ? owned() : total()) + 1), nowhere);
 }
 
 void Mirror::sort(double reach, std::span<double const> references, int threads) {
   int const dimension = box_->dimension();
   // Cells that are not all but empty, or their order would be that of distant particles.
   double const size = static_cast<double>(ensemble_->size() + 1);
-  double const spacing = std::pow(box_->volume() / size, 1.0 / dimension);
+  double volume = 1;
+  for (int a = 0; a < dimension; ++a) volume *= built_edges_[3 + a] - built_edges_[a];
+  double const spacing = std::pow(volume / size, 1.0 / dimension);
   double const edge = std::max(reach, 2.5 * spacing);
   order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), edge, threads).items();
   references_.resize(4 * owned());
@@ -94,26 +130,50 @@ void Mirror::sort(double reach, std::span<double const> references, int threads)
   });
 }
 
-template <class Function>
-void Mirror::each_image(double const* x, Function const& function) const {
+Mirror::Edges Mirror::edges() const {
+  Edges edges{};
+  for (int a = 0; a < box_->dimension(); ++a) {
+    edges[a] = box_->low(a);
+    edges[3 + a] = box_->high(a);
+  }
+  return edges;
+}
+
+std::array<int, 3> Mirror::most_turns() const {
   std::array<int, 3> most{0, 0, 0};
   for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->periodic(a))
+      most[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
+    else if (box_->boundary(a) == Boundary::mirror)
+      most[a] = 1;
+  return most;
+}
+
+template <class Function>
+void Mirror::each_image(double const* x, Function const& function) const {
+  std::array<int, 3> first{0, 0, 0}, last{0, 0, 0};
+  for (int a = 0; a < box_->dimension(); ++a) {
+    double const low = built_edges_[a] + reach_, high = built_edges_[3 + a] - reach_;
     if (box_->periodic(a)) {
-      double const low = box_->low(a) + reach_, high = box_->high(a) - reach_;
-      if (x[a] <= low || x[a] >= high) most[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
+      if (x[a] <= low || x[a] >= high) last[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
+      first[a] = -last[a];
+    } else {
+      if (box_->walled(a, Box::End::low) && x[a] <= low) first[a] = -1;
+      if (box_->walled(a, Box::End::high) && x[a] >= high) last[a] = 1;
     }
+  }
   std::array<int, 3> turns{};
   std::array<double, 3> at{};
   auto const along = [&](int a, int n) {
     turns[a] = n;
-    if (a < box_->dimension()) at[a] = n == 0 ? x[a] : x[a] + n * box_->length(a);
-    return n == 0 || (at[a] >= box_->low(a) - reach_ && at[a] <= box_->high(a) + reach_);
+    if (a < box_->dimension()) at[a] = image_of(a, n, x[a]);
+    return n == 0 || (at[a] >= built_edges_[a] - reach_ && at[a] <= built_edges_[3 + a] + reach_);
   };
-  for (int k = -most[2]; k <= most[2]; ++k) {
+  for (int k = first[2]; k <= last[2]; ++k) {
     if (!along(2, k)) continue;
-    for (int j = -most[1]; j <= most[1]; ++j) {
+    for (int j = first[1]; j <= last[1]; ++j) {
       if (!along(1, j)) continue;
-      for (int i = -most[0]; i <= most[0]; ++i)
+      for (int i = first[0]; i <= last[0]; ++i)
         if (along(0, i)) function(turns, at);
     }
   }
@@ -125,22 +185,106 @@ std::uint32_t Mirror::code_of(std::array<int, 3> turns) const {
                                     most_turns_);
 }
 
+/// Images of references, about the walls as they are at the build.
+void Mirror::find_reference_maps() {
+  auto const most = most_turns();
+  most_turns_ = std::max({most[0], most[1], most[2]});
+  reference_map_.assign(std::size_t{3} * (2 * most_turns_ + 1), {});
+  for (int a = 0; a < box_->dimension(); ++a)
+    for (int n = -most[a]; n <= most[a]; ++n) {
+      ImageMap& map = reference_map_[a * (2 * most_turns_ + 1) + n + most_turns_];
+      if (box_->periodic(a))
+        map.shift = n * box_->length(a);
+      else if (n != 0)
+        map = {-1, 2 * built_edges_[n < 0 ? a : 3 + a]};
+    }
+  turns_.clear();  // in the order of code_of()
+  for (int k = -most_turns_; k <= most_turns_; ++k)
+    for (int j = -most_turns_; j <= most_turns_; ++j)
+      for (int i = -most_turns_; i <= most_turns_; ++i) turns_.push_back({i, j, k});
+}
+
+ImageMap Mirror::image_map(ImageComponent component, std::array<int, 3> const& turns) const {
+  std::array<int, 3> side{};  // of walls
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (!box_->periodic(a)) side[a] = turns[a];
+  // The sign of a vector's component, or of a tensor's.
+  auto const sign = [&](auto const& changes) {
+    ImageMap map;
+    for (int a = 0; a < box_->dimension(); ++a)
+      if (side[a] != 0 && changes(a, box_->wall(a, side[a] < 0 ? Box::End::low : Box::End::high))) map.sign = -map.sign;
+    return map;
+  };
+  int const c = component.axis, d = component.axis2;
+  switch (component.rule) {
+    case ImageRule::same:
+      return {};
+    case ImageRule::position:
+      if (side[c] != 0) return {-1, 2 * (side[c] < 0 ? box_->low(c) : box_->high(c))};
+      return turns[c] == 0 ? ImageMap{} : ImageMap{1, turns[c] * box_->length(c)};
+    case ImageRule::velocity:
+      return box_->velocity_image(side, c);
+    case ImageRule::temperature:
+      return box_->temperature_image(side);
+    case ImageRule::normal_vector:
+      return sign([&](int a, Wall const&) { return a == c; });
+    case ImageRule::heat_flux:
+      return sign([&](int a, Wall const& wall) { return (a == c) == std::isnan(wall.temperature); });
+    case ImageRule::tensor:
+      return sign([&](int a, Wall const& wall) { return wall.slips && (a == c) != (a == d); });
+  }
+  return {};
+}
+
+/// Images of rows, about the walls as they are now.
+void Mirror::find_image_maps() {
+  int const m = most_turns_, base = 2 * m + 1;
+  auto const most = most_turns();
+  // Behind the last number that changes blocks are copied.
+  mapped_blocks_ = 0;
+  for (std::size_t n = 0; n < components_.size(); ++n) {
+    ImageRule const rule = components_[n].rule;
+    if (rule == ImageRule::position || (box_->any_wall() && rule != ImageRule::same))
+      mapped_blocks_ = n / row_block + 1;
+  }
+  std::size_t const numbers = row_block * mapped_blocks_;
+  image_sign_.resize(static_cast<std::size_t>(base * base * base) * numbers);
+  image_shift_.resize(image_sign_.size());
+  auto const exists = [&](int a, int n) {
+    if (n == 0 || box_->boundary(a) != Boundary::mirror) return true;
+    return box_->walled(a, n < 0 ? Box::End::low : Box::End::high);
+  };
+  for (int k = -most[2]; k <= most[2]; ++k)
+    for (int j = -most[1]; j <= most[1]; ++j)
+      for (int i = -most[0]; i <= most[0]; ++i) {
+        if (!exists(0, i) || !exists(1, j) || !exists(2, k)) continue;
+        std::array<int, 3> const turns{i, j, k};
+        std::size_t const row = code_of(turns) * numbers;
+        for (std::size_t n = 0; n < numbers; ++n) {
+          ImageMap const map = image_map(components_[n], turns);
+          image_sign_[row + n] = map.sign;
+          image_shift_[row + n] = map.shift;
+        }
+      }
+}
+
+double Mirror::walls_moved() const {
+  if (!box_->any_wall()) return 0;
+  double square = 0;
+  for (int a = 0; a < box_->dimension(); ++a) {
+    double const d = std::max(std::abs(edges_[a] - built_edges_[a]), std::abs(edges_[3 + a] - built_edges_[3 + a]));
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+
 void Mirror::add_ghosts(int threads) {
   ghost_source_.clear();
   ghost_turns_.clear();
-  most_turns_ = 0;
-  int const dimension = box_->dimension();
-  for (int a = 0; a < dimension; ++a)
-    if (box_->periodic(a)) most_turns_ = std::max(most_turns_, static_cast<int>(std::ceil(reach_ / box_->length(a))));
-  int const m = most_turns_;
-  shifts_.clear();
-  for (int k = -m; k <= m; ++k)
-    for (int j = -m; j <= m; ++j)
-      for (int i = -m; i <= m; ++i) {
-        std::array<int, 3> const turns{i, j, k};
-        for (int a = 0; a < 4; ++a) shifts_.push_back(a < dimension && turns[a] != 0 ? turns[a] * box_->length(a) : 0);
-      }
-  if (m == 0) return;
+  find_reference_maps();
+  edges_ = edges();
+  find_image_maps();
+  if (most_turns_ == 0) return;
   struct Part {
     std::vector<std::uint32_t> source, turns;
   };
@@ -166,22 +310,25 @@ void Mirror::make_room(std::size_t rows) {
   capacity_ = rows + spare;
   AlignedVector<double> moved;
   auto& target = before == 0 ? rows_ : moved;
-  target.resize(blocks() * block_stride());
+  target.resize(all_blocks() * block_stride());
   if (before == 0) return;
-  for (std::size_t b = 0; b < blocks(); ++b)
+  for (std::size_t b = 0; b < all_blocks(); ++b)
     std::copy_n(rows_.data() + b * before, before, moved.data() + b * block_stride());
   rows_ = std::move(moved);
 }
 
-void Mirror::move_ghosts(std::size_t begin, std::size_t end) {
+void Mirror::move_ghosts(std::size_t first_block, std::size_t last_block, std::size_t begin, std::size_t end) {
   ImageTask task;
   task.mirror = rows_.data();
   task.block_stride = block_stride();
-  task.blocks = blocks();
+  task.first_block = first_block;
+  task.last_block = last_block;
+  task.mapped_blocks = mapped_blocks_;
   task.first = owned() + 1;
   task.source = ghost_source_.data();
   task.turns = ghost_turns_.data();
-  task.shift = shifts_.data();
+  task.sign = image_sign_.data();
+  task.shift = image_shift_.data();
   neighbour_kernels().images(task, begin, end);
 }
 
@@ -191,9 +338,8 @@ void Mirror::sort_all(int threads) {
   for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::size_t const source = k < owned() ? k : ghost_source_[k - owned()];
-      std::size_t const turns = k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()];
-      double const* shift = shifts_.data() + 4 * turns;
-      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = references_[4 * source + a] + shift[a];
+      auto const& turns = turns_[k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()]];
+      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = image_of(a, turns[a], references_[4 * source + a]);
     }
   });
   cells_ = Cells(dimension, at.data(), dimension, total(), reach_, threads);
@@ -225,9 +371,9 @@ bool Mirror::refresh(int threads) {
   RefreshKernel const kernel = neighbour_kernels().refresh;
   std::atomic<bool> changed{false}, finite{true};
   for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += block) {
-      Refreshed const part = kernel(task, first, std::min(first + block, end));
-      largest2_[first / block] = part.largest2;
+    for (std::size_t first = begin; first < end; first += together) {
+      Refreshed const part = kernel(task, first, std::min(first + together, end));
+      largest2_[first / together] = part.largest2;
       if (part.changed) changed.store(true, std::memory_order_relaxed);
       if (!part.finite) finite.store(false, std::memory_order_relaxed);
     }
@@ -238,17 +384,23 @@ bool Mirror::refresh(int threads) {
         if (!(std::abs(ensemble_->row(order_[k])[a] - references_[4 * k + a]) <=
               std::sqrt(std::numeric_limits<double>::max())))
           not_finite(*ensemble_, order_[k]);
-  refresh_ghosts(threads);
+  if (box_->any_wall()) {
+    Edges const now = edges();
+    if (now != edges_) changed = true;
+    edges_ = now;
+    find_image_maps();
+  }
+  refresh_images(0, blocks(), threads);
   return changed;
 }
 
-void Mirror::refresh_ghosts(int threads) {
+void Mirror::refresh_images(std::size_t first_block, std::size_t last_block, int threads) {
   for_ranges(ghost_source_.size(), refresh_grain, threads,
-             [&](std::size_t begin, std::size_t end) { move_ghosts(begin, end); });
+             [&](std::size_t begin, std::size_t end) { move_ghosts(first_block, last_block, begin, end); });
 }
 
 bool Mirror::is_current() const {
-  if (owned() != ensemble_->size()) return false;
+  if (owned() != ensemble_->size() || (box_->any_wall() && edges() != edges_)) return false;
   for (std::size_t k = 0; k < owned(); ++k)
     for (int a = 0; a < box_->dimension(); ++a) {
       double x = ensemble_->row(order_[k])[a];
@@ -262,14 +414,21 @@ bool Mirror::is_current() const {
 double Mirror::largest2() const {
   double largest = 0;
   for (double const square : largest2_) largest = std::max(largest, square);
-  return largest;
+  // An image moves by twice as much as its wall (by the root of the sum of such squares, if it has several), and one of
+  // a pair is an owned particle.
+  double const moved = walls_moved();
+  return moved == 0 ? largest : (std::sqrt(largest) + moved) * (std::sqrt(largest) + moved);
 }
 
 std::vector<std::uint32_t> Mirror::beyond(double square, std::size_t most) const {
   std::vector<std::uint32_t> rows;
+  if (double const moved = walls_moved(); moved > 0) {
+    double const left = std::sqrt(square) - moved;
+    square = left < 0 ? -1 : left * left;
+  }
   for (std::size_t b = 0; b < largest2_.size(); ++b) {
     if (largest2_[b] <= square) continue;
-    for (std::size_t k = b * block; k < std::min((b + 1) * block, owned()); ++k) {
+    for (std::size_t k = b * together; k < std::min((b + 1) * together, owned()); ++k) {
       double moved2 = 0;
       for (int a = 0; a < box_->dimension(); ++a) {
         double const d = rows_[row_block * k + a] - references_[4 * k + a];
@@ -339,7 +498,7 @@ void Mirror::move(std::span<std::uint32_t const> rows, std::span<double const> r
       ghost_source_[g] = k;
       ghost_turns_[g] = code_of(turns);
       images_[m].push_back({static_cast<std::uint32_t>(owned() + 1 + g), at});
-      move_ghosts(g, g + 1);
+      move_ghosts(0, all_blocks(), g, g + 1);
     });
   }
   for (auto& column : moved_position_) column.clear();

@@ -1,5 +1,5 @@
-// Mirror: a scheme's own copy of an ensemble, sorted in space, with the periodic images (ghosts) behind the owned
-// particles.
+// Mirror: a scheme's own copy of an ensemble, sorted in space, with the images (ghosts) of periodic axes and of walls
+// behind the owned particles.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -29,28 +29,66 @@ struct AlignedAllocator {
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
+/// How a number of a particle is found in its image beyond a wall. Along a periodic axis images differ in `position`
+/// alone.
+enum class ImageRule : unsigned char {
+  same,           ///< as it is: mass, density, the temperature's history, ...
+  position,       ///< reflected about the wall
+  velocity,       ///< as the wall says (Wall::slips, Wall::velocity)
+  temperature,    ///< as the wall says (Wall::temperature)
+  normal_vector,  ///< a reflected vector: its component along the wall's normal changes sign (grad of what is `same`)
+  heat_flux,  ///< of such a temperature: at an insulated wall as normal_vector; at a wall of given temperature, about
+              ///< which the image's is odd, the components along the wall change sign
+  tensor,     ///< pressure or stress of such velocities: reflected at a wall that slips; even, as it is, at one that
+              ///< does not
+};
+/// The rule for one number of a row, and which component of a vector, or which two of a tensor, it is.
+struct ImageComponent {
+  ImageRule rule = ImageRule::same;
+  int axis = 0, axis2 = 0;
+};
+
 /// Rows [0, owned) are the ensemble's particles in spatial order; row `owned` is a sentinel at no position (NaN):
-/// whatever is compared with its distance is false; rows (owned, total] are the periodic images within reach of the
-/// box. Every particle has a reference, its position when the mirror was built or when it was moved (move());
-/// neighbours are found by references.
+/// whatever is compared with its distance is false; rows (owned, total] are the images within reach of the box: along
+/// periodic axes those moved by whole lengths, beyond walls of mirror axes those reflected (of every particle near
+/// enough, so that it sees its own image, too), and in corners their compositions. Every particle has a reference, its
+/// position when the mirror was built or when it was moved (move()); neighbours are found by references. Those of
+/// images are images about the walls as they stood at the build; what walls have moved since counts as displacement of
+/// everybody.
 class Mirror {
  public:
-  Mirror(AnyEnsemble const& ensemble, Box const& box) : ensemble_(&ensemble), box_(&box) {}
+  /// The edges of a box: low x y z, high x y z.
+  using Edges = std::array<double, 6>;
+
+  /// Behind the blocks of the ensemble's rows stand `extra_blocks` more, which a scheme fills (block()).
+  Mirror(AnyEnsemble const& ensemble, Box const& box, std::size_t extra_blocks = 0);
+
+  /// The rules for images beyond walls, one for each number of a row, extra blocks included: 4 (blocks() + extra).
+  /// Until then the ensemble's fields "position" and "velocity" are what they say, and all else is the same. Error if
+  /// their number is another, or an axis is not one of the box's.
+  void components(std::vector<ImageComponent> components);
 
   /// Takes the positions of now as references, sorts by them, and finds the images of every particle within `reach` of
-  /// the box. PhysicsFailure if a position is not finite.
+  /// the box. PhysicsFailure if a position is not finite. Error if the reach is longer than an axis between two walls.
   void build(double reach, int threads = 1);
   /// The same from given references (dimension() numbers a particle, in the ensemble's order, inside periodic axes).
   void build(double reach, std::span<double const> references, int threads = 1);
+  /// And with walls where they stood at an earlier build (built_edges()).
+  void build(double reach, std::span<double const> references, Edges const& edges, int threads = 1);
 
-  /// Copies the ensemble's rows of now into the mirror's order and moves the images along. True if a position has
-  /// changed since the last time. PhysicsFailure if a position is not finite.
+  /// Copies the ensemble's rows of now into the mirror's order and moves the images along, those beyond walls as the
+  /// walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the last
+  /// time. PhysicsFailure if a position is not finite.
   bool refresh(int threads);
-  /// True if the ensemble's positions are still those of the last refresh.
+  /// The images of blocks [first_block, last_block) from their owned rows, for walls as they were at the last refresh.
+  void refresh_images(std::size_t first_block, std::size_t last_block, int threads);
+  /// True if the ensemble's positions, and the walls' places, are still those of the last refresh.
   bool is_current() const;
-  /// Square of the largest displacement from a reference at the last refresh.
+  /// Square of the largest displacement from a reference at the last refresh, what walls have moved since the build
+  /// included: no pair has come closer by more than twice its root.
   double largest2() const;
-  /// The owned rows that were further than sqrt(square) from their references at the last refresh; no more than `most`.
+  /// The owned rows that were further (in this sense) than sqrt(square) from their references at the last refresh; no
+  /// more than `most`.
   std::vector<std::uint32_t> beyond(double square, std::size_t most) const;
 
   /// Gives owned rows new references: where they are now, or (the second form, rows of 3 numbers) given positions.
@@ -66,6 +104,11 @@ class Mirror {
   double const* rows() const { return rows_.data(); }
   std::size_t block_stride() const { return row_block * capacity_; }
   std::size_t blocks() const { return ensemble_->stride() / row_block; }
+  /// Row k of block b, to be written: at block(b) + 4 k. Blocks from blocks() on are the extra ones; they are NaN after
+  /// a build until they are filled (the sentinel's stay so), and stand here until the next build() or move().
+  double* block(std::size_t b) { return rows_.data() + b * block_stride(); }
+  double const* block(std::size_t b) const { return rows_.data() + b * block_stride(); }
+  std::size_t extra_blocks() const { return extra_blocks_; }
   std::size_t owned() const { return order_.size(); }
   std::size_t total() const { return order_.size() + ghost_source_.size(); }
   std::size_t sentinel() const { return owned(); }
@@ -82,6 +125,8 @@ class Mirror {
   /// The references at the build, in the ensemble's order (dimension() numbers a particle): all that is needed to build
   /// the same mirror again.
   std::vector<double> built_references() const;
+  /// And where the box's edges were.
+  Edges const& built_edges() const { return built_edges_; }
 
   /// For the search of neighbours among this mirror's rows.
   NearTask near_task() const;
@@ -95,11 +140,25 @@ class Mirror {
   void sort(double reach, std::span<double const> references, int threads);
   void add_ghosts(int threads);
   void sort_all(int threads);
-  void refresh_ghosts(int threads);
   void make_room(std::size_t rows);
+  std::size_t all_blocks() const { return blocks() + extra_blocks_; }
+  Edges edges() const;
+  std::array<int, 3> most_turns() const;
+  void find_reference_maps();
+  void find_image_maps();
+  ImageMap image_map(ImageComponent component, std::array<int, 3> const& turns) const;
   std::uint32_t code_of(std::array<int, 3> turns) const;
-  void move_ghosts(std::size_t begin, std::size_t end);
-  /// Calls function(turns, position) for every periodic image of x, itself included, within reach of the box.
+  double walls_moved() const;
+  void move_ghosts(std::size_t first_block, std::size_t last_block, std::size_t begin, std::size_t end);
+  /// The reference of an image along an axis.
+  double image_of(int axis, int turns, double x) const {
+    if (turns == 0) return x;
+    ImageMap const& map = reference_map_[axis * (2 * most_turns_ + 1) + turns + most_turns_];
+    return map(x);
+  }
+  /// Calls function(turns, position) for every image of the reference x, itself included, within reach of the box.
+  /// Turns are the lengths by which it is moved along a periodic axis, or -1 and 1 for the images at the low and high
+  /// walls of a mirror axis.
   template <class Function>
   void each_image(double const* x, Function const& function) const;
 
@@ -111,10 +170,16 @@ class Mirror {
   AlignedVector<double> rows_;
   AlignedVector<double> references_;         // of owned rows, 4 a row
   std::vector<std::uint32_t> ghost_source_;  // the owned row that each ghost is an image of
-  std::vector<std::uint32_t> ghost_turns_;   // and by how many lengths it is moved: a row of shifts_
+  std::vector<std::uint32_t> ghost_turns_;   // and its turns, as a code: a row of image_sign_, image_shift_
   int most_turns_ = 0;
-  std::vector<double> shifts_;    // rows of 4
-  std::vector<double> largest2_;  // of each block of rows
+  std::size_t extra_blocks_;
+  std::vector<ImageComponent> components_;        // of each number of a row
+  Edges built_edges_{}, edges_{};                 // at the build, at the last refresh
+  std::size_t mapped_blocks_ = 0;                 // in which images differ from their particles
+  std::vector<ImageMap> reference_map_;           // of references, for each axis and its turns
+  std::vector<std::array<int, 3>> turns_;         // of each code
+  std::vector<double> image_sign_, image_shift_;  // of rows, for each code
+  std::vector<double> largest2_;                  // of each block of rows
 
   std::vector<std::int32_t> steps_;                    // the references in steps, 4 a row
   Cells cells_;                                        // of all rows but the sentinel

@@ -226,16 +226,29 @@ template <int W>
 
 template <int W>
 [[gnu::flatten]] void move_images(ImageTask const& task, std::size_t begin, std::size_t end) {
+  // Known to nobody else, so that they stay in registers.
+  std::size_t const stride = task.block_stride, mapped = task.mapped_blocks, last = task.last_block;
+  std::size_t const first_mapped = task.first_block, end_mapped = mapped < last ? mapped : last;
+  std::size_t const first_copied = task.first_block > mapped ? task.first_block : mapped;
+  double* const rows = task.mirror + task.first_block * stride;
+  double* const images = rows + 4 * task.first;
+  double const *const sign = task.sign, *const shift = task.shift;
+  std::uint32_t const *const source = task.source, *const turns = task.turns;
   for (std::size_t g = begin; g < end; ++g) {
-    double const* from = task.mirror + 4 * static_cast<std::size_t>(task.source[g]);
-    double* to = task.mirror + 4 * (task.first + g);
-    auto const moved = load_pack<4>(from) + load_pack<4>(task.shift + 4 * static_cast<std::size_t>(task.turns[g]));
-    __builtin_memcpy(to, &moved, sizeof(moved));
-    for (std::size_t b = 1; b < task.blocks; ++b) {
-      from += task.block_stride;
-      to += task.block_stride;
+    double const* from = rows + 4 * static_cast<std::size_t>(source[g]);
+    double* to = images + 4 * g;
+    std::size_t const map = 4 * mapped * static_cast<std::size_t>(turns[g]);
+    for (std::size_t b = first_mapped; b < end_mapped; ++b) {
+      auto const image = load_pack<4>(from) * load_pack<4>(sign + map + 4 * b) + load_pack<4>(shift + map + 4 * b);
+      __builtin_memcpy(to, &image, sizeof(image));
+      from += stride;
+      to += stride;
+    }
+    for (std::size_t b = first_copied; b < last; ++b) {
       auto const same = load_pack<4>(from);
       __builtin_memcpy(to, &same, sizeof(same));
+      from += stride;
+      to += stride;
     }
   }
 }

@@ -90,13 +90,16 @@ struct Refreshed {
 };
 using RefreshKernel = Refreshed (*)(RefreshTask const& task, std::size_t begin, std::size_t end);
 
-/// Periodic images brought up to date: row `first` + g becomes row source[g] moved by shift[turns[g]].
+/// Images brought up to date, blocks [first_block, last_block) of them: in the first `mapped_blocks` of all, row
+/// `first` + g becomes sign * x + shift of row source[g], both from row turns[g] of tables that have so many blocks a
+/// row; the others are copied.
 struct ImageTask {
   double* mirror = nullptr;
-  std::size_t block_stride = 0, blocks = 0, first = 0;
+  std::size_t block_stride = 0, first_block = 0, last_block = 0, mapped_blocks = 0, first = 0;
   std::uint32_t const* source = nullptr;
   std::uint32_t const* turns = nullptr;
-  double const* shift = nullptr;  ///< rows of 4
+  double const* sign = nullptr;
+  double const* shift = nullptr;
 };
 using ImageKernel = void (*)(ImageTask const& task, std::size_t begin, std::size_t end);
 

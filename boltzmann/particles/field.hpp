@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
-#include <boltzmann/core/vector.hpp>
+#include <boltzmann/core/tensor.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -17,7 +17,7 @@ namespace boltzmann {
 struct Field {
   std::string name;     ///< the word in files, scenario keys and diagnoses
   int offset;           ///< position in the row, counted in doubles
-  int components;       ///< 1, or the number of components of a vector
+  int components;       ///< 1, or the number of components of a vector or (row by row) a tensor
   Dimension dimension;  ///< its unit's dimension
   std::string doc;      ///< one line
 };
@@ -30,6 +30,10 @@ struct component_count {
 template <int D, class Real>
 struct component_count<Vector<D, Real>> {
   static constexpr int value = D;
+};
+template <int D, class Real>
+struct component_count<Tensor<D, Real>> {
+  static constexpr int value = D * D;
 };
 }  // namespace detail
 

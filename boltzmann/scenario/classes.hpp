@@ -23,6 +23,9 @@ struct ClassVariant {
   MeshKind mesh;          ///< for a mesh; without `strengths` it can't supervise the class
 };
 
+/// Whether particles are pieces of a continuum: then their ensembles have materials, and need a SmoothScheme.
+enum class Matter { none, fluid, solid };
+
 /// A particle class.
 struct ParticleClass {
   std::string name;
@@ -30,6 +33,7 @@ struct ParticleClass {
   Method usual_method;  ///< the integrator unless told otherwise
   bool classical;       ///< moved by forces (has mass and velocity); else moved along by a flow
   std::vector<ClassVariant> variants;
+  Matter matter = Matter::none;
 
   ClassVariant const* in(int dimension) const;
 };
@@ -44,6 +48,7 @@ namespace detail {
 std::vector<ParticleClass> newton_classes();
 std::vector<ParticleClass> laplace_classes();
 std::vector<ParticleClass> flow_classes();
+std::vector<ParticleClass> smooth_classes();
 }  // namespace detail
 
 }  // namespace boltzmann

@@ -69,6 +69,14 @@ Item Item::of_integer(std::int64_t integer, Place place) {
   return item;
 }
 
+Item Item::of_number(double number, Place place) {
+  Item item;
+  item.kind = Kind::number;
+  item.place = place;
+  item.number = number;
+  return item;
+}
+
 std::string found(Item const& item) {
   switch (item.kind) {
     case Item::Kind::table:

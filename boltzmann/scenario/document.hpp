@@ -62,6 +62,7 @@ struct Item {
 
   static Item of_text(std::string text, Place place = {});
   static Item of_integer(std::int64_t integer, Place place = {});
+  static Item of_number(double number, Place place = {});
 };
 
 /// A key of a table and its value.

@@ -104,5 +104,7 @@ struct LawBinder {
   BoundLaw (*bind)(LawValues const& values);
 };
 std::vector<LawBinder> const& law_binders();
+/// Those that act on smooth particles, too; their kernels give whole influences there.
+std::vector<LawBinder> const& smooth_law_binders();
 
 }  // namespace boltzmann

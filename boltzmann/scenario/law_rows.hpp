@@ -5,6 +5,7 @@
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/pendulum.hpp>
+#include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/particles/tethered.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/external_kernels.hpp>
@@ -70,6 +71,11 @@ template <int D>
 using OnFlowIn = std::conditional_t<
     D == 1, Outside<Euler<1>>,
     std::conditional_t<D == 2, Outside<Euler<2>, Viscous<2>>, Outside<Euler<3>, Vortex<3>, Inviscid<3>>>>;
+
+/// Smooth particles, of fluids and of solids.
+using OnSmooth = Outside<Smooth<1>, Smooth<2>, Smooth<3>, Solid<1>, Solid<2>, Solid<3>>;
+template <int D>
+using OnSmoothIn = Outside<Smooth<D>, Solid<D>>;
 
 /// The classical particle in any class that derives from it.
 template <int D, class Real>

@@ -10,8 +10,9 @@
 namespace boltzmann {
 namespace {
 
-BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension) {
-  for (auto const& binder : law_binders())
+BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension,
+              std::vector<LawBinder> const& binders = law_binders()) {
+  for (auto const& binder : binders)
     if (binder.name == law.name) return binder.bind({dimension, parameters});
   throw Error(fmt::format("law '{}' can be used in programs only, not in scenarios", law.name));
 }
@@ -157,6 +158,22 @@ void install_external(PairScheme& scheme, LawInfo const& law, LawParameters cons
   BoundLaw const bound = bind(law, parameters, ensemble.dimension());
   for (auto const& choice : bound.externals)
     if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law, bound.traits, only);
+  throw unfit(law, ensemble);
+}
+
+void install_external(SmoothScheme& scheme, LawInfo const& law, LawParameters const& parameters,
+                      AnyEnsemble& ensemble) {
+  require(law, ensemble, true);
+  auto const& binders = smooth_law_binders();
+  if (std::none_of(binders.begin(), binders.end(), [&](LawBinder const& binder) { return binder.name == law.name; })) {
+    std::vector<std::string> names;
+    for (auto const& binder : binders) names.emplace_back(binder.name);
+    throw Error(
+        fmt::format("law '{}' does not act on smooth particles; from outside there are {}", law.name, join(names)));
+  }
+  BoundLaw const bound = bind(law, parameters, ensemble.dimension(), binders);
+  for (auto const& choice : bound.externals)
+    if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law);
   throw unfit(law, ensemble);
 }
 

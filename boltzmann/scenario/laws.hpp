@@ -4,6 +4,7 @@
 #include <boltzmann/laws/catalogue.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 #include <string>
 #include <string_view>
@@ -33,5 +34,7 @@ void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters c
 /// An external law on all particles or the chosen ones. Errors as above.
 void install_external(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
                       std::vector<std::uint32_t> const* only);
+/// The same on smooth particles.
+void install_external(SmoothScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble);
 
 }  // namespace boltzmann

@@ -11,6 +11,7 @@
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/scenario/law_binding.hpp>
+#include <boltzmann/schemes/smooth/force_on.hpp>
 
 namespace boltzmann {
 namespace {
@@ -27,6 +28,11 @@ BoundLaw uniform(LawValues const& v, std::string_view name) {
   return v.dimension == 1   ? bind_law<Rows<1>>(Law<1>{v.as_vector<1>(name)})
          : v.dimension == 2 ? bind_law<Rows<2>>(Law<2>{v.as_vector<2>(name)})
                             : bind_law<Rows<3>>(Law<3>{v.as_vector<3>(name)});
+}
+
+template <int D>
+BoundLaw smooth_gravity(LawValues const& v) {
+  return bind_law<OnSmoothIn<D>>(ForceOn<UniformGravity<D>>{{v.as_vector<D>("acceleration")}});
 }
 
 }  // namespace
@@ -68,6 +74,20 @@ std::vector<LawBinder> const& law_binders() {
                                  : bind_law<OnCoulombIn<3>>(UniformMagneticField<3>{v.as_vector<3>("field")});
        }},
       {"uniform-flow", [](Values v) { return uniform<UniformFlow, OnFlowIn>(v, "velocity"); }},
+  };
+  return all;
+}
+
+std::vector<LawBinder> const& smooth_law_binders() {
+  using Values = LawValues const&;
+  static std::vector<LawBinder> const all = {
+      {"drag", [](Values v) { return bind_law<OnSmooth>(ForceOn<Drag>{{v("friction")}}); }},
+      {"uniform-gravity",
+       [](Values v) {
+         return v.dimension == 1   ? smooth_gravity<1>(v)
+                : v.dimension == 2 ? smooth_gravity<2>(v)
+                                   : smooth_gravity<3>(v);
+       }},
   };
   return all;
 }

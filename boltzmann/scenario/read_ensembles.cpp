@@ -1,10 +1,12 @@
 // Reads [[ensembles]]: which particles there are, where, and in what state.
 #include <boltzmann/diagnoses/colour.hpp>
 #include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ripple_load.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/frozen.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
@@ -150,12 +152,16 @@ class Loader {
     std::size_t const before = reading_.context.mistakes.count();
     Item const* word = section_.need("kind", "kind = \"block\"");
     if (!word) return false;
-    auto const kind = read_word(*word, "load", {"block", "random", "quiet", "ripple", "gravity", "positions", "file"},
-                                reading_.context);
+    auto const kind =
+        read_word(*word, "load", {"block", "fill", "random", "quiet", "ripple", "gravity", "positions", "file"},
+                  reading_.context);
     if (!kind) return false;
     kind_ = *kind;
     double own_count = 0;  // from what is loaded
     if (kind_ == "block") own_count = read_block();
+    if (kind_ == "fill") own_count = read_fill();
+    if (kind_ == "block" || kind_ == "fill")
+      jitter_ = section_.quantity("jitter", dimensions::none, {0, 1}).value_or(0) * block_.spacing;
     if (kind_ == "random")
       distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
     if (kind_ == "ripple") {
@@ -186,10 +192,16 @@ class Loader {
       return false;
     }
     if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
+    if (kind_ == "fill" && own_count == 0) {
+      reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
+      return false;
+    }
     count_ = static_cast<std::size_t>(own_count);
     return count_ > 0;
   }
   std::size_t count() const { return count_; }
+  /// The space (length, area, volume) that each particle has, of lattices; nothing otherwise.
+  std::optional<double> volume() const { return volume_; }
 
   /// Error if the lower rooms refuse.
   void load(AnyEnsemble& particles) {
@@ -206,13 +218,14 @@ class Loader {
       ripple_load(particles, *reading_.box, wave_, amplitude_, seed);
     } else if (kind_ == "gravity") {
       gravity_load(particles, *reading_.box, temperature_, acceleration_, reading_.boltzmann_constant(), seed);
-    } else if (kind_ == "positions") {
+    } else if (kind_ == "positions" || kind_ == "fill") {
       for (std::size_t i = 0; i < count_; ++i)
         std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),
                     particles.row(i));
     } else {
       xyz_load(particles, frame_, options_);
     }
+    if (jitter_ > 0) jitter(particles, jitter_, seed);
   }
   std::string const& file() const { return file_; }
 
@@ -252,6 +265,58 @@ class Loader {
     }
     if (block_.kind == Lattice::fcc) count *= 4;
     if (block_.kind == Lattice::bcc) count *= 2;
+    if (dimension > 0) {
+      try {
+        volume_ = std::pow(block_.spacing / spacing_for_density(block_.kind, dimension, 1), dimension);
+      } catch (Error const&) {  // there is no such lattice: load() says so
+      }
+    }
+    return count;
+  }
+
+  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
+  double read_fill() {
+    int const dimension = reading_.dimension;
+    std::size_t const before = reading_.context.mistakes.count();
+    auto const name = section_.word("lattice", {"square", "triangular"});
+    if (name) block_.kind = lattice_named(*name);
+    auto const spacing = section_.need_quantity("spacing", dimensions::length, "spacing = 0.1", positive);
+    std::array<double, 3> low{}, high{};
+    Item const *low_item = section_.find("low"), *high_item = section_.find("high"), *where = section_.find("where");
+    for (int a = 0; a < dimension && reading_.box; ++a) {
+      low[static_cast<std::size_t>(a)] = reading_.box->low(a);
+      high[static_cast<std::size_t>(a)] = reading_.box->high(a);
+    }
+    for (auto const& [item, edge] : {std::pair(low_item, &low), std::pair(high_item, &high)})
+      if (item && dimension > 0)
+        if (auto const at =
+                read_vector(*item, item == low_item ? "low" : "high", dimension, dimensions::length, reading_.context))
+          std::copy(at->begin(), at->end(), edge->begin());
+    if (reading_.box)
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        if (!(low[a] < high[a]) && reading_.context.mistakes.count() == before)
+          reading_.mistake(
+              high_item ? high_item->place : low_item->place,
+              fmt::format("{}: {} must be {} {} along {}", high_item ? "high" : "low", high_item ? high[a] : low[a],
+                          high_item ? "above" : "below", high_item ? low[a] : high[a], "xyz"[a]));
+    FormulaNames names(std::max(dimension, 1));
+    auto const formula =
+        where && dimension > 0 ? read_formula(*where, "where", names, {}, reading_) : std::optional<Formula>{};
+    if (!spacing || !reading_.box || reading_.context.mistakes.count() != before) return 0;
+    block_.spacing = *spacing;
+    double count = 0;
+    guarded(reading_, section_.place("lattice"), [&] {
+      Filling const filling{block_.kind, *spacing, low, high};
+      count = static_cast<double>(site_count(filling, dimension));
+      if (variant_ && !fits_memory(count, *variant_, section_.place("spacing"), reading_)) return;
+      volume_ = site_volume(filling, dimension);
+      count = 0;
+      for (auto const& place : lattice_sites(filling, dimension)) {
+        if (formula && names.evaluate(*formula, place.data()) == 0) continue;
+        positions_.insert(positions_.end(), place.begin(), place.begin() + dimension);
+        ++count;
+      }
+    });
     return count;
   }
 
@@ -299,7 +364,8 @@ class Loader {
   std::size_t count_ = 0;
   LatticeBlock block_;
   bool centred_ = true;
-  double distance_ = 0, temperature_ = 1, acceleration_ = 0, amplitude_ = 0;
+  std::optional<double> volume_;
+  double jitter_ = 0, distance_ = 0, temperature_ = 1, acceleration_ = 0, amplitude_ = 0;
   Wave wave_;
   bool quiet_ = false;
   std::vector<double> positions_;
@@ -313,6 +379,31 @@ std::vector<Field> fields_of(ParticleClass const& kind, int dimension) {
   return variant ? variant->fields : kind.variants.front().fields;
 }
 
+/// Fields of smooth particles that follow from others.
+bool is_found(ParticleClass const& kind, std::string_view field) {
+  return kind.matter != Matter::none && (field == "pressure" || field == "temperature" || field == "sound_speed");
+}
+
+/// The fields that a scenario can give.
+std::vector<Field> given_fields(ParticleClass const& kind, int dimension) {
+  auto fields = fields_of(kind, dimension);
+  std::erase_if(fields, [&](Field const& field) { return is_found(kind, field.name); });
+  return fields;
+}
+
+/// Says of fields that follow from others that they do.
+void refuse_found(Section& section, ParticleClass const& kind, Reading& reading) {
+  if (kind.matter == Matter::none) return;
+  for (char const* key : {"pressure", "temperature", "sound_speed"}) {
+    if (section.has(key))
+      reading.mistake(section.place(key),
+                      fmt::format("{}: the material finds it from density and specific_energy; give "
+                                  "'specific_energy', e.g. by a formula",
+                                  key));
+    section.know(key);
+  }
+}
+
 /// Reads the fields that stand in a table. The position is not one of them in an ensemble's own table.
 std::vector<FieldValue> read_fields(Section& section, std::vector<Field> const& fields, bool with_position,
                                     std::size_t count, Reading& reading) {
@@ -324,6 +415,60 @@ std::vector<FieldValue> read_fields(Section& section, std::vector<Field> const& 
       if (auto value = read_field(*item, field, count, reading)) values.push_back(std::move(*value));
   }
   return values;
+}
+
+/// Whether an ensemble's table gives a field, as a value or by a formula.
+bool gives(Section const& section, std::string_view field) {
+  if (section.has(field)) return true;
+  Item const* formulas = section.item("formulas");
+  return formulas && formulas->find(field);
+}
+
+/// Fields that formulas can't use, because only the scheme finds them.
+std::vector<std::string> unknown_fields(Section const& section, ParticleClass const& kind) {
+  std::vector<std::string> unknown;
+  for (auto const& field : fields_of(kind, 0))
+    if (is_found(kind, field.name) ||
+        (kind.matter != Matter::none && field.name == "density" && !gives(section, "density")))
+      unknown.push_back(field.name);
+  return unknown;
+}
+
+/// Whether there are ranges, masses and densities. `volume` is the space that each particle has.
+void check_smooth(Section& section, std::optional<double> volume, bool loadable, Reading& reading) {
+  bool const density = gives(section, "density"), mass = gives(section, "mass");
+  if (reading.smooth.from_continuity && !density)
+    reading.mistake(section.place(),
+                    "density = \"continuity\" in [smooth] needs densities at the start; add e.g. "
+                    "density = 1");
+  if (density && mass && reading.smooth.wanted && !reading.smooth.from_continuity)
+    reading.mistake(
+        section.place(section.has("density") ? "density" : "formulas"),
+        "density: it is the sum over the masses around a particle, and there is a 'mass' already; leave one "
+        "out");
+  if (!loadable) return;
+  if (density && !mass && !volume)
+    reading.mistake(section.place(section.has("density") ? "density" : "formulas"),
+                    "density: masses follow from it only where particles are loaded by \"fill\" or \"block\", so that "
+                    "each has its volume; give 'mass'");
+  if (!gives(section, "range") && !(reading.smooth.variable && volume))
+    reading.mistake(section.place(),
+                    fmt::format("smooth particles need a 'range', {}; add e.g. range = 3",
+                                reading.smooth.variable ? "from which variable_range starts"
+                                                        : "how far each is spread: about 3 times their spacing"));
+}
+
+/// A range to start with, where ranges are found.
+void set_ranges(AnyEnsemble& particles, double volume, double spacings) {
+  int const offset = particles.field("range").offset;
+  double const range = spacings * std::pow(volume, 1.0 / particles.dimension());
+  for (std::size_t i = 0; i < particles.size(); ++i) particles.row(i)[offset] = range;
+}
+
+/// mass = density times volume.
+void set_masses(AnyEnsemble& particles, double volume) {
+  int const mass = particles.field("mass").offset, density = particles.field("density").offset;
+  for (std::size_t i = 0; i < particles.size(); ++i) particles.row(i)[mass] = particles.row(i)[density] * volume;
 }
 
 void read_ensemble(Item const& table, Reading& reading) {
@@ -395,31 +540,56 @@ void read_ensemble(Item const& table, Reading& reading) {
   std::size_t const count = loadable ? loader->count() : 0;
 
   std::vector<FieldValue> fields;
+  std::vector<FieldFormula> formulas;
   if (kind) {
     if (section.has("position"))
       reading.mistake(table.find("position")->place,
                       "positions are loaded: load = { kind = \"positions\", positions = [...] }");
-    fields = read_fields(section, fields_of(*kind, reading.dimension), false, count, reading);
+    refuse_found(section, *kind, reading);
+    auto const given = given_fields(*kind, reading.dimension);
+    fields = read_fields(section, given, false, count, reading);
+    formulas =
+        read_formulas(section, fields_of(*kind, reading.dimension), false, unknown_fields(section, *kind), reading);
+    for (auto const& formula : formulas)
+      if (is_found(*kind, formula.field.name))
+        reading.mistake(formula.place,
+                        fmt::format("{}: the material finds it from density and specific_energy", formula.field.name));
     section.know("position");
     for (auto const& value : fields)
-      if (value.field.name == "mass")
-        for (double const mass : value.values)
-          if (!(mass > 0)) {
-            reading.mistake(section.place("mass"), fmt::format("mass: {} is out of range; it must be positive", mass));
-            break;
-          }
+      for (char const* key : {"mass", "density", "range"})
+        if (value.field.name == key && (value.field.name == "mass" || kind->matter != Matter::none))
+          for (double const number : value.values)
+            if (!(number > 0)) {
+              reading.mistake(section.place(key),
+                              fmt::format("{}: {} is out of range; it must be positive", key, number));
+              break;
+            }
   }
-  Item const* temperature_item = section.find("temperature");
-  auto const temperature = section.quantity("temperature", dimensions::temperature, not_negative);
+  bool const smooth = kind && kind->matter != Matter::none;
+  if (smooth) check_smooth(section, loader ? loader->volume() : std::nullopt, loadable, reading);
+  if (kind && smooth != reading.smooth.wanted)
+    reading.mistake(class_item->place, smooth
+                                           ? fmt::format("class {} needs the scheme of smooth particles; add a table "
+                                                         "[smooth]",
+                                                         kind->name)
+                                           : fmt::format("class {} is none of smooth particles, which [smooth] is "
+                                                         "for: {}",
+                                                         kind->name, "Smooth, Solid"));
+  if (smooth) ensemble.material = read_material(section, *kind, reading);
+  Item const* temperature_item = smooth ? nullptr : section.find("temperature");
+  auto const temperature =
+      smooth ? std::nullopt : section.quantity("temperature", dimensions::temperature, not_negative);
   MaxwellianOptions thermal;
-  thermal.remove_drift = section.boolean("remove_drift");
-  thermal.exact_temperature = section.boolean("exact_temperature");
-  thermal.quiet = section.boolean("quiet");
-  if (Item const* item = section.find("drift"); item && reading.dimension > 0)
+  if (!smooth) {
+    thermal.remove_drift = section.boolean("remove_drift");
+    thermal.exact_temperature = section.boolean("exact_temperature");
+    thermal.quiet = section.boolean("quiet");
+  }
+  if (Item const* item = smooth ? nullptr : section.find("drift"); item && reading.dimension > 0)
     if (auto const drift = read_vector(*item, "drift", reading.dimension, dimensions::velocity, reading.context))
       std::copy(drift->begin(), drift->end(), thermal.drift.begin());
   for (char const* key : {"drift", "remove_drift", "exact_temperature", "quiet"})
-    if (section.has(key) && !temperature_item)
+    if (section.has(key) && !temperature_item && !smooth)
       reading.mistake(section.place(key), fmt::format("{}: it belongs to 'temperature', which is missing", key));
   if (temperature_item && section.has("velocity"))
     reading.mistake(section.place("velocity"),
@@ -439,6 +609,15 @@ void read_ensemble(Item const& table, Reading& reading) {
     for (auto const& value : fields) apply(value, *particles, all);  // loaders look at masses
     bool good = guarded(reading, ensemble.load_place, [&] { loader->load(*particles); });
     for (auto const& value : fields) apply(value, *particles, all);
+    bool const masses = smooth && loader->volume() && gives(section, "density") && !gives(section, "mass");
+    if (smooth && loader->volume() && reading.smooth.variable && !gives(section, "range"))
+      set_ranges(*particles, *loader->volume(), reading.smooth.variable->spacings);
+    // The density goes before: from it follow masses, and other formulas may use both.
+    for (bool const density : {true, false}) {
+      for (auto const& formula : formulas)
+        if (good && density == (formula.field.name == "density")) good = apply(formula, *particles, all, reading);
+      if (density && good && masses) set_masses(*particles, *loader->volume());
+    }
     if (temperature && good)
       good = guarded(reading, temperature_item->place, [&] {
         maxwellian_load(*particles, *temperature, reading.boltzmann_constant(), reading.run.seed, thermal);
@@ -458,16 +637,24 @@ void read_ensemble(Item const& table, Reading& reading) {
   for (Item const* set_table : find_tables(section, "set")) {
     Section set(*set_table, "[[ensembles.set]]", reading.context);
     auto const which = read_particles(set, particles, reading);
-    if (!set.has("particles"))
+    if (!set.has("particles") && !set.has("where"))
       reading.mistake(set.place(),
-                      "[[ensembles.set]] has no 'particles'; add e.g. particles = [0], \"edge\" or \"all\"");
+                      "[[ensembles.set]] has no 'particles'; add e.g. particles = [0], \"edge\" or "
+                      "\"all\", or where = \"x < 1\"");
     bool const freeze = set.boolean("freeze");
-    auto const values =
-        kind ? read_fields(set, fields_of(*kind, reading.dimension), true, which ? which->size() : 0, reading)
-             : std::vector<FieldValue>{};
+    std::vector<FieldValue> values;
+    std::vector<FieldFormula> set_formulas;
+    if (kind) {
+      refuse_found(set, *kind, reading);
+      auto const given = given_fields(*kind, reading.dimension);
+      values = read_fields(set, given, true, which ? which->size() : 0, reading);
+      set_formulas = read_formulas(set, given, true, unknown_fields(section, *kind), reading);
+    }
     if (kind) set.finish();
     if (!particles || !which || reading.context.mistakes.count() != before) continue;
     for (auto const& value : values) apply(value, *particles, *which);
+    for (auto const& formula : set_formulas)
+      if (!apply(formula, *particles, *which, reading)) break;
     if (freeze) frozen.insert(frozen.end(), which->begin(), which->end());
   }
   if (kind) section.finish();
@@ -505,6 +692,17 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   Item const* margin_item = section.find("margin");
   auto const margin = section.quantity("margin", dimensions::length, not_negative);
   Item const* item = section.find("particles");
+  if (Item const* where = section.find("where")) {
+    if (item) reading.mistake(where->place, "where: 'particles' says which, too; leave one out");
+    if (item || !ensemble) return std::nullopt;
+    FormulaNames names(ensemble->fields(), ensemble->dimension());
+    auto const formula = read_formula(*where, "where", names, {}, reading);
+    if (!formula) return std::nullopt;
+    std::vector<std::uint32_t> which;
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      if (names.evaluate(*formula, ensemble->row(i)) != 0) which.push_back(static_cast<std::uint32_t>(i));
+    return which;
+  }
   if (!item) return std::nullopt;
   bool const edge = item->is(Item::Kind::text) && item->text == "edge";
   if (margin_item && !edge) reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");

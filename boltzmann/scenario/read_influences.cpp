@@ -101,6 +101,11 @@ void read_influence(Item const& table, Reading& reading) {
   LawInfo const* law = name ? find_law(*name) : nullptr;
   if (law) section.rename(fmt::format("[[influences]] '{}'", *name));
   section.allow("law");
+  if (law && reading.smooth.wanted && law->kind == LawKind::pair)
+    return reading.mistake(
+        law_item->place, fmt::format("law '{}' acts between pairs of particles; smooth particles act on each other by "
+                                     "what they are made of, their 'material'",
+                                     *name));
   bool const external = law && law->kind == LawKind::external;
 
   // On whom.
@@ -160,8 +165,18 @@ void read_influence(Item const& table, Reading& reading) {
     section.finish();
   }
   if (reading.context.mistakes.count() != before || !law || !a || !b || !a->particles || !b->particles ||
-      !reading.result->pairs || !parameters)
+      !reading.result->scheme || !parameters)
     return;
+  if (reading.result->smooth) {
+    if (section.has("particles") || section.has("where"))
+      return reading.mistake(section.place(section.has("particles") ? "particles" : "where"),
+                             fmt::format("law '{}' acts on all smooth particles of an ensemble; put some of them into "
+                                         "one of their own",
+                                         *name));
+    guarded(reading, law_item->place,
+            [&] { install_external(*reading.result->smooth, *law, *parameters, *a->particles); });
+    return;
+  }
   PairScheme& scheme = *reading.result->pairs;
   if (external) {
     guarded(reading, law_item->place,

@@ -159,7 +159,14 @@ void read_scheme(Section& document, Reading& reading) {
   Item const* table = find_table(document, "mesh");
   if (table) read_mesh(*table, reading);
   reading.mesh.usable = reading.context.mistakes.count() == before;
-  if (!reading.box) return;
+  Item const* smooth = find_table(document, "smooth");
+  if (table && smooth)
+    reading.mistake(smooth->place, "[smooth] and [mesh]: a scenario has one of them; smooth particles have no mesh");
+  if (smooth && !table) read_smooth(*smooth, reading);
+  if (!reading.box || result.smooth || smooth) {
+    if (result.scheme) result.scheme->threads(reading.run.threads);
+    return;
+  }
   if (!result.scheme) {
     auto pairs = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
     result.pairs = pairs.get();
@@ -174,6 +181,8 @@ void read_scheme(Section& document, Reading& reading) {
 void load_scheme(Section& document, Reading& reading) {
   ScenarioSimulation& result = *reading.result;
   if (!result.scheme) return;
+  if (result.smooth) return load_smooth(reading);
+  if (!result.pairs) return;
   std::size_t const before = reading.context.mistakes.count();
   if (result.mesh) {
     Item const& table = *find_table(document, "mesh");

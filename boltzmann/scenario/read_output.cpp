@@ -85,6 +85,13 @@ void read_diagnosis(Item const& table, Reading& reading) {
     }
   }
   if (has("axis")) parameters.axis = section.word("axis", axis_names(reading)).value_or("");
+  if (has("conductivity") && reading.dimension > 0) {
+    Dimension const conductivity = dimensions::energy / (dimensions::time * dimensions::temperature) /
+                                   pow(dimensions::length, reading.dimension - 2);
+    if (Item const* item = section.need("conductivity", "conductivity = 0.1"))
+      parameters.conductivity = read_quantity(*item, "conductivity", conductivity, reading.context, positive).value_or(0);
+  }
+  if (has("since")) parameters.since = section.quantity("since", dimensions::time).value_or(0);
   if (has("modes")) parameters.modes = static_cast<std::size_t>(section.integer("modes", 1).value_or(0));
   if (has("quantity") && kind.of_mesh) parameters.quantity = section.text("quantity").value_or("");
   if (has("quantity") && !kind.of_mesh) {

@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace boltzmann {
 namespace {
@@ -50,6 +53,52 @@ Base read_base(Section& units, std::string const& name) {
                   coulombs ? Quantity<charge>{*coulombs} : units::elementary_charge);
   }
   return Base::si();
+}
+
+/// axis, end; open, or slips, velocity, temperature.
+void read_wall(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[[box.walls]]", reading.context);
+  std::vector<std::string> axes{"x", "y", "z"};
+  if (reading.dimension > 0) axes.resize(static_cast<std::size_t>(reading.dimension));
+  Item const* axis_item = section.need("axis", "axis = \"y\"");
+  auto const axis = axis_item ? read_word(*axis_item, "axis", axes, reading.context) : std::nullopt;
+  Item const* end_item = section.need("end", "end = \"low\"");
+  auto const end = end_item ? read_word(*end_item, "end", {"low", "high"}, reading.context) : std::nullopt;
+  bool const open = section.boolean("open");
+  Wall wall;
+  wall.slips = section.boolean("slips", true);
+  if (Item const* item = section.find("velocity"); item && reading.dimension > 0)
+    if (auto const v = read_vector(*item, "velocity", reading.dimension, dimensions::velocity, reading.context))
+      std::copy(v->begin(), v->end(), wall.velocity.begin());
+  if (auto const temperature = section.quantity("temperature", dimensions::temperature, not_negative))
+    wall.temperature = *temperature;
+  if (open)
+    for (char const* key : {"slips", "velocity", "temperature"})
+      if (section.has(key))
+        reading.mistake(section.place(key), fmt::format("{}: with open = true there is no wall that has one", key));
+  section.finish();
+  if (!axis || !end || reading.context.mistakes.count() != before || !reading.box) return;
+  int const a = (*axis)[0] - 'x';
+  if (reading.box->boundary(a) != Boundary::mirror)
+    return reading.mistake(axis_item->place,
+                           fmt::format("axis: {} is {}; walls stand at the ends of axes whose boundary is \"mirror\"",
+                                       *axis, to_string(reading.box->boundary(a))));
+  Box::End const which = *end == "low" ? Box::End::low : Box::End::high;
+  guarded(reading, table.place, [&] { open ? reading.box->open_end(a, which) : reading.box->wall(a, which, wall); });
+}
+
+/// A time, "courant" or { courant = 0.5 }.
+void read_step(Item const& item, ReadRun& run, Reading& reading) {
+  if (item.is(Item::Kind::text) && item.text == "courant") {
+    run.courant = 1;
+  } else if (item.is(Item::Kind::table)) {
+    Section section(item, "step", reading.context);
+    run.courant = section.need_quantity("courant", dimensions::none, "courant = 0.5", positive);
+    section.finish();
+  } else {
+    run.step = read_quantity(item, "step", dimensions::time, reading.context, positive);
+  }
 }
 
 }  // namespace
@@ -124,8 +173,11 @@ void read_box(Section& document, Reading& reading) {
     if (values) (item == low_item ? low : high) = *values;
   }
   auto const kind = [&](Item const& item) {
-    auto const word = read_word(item, "boundary", {"open", "bounded", "periodic"}, reading.context);
-    return !word || *word == "open" ? Boundary::open : *word == "bounded" ? Boundary::bounded : Boundary::periodic;
+    auto const word = read_word(item, "boundary", {"open", "bounded", "periodic", "mirror"}, reading.context);
+    return !word || *word == "open" ? Boundary::open
+           : *word == "bounded"     ? Boundary::bounded
+           : *word == "periodic"    ? Boundary::periodic
+                                    : Boundary::mirror;
   };
   std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
   if (Item const* item = section.find("boundary")) {
@@ -167,6 +219,7 @@ void read_box(Section& document, Reading& reading) {
             {wide(*from), wide(*to), *side == "keep-in" ? Region::Side::keep_in : Region::Side::keep_out});
       });
   }
+  for (Item const* wall_table : find_tables(section, "walls")) read_wall(*wall_table, reading);
   section.finish();
 }
 
@@ -178,15 +231,31 @@ void read_run(Section& document, Reading& reading) {
   if (!table) return;
   Section section(*table, "[run]", reading.context);
   run.place = table->place;
-  run.step = section.need_quantity("step", dimensions::time, "step = 0.01", positive);
-  if (Item const* steps = section.need("steps", "steps = 1000"))
+  run.step_place = section.place("step");
+  if (Item const* step = section.need("step", "step = 0.01")) read_step(*step, run, reading);
+  Item const *steps = section.find("steps"), *time = section.find("time");
+  if (time && steps) {
+    // What the command line says goes before what the file says.
+    if (time->place.override_number > steps->place.override_number)
+      steps = nullptr;
+    else if (steps->place.override_number > time->place.override_number)
+      time = nullptr;
+    else
+      reading.mistake(time->place, "time: 'steps' say how long the run is, too; leave one out");
+  }
+  if (time) {
+    run.time_place = time->place;
+    run.time = read_quantity(*time, "time", dimensions::time, reading.context, not_negative);
+  } else if (steps || (steps = section.need("steps", "steps = 1000"))) {
     run.steps = read_integer(*steps, "steps", 0, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0);
+  }
   run.seed = static_cast<std::uint64_t>(section.integer("seed", 0).value_or(1));
   run.threads = static_cast<int>(section.integer("threads", 0, 4096).value_or(0));
   run.cutoff = section.quantity("cutoff", dimensions::length, positive);
   run.cutoff_known = run.cutoff_known || run.cutoff;
   run.cutoff_place = section.place("cutoff");
   run.skin = section.quantity("skin", dimensions::length, not_negative);
+  run.skin_place = section.place("skin");
   section.finish();
   if (run.cutoff && reading.box)
     for (int a = 0; a < reading.dimension; ++a)
@@ -196,6 +265,47 @@ void read_run(Section& document, Reading& reading) {
                                     *run.cutoff, "xyz"[a], reading.box->length(a)));
         run.cutoff = reading.box->length(a);
       }
+}
+
+void settle_run(Item& resolved, Reading& reading) {
+  ReadRun& run = reading.run;
+  if (run.courant && !reading.smooth.wanted)
+    reading.mistake(run.step_place,
+                    "step: only smooth particles have a Courant step, and the scenario has no [smooth]; "
+                    "give a time");
+  if (!reading.context.mistakes.none() || (!run.step && !reading.result->smooth)) return;
+  if (run.courant) {
+    double longest = 0;
+    try {
+      longest = reading.result->smooth->courant_step();
+    } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
+      return reading.mistake(place_of(failure.what(), reading), failure.what());
+    }
+    if (!(longest > 0) || !std::isfinite(longest))
+      return reading.mistake(
+          run.step_place,
+          fmt::format("step: the Courant step is {} for this state, which nothing moves; give a time", longest));
+    run.step = *run.courant * longest;
+  }
+  Entry* table = resolved.find("run");
+  if (!table || !run.step) return;
+  auto const replace = [&](char const* old, char const* now, Item item) {
+    item.place = table->item.find(old)->place;
+    std::erase_if(table->item.entries, [&](Entry const& entry) { return entry.key == now && entry.key != old; });
+    Entry& entry = *table->item.find(old);
+    entry.key = now;
+    entry.item = std::move(item);
+  };
+  if (run.courant) replace("step", "step", Item::of_number(*run.step));
+  if (run.time) {
+    // A time of so many steps, but for rounding, is that many.
+    double const steps = std::ceil(*run.time / *run.step * (1 - 1e-12));
+    if (steps > 9e18) return reading.mistake(run.time_place, fmt::format("time: it would need {:.3g} steps", steps));
+    run.steps = static_cast<std::int64_t>(steps);
+    replace("time", "steps", Item::of_integer(run.steps));
+  } else {
+    std::erase_if(table->item.entries, [](Entry const& entry) { return entry.key == "time"; });
+  }
 }
 
 }  // namespace boltzmann

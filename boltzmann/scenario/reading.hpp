@@ -4,6 +4,7 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
 
@@ -22,21 +23,31 @@ struct ReadEnsemble {
   ParticleClass const* kind = nullptr;
   AnyEnsemble* particles = nullptr;
   std::unique_ptr<Integrator> integrator;
+  std::optional<BoundMaterial> material;  ///< of smooth particles
 };
 
 struct ReadRun {
   std::optional<double> step, cutoff, skin;
+  std::optional<double> courant;  ///< instead of the step: which part of the Courant step
+  std::optional<double> time;     ///< instead of the number of steps
   std::int64_t steps = 0;
   std::uint64_t seed = 1;
   int threads = 0;
   bool cutoff_known = true;  ///< false: there is one, but it could not be read
-  Place place, cutoff_place;
+  Place place, cutoff_place, skin_place, step_place, time_place;
 };
 
 struct ReadMesh {
   bool usable = true;      ///< false: there is a [mesh], but mistakes in it; what needs a mesh is not to be checked
   Place background_place;  ///< or that of the table
   std::vector<MeshField const*> fields;  ///< once somebody has asked for them
+};
+
+struct ReadSmooth {
+  bool wanted = false;  ///< there is a [smooth], with mistakes or without
+  bool from_continuity = false;
+  std::optional<VariableRange> variable;
+  Place variable_place;
 };
 
 /// Everything that has been read so far. What could not be read is empty, and has left a mistake.
@@ -48,6 +59,7 @@ struct Reading {
   std::optional<Box> box;
   ReadRun run;
   ReadMesh mesh;
+  ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
   bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
 
@@ -84,11 +96,19 @@ std::optional<LawParameters> read_parameters(Section& section, LawInfo const& la
 void read_units(Section& document, Reading& reading);
 void read_box(Section& document, Reading& reading);
 void read_run(Section& document, Reading& reading);
-/// Makes the scheme: a mesh if there is a [mesh], else pairs alone.
+/// What follows from [run] when everything is loaded: a Courant step, the number of steps of a time. They stand in
+/// `resolved` instead of what was asked for.
+void settle_run(Item& resolved, Reading& reading);
+/// Makes the scheme: a mesh if there is a [mesh], smooth particles if there is a [smooth], else pairs alone.
 void read_scheme(Section& document, Reading& reading);
 void read_ensembles(Section& document, Reading& reading);
+/// Makes the scheme of smooth particles from the table [smooth].
+void read_smooth(Item const& table, Reading& reading);
+/// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
+std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Loads ensembles into the scheme.
 void load_scheme(Section& document, Reading& reading);
+void load_smooth(Reading& reading);
 /// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
 /// calculated, with one mistake for all that ask.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);

@@ -32,6 +32,7 @@ void build(Item& document, Reading& reading) {
   read_ensembles(top, reading);
   load_scheme(top, reading);
   read_influences(top, reading);
+  settle_run(document, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
   top.finish();
@@ -74,7 +75,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
     set_default(document, "run", "seed", Item::of_integer(1));
 
-  Reading reading{{mistakes, Base::si(), folder}, std::make_unique<ScenarioSimulation>(), true, 0, {}, {}, {}, {}};
+  Reading reading{{mistakes, Base::si(), folder}, std::make_unique<ScenarioSimulation>(), true, 0, {}, {}, {}, {}, {}};
   reading.result->name = name;
   try {
     build(document, reading);

@@ -7,6 +7,7 @@
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <array>
@@ -65,8 +66,9 @@ struct ScenarioSimulation {
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
   std::unique_ptr<Scheme> scheme;
-  PairScheme* pairs = nullptr;  ///< the scheme itself, or what acts beside its mesh
-  MeshScheme* mesh = nullptr;   ///< the scheme itself, if the scenario has a [mesh]
+  PairScheme* pairs = nullptr;     ///< the scheme itself, or what acts beside its mesh; null with [smooth]
+  MeshScheme* mesh = nullptr;      ///< the scheme itself, if the scenario has a [mesh]
+  SmoothScheme* smooth = nullptr;  ///< the scheme itself, if the scenario has a [smooth]
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;

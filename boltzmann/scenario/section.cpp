@@ -22,6 +22,7 @@ std::string wanted(Dimension dimension, Base const& base) {
 
 std::string NumberRange::text() const {
   if (low_excluded && low == 0) return "positive";
+  if (low_excluded) return fmt::format("above {}", low);
   if (low == 0 && std::isinf(high)) return "zero or more";
   if (std::isinf(high)) return fmt::format("{} or more", low);
   return fmt::format("between {} and {}", low, high);

@@ -63,6 +63,11 @@ class Section {
   /// The same; a mistake with an example if it is missing.
   Item const* need(std::string_view key, std::string_view example);
   bool has(std::string_view key) const { return table_.find(key) != nullptr; }
+  /// The value of a key, or nullptr, without allowing it.
+  Item const* item(std::string_view key) const {
+    Entry const* entry = table_.find(key);
+    return entry ? &entry->item : nullptr;
+  }
   /// Names a key that is known here, but not one to be proposed.
   void know(std::string_view key) { known_.emplace_back(key); }
   /// Names a key that is allowed but read elsewhere.

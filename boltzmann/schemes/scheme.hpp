@@ -20,6 +20,7 @@ namespace boltzmann {
 struct Measures {
   double potential = 0;                           ///< of the influences between particles
   double external = 0;                            ///< in the external fields
+  double internal = 0;                            ///< of the particles themselves (smooth particles)
   std::array<std::array<double, 3>, 3> virial{};  ///< - sum over pairs r_a F_b with r = q - p and F the force on p; the
                                                   ///< pressure tensor is (sum m v v + virial) / volume
   std::string unknown;  ///< empty, or the name of a law that gives no energy: the energies are then incomplete
@@ -60,6 +61,9 @@ class Scheme {
   virtual std::unique_ptr<WholeSteps> whole_steps(std::vector<Mover> const& /*movers*/, double /*dt*/) {
     return nullptr;
   }
+  /// Fields of the particles that are not their own but found by this scheme (the density of smooth particles), for the
+  /// state as it stands: observers see these. It changes nothing that the next step depends on.
+  virtual void complete(double /*time*/) {}
   /// Energies and virial of the state as it stands.
   virtual Measures measure(double time = 0) = 0;
   /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise.
@@ -70,9 +74,13 @@ class Scheme {
   /// more, until they are asked for again with `taken` false.
   virtual std::vector<Rotation> rotations(AnyEnsemble const& /*ensemble*/, bool /*taken*/) { return {}; }
 
+  /// Whether influences on this ensemble are known to depend on velocities.
+  virtual bool velocity_dependent(AnyEnsemble const& /*ensemble*/) const { return false; }
   /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite
   /// if unknown.
   virtual double length_scale(AnyEnsemble const& ensemble) const = 0;
+  /// The longest step that makes sense for the state as it stands (the Courant step); infinite if unknown.
+  virtual double longest_step() { return __builtin_inf(); }
   /// Why influences on particle i may not be finite (two particles at one place, ...), for the message of a failure;
   /// empty if unknown.
   virtual std::string explain(AnyEnsemble const& ensemble, std::size_t i) const = 0;

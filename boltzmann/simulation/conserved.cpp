@@ -52,7 +52,8 @@ Conserved conserved(Simulation const& simulation) {
     total.dimension = scheme->box().dimension();
     total.isolated = total.isolated && scheme->box().regions().empty();
     for (int a = 0; a < total.dimension; ++a)
-      total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::bounded;
+      total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::bounded &&
+                       scheme->box().boundary(a) != Boundary::mirror;
   }
   for (auto const* ensemble : ensembles) {
     if (!carries_momentum(*ensemble)) {
@@ -68,10 +69,10 @@ Conserved conserved(Simulation const& simulation) {
   total.momentum = momentum(ensembles);
   if (!periodic && total.dimension > 1) total.angular_momentum = angular_momentum(ensembles);
   if (measures.unknown.empty())
-    total.energy = kinetic + measures.potential + measures.external;
+    total.energy = kinetic + measures.potential + measures.external + measures.internal;
   else
     total.no_energy = measures.unknown + " gives no energy";
-  total.energy_scale = kinetic + std::abs(measures.potential) + std::abs(measures.external);
+  total.energy_scale = kinetic + std::abs(measures.potential) + std::abs(measures.external) + std::abs(measures.internal);
   return total;
 }
 

@@ -1,4 +1,5 @@
 // From the state and the files of a run to the arrays that the drawings want.
+#include <boltzmann/diagnoses/contours.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/drawings.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
@@ -93,6 +94,10 @@ void check_spectrum_axis(std::string const& x) {
     throw Error("a spectrum is over position.x, position.y, position.z or time, not '" + x + "'");
 }
 
+bool of_smooth_field(Picture const& picture) {
+  return picture.drawing == "map" || picture.drawing == "contours" || picture.drawing == "bands";
+}
+
 std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
 
 class Drawer {
@@ -106,6 +111,7 @@ class Drawer {
     if (picture_.drawing == "spectrum") return picture_.x == "time" ? spectrum_in_time() : spectrum_in_space();
     if (picture_.drawing == "mesh") return mesh();
     if (picture_.drawing == "wave-spectrum") return wave_spectrum();
+    if (of_smooth_field(picture_)) return smooth_field();
     return time_series();
   }
 
@@ -540,21 +546,118 @@ class Drawer {
         node[right] = column, node[up] = row, node[normal] = slice;
         shown.push_back(quantity.values()[grid.index(node[0], node[1], node[2])]);
       }
-    // Ends that are given decide for all frames of a movie.
+    Canvas canvas = draw_field(static_cast<int>(grid.nodes[right]), static_cast<int>(grid.nodes[up]), shown,
+                               mesh_axis(grid, right), mesh_axis(grid, up), quantity.label, unit, fitting_map(shown),
+                               title(), {picture_.low, picture_.high, factor});
+    if (grid.dimension == 3)
+      canvas.note(fmt::format("slice at {} = {}", "xyz"[normal],
+                              quantity_text(grid.position(normal, slice), dimensions::length, context_.base, 4)));
+    return canvas;
+  }
+
+  // The ensembles that have the quantity of a smooth field; all have a density.
+  std::vector<AnyEnsemble*> ensembles_with(std::string const& name) const {
+    std::vector<AnyEnsemble*> all;
+    if (name != "density") meaning(ensembles_, name);
+    for (auto* ensemble : ensembles_)
+      if (name == "density" || has_quantity(*ensemble, name)) all.push_back(ensemble);
+    return all;
+  }
+
+  SmoothColumn smooth_column(SmoothField const& field, std::string const& name) {
+    if (name == "potential-energy") return {joined(values(name))};
+    if (needs_influence(name)) refresh_influence();
+    return field.column(name);
+  }
+
+  // The grid of a picture: its first two axes are those of the picture. Nodes are the middles of its cells, or its
+  // corners, so that contours end at the walls.
+  MeshGrid picture_grid(std::vector<std::array<double, 2>> const& shown, std::array<int, 2> const& axes,
+                        bool corners) const {
+    MeshGrid grid;
+    grid.dimension = static_cast<int>(std::min<std::size_t>(shown.size(), 2));
+    double longest = 0;
+    for (int k = 0; k < grid.dimension; ++k) longest = std::max(longest, shown[axes[k]][1] - shown[axes[k]][0]);
+    for (int k = 0; k < grid.dimension; ++k) {
+      auto const [low, high] = shown[axes[k]];
+      double const cells = std::max(2.0, std::round(picture_.cells * (high - low) / longest));
+      grid.spacing[k] = (high - low) / cells;
+      grid.periodic[k] = box().periodic(axes[k]);
+      grid.low[k] = corners ? low : low + grid.spacing[k] / 2;
+      grid.nodes[k] = static_cast<std::size_t>(cells) + (corners && !grid.periodic[k] ? 1 : 0);
+    }
+    return grid;
+  }
+
+  Canvas smooth_field() {
+    std::string const name = picture_.y.empty() ? "density" : picture_.y;
+    auto const of = ensembles_with(name);
+    Smoothing smoothing = picture_.smoothing;
+    bool const own = std::all_of(of.begin(), of.end(), [](auto* e) { return e->find_field("range") != nullptr; });
+    if (smoothing.range == 0 && !own) smoothing.range = fitting_range(of, box());
+    SmoothField const field(of, box(), smoothing);
+    auto const what = field.meaning(name);
+    auto const [unit, factor] = shown_in(what.dimension);
+
+    int const D = box().dimension();
+    std::array<Values, 3> position;
+    for (int a = 0; a < D; ++a) position[a] = joined(values(std::string("position.") + "xyz"[a]));
+    auto const shown = shown_box(position);
+    int const normal = D == 3 ? picture_.slice[0] - 'x' : 2;
+    std::array<int, 2> const axes{normal == 0 ? 1 : 0, normal == 2 ? 1 : 2};
+    double const at = D == 3 && std::isnan(picture_.at) ? 0.5 * (box().low(normal) + box().high(normal)) : picture_.at;
+    MeshGrid const grid = picture_grid(shown, axes, D == 1 || picture_.drawing == "contours");
+    Values points;
+    auto const on_plane = points_on_grid(grid);
+    for (std::size_t p = 0; p < grid.size(); ++p)
+      for (int a = 0; a < D; ++a)
+        points.push_back(a == normal ? at
+                                     : on_plane[p * static_cast<std::size_t>(grid.dimension) + (a == axes[0] ? 0 : 1)]);
+    Values const found =
+        (name == "density" ? field.density(points) : field.value(points, smooth_column(field, name))).value;
+
+    auto const along = [&](int k) {
+      Axis result = axis(std::string(1, "xyz"[axes[k]]), dimensions::length);
+      result.low = shown[axes[k]][0];
+      result.high = shown[axes[k]][1];
+      return result;
+    };
+    if (D == 1) {
+      Series const curve{"", on_plane, found};
+      Axis y = axis(what.label, what.dimension);
+      y.low = picture_.low, y.high = picture_.high;
+      return draw_time_series({&curve, 1}, along(0), y, title());
+    }
+    bool const given = std::isfinite(picture_.low) && std::isfinite(picture_.high);
+    auto levels = picture_.levels;
+    if (levels.empty() && picture_.level_count == 0 && picture_.drawing == "bands") levels = {mean_value(found)};
+    if (levels.empty())
+      levels = even_levels(given ? Values{picture_.low, picture_.high} : found,
+                           picture_.level_count == 0 ? 8 : static_cast<std::size_t>(picture_.level_count));
+    auto const columns = static_cast<int>(grid.nodes[0]), rows = static_cast<int>(grid.nodes[1]);
+    ColourEnds const ends{picture_.low, picture_.high, factor};
+    Canvas canvas = [&, unit = unit, factor = factor] {
+      if (picture_.drawing == "contours")
+        return draw_contours(grid, found, levels, along(0), along(1), what.label, unit, title(), ends);
+      if (picture_.drawing == "bands")
+        return draw_bands(columns, rows, found, levels, along(0), along(1), what.label, unit, title(), factor);
+      return draw_field(columns, rows, found, along(0), along(1), what.label, unit, fitting_map(found), title(), ends);
+    }();
+    if (D == 3)
+      canvas.note(
+          fmt::format("slice at {} = {}", "xyz"[normal], quantity_text(at, dimensions::length, context_.base, 4)));
+    return canvas;
+  }
+
+  // Blue and red for values of both signs. Ends that are given decide for all frames of a movie.
+  ColourMap fitting_map(Values const& shown) const {
     bool const negative = std::isfinite(picture_.low)
                               ? picture_.low < 0
                               : std::any_of(shown.begin(), shown.end(), [](double v) { return v < 0; });
     bool const positive = std::isfinite(picture_.high)
                               ? picture_.high > 0
                               : std::any_of(shown.begin(), shown.end(), [](double v) { return v > 0; });
-    Canvas canvas = draw_field(static_cast<int>(grid.nodes[right]), static_cast<int>(grid.nodes[up]), shown,
-                               mesh_axis(grid, right), mesh_axis(grid, up), quantity.label, unit,
-                               negative && positive ? ColourMap::diverging : ColourMap::viridis, title(),
-                               {picture_.low, picture_.high, factor});
-    if (grid.dimension == 3)
-      canvas.note(fmt::format("slice at {} = {}", "xyz"[normal],
-                              quantity_text(grid.position(normal, slice), dimensions::length, context_.base, 4)));
-    return canvas;
+    return negative && positive ? ColourMap::diverging : ColourMap::viridis;
   }
 
   // Power over wave number and frequency; colours by its logarithm, over six decades.
@@ -606,11 +709,26 @@ void check_drawing(Picture const& picture) {
                 did_you_mean(picture.drawing, names));
 }
 
+void check_smooth_field(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles) {
+  if (picture.y != "density" && !picture.y.empty()) meaning(ensembles, picture.y);
+  if (picture.drawing != "map" && !ensembles.empty() && ensembles.front()->dimension() == 1)
+    throw Error("'" + picture.drawing + "' are drawn in 2D and 3D; in 1D 'map' draws a curve");
+  if (!(picture.smoothing.range >= 0) || std::isinf(picture.smoothing.range))
+    throw Error(fmt::format("the range of a smooth field must be above 0, it is {}", picture.smoothing.range));
+  if (!std::all_of(picture.levels.begin(), picture.levels.end(), [](double v) { return std::isfinite(v); }) ||
+      !std::is_sorted(picture.levels.begin(), picture.levels.end()))
+    throw Error("the levels of contours and bands must be finite and ascend");
+  if (picture.level_count < 0 || picture.level_count > 1000)
+    throw Error(fmt::format("a picture has 1 to 1000 levels, not {}", picture.level_count));
+  if (picture.cells < 2 || picture.cells > 4000)
+    throw Error(fmt::format("the grid of a picture has 2 to 4000 cells along a side, not {}", picture.cells));
+}
+
 }  // namespace
 
 std::vector<std::string> const& drawing_names() {
-  static std::vector<std::string> const names{"cartesian",   "phase-space", "spectrum",
-                                              "time-series", "mesh",        "wave-spectrum"};
+  static std::vector<std::string> const names{"cartesian",     "phase-space", "spectrum", "time-series", "mesh",
+                                              "wave-spectrum", "map",         "contours", "bands"};
   return names;
 }
 
@@ -638,11 +756,11 @@ void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, s
     if (!picture.x.empty()) check_spectrum_axis(picture.x);
     known(picture.x), known(picture.y);
   }
-  if (picture.drawing == "mesh") {
-    mesh_quantity(sources.mesh_fields, mesh_name(picture));
-    if (picture.slice != "x" && picture.slice != "y" && picture.slice != "z")
-      throw Error("a slice is normal to x, y or z, not '" + picture.slice + "'");
-  }
+  if (picture.drawing == "mesh") mesh_quantity(sources.mesh_fields, mesh_name(picture));
+  if ((picture.drawing == "mesh" || of_smooth_field(picture)) && picture.slice != "x" && picture.slice != "y" &&
+      picture.slice != "z")
+    throw Error("a slice is normal to x, y or z, not '" + picture.slice + "'");
+  if (of_smooth_field(picture)) check_smooth_field(picture, ensembles);
   if (picture.drawing == "wave-spectrum") recorded_waves(sources.diagnoses, picture.y);
   if (picture.drawing == "time-series" || (picture.drawing == "spectrum" && picture.x == "time")) {
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");

@@ -1,10 +1,11 @@
-// Pictures of a simulation: particles in space, phase space, a spectrum, a time series, what a mesh has on its nodes or
-// the waves on it, drawn from the present state and from the files of the run.
+// Pictures of a simulation: particles in space, phase space, a spectrum, a time series, smooth fields of the particles,
+// what a mesh has on its nodes or the waves on it, drawn from the present state and from the files of the run.
 #pragma once
 
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/canvas.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <limits>
@@ -31,16 +32,23 @@ struct Picture {
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
   bool trace = false;                ///< also the tracks through all frames of trajectory.h5 (cartesian, phase-space)
-  double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours, or of the
-                                                          ///< axis of a mesh in 1D; NaN: of the state
+  double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours (contours: also of
+                                                          ///< the levels), or of the axis of a mesh or a map in 1D;
+                                                          ///< NaN: of the state
   double high = std::numeric_limits<double>::quiet_NaN();
-  std::string slice = "z";                               ///< mesh in 3D: the axis that the slice is normal to
+  std::string slice = "z";                               ///< fields in 3D: the axis that the slice is normal to
   double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
   std::vector<Dispersion> curves = {};                   ///< wave-spectrum: drawn over it
   bool logarithmic = false;  ///< time-series: the values on a logarithmic axis, 12 decades at most
+  // map, contours, bands
+  Smoothing smoothing = {};         ///< range 0: each particle's own; if a class has none, fitting_range()
+  std::vector<double> levels = {};  ///< contours, bands: ascending; empty: level_count even ones
+  int level_count = 0;              ///< 0: 8 for contours; the mean over the picture alone for bands
+  int cells = 300;                  ///< of the grid, along the longest side of the picture
 };
 
-/// "cartesian", "phase-space", "spectrum", "time-series", "mesh", "wave-spectrum".
+/// "cartesian", "phase-space", "spectrum", "time-series", "mesh", "wave-spectrum"; of the smooth fields of particles
+/// "map" (colours), "contours" (lines) and "bands" (shades between levels).
 std::vector<std::string> const& drawing_names();
 
 /// The state that a picture shows and what is written about it.

@@ -4,9 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace boltzmann {
+namespace {
+
+constexpr double far_above = 4;  // the longest step that makes sense
+
+}  // namespace
 
 Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
   this->step_size(step_size);
@@ -25,7 +31,7 @@ void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> in
       part.integrator = std::move(integrator);
       return;
     }
-  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}});
+  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}, false});
 }
 
 void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
@@ -66,6 +72,7 @@ void Simulation::check() {
   if (checked_) return;
   shortcut_ = {};
   ensembles_.clear();
+  move_walls(time());
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
       scheme->box().check(*ensemble);
@@ -91,6 +98,10 @@ void Simulation::check() {
     if (takes) part->integrator->rotate(std::move(rotations));
     part->stages = part->integrator->stages();
     for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
+    part->keeps_influences =
+        part->integrator->method() == Method::leap_frog &&
+        std::any_of(schemes_.begin(), schemes_.end(),
+                    [&](Scheme const* scheme) { return scheme->velocity_dependent(*ensemble); });
     stages_ = std::max(stages_, part->stages);
     reversible = reversible || part->integrator->method() == Method::reversible_leap_frog;
   }
@@ -98,6 +109,13 @@ void Simulation::check() {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
   if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
+  for (auto* scheme : schemes_) {
+    double const longest = scheme->longest_step();
+    if (std::abs(step_size_) > far_above * longest)
+      throw Error(fmt::format("the step {:.4g} is far above the longest that makes sense, {:.4g} (sound and diffusion "
+                              "must not outrun it)",
+                              std::abs(step_size_), longest));
+  }
   calculate(time());
   for (auto* ensemble : ensembles_)
     for (std::size_t i = 0; i < ensemble->size(); ++i)
@@ -145,7 +163,13 @@ void Simulation::make_reversible(FixedPoint const& grid) {
   for (auto& part : parts_) part.integrator->prepare(grid);
 }
 
+void Simulation::move_walls(double time) {
+  for (auto* scheme : schemes_)
+    if (scheme->box().walls_move()) scheme->box().move_walls(time);
+}
+
 void Simulation::calculate(double time) {
+  move_walls(time);
   if (shortcut_.call) {
     shortcut_.call(shortcut_.data);
     return;
@@ -171,8 +195,9 @@ void Simulation::advance(double dt) {
       if (motion == Motion::none) continue;
       fresh_ = false;
       passed = part.time_after[stage];
-      if (motion == Motion::final)
-        for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble, scheme->threads());
+      if (motion != Motion::final) continue;
+      move_walls(start + passed * dt);
+      for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble, scheme->threads());
     }
   }
   for (auto const& part : parts_) check_moves(part);
@@ -210,12 +235,33 @@ void Simulation::check_moves(Part const& part) const {
                   move.particle, name, moved, allowed, 0.1 * std::abs(step_size_) * allowed / moved));
 }
 
+void Simulation::complete() const {
+  for (auto* scheme : schemes_) scheme->complete(time());
+}
+
+bool Simulation::keeps_influences() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](Part const& part) { return part.keeps_influences; });
+}
+
+/// Of all rows, whatever their meaning.
+std::uint64_t Simulation::checksum() const {
+  std::uint64_t sum = 0;
+  for (auto const* ensemble : ensembles_) {
+    auto const words = ensemble->size() * ensemble->stride();
+    for (std::size_t k = 0; k < words; ++k)
+      sum = (std::rotl(sum, 5) ^ std::bit_cast<std::uint64_t>(ensemble->row(0)[k])) * 0x9E3779B97F4A7C15U;
+  }
+  return sum;
+}
+
 bool Simulation::observation_due() const {
   return std::any_of(observations_.begin(), observations_.end(),
                      [&](Observation const& observation) { return observation.due(step_); });
 }
 
 void Simulation::observe_now() const {
+  if (!observation_due()) return;
+  complete();
   for (auto const& observation : observations_)
     if (observation.due(step_)) observation.observer(*this);
 }
@@ -229,7 +275,13 @@ void Simulation::run(std::uint64_t steps, int direction) {
     observed_ = true;
     observe_now();
   }
-  fresh_ = false;  // the particles may have been changed since the last run
+  // The particles may have been changed since the last run.
+  fresh_ = kept_ && keeps_influences() && checksum() == kept_checksum_;
+  running_ = true;
+  struct Ended {
+    bool& running;
+    ~Ended() { running = false; }
+  } const ended{running_};
   shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
   double const dt = direction * step_size_;
   std::unique_ptr<WholeSteps> const whole = steps > 0 ? whole_steps(dt) : nullptr;
@@ -250,6 +302,9 @@ void Simulation::run(std::uint64_t steps, int direction) {
     for (auto const& observer : progress_) observer(*this);
   }
   if (whole) whole->store();
+  complete();
+  kept_ = fresh_ && keeps_influences();
+  if (kept_) kept_checksum_ = checksum();
 }
 
 Measures Simulation::measure() const {
@@ -258,6 +313,7 @@ Measures Simulation::measure() const {
     Measures const part = scheme->measure(time());
     total.potential += part.potential;
     total.external += part.external;
+    total.internal += part.internal;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) total.virial[a][b] += part.virial[a][b];
     if (!part.unknown.empty()) total.unknown = part.unknown;
@@ -273,6 +329,13 @@ std::vector<double> Simulation::state() const {
     state.push_back(static_cast<double>(part.size()));
     state.insert(state.end(), part.begin(), part.end());
   }
+  bool const fresh = fresh_ && (running_ || (kept_ && checksum() == kept_checksum_));
+  for (auto const& part : parts_) {
+    if (!part.keeps_influences) continue;
+    state.push_back(fresh ? 1 : 0);
+    auto const* influence = part.ensemble->influence(0);
+    if (fresh) state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
+  }
   return state;
 }
 
@@ -280,6 +343,11 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   auto const misfit = [] { return Error("the checkpoint does not fit this simulation: its state has another length"); };
   if (state.size() < 5) throw misfit();
   grid_ = {state[2], state[3], state[4]};
+  step_size_ = step_size;
+  step_ = step;
+  base_step_ = static_cast<std::int64_t>(state[0]);
+  base_time_ = state[1];
+  seed_ = seed;
   check();
   std::size_t at = 5;
   for (auto* scheme : schemes_) {
@@ -289,11 +357,21 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     scheme->restore(state.subspan(at, count));
     at += count;
   }
-  step_size_ = step_size;
-  step_ = step;
-  base_step_ = static_cast<std::int64_t>(state[0]);
-  base_time_ = state[1];
-  seed_ = seed;
+  kept_ = keeps_influences();
+  for (auto const& part : parts_) {
+    if (!part.keeps_influences) continue;
+    if (at >= state.size()) throw misfit();
+    if (state[at++] == 0) {
+      kept_ = false;
+      continue;
+    }
+    std::size_t const count = part.ensemble->size() * part.ensemble->influence_size();
+    if (at + count > state.size()) throw misfit();
+    std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influence(0));
+    at += count;
+  }
+  complete();
+  kept_checksum_ = checksum();
   fresh_ = false;
   observed_ = true;
 }

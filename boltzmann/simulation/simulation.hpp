@@ -77,6 +77,7 @@ class Simulation {
     double longest_move2;  // square of the law's length
     int stages;
     std::vector<double> time_after;  // of each stage
+    bool keeps_influences;           // they are of velocities inside the step, and can't be had again from its end
   };
   struct Observation {
     std::function<bool(std::int64_t step)> due;
@@ -88,8 +89,12 @@ class Simulation {
   bool observation_due() const;
   void run(std::uint64_t steps, int direction);
   void calculate(double time);
+  void move_walls(double time);
   void check_moves(Part const& part) const;
   void observe_now() const;
+  void complete() const;
+  bool keeps_influences() const;
+  std::uint64_t checksum() const;
   void adopt(Scheme& scheme);
   void make_reversible(FixedPoint const& grid);
   FixedPoint choose_grid() const;
@@ -106,7 +111,9 @@ class Simulation {
   double base_time_ = 0;
   std::uint64_t seed_ = 1;
   int stages_ = 0;
-  bool checked_ = false, fresh_ = false, observed_ = false;
+  bool checked_ = false, fresh_ = false, observed_ = false, running_ = false;
+  bool kept_ = false;  // influences, for rows of this checksum
+  std::uint64_t kept_checksum_ = 0;
   volatile bool stop_ = false;
 };
 

@@ -1,4 +1,5 @@
-// The box: wrapping, reflecting and regions for random particles and for those exactly on the edges; what is refused.
+// The box: wrapping, reflecting, mirroring, moving walls and regions for random particles and for those exactly on the
+// edges; what is refused.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -200,7 +201,7 @@ TEST(Boundaries, AVelocityOfAnotherSizeIsLeftAlone) {
 
 TEST(Boundaries, NobodyNeedsNoBoundary) {
   Ensemble<Newton<2>> none("none");
-  for (Boundary const boundary : {Boundary::open, Boundary::periodic, Boundary::bounded}) {
+  for (Boundary const boundary : {Boundary::open, Boundary::periodic, Boundary::bounded, Boundary::mirror}) {
     Box const box(Vector{0., 0.}, Vector{1., 1.}, boundary);
     box.apply(none);
     box.check(none);
@@ -209,7 +210,7 @@ TEST(Boundaries, NobodyNeedsNoBoundary) {
 }
 
 TEST(Boundaries, WhoIsFarOutsideHasEscaped) {
-  for (Boundary const boundary : {Boundary::periodic, Boundary::bounded})
+  for (Boundary const boundary : {Boundary::periodic, Boundary::bounded, Boundary::mirror})
     for (double const y : {2.5, 1e300, -1.25, -infinity, std::nan("")}) {
       Box const box(Vector{-1., 0.}, Vector{1., 1.}, boundary);
       Ensemble<Newton<2>> e("gas", 4);
@@ -228,6 +229,215 @@ TEST(Boundaries, WhoIsFarOutsideHasEscaped) {
   e[0].position = {1e300, -5};
   open.apply(e);
   EXPECT_EQ(e[0].position, (Vector{1e300, -5.}));
+}
+
+// ---- walls that mirror --------------------------------------------------------------------------------------------
+
+/// A particle that crosses becomes its image: at the same distance before the wall, with the velocity of section 5's
+/// rule; along the other axes and before the walls nothing changes.
+template <int D>
+void mirrors(bool slips) {
+  std::mt19937_64 random(40 + D);
+  auto const number = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int trial = 0; trial < 200; ++trial) {
+    Box box = random_box<D>(random, Boundary::mirror);
+    std::array<std::array<Vector<D>, 2>, D> u;
+    for (int a = 0; a < D; ++a)
+      for (Box::End const end : {Box::End::low, Box::End::high}) {
+        Wall wall;
+        wall.slips = slips;
+        for (int b = 0; b < D; ++b) wall.velocity[b] = u[a][static_cast<int>(end)][b] = number(-1, 1);
+        box.wall(a, end, wall);
+        EXPECT_EQ(box.wall(a, end).velocity, wall.velocity);
+      }
+    for (int a = 0; a < D; ++a)
+      for (double const x : interesting(box, a, random)) {
+        Ensemble<Newton<D>> e("e", 1);
+        for (int b = 0; b < D; ++b) {
+          e[0].position[b] = 0.5 * (box.low(b) + box.high(b));
+          e[0].velocity[b] = number(-2, 2);
+        }
+        e[0].position[a] = x;
+        auto const before = e[0];
+        ASSERT_NO_THROW(box.apply(e));
+        bool const below = x < box.low(a), outside = below || x > box.high(a);
+        double const wall = below ? box.low(a) : box.high(a);
+        ASSERT_NEAR(e[0].position[a], outside ? wall + (wall - x) : x, 1e-15 * (std::abs(wall) + std::abs(x)));
+        ASSERT_GE(e[0].position[a], box.low(a));
+        ASSERT_LE(e[0].position[a], box.high(a));
+        for (int b = 0; b < D; ++b) {
+          if (b != a) {
+            ASSERT_EQ(e[0].position[b], before.position[b]);
+          }
+          double const of_wall = u[a][below ? 0 : 1][b];
+          bool const turns = outside && (b == a || !slips);
+          // In the wall's frame of reference the velocity is opposite.
+          ASSERT_NEAR(e[0].velocity[b] - (turns ? of_wall : 0),
+                      turns ? of_wall - before.velocity[b] : before.velocity[b], 1e-15);
+        }
+      }
+  }
+}
+TEST(MirrorWalls, WhoCrossesIsReplacedByItsImage) {
+  for (bool const slips : {true, false}) {
+    mirrors<1>(slips);
+    mirrors<2>(slips);
+    mirrors<3>(slips);
+  }
+}
+
+TEST(MirrorWalls, AtRestAndSlipperyTheyReflectElastically) {
+  Box const mirror(Vector{0., 0., 0.}, Vector{1., 2., 4.}, Boundary::mirror);
+  Ensemble<Newton<3>> e("e", 1);
+  e[0].position = {-0.25, 2.5, 4.125};
+  e[0].velocity = {-1, 2, 3};
+  mirror.apply(e);
+  EXPECT_EQ(e[0].position, (Vector{0.25, 1.5, 3.875}));
+  EXPECT_EQ(e[0].velocity, (Vector{1., -2., -3.}));
+  Ensemble<Euler<3>> tracers("tracers", 1);
+  tracers[0].position = {-0.25, 2.5, 4.125};
+  mirror.apply(tracers);
+  EXPECT_EQ(tracers[0].position, (Vector{0.25, 1.5, 3.875}));
+}
+
+TEST(MirrorWalls, InACornerNoWallComesFirst) {
+  // Below a lid that drags, beside a wall that holds: one order of the two images adds twice the lid's velocity, the
+  // other one takes it away.
+  Box box(Vector{0., 0.}, Vector{1., 1.}, Boundary::mirror);
+  Wall lid, hold;
+  lid.slips = hold.slips = false;
+  lid.velocity = {3, 0, 0};
+  lid.temperature = 5;
+  hold.temperature = 1;
+  box.wall(1, Box::End::high, lid);
+  box.wall(0, Box::End::high, hold);
+  Ensemble<Newton<2>> e("e", 1);
+  e[0].position = {1.25, 1.125};
+  e[0].velocity = {0.5, 0.75};
+  box.apply(e);
+  EXPECT_EQ(e[0].position, (Vector{0.75, 0.875}));
+  EXPECT_EQ(e[0].velocity, (Vector{0.5, 0.75}));
+  EXPECT_EQ(box.temperature_image({1, 1, 0})(2.5), 2.5);
+  EXPECT_EQ(box.temperature_image({0, 1, 0})(2.5), 7.5);
+  EXPECT_EQ(box.temperature_image({1, 0, 0})(2.5), -0.5);
+  EXPECT_EQ(box.temperature_image({-1, 0, 0})(2.5), 2.5);  // insulated
+  EXPECT_EQ(box.velocity_image({0, 1, 0}, 0)(0.5), 5.5);
+  EXPECT_EQ(box.velocity_image({-1, 1, 0}, 0)(0.5), 0.5 - 3 + 0 + 3);
+}
+
+TEST(MirrorWalls, AnOpenEndLetsGo) {
+  Box box(Vector{0., 0.}, Vector{4., 2.}, Boundary::mirror);
+  box.open_end(1, Box::End::high);
+  EXPECT_FALSE(box.walled(1, Box::End::high));
+  EXPECT_TRUE(box.walled(1, Box::End::low));
+  EXPECT_TRUE(box.walled(0, Box::End::high));
+  EXPECT_TRUE(box.any_wall());
+  Ensemble<Newton<2>> e("drops", 3);
+  e[0].position = {1, 77};
+  e[1].position = {4.5, 3};
+  e[2].position = {1, -0.25};
+  for (auto& p : e) p.velocity = {1, -1};
+  EXPECT_THROW(box.check(e), Error);
+  box.apply(e);
+  EXPECT_EQ(e[0].position, (Vector{1., 77.}));
+  EXPECT_EQ(e[0].velocity, (Vector{1., -1.}));
+  EXPECT_EQ(e[1].position, (Vector{3.5, 3.}));
+  EXPECT_EQ(e[1].velocity, (Vector{-1., -1.}));
+  EXPECT_EQ(e[2].position, (Vector{1., 0.25}));
+  EXPECT_EQ(e[2].velocity, (Vector{1., 1.}));
+  EXPECT_NO_THROW(box.check(e));
+  // And at a low end; a wall that is put there closes it again.
+  Box side(Vector{0.}, Vector{1.}, Boundary::mirror);
+  side.open_end(0, Box::End::low);
+  Ensemble<Newton<1>> gone("gone", 1);
+  gone[0].position = {-50};
+  side.check(gone);
+  side.apply(gone);
+  EXPECT_EQ(gone[0].position[0], -50);
+  side.wall(0, Box::End::low, {});
+  expect_parts(message<Error>([&] { side.check(gone); }),
+               {"particle 0 of 'gone' is outside the box: x = -50", "mirror axis goes from 0 to 1"});
+}
+
+/// Between a wall at rest and one that recedes: whenever the ball is back at the first wall, speed times length is what
+/// it was (an exact adiabatic invariant), and a bounce off the other has taken away twice the piston's speed.
+TEST(MirrorWalls, APistonTakesAwayTwiceItsSpeed) {
+  double const L = 2, v0 = 1, u = 0.03, dt = 1e-3;
+  Box box(Vector{0.}, Vector{L}, Boundary::mirror);
+  Wall piston;
+  piston.velocity = {u, 0, 0};
+  box.wall(0, Box::End::high, piston);
+  EXPECT_TRUE(box.walls_move());
+  Ensemble<Newton<1>> ball("ball", 1);
+  ball[0].position = {0};
+  ball[0].velocity = {v0};
+  int bounces = 0;
+  for (int step = 1; step <= 100000; ++step) {
+    double const time = step * dt;
+    double const v = ball[0].velocity[0];
+    ball[0].position[0] += v * dt;
+    box.move_walls(time);
+    ASSERT_DOUBLE_EQ(box.high(0), L + u * time);
+    box.apply(ball);
+    box.check(ball);
+    if (v > 0 && ball[0].velocity[0] < 0) ++bounces;
+    double const speed = v0 - 2 * bounces * u, back_at = (L * v0 / speed - L) / u;
+    ASSERT_NEAR(std::abs(ball[0].velocity[0]), speed, 1e-13);
+    ASSERT_NEAR(ball[0].position[0], ball[0].velocity[0] * (time - back_at), 1e-10);
+  }
+  // The ball is back for the n-th time at (L v0 / (v0 - 2 n u) - L) / u: for the tenth time at 100, when the run ends.
+  EXPECT_EQ(bounces, 10);
+}
+
+TEST(MirrorWalls, MoveFromWhereTheyWereAtTheStart) {
+  Box box(Vector{0., -1.}, Vector{4., 1.}, Boundary::mirror);
+  box.move_walls(7);
+  EXPECT_FALSE(box.walls_move());
+  EXPECT_EQ(box.high(0), 4);
+  Wall slides;
+  slides.slips = false;
+  slides.velocity = {0, 9, 0};
+  box.wall(0, Box::End::low, slides);  // along itself: it stays where it is
+  EXPECT_FALSE(box.walls_move());
+  Wall piston;
+  piston.velocity = {-0.5, 9, 0};
+  box.wall(0, Box::End::high, piston);
+  for (double const time : {3.0, 1.0, 0.0, 2.0}) {  // a function of time alone
+    box.move_walls(time);
+    EXPECT_EQ(box.low(0), 0);
+    EXPECT_EQ(box.high(0), 4 - 0.5 * time);
+    EXPECT_EQ(box.length(0), 4 - 0.5 * time);
+    EXPECT_EQ(box.volume(), 2 * (4 - 0.5 * time));
+    EXPECT_EQ(box.low(1), -1);
+    EXPECT_EQ(box.high(1), 1);
+  }
+  expect_parts(message<PhysicsFailure>([&] { box.move_walls(8); }), {"walls of axis x have met", "time 8"});
+  EXPECT_EQ(box.high(0), 3);
+  EXPECT_THROW(box.move_walls(std::nan("")), PhysicsFailure);
+  // An end that was opened does not move.
+  box.open_end(0, Box::End::high);
+  EXPECT_FALSE(box.walls_move());
+}
+
+TEST(MirrorWalls, MistakesAreNamed) {
+  Box box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, {Boundary::mirror, Boundary::bounded, Boundary::periodic});
+  expect_parts(message<Error>([&] { box.wall(1, Box::End::low, {}); }), {"axis y is bounded", "mirror"});
+  expect_parts(message<Error>([&] { (void)box.wall(2, Box::End::low); }), {"axis z is periodic", "mirror"});
+  expect_parts(message<Error>([&] { box.open_end(2, Box::End::high); }), {"axis z is periodic"});
+  for (int const axis : {-1, 3})
+    expect_parts(message<Error>([&] { box.wall(axis, Box::End::low, {}); }), {"no axis number"});
+  for (double const wrong : {std::nan(""), infinity}) {
+    Wall wall;
+    wall.velocity[1] = wrong;
+    expect_parts(message<Error>([&] { box.wall(0, Box::End::low, wall); }), {"velocity of the low wall of axis x"});
+  }
+  Wall hot;
+  hot.temperature = infinity;
+  expect_parts(message<Error>([&] { box.wall(0, Box::End::high, hot); }), {"temperature of the high wall of axis x"});
+  EXPECT_TRUE(std::isnan(box.wall(0, Box::End::high).temperature));
+  box.open_end(0, Box::End::low);
+  expect_parts(message<Error>([&] { (void)box.wall(0, Box::End::low); }), {"low end of axis x is open"});
+  expect_parts(message<Error>([&] { box.open_end(0, Box::End::high); }), {"no wall would be left", "axis open"});
 }
 
 // ---- regions ------------------------------------------------------------------------------------------------------
@@ -371,8 +581,9 @@ TEST(Box, LengthsVolumesAndWords) {
   EXPECT_DOUBLE_EQ(box.volume(), 6);
   EXPECT_EQ(box.length(2), 4);
   EXPECT_EQ(box.dimension(), 3);
-  EXPECT_EQ(to_string(Boundary::open) + to_string(Boundary::bounded) + to_string(Boundary::periodic),
-            "openboundedperiodic");
+  EXPECT_EQ(to_string(Boundary::open) + to_string(Boundary::bounded) + to_string(Boundary::periodic) +
+                to_string(Boundary::mirror),
+            "openboundedperiodicmirror");
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <tests/message.hpp>
@@ -177,7 +178,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum; did you mean 'energies'?");
+      "entropy, drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum; did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
   EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
@@ -207,7 +208,8 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 12U);
+  EXPECT_EQ(diagnosis_kinds().size(), 13U);
+  Ensemble<Smooth<2>> gas("gas");
   for (auto const& kind : diagnosis_kinds()) {
     auto any = parameters();
     if (kind.of_mesh) {
@@ -215,6 +217,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
       continue;
     }
     if (kind.name == "extremes") any.quantity = "speed";
+    if (kind.name == "entropy") any.available = {&gas};
     EXPECT_NO_THROW(make_diagnosis(kind.name, any)) << kind.name;
     EXPECT_EQ(make_diagnosis(kind.name, any)->needs_energies(), kind.name == "energies" || kind.name == "pressure");
   }
@@ -239,17 +242,20 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
   // N = 0: sums are 0, means are NaN, nothing throws.
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1});
   Measures const measures;
-  std::vector<AnyEnsemble*> const ensembles{&space};
+  Ensemble<Smooth<3>> gas("gas");
   for (auto const& kind : diagnosis_kinds()) {
     if (kind.of_mesh) continue;
-    DiagnosisParameters with{.available = {&space}};
+    // An entropy belongs to matter that has an internal energy.
+    AnyEnsemble* const of = kind.name == "entropy" ? static_cast<AnyEnsemble*>(&gas) : &space;
+    std::vector<AnyEnsemble*> const ensembles{of};
+    DiagnosisParameters with{.available = {of}};
     if (kind.name == "extremes") with.quantity = "speed";
     auto const diagnosis = make_diagnosis(kind.name, with);
     std::vector<double> values;
     diagnosis->measure({ensembles, box, &measures, 1, 0, 0}, values);
     EXPECT_EQ(values.size(), diagnosis->columns().size());
     bool const is_mean = kind.name == "temperature" || kind.name == "drag" || kind.name == "velocity-diffusion" ||
-                         kind.name == "extremes";
+                         kind.name == "extremes" || kind.name == "entropy";
     for (double const value : values) EXPECT_EQ(std::isnan(value), is_mean) << kind.name;
   }
 }

@@ -16,6 +16,11 @@ template <class P, class Q, class Law>
 inline constexpr bool gives_energy =
     has_energy<decltype(std::declval<Law const&>()(std::declval<P const&>(), std::declval<Q const&>()))>;
 
+/// True if law(p, q) is what the class of p wants as its influence.
+template <class P, class Q, class Law, int W>
+inline constexpr bool gives_influence =
+    sizeof(typename P::Influence) / sizeof(double) == Sum<Pass::influence, W, P, Q, Law>::components;
+
 }  // namespace detail
 
 /// True if law(p, q) can be called for these classes with packs.
@@ -27,6 +32,9 @@ concept PairLaw = requires(Law const& law, rebind_t<P, Pack<double>> const& p, r
 template <class P, class Q, class Law, int W = native_width<double>>
 constexpr PairKernels near_kernels() {
   using detail::Pass;
+  static_assert(
+      detail::gives_influence<P, Q, Law, W>,
+      "the law returns something else than the influence that the particle class wants (see Particle::Influence)");
   PairKernels kernels;
   kernels.list = detail::over_list<Pass::influence, W, P, Q, Law>;
   kernels.list_reversible = detail::over_list<Pass::reversible, W, P, Q, Law>;
@@ -41,6 +49,9 @@ constexpr PairKernels near_kernels() {
 template <class P, class Law, int W = native_width<double>>
 constexpr PairKernels connection_kernels() {
   using detail::Pass;
+  static_assert(
+      detail::gives_influence<P, P, Law, W>,
+      "the law returns something else than the influence that the particle class wants (see Particle::Influence)");
   PairKernels kernels;
   kernels.connected = detail::over_connections<Pass::influence, W, P, Law>;
   kernels.connected_measure = detail::over_connections<Pass::measure, W, P, Law>;

@@ -3,8 +3,7 @@
 #pragma once
 
 #include <boltzmann/neighbours/connection.hpp>
-#include <boltzmann/neighbours/mirror.hpp>
-#include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/schemes/pair/external_kernels.hpp>
 #include <boltzmann/schemes/pair/pair_kernels.hpp>
 #include <boltzmann/schemes/scheme.hpp>
@@ -77,8 +76,8 @@ class PairScheme final : public Scheme {
   }
 
   /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
-  void skin(double length);
-  double skin() const { return skin_; }
+  void skin(double length) { neighbourhood_.skin(length); }
+  double skin() const { return neighbourhood_.skin(); }
   /// Whether energies of laws with a cut-off are counted from their value there (the default): that is the energy which
   /// the cut-off forces conserve. Otherwise they are counted as the law has them, and jump whenever a pair crosses the
   /// cut-off.
@@ -96,6 +95,7 @@ class PairScheme final : public Scheme {
   Shortcut shortcut() override;
   Measures measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
+  bool velocity_dependent(AnyEnsemble const& ensemble) const override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   /// True if equal particles of this ensemble are acted on equally, wherever they are: by nothing but uniform fields.
@@ -139,32 +139,14 @@ class PairScheme final : public Scheme {
   struct Connected;
   struct External;
 
-  struct Moved {  // rows of a mirror that need new references
-    Mirror* mirror;
-    std::vector<std::uint32_t> rows;
-  };
-
-  Mirror& mirror(AnyEnsemble& ensemble);
-  void refresh();
-  bool lists_hold();
-  void build_lists();
-  void find_neighbours();
-  bool move_beyond(double square, std::size_t most);
-  void move(std::vector<Moved> const& moved);
-  double rows_around_one() const;
-  double longest_reach() const;
-  std::size_t rows() const;
   void calculate(double time, bool overwrite);
-  int worth(std::size_t work, std::size_t least) const;
+  int worth(std::size_t work, std::size_t least) const { return worth_threads(work, least, threads()); }
 
   double cutoff_;
-  double skin_;
   double quantum_ = 0;
-  bool lists_stale_ = true, shifted_ = true, skin_chosen_ = false;
-  int ring_ = 0;            // how far lists are read
-  double found_again_ = 0;  // rows found anew since the lists were built
-  std::size_t calculations_ = 0, builds_ = 0, moves_ = 0;
-  std::vector<std::unique_ptr<Mirror>> mirrors_;
+  bool shifted_ = true;
+  std::size_t calculations_ = 0;
+  Neighbourhood neighbourhood_;
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;
   std::vector<std::unique_ptr<External>> external_;

@@ -53,9 +53,6 @@ class Sum {
   using Influence = std::remove_cvref_t<decltype(influence_of(std::declval<Result const&>()))>;
   static constexpr std::size_t components = sizeof(Influence) / sizeof(Real);
   static constexpr int D = P::dimension;
-  static_assert(
-      sizeof(typename P::Influence) == components * sizeof(double),
-      "the law returns something else than the influence that the particle class wants (see Particle::Influence)");
 
   Sum() {
     for (auto& x : influence_) x = Real(0.0);

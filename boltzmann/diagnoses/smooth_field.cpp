@@ -1,0 +1,476 @@
+// Sums over the particles near a point, their images sorted into cells.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/smooth_field.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace boltzmann {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t grain = 512;  // points
+constexpr double most_images = 1e9;
+
+/// Numbers of a field at a point: its value, gradient and the upper triangle of its second derivatives.
+constexpr std::size_t parts(int dimension, Derivatives derivatives) {
+  auto const d = static_cast<std::size_t>(dimension);
+  return 1 + (derivatives == Derivatives::none ? 0 : d) + (derivatives == Derivatives::second ? d * (d + 1) / 2 : 0);
+}
+
+/// The range of one particle; 0 stands for its own.
+struct Ranges {
+  double common;
+  int offset = -1;
+  Ranges(AnyEnsemble const& ensemble, double range) : common(range) {
+    if (common != 0) return;
+    Field const* own = ensemble.find_field("range");
+    if (own == nullptr)
+      throw Error(fmt::format("ensemble '{}' of class {} has no range of its own; a smooth field of it needs one",
+                              ensemble.name(), ensemble.class_name()));
+    offset = own->offset;
+  }
+  double of(double const* row) const { return offset < 0 ? common : row[offset]; }
+};
+
+}  // namespace
+
+double fitting_range(Ensembles of, Box const& box) {
+  std::size_t const count = number_of_particles(of);
+  if (count == 0) throw Error("a smooth field needs particles, and there are none");
+  double const spacing = std::pow(box.volume() / static_cast<double>(count), 1.0 / box.dimension());
+  return spacing * (box.dimension() == 1 ? 3 : box.dimension() == 2 ? 2.5 : 2);
+}
+
+SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothing, int threads)
+    : box_(box), shape_(smoothing.shape), threads_(threads), ensembles_(of.begin(), of.end()) {
+  int const D = box.dimension();
+  if (!(smoothing.range >= 0) || std::isinf(smoothing.range))
+    throw Error(fmt::format("the range of a smooth field must be above 0, it is {}", smoothing.range));
+  double sum_of_ranges = 0, images = 0;
+  for (auto const* ensemble : ensembles_) {
+    if (ensemble->dimension() != D)
+      throw Error(fmt::format("ensemble '{}' has {} dimensions, the box of its smooth field {}", ensemble->name(),
+                              ensemble->dimension(), D));
+    Ranges const ranges(*ensemble, smoothing.range);
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double const range = ranges.of(ensemble->row(i));
+      if (!(range > 0) || std::isinf(range))
+        throw Error(fmt::format("particle {} of ensemble '{}' has the range {}; it must be above 0", i,
+                                ensemble->name(), range));
+      largest_range_ = std::max(largest_range_, range);
+      sum_of_ranges += range;
+      double own = 1;
+      for (int a = 0; a < D; ++a) {
+        if (box.boundary(a) != Boundary::periodic && box.boundary(a) != Boundary::mirror) continue;
+        own *= 1 + 2 * range / box.length(a);
+        if (box.boundary(a) == Boundary::mirror && range > box.length(a))
+          throw Error(
+              fmt::format("particle {} of ensemble '{}' has the range {}; between mirrors along {} it can be {} "
+                          "at most",
+                          i, ensemble->name(), range, "xyz"[a], box.length(a)));
+      }
+      images += own;
+    }
+    size_ += ensemble->size();
+  }
+  if (images > most_images)
+    throw Error(
+        fmt::format("smooth fields with a range of {} in this box need {:.1e} images of particles; {:.0e} are "
+                    "allowed",
+                    largest_range_, images, most_images));
+  mean_range_ = size_ > 0 ? sum_of_ranges / static_cast<double>(size_) : 0;
+  sources_.reserve(static_cast<std::size_t>(images) + size_ / 8);
+  std::uint32_t particle = 0;
+  for (auto const* ensemble : ensembles_) {
+    Ranges const ranges(*ensemble, smoothing.range);
+    Field const* mass = ensemble->find_field("mass");
+    for (std::size_t i = 0; i < ensemble->size(); ++i, ++particle) {
+      double const* row = ensemble->row(i);
+      if (std::all_of(row, row + D, [](double x) { return std::isfinite(x); }))
+        add_images(row, mass ? row[mass->offset] : 1.0, ranges.of(row), particle);
+    }
+  }
+  if (sources_.empty()) return;
+  static_assert(sizeof(Source) == 6 * sizeof(double));
+  cells_ = Cells(D, sources_[0].position.data(), 6, sources_.size(), largest_range_, threads_);
+  auto const sorted = [&](auto const& from) {
+    auto to = from;
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[cells_.items()[k]];
+    return to;
+  };
+  sources_ = sorted(sources_);
+  origins_ = sorted(origins_);
+}
+
+// The images whose weight reaches into the box; along open and bounded axes a particle is where it is.
+void SmoothField::add_images(double const* position, double mass, double range, std::uint32_t particle) {
+  struct Image {
+    double at;
+    signed char side = 0;
+  };
+  std::array<std::vector<Image>, 3> along{{{{0}}, {{0}}, {{0}}}};
+  for (int a = 0; a < dimension(); ++a) {
+    double const low = box_.low(a), high = box_.high(a), length = box_.length(a);
+    auto& images = along[a];
+    images = {{position[a]}};
+    if (box_.periodic(a)) {
+      images.clear();
+      double const home = box_.wrapped(position[a], a);
+      auto const far = static_cast<int>(std::ceil(range / length));
+      for (int k = -far; k <= far; ++k)
+        if (double const at = home + k * length; at >= low - range && at <= high + range) images.push_back({at});
+    }
+    if (box_.boundary(a) != Boundary::mirror) continue;
+    if (double const at = 2 * low - position[a]; box_.walled(a, Box::End::low) && at >= low - range)
+      images.push_back({at, -1});
+    if (double const at = 2 * high - position[a]; box_.walled(a, Box::End::high) && at <= high + range)
+      images.push_back({at, 1});
+  }
+  for (auto const& z : along[2])
+    for (auto const& y : along[1])
+      for (auto const& x : along[0]) {
+        sources_.push_back({{x.at, y.at, z.at}, mass, range, 1 / range});
+        origins_.push_back({particle, {x.side, y.side, z.side}});
+      }
+}
+
+std::vector<double> SmoothField::of_sources(SmoothColumn const& column) const {
+  if (column.values.size() != size_)
+    throw Error(fmt::format("a smooth field of {} particles can't be made of {} numbers", size_, column.values.size()));
+  std::vector<double> values(sources_.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    auto const& [particle, side] = origins_[k];
+    values[k] = column.values[particle];
+    if (column.image && (side[0] != 0 || side[1] != 0 || side[2] != 0))
+      values[k] = column.image(values[k], particle, {side[0], side[1], side[2]});
+  }
+  return values;
+}
+
+// Adds up m w, and m f w for every column, with their derivatives.
+template <class Shape, int D, int Order>
+void SmoothField::sum(double const* point, double const* const* columns, std::size_t count, double* sums) const {
+  constexpr std::size_t size = parts(D, static_cast<Derivatives>(Order));
+  cells_.near(point, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Source const& source = sources_[k];
+      double way[D], r2 = 0;
+      for (int a = 0; a < D; ++a) {
+        way[a] = point[a] - source.position[a];
+        r2 += way[a] * way[a];
+      }
+      if (!(r2 < source.range * source.range)) continue;
+      auto const weight = weigh<Shape, D>(r2, source.range, source.inverse_range);
+      double part[size];
+      part[0] = source.mass * weight.value;
+      if constexpr (Order > 0)
+        for (int a = 0; a < D; ++a) part[1 + a] = source.mass * weight.slope * way[a];
+      if constexpr (Order > 1) {
+        // w'' along the way to the particle, w'/r across it.
+        double const q = std::sqrt(r2) * source.inverse_range;
+        double norm = Shape::template norm<D> * source.inverse_range * source.inverse_range;
+        for (int a = 0; a < D; ++a) norm *= source.inverse_range;
+        double const bent = norm * Shape::template curvature<D>(q) - weight.slope;
+        double const along = r2 > 0 ? source.mass * bent / r2 : 0;
+        std::size_t at = 1 + D;
+        for (int a = 0; a < D; ++a)
+          for (int b = a; b < D; ++b, ++at)
+            part[at] = along * way[a] * way[b] + (a == b ? source.mass * weight.slope : 0);
+      }
+      for (std::size_t p = 0; p < size; ++p) sums[p] += part[p];
+      for (std::size_t c = 0; c < count; ++c) {
+        double const f = columns[c][k];
+        for (std::size_t p = 0; p < size; ++p) sums[(c + 1) * size + p] += f * part[p];
+      }
+    }
+  });
+}
+
+std::vector<FieldValues> SmoothField::values(std::span<double const> points, std::span<SmoothColumn const> columns,
+                                             Derivatives derivatives) const {
+  auto const D = static_cast<std::size_t>(dimension());
+  if (points.size() % D != 0)
+    throw Error(fmt::format("points in {} dimensions can't be made of {} coordinates", D, points.size()));
+  std::size_t const count = points.size() / D, size = parts(dimension(), derivatives);
+  std::vector<std::vector<double>> of;
+  for (auto const& column : columns) of.push_back(of_sources(column));
+  std::vector<double const*> of_columns;
+  of_columns.reserve(of.size());
+  for (auto const& column : of) of_columns.push_back(column.data());
+  std::vector<FieldValues> fields(columns.size() + 1);
+  for (auto& field : fields) {
+    field.value.resize(count);
+    if (derivatives != Derivatives::none) field.gradient.resize(count * D);
+    if (derivatives == Derivatives::second) field.hessian.resize(count * D * D);
+  }
+
+  // Eq 9 and the rule for quotients: with F = rho f, grad f = (grad F - f grad rho) / rho, and so on.
+  auto const write = [&](std::size_t p, double const* sums) {
+    double const rho = sums[0];
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+      double const* F = sums + c * size;
+      bool const quotient = c > 0;
+      double const scale = !quotient ? 1 : rho > 0 ? 1 / rho : nan;
+      double const f = F[0] * scale;
+      fields[c].value[p] = f;
+      if (derivatives == Derivatives::none) continue;
+      double* gradient = &fields[c].gradient[p * D];
+      for (std::size_t a = 0; a < D; ++a) gradient[a] = quotient ? (F[1 + a] - f * sums[1 + a]) * scale : F[1 + a];
+      if (derivatives != Derivatives::second) continue;
+      double* hessian = &fields[c].hessian[p * D * D];
+      std::size_t at = 1 + D;
+      for (std::size_t a = 0; a < D; ++a)
+        for (std::size_t b = a; b < D; ++b, ++at)
+          hessian[a * D + b] = hessian[b * D + a] =
+              quotient ? (F[at] - gradient[a] * sums[1 + b] - gradient[b] * sums[1 + a] - f * sums[at]) * scale : F[at];
+    }
+  };
+
+  for_weight(shape_, [&](auto shape) {
+    using Shape = decltype(shape);
+    auto const add = [&](double const* point, double* sums) {
+      auto const with = [&]<int Dim>() {
+        if (derivatives == Derivatives::none) sum<Shape, Dim, 0>(point, of_columns.data(), of_columns.size(), sums);
+        if (derivatives == Derivatives::first) sum<Shape, Dim, 1>(point, of_columns.data(), of_columns.size(), sums);
+        if (derivatives == Derivatives::second) sum<Shape, Dim, 2>(point, of_columns.data(), of_columns.size(), sums);
+      };
+      if (D == 1) with.template operator()<1>();
+      if (D == 2) with.template operator()<2>();
+      if (D == 3) with.template operator()<3>();
+    };
+    for_ranges(count, grain, threads_, [&](std::size_t begin, std::size_t end) {
+      std::vector<double> sums(fields.size() * size);
+      for (std::size_t p = begin; p < end; ++p) {
+        std::fill(sums.begin(), sums.end(), 0.0);
+        double place[3] = {0, 0, 0};
+        bool inside = !sources_.empty();
+        for (std::size_t a = 0; a < D; ++a) {
+          int const axis = static_cast<int>(a);
+          double const x = points[p * D + a];
+          place[a] = box_.periodic(axis) && std::isfinite(x) ? box_.wrapped(x, axis) : x;
+          inside = inside && std::isfinite(x);
+          if (box_.boundary(axis) != Boundary::mirror) continue;
+          double const slack = 1e-12 * box_.length(axis);  // the last node of a grid is on the wall but for rounding
+          if (box_.walled(axis, Box::End::low)) inside = inside && x >= box_.low(axis) - slack;
+          if (box_.walled(axis, Box::End::high)) inside = inside && x <= box_.high(axis) + slack;
+        }
+        if (inside) add(place, sums.data());
+        write(p, sums.data());
+      }
+    });
+  });
+  return fields;
+}
+
+FieldValues SmoothField::density(std::span<double const> points, Derivatives derivatives) const {
+  return std::move(values(points, {}, derivatives)[0]);
+}
+
+FieldValues SmoothField::value(std::span<double const> points, SmoothColumn const& column,
+                               Derivatives derivatives) const {
+  return std::move(values(points, {&column, 1}, derivatives)[1]);
+}
+
+FieldValues SmoothField::value(std::span<double const> points, std::string_view quantity,
+                               Derivatives derivatives) const {
+  return quantity == "density" ? density(points, derivatives) : value(points, column(quantity), derivatives);
+}
+
+SmoothColumn SmoothField::column(std::string_view name) const {
+  auto const of = [&](std::string_view what) {
+    std::vector<double> all;
+    for (auto const* ensemble : ensembles_) {
+      auto const part = quantity(*ensemble, what);
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  };
+  SmoothColumn column{of(name)};
+  if (!box_.any_wall()) return column;
+  using Side = std::array<int, 3>;
+  if (name == "speed" || name == "kinetic-energy") {
+    std::array<std::vector<double>, 3> velocity;
+    for (int a = 0; a < dimension(); ++a) velocity[a] = of(std::string("velocity.") + "xyz"[a]);
+    std::vector<double> const mass = name == "speed" ? std::vector<double>{} : of("mass");
+    column.image = [box = box_, velocity, mass](double, std::size_t i, Side const& side) {
+      double v2 = 0;
+      for (int a = 0; a < box.dimension(); ++a) v2 += square(box.velocity_image(side, a)(velocity[a][i]));
+      return mass.empty() ? std::sqrt(v2) : 0.5 * mass[i] * v2;
+    };
+    return column;
+  }
+  if (name == "temperature") {
+    column.image = [box = box_](double own, std::size_t, Side const& side) { return box.temperature_image(side)(own); };
+    return column;
+  }
+  auto const dot = name.rfind('.');
+  bool const along_line = dimension() == 1 && (name == "velocity" || name == "position");
+  if (dot == std::string_view::npos && !along_line) return column;
+  std::string const vector(name.substr(0, dot)), letters(along_line ? "x" : name.substr(dot + 1));
+  auto const axis = static_cast<std::size_t>(letters[0] - 'x');
+  if (vector == "velocity")
+    column.image = [box = box_, axis](double own, std::size_t, Side const& side) {
+      return box.velocity_image(side, static_cast<int>(axis))(own);
+    };
+  else if (vector == "position")
+    column.image = [box = box_, axis](double own, std::size_t, Side const& side) {
+      int const a = static_cast<int>(axis);
+      return side[axis] == 0 ? own : 2 * (side[axis] < 0 ? box.low(a) : box.high(a)) - own;
+    };
+  else
+    column.image = [letters](double own, std::size_t, Side const& side) {
+      for (char const letter : letters)
+        if (letter >= 'x' && letter <= 'z' && side[static_cast<std::size_t>(letter - 'x')] != 0) own = -own;
+      return own;
+    };
+  return column;
+}
+
+QuantityMeaning SmoothField::meaning(std::string_view name) const {
+  if (name == "density") {
+    bool const massive = ensembles_.empty() || ensembles_.front()->find_field("mass") != nullptr;
+    return {"density", "density",
+            (massive ? dimensions::mass : dimensions::none) / pow(dimensions::length, dimension())};
+  }
+  if (ensembles_.empty()) throw Error(fmt::format("a smooth field of '{}' needs particles", name));
+  return quantity_meaning(*ensembles_.front(), name);
+}
+
+MeshField SmoothField::on_grid(MeshGrid const& grid, std::string_view name) const {
+  Field const* own = ensembles_.empty() || name == "density" ? nullptr : ensembles_.front()->find_field(name);
+  if (own == nullptr || own->components == 1)
+    return {std::string(name), meaning(name).dimension, grid, {value(points_on_grid(grid), name).value}};
+  MeshField field{std::string(name), own->dimension, grid, {}};
+  std::vector<SmoothColumn> columns;
+  for (auto const& part : quantities(*ensembles_.front()))
+    if (part.name.starts_with(std::string(name) + ".")) columns.push_back(column(part.name));
+  auto fields = values(points_on_grid(grid), columns);
+  for (std::size_t c = 1; c < fields.size(); ++c) field.components.push_back(std::move(fields[c].value));
+  return field;
+}
+
+MeshField SmoothField::on_grid(MeshGrid const& grid, SmoothColumn const& column, std::string name,
+                               Dimension dimension) const {
+  return {std::move(name), dimension, grid, {value(points_on_grid(grid), column).value}};
+}
+
+std::vector<double> SmoothField::positions() const {
+  std::vector<double> all;
+  all.reserve(size_ * static_cast<std::size_t>(dimension()));
+  for (auto const* ensemble : ensembles_)
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      all.insert(all.end(), ensemble->row(i), ensemble->row(i) + dimension());
+  return all;
+}
+
+std::vector<double> points_on_grid(MeshGrid const& grid) {
+  std::vector<double> points;
+  points.reserve(grid.size() * static_cast<std::size_t>(grid.dimension));
+  for (std::size_t k = 0; k < grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < grid.nodes[1]; ++j)
+      for (std::size_t i = 0; i < grid.nodes[0]; ++i) {
+        std::array<std::size_t, 3> const node{i, j, k};
+        for (int a = 0; a < grid.dimension; ++a) points.push_back(grid.position(a, node[a]));
+      }
+  return points;
+}
+
+double integral(MeshField const& field, std::size_t component) {
+  MeshGrid const& grid = field.grid;
+  auto const share = [&](int axis, std::size_t node) {
+    bool const end = axis < grid.dimension && !grid.periodic[axis] && grid.nodes[axis] > 1 &&
+                     (node == 0 || node + 1 == grid.nodes[axis]);
+    return end ? 0.5 : 1.0;
+  };
+  double sum = 0;
+  for (std::size_t k = 0; k < grid.nodes[2]; ++k)
+    for (std::size_t j = 0; j < grid.nodes[1]; ++j) {
+      double line = 0;
+      for (std::size_t i = 0; i < grid.nodes[0]; ++i)
+        line += share(0, i) * field.components[component][grid.index(i, j, k)];
+      sum += share(1, j) * share(2, k) * line;
+    }
+  return sum * grid.cell_volume();
+}
+
+namespace {
+
+/// One particle whose images are the lattice.
+class LatticePoint final : public AnyEnsemble {
+ public:
+  explicit LatticePoint(int dimension) : AnyEnsemble("lattice", "lattice point", dimension, 4, 3, 0, {}) {
+    attach(row_, 1);
+  }
+  void resize(std::size_t) override {}
+  std::size_t bytes() const override { return sizeof(row_); }
+
+ private:
+  double row_[4] = {0, 0, 0, 0};
+};
+
+/// Goes uphill (sign 1) or downhill from a point, along the axes and diagonals, in ever smaller steps.
+double climbed(SmoothField const& field, std::vector<double> point, double step, double sign) {
+  auto const D = point.size();
+  double best = sign * field.density(point).value[0];
+  while (step > 1e-9) {
+    std::vector<double> around;
+    for (int k = 0; k < (D == 1 ? 3 : D == 2 ? 9 : 27); ++k)
+      for (std::size_t a = 0; a < D; ++a)
+        around.push_back(point[a] + step * (k / (a == 0 ? 1 : a == 1 ? 3 : 9) % 3 - 1));
+    auto const values = field.density(around).value;
+    std::size_t higher = values.size();
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (sign * values[k] > best) {
+        best = sign * values[k];
+        higher = k;
+      }
+    if (higher == values.size())
+      step /= 2;
+    else
+      point.assign(around.begin() + static_cast<std::ptrdiff_t>(higher * D),
+                   around.begin() + static_cast<std::ptrdiff_t>((higher + 1) * D));
+  }
+  return sign * best;
+}
+
+}  // namespace
+
+DensityExtremes lattice_density_extremes(int dimension, WeightShape shape, double range) {
+  if (dimension < 1 || dimension > 3) throw Error(fmt::format("a lattice has 1 to 3 dimensions, not {}", dimension));
+  if (!(range > 0 && range <= 20))
+    throw Error(fmt::format("the range on a lattice of spacing 1 must be above 0 and at most 20, it is {}", range));
+  LatticePoint const lattice(dimension);
+  Box const cell(dimension, {0, 0, 0}, {1, 1, 1}, {Boundary::periodic, Boundary::periodic, Boundary::periodic});
+  SmoothField const field(lattice, cell, {shape, range});
+  // An eighth of a cell, by symmetry; from the best places of a grid on.
+  std::size_t const along = dimension == 1 ? 65 : dimension == 2 ? 33 : 9;
+  double const step = 0.5 / static_cast<double>(along - 1);
+  MeshGrid grid;
+  grid.dimension = dimension;
+  for (int a = 0; a < dimension; ++a) grid.nodes[a] = along, grid.spacing[a] = step;
+  auto const points = points_on_grid(grid);
+  auto const values = field.density(points).value;
+  auto const found = [&](double sign) {
+    std::vector<std::size_t> order(values.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::size_t const starts = std::min<std::size_t>(6, order.size());
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
+                      [&](std::size_t a, std::size_t b) { return sign * values[a] > sign * values[b]; });
+    double best = -std::numeric_limits<double>::infinity();
+    auto const D = static_cast<std::size_t>(dimension);
+    for (std::size_t s = 0; s < starts; ++s) {
+      std::vector<double> const point(points.begin() + static_cast<std::ptrdiff_t>(order[s] * D),
+                                      points.begin() + static_cast<std::ptrdiff_t>((order[s] + 1) * D));
+      best = std::max(best, sign * climbed(field, point, step, sign));
+    }
+    return sign * best;
+  };
+  return {found(-1), found(1)};
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,155 @@
+// Smooth fields: what particles carry as twice differentiable functions of space (Eq 4, 5 and 9 of Hoover and Hoover's
+// SPAM). Any class of particles will do, atoms too.
+#pragma once
+
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/laws/weight.hpp>
+#include <boltzmann/neighbours/cells.hpp>
+#include <boltzmann/schemes/mesh/mesh_field.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// How particles are spread over space.
+struct Smoothing {
+  WeightShape shape = WeightShape::lucy;
+  double range = 0;  ///< of every particle; 0: each particle's own, the field "range" of its class
+};
+
+/// A range for particles that have none: 3 spacings in 1D, 2.5 in 2D, 2 in 3D (6, 20 and 34 particles in it), where the
+/// spacing is that of as many particles spread evenly over the box. Error if there are no particles.
+double fitting_range(Ensembles of, Box const& box);
+
+/// Which derivatives of a field are wanted besides its value.
+enum class Derivatives { none, first, second };
+
+/// A field at points: one value for each, and what else was asked for.
+struct FieldValues {
+  std::vector<double> value;
+  std::vector<double> gradient;  ///< D numbers for each point
+  std::vector<double> hessian;   ///< D x D for each point, row by row; symmetric
+};
+
+/// One number for each particle, from which a field is made.
+struct SmoothColumn {
+  std::vector<double> values;  ///< ensemble after ensemble
+  /// The number of a particle's image beyond walls (`side` as in Box::velocity_image), of the particle's own number.
+  /// None: the same.
+  std::function<double(double own, std::size_t particle, std::array<int, 3> const& side)> image = {};
+};
+
+/// The particles of an ensemble, or of several, spread over space by a weight w: with their masses m (1 each in a class
+/// without mass)
+///   density  rho(r) = Sum m_j w(|r - r_j|)                    (Eq 4)
+///   value    f(r)   = Sum m_j f_j w(|r - r_j|) / rho(r)       (Eq 5)
+/// and their exact first and second derivatives. Where no particle is near, the density is 0 and every other field NaN.
+/// Periodic axes see all images. Walls that mirror see those beyond them, with the velocity and the temperature that
+/// the wall gives them (Wall); points beyond walls see nothing. Particles that are not at a finite place do not count.
+///
+/// Points are D coordinates each, one point after the other. Fields are sums over the neighbours of a point in a fixed
+/// order: the same bits for any number of threads.
+class SmoothField {
+ public:
+  /// The particles as they stand now. Error if a range is not positive, a class without range is to give its own, a
+  /// range is longer than an axis with walls, or the ranges reach so far that there are more than 10^9 images.
+  SmoothField(Ensembles of, Box const& box, Smoothing const& smoothing = {}, int threads = default_threads());
+
+  int dimension() const { return box_.dimension(); }
+  Box const& box() const { return box_; }
+  /// The number of particles, and the largest and the mean range.
+  std::size_t size() const { return size_; }
+  double largest_range() const { return largest_range_; }
+  double mean_range() const { return mean_range_; }
+
+  FieldValues density(std::span<double const> points, Derivatives derivatives = Derivatives::none) const;
+  /// Error if there is not one number for each particle.
+  FieldValues value(std::span<double const> points, SmoothColumn const& column,
+                    Derivatives derivatives = Derivatives::none) const;
+  /// Of a quantity by name, "density" (Eq 4) or one that quantity() knows for every ensemble, as it is now. The
+  /// ensembles must still be there.
+  FieldValues value(std::span<double const> points, std::string_view quantity,
+                    Derivatives derivatives = Derivatives::none) const;
+  /// The density and then each column, in one go over the neighbours.
+  std::vector<FieldValues> values(std::span<double const> points, std::span<SmoothColumn const> columns,
+                                  Derivatives derivatives = Derivatives::none) const;
+
+  /// A quantity on the nodes of a grid (make_grid), for drawings, field_waves and write_vti. "density", a name that
+  /// quantity() knows, or a field with several components ("velocity").
+  MeshField on_grid(MeshGrid const& grid, std::string_view quantity) const;
+  /// The same of numbers of one's own.
+  MeshField on_grid(MeshGrid const& grid, SmoothColumn const& column, std::string name, Dimension dimension) const;
+
+  /// What the name of a quantity stands for: "density" the mass (number, in a class without mass) per volume, others as
+  /// quantity_meaning() says. Error with the names there are.
+  QuantityMeaning meaning(std::string_view quantity) const;
+  /// A quantity of every particle, and what it is beyond walls: velocities and what follows from them, and temperatures
+  /// as the wall has it, other vectors and tensors as in a mirror. Error with the names there are.
+  SmoothColumn column(std::string_view quantity) const;
+  /// Where the particles are: points, for fields at the particles themselves (Eq 8).
+  std::vector<double> positions() const;
+
+ private:
+  /// A particle or an image of one.
+  struct Source {
+    std::array<double, 3> position;
+    double mass, range, inverse_range;
+  };
+  /// Whose image it is, and beyond which walls.
+  struct Origin {
+    std::uint32_t particle;
+    std::array<signed char, 3> side;
+  };
+
+  template <class Shape, int D, int Order>
+  void sum(double const* point, double const* const* columns, std::size_t count, double* sums) const;
+  void add_images(double const* position, double mass, double range, std::uint32_t particle);
+  std::vector<double> of_sources(SmoothColumn const& column) const;
+
+  Box box_;
+  WeightShape shape_;
+  int threads_;
+  std::vector<AnyEnsemble const*> ensembles_;
+  std::size_t size_ = 0;
+  double largest_range_ = 0, mean_range_ = 0;
+  // In the order of the cells.
+  std::vector<Source> sources_;
+  std::vector<Origin> origins_;
+  Cells cells_;
+};
+
+/// `count` points evenly from one to another, both included; one point is in the middle. Error for less than one.
+template <int D>
+std::vector<double> points_on_line(Vector<D> const& from, Vector<D> const& to, std::size_t count) {
+  std::vector<double> points;
+  points.reserve(count * D);
+  for (std::size_t i = 0; i < count; ++i)
+    for (int a = 0; a < D; ++a) {
+      double const t = count == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(count - 1);
+      points.push_back(from[a] + t * (to[a] - from[a]));
+    }
+  return points;
+}
+/// The nodes of a grid, in their order in memory.
+std::vector<double> points_on_grid(MeshGrid const& grid);
+
+/// The integral over the box by the trapezoidal rule: nodes on the ends of axes that are not periodic count half.
+double integral(MeshField const& field, std::size_t component = 0);
+
+/// The least and the greatest density on a perfect lattice, one particle of mass one in each unit cell (study 3).
+struct DensityExtremes {
+  double least, greatest;
+};
+/// In 1 to 3 dimensions for a square (cubic) lattice of spacing 1. Error if the range is not above 0 and at most 20.
+DensityExtremes lattice_density_extremes(int dimension, WeightShape shape, double range);
+
+}  // namespace boltzmann

@@ -1,0 +1,62 @@
+// Materials: constitutive relations of smooth particles; from density, energy and gradients to pressure and fluxes.
+#pragma once
+
+#include <boltzmann/core/tensor.hpp>
+#include <boltzmann/laws/parameter.hpp>
+#include <boltzmann/particles/smooth.hpp>
+
+#include <concepts>
+
+namespace boltzmann {
+
+/// What the equation of state says of a particle.
+struct State {
+  double pressure = 0;
+  double temperature = 0;
+  double sound_speed = 0;
+};
+
+/// The gradients at a particle (Eq 18, 19): velocity[a][b] = d v_b / d x_a, temperature[a] = dT / d x_a.
+template <int D>
+struct Gradients {
+  Tensor<D> velocity;
+  Vector<D> temperature;
+};
+
+/// The fluxes of momentum and heat in the frame of the particle, beyond the pressure of its state.
+template <int D>
+struct Fluxes {
+  Tensor<D> pressure;  ///< to be added to the pressure tensor; symmetric
+  Vector<D> heat;      ///< Q of Eq 3
+};
+
+// A material is a plain struct with some of these functions of one particle p (of the user's class, doubles):
+//
+//   State state(p)                     needed: pressure, temperature, sound speed from p.density and p.specific_energy
+//   Fluxes<D> fluxes(p, gradients)     viscosity, conduction, strength
+//   double diffusivity(p)              of momentum or heat, the larger, in length^2 / time: limits the step; with fluxes
+//   void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid)
+//   double energy(density)             barotropic: the specific energy is this function of the density, and does not
+//                                      evolve
+//   double pressure_by_density2()      P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces
+//                                      then need no density
+//   void check()                       Error if a parameter is out of range
+
+template <class M, class P>
+concept Material = requires(M const& material, P const& p) {
+  { material.state(p) } -> std::convertible_to<State>;
+};
+template <class M, class P>
+inline constexpr bool has_fluxes =
+    requires(M const& material, P const& p, Gradients<P::dimension> const& gradients) { material.fluxes(p, gradients); };
+template <class M, class P>
+inline constexpr bool has_rates =
+    requires(M const& material, P const& p, Gradients<P::dimension> const& gradients, typename P::Influence& influence) {
+      material.rates(p, gradients, influence);
+    };
+template <class M>
+inline constexpr bool is_barotropic = requires(M const& material) { material.energy(1.0); };
+template <class M>
+inline constexpr bool has_constant_push = requires(M const& material) { material.pressure_by_density2(); };
+
+}  // namespace boltzmann

@@ -1,0 +1,125 @@
+// Solids: Hooke's law for shear, von Mises' yield, failure in tension; put on any equation of state.
+#pragma once
+
+#include <boltzmann/laws/material.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace boltzmann {
+
+/// A tensor on all three axes: what stands on the axes that D dimensions don't have, such that the trace is zero.
+template <int D>
+Tensor<3> on_three_axes(Tensor<D> const& a) {
+  Tensor<3> result{};
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) result[i][j] = a[i][j];
+  for (int i = D; i < 3; ++i) result[i][i] = -trace(a) / (3 - D);
+  return result;
+}
+
+/// The equivalent stress of von Mises, sqrt(3/2 s:s): a rod under the tension q has it equal to q.
+template <int D>
+double equivalent_stress(Tensor<D> const& deviatoric) {
+  auto const s = on_three_axes(deviatoric);
+  return sqrt(1.5 * contraction(s, s));
+}
+
+/// The largest principal value of a deviatoric symmetric tensor: 2 sqrt(J2 / 3) cos(arccos(3 sqrt(3) J3 / (2 J2^(3/2)))
+/// / 3), J2 = s:s / 2, J3 the determinant.
+template <int D>
+double largest_principal(Tensor<D> const& deviatoric) {
+  auto const s = on_three_axes(deviatoric);
+  double const third = sqrt(contraction(s, s) / 6);  // sqrt(J2 / 3)
+  if (!(third > 0)) return third;
+  double const cosine = std::clamp(determinant(s / third) / 2, -1.0, 1.0);
+  return 2 * third * cos(std::acos(cosine) / 3);
+}
+
+/// For particles with the fields of Solid. The stress s is deviatoric, positive in tension, on three axes (plane strain
+/// in 2D, uniaxial strain in 1D). With E the symmetric part of the velocity gradient and W the spin:
+///   ds/dt = 2 G (E - (div v / 3) I) + W.s - s.W          (Hooke and Jaumann: the stress turns with the body)
+/// and, as soon as its equivalent stress is yield_stress, without what would take s further out: perfect plasticity.
+/// The strength that acts is never more than yield_stress; what a finite step leaves stored above it relaxes within the
+/// time that sound needs through the range. While the largest principal tension of the undamaged material is above
+/// tensile_strength, damage d grows at 0.4 c / range (1 - d): cracks run at 0.4 of the sound speed. Tension and
+/// strength are multiplied by 1 - d; a broken solid only resists compression.
+///
+/// All of it stands in rates, which are added to the influence; nothing changes a particle. Elastic energy and the heat
+/// of plastic flow come into the specific energy by the work of the stress (Eq 3), so that energy evolves also over a
+/// barotropic equation of state.
+template <class EquationOfState>
+struct Elastic {
+  static constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+  EquationOfState material;
+  double shear_modulus;                 ///< G
+  double yield_stress = unlimited;      ///< of a rod under tension
+  double tensile_strength = unlimited;  ///< the largest principal tension that it bears
+
+  /// Pressure and temperature of the equation of state, tension times 1 - d; the sound speed of compression waves,
+  /// sqrt(c^2 + 4G / 3 rho).
+  template <class P>
+  State state(P const& p) const {
+    State state = material.state(p);
+    if (state.pressure < 0) state.pressure *= whole(p);
+    state.sound_speed = sqrt(square(state.sound_speed) + 4 * shear_modulus / (3 * p.density));
+    return state;
+  }
+
+  template <class P>
+  Fluxes<P::dimension> fluxes(P const& p, Gradients<P::dimension> const&) const {
+    static_assert(!has_fluxes<EquationOfState, P>, "viscosity goes outside: Newtonian<Elastic<EquationOfState>>");
+    return {p.stress * (-whole(p) * within_yield(equivalent_stress(p.stress))), {}};
+  }
+  /// Strength diffuses nothing.
+  template <class P>
+  double diffusivity(P const&) const {
+    return 0;
+  }
+
+  template <class P>
+  void rates(P const& p, Gradients<P::dimension> const& gradients, typename P::Influence& influence) const {
+    constexpr int D = P::dimension;
+    auto const& s = p.stress;
+    // gradients.velocity[a][b] = d v_b / d x_a, so that the spin W_ab = (d v_a / d x_b - d v_b / d x_a) / 2 is:
+    auto const spin = (transpose(gradients.velocity) - gradients.velocity) * 0.5;
+    auto const strain_rate = symmetric_part(gradients.velocity);
+    auto const shearing = strain_rate - Tensor<D>::identity() * (trace(strain_rate) / 3);
+    auto stress_rate = shearing * (2 * shear_modulus) + dot(spin, s) - dot(s, spin);
+
+    double const equivalent = equivalent_stress(s), crossing = state(p).sound_speed / p.range;
+    if (equivalent >= yield_stress) {
+      // Plastic flow is along s; dq/dt of it is -3G plastic_rate. On the axes without components nothing is strained.
+      double const outward = max(contraction(s, strain_rate), 0) / equivalent;
+      double const plastic_rate = outward + (equivalent - yield_stress) * crossing / (3 * shear_modulus);
+      stress_rate -= s * (3 * shear_modulus * plastic_rate / equivalent);
+      influence.plastic_rate += plastic_rate;
+    }
+    influence.stress_rate += stress_rate;
+    if (tensile_strength < unlimited) {
+      double const tension = within_yield(equivalent) * largest_principal(s) - material.state(p).pressure;
+      if (tension > tensile_strength) influence.damage_rate += 0.4 * crossing * whole(p);
+    }
+  }
+
+  double specific_heat() const requires requires(EquationOfState const& m) { m.specific_heat(); }
+  { return material.specific_heat(); }
+
+  void check() const {
+    if constexpr (requires { material.check(); }) material.check();
+    check_parameter("elastic", "shear_modulus", shear_modulus, AllowedRange::positive);
+    if (yield_stress != unlimited) check_parameter("elastic", "yield_stress", yield_stress, AllowedRange::positive);
+    if (tensile_strength != unlimited)
+      check_parameter("elastic", "tensile_strength", tensile_strength, AllowedRange::positive);
+  }
+
+ private:
+  template <class P>
+  static double whole(P const& p) {
+    return std::clamp(1 - p.damage, 0.0, 1.0);
+  }
+  double within_yield(double equivalent) const { return equivalent > yield_stress ? yield_stress / equivalent : 1; }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,34 @@
+// The stiffened gas: liquids and solids under strong shocks, with heat.
+#pragma once
+
+#include <boltzmann/laws/material.hpp>
+
+namespace boltzmann {
+
+/// P = (gamma - 1) rho e - gamma stiffness, e = cv T + stiffness / rho, c^2 = gamma (P + stiffness) / rho. With
+/// stiffness 0 it is the ideal gas. Where the material has been pulled further than it holds, P < -stiffness, the sound
+/// speed is zero.
+struct StiffenedGas {
+  double gamma;
+  double stiffness;  ///< a pressure, P_infinity
+  double cv = 1;     ///< specific heat at constant volume, energy / (mass temperature)
+
+  template <class P>
+  State state(P const& p) const {
+    double const thermal = p.specific_energy - stiffness / p.density;  // (P + stiffness) / ((gamma - 1) rho)
+    return {(gamma - 1) * p.density * thermal - stiffness, thermal / cv, sqrt(max(gamma * (gamma - 1) * thermal, 0))};
+  }
+  double specific_heat() const { return cv; }
+  /// The specific energy at which that density has that pressure: for initial states.
+  double energy_at(double density, double pressure) const {
+    return (pressure + gamma * stiffness) / ((gamma - 1) * density);
+  }
+
+  void check() const {
+    check_parameter("stiffened-gas", "gamma - 1", gamma - 1, AllowedRange::positive);
+    check_parameter("stiffened-gas", "stiffness", stiffness, AllowedRange::non_negative);
+    check_parameter("stiffened-gas", "cv", cv, AllowedRange::positive);
+  }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,79 @@
+// Newton's viscosity and Fourier's conduction, put on any material.
+#pragma once
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/laws/material.hpp>
+
+namespace boltzmann {
+
+/// To the pressure tensor: -2 shear_viscosity (E - (div v / D) I) - bulk_viscosity (div v) I, E the symmetric part of
+/// the velocity gradient; heat flux -conductivity grad T. The trace is shared among the D dimensions there are, as in
+/// Hoover's texts: in 2D lambda = bulk - shear, and a flat expansion meets the bulk viscosity alone. (For a slice of a
+/// three-dimensional fluid in 2D, whose lambda is bulk - 2/3 shear, add shear_viscosity / 3 to the bulk viscosity.)
+///
+/// What the material under it adds (the strength of a solid) stays. A barotropic one stays barotropic: what viscosity
+/// takes out of the motion is lost then, as if to a bath.
+template <class EquationOfState>
+struct Newtonian {
+  EquationOfState material;
+  double shear_viscosity = 0;
+  double bulk_viscosity = 0;
+  double conductivity = 0;
+
+  template <class P>
+  State state(P const& p) const {
+    return material.state(p);
+  }
+
+  template <class P>
+  Fluxes<P::dimension> fluxes(P const& p, Gradients<P::dimension> const& gradients) const {
+    constexpr int D = P::dimension;
+    auto const strain_rate = symmetric_part(gradients.velocity);
+    auto const identity = Tensor<D>::identity();
+    double const divergence = trace(strain_rate);
+    Fluxes<D> fluxes{
+        strain_rate * (-2 * shear_viscosity) + identity * ((2 * shear_viscosity / D - bulk_viscosity) * divergence),
+        gradients.temperature * -conductivity};
+    if constexpr (has_fluxes<EquationOfState, P>) {
+      auto const more = material.fluxes(p, gradients);
+      fluxes.pressure += more.pressure;
+      fluxes.heat += more.heat;
+    }
+    return fluxes;
+  }
+
+  /// The largest of: shear_viscosity / rho, of vortices; (bulk_viscosity + 2 (1 - 1/D) shear_viscosity) / rho, of
+  /// sound; conductivity / (rho cv), of heat.
+  template <class P>
+  double diffusivity(P const& p) const {
+    constexpr double flattening = 2 - 2.0 / P::dimension;
+    double largest = max(shear_viscosity, bulk_viscosity + flattening * shear_viscosity);
+    if constexpr (has_specific_heat) largest = max(largest, conductivity / material.specific_heat());
+    double below = 0;
+    if constexpr (requires { material.diffusivity(p); }) below = material.diffusivity(p);
+    return largest / p.density + below;
+  }
+
+  template <class P>
+  void rates(P const& p, Gradients<P::dimension> const& gradients,
+             typename P::Influence& influence) const requires has_rates<EquationOfState, P> {
+    material.rates(p, gradients, influence);
+  }
+  double energy(double density) const requires is_barotropic<EquationOfState> { return material.energy(density); }
+  double specific_heat() const requires requires(EquationOfState const& m) { m.specific_heat(); }
+  { return material.specific_heat(); }
+
+  void check() const {
+    if constexpr (requires { material.check(); }) material.check();
+    check_parameter("viscous", "shear_viscosity", shear_viscosity, AllowedRange::non_negative);
+    check_parameter("viscous", "bulk_viscosity", bulk_viscosity, AllowedRange::non_negative);
+    check_parameter("viscous", "conductivity", conductivity, AllowedRange::non_negative);
+    if (!has_specific_heat && conductivity > 0)
+      throw Error("viscous: a conductivity needs a material with a temperature and a specific_heat()");
+  }
+
+ private:
+  static constexpr bool has_specific_heat = requires(EquationOfState const& m) { m.specific_heat(); };
+};
+
+}  // namespace boltzmann

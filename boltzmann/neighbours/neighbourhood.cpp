@@ -1,0 +1,246 @@
+// When lists hold, how far they are read, and what is found anew when they don't.
+#include <boltzmann/neighbours/neighbourhood.hpp>
+
+#include <boltzmann/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+constexpr double skin_of_cutoff = 0.12;
+// Around particles that have moved further than all others neighbours are found anew, as long as that takes no more
+// than these shares of finding everybody's: at any time, so that lists are read less far, and when the lists would not
+// hold.
+constexpr double share_of_few = 0.005, share_of_some = 0.25;
+constexpr std::size_t most_moved = 256;
+
+void check_cutoff(double cutoff) {
+  if (!(cutoff > 0) || !std::isfinite(cutoff))
+    throw Error(fmt::format("the cut-off of a neighbour list is a positive length, not {}", cutoff));
+}
+
+}  // namespace
+
+std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff) {
+  check_cutoff(cutoff);
+  lists_.push_back({&mirror(target), &mirror(source), cutoff, {}});
+  stale_ = true;
+  return lists_.size() - 1;
+}
+
+Mirror& Neighbourhood::mirror(AnyEnsemble& ensemble, std::size_t extra_blocks) {
+  for (auto& mirror : mirrors_)
+    if (&mirror.ensemble() == &ensemble) return mirror;
+  stale_ = true;
+  return mirrors_.emplace_back(ensemble, *box_, extra_blocks);
+}
+
+void Neighbourhood::cutoff(std::size_t list, double length) {
+  check_cutoff(length);
+  if (lists_[list].cutoff == length) return;
+  lists_[list].cutoff = length;
+  stale_ = true;
+}
+
+void Neighbourhood::skin(double length) {
+  if (!(length >= 0) || !std::isfinite(length))
+    throw Error(fmt::format("the skin is a length of zero or more, not {}", length));
+  skin_ = length;
+  stale_ = true;
+}
+
+double Neighbourhood::skin() const {
+  if (skin_) return *skin_;
+  return skin_of_cutoff * (std::isfinite(cutoff_) ? cutoff_ : longest_cutoff());
+}
+
+double Neighbourhood::longest_cutoff() const {
+  double longest = 0;
+  for (auto const& list : lists_) longest = std::max(longest, list.cutoff);
+  return longest;
+}
+
+double Neighbourhood::rows_around_one() const {
+  std::size_t entries = 0, targets = 0;
+  for (auto const& list : lists_) {
+    entries += list.list.entries();
+    targets += list.list.size();
+  }
+  // The neighbours at the old place and at the new one, and what it costs to know who they are.
+  return 2.0 * static_cast<double>(entries) / static_cast<double>(targets + 1) + 20;
+}
+
+void Neighbourhood::build(int threads) {
+  double const reach = longest_cutoff() + skin();
+  for (auto& mirror : mirrors_)
+    mirror.build(reach, worth_threads(mirror.ensemble().size(), particles_worth_threads, threads));
+  find_neighbours(threads);
+}
+
+void Neighbourhood::find_neighbours(int threads) {
+  for (auto& list : lists_)
+    list.list.build(*list.target, *list.source, list.cutoff, skin(),
+                    worth_threads(list.target->owned(), particles_worth_threads / 4, threads));
+  stale_ = false;
+  ring_ = 0;
+  found_again_ = 0;
+  ++builds_;
+}
+
+void Neighbourhood::move(std::vector<Moved> const& moved) {
+  std::vector<std::vector<std::uint32_t>> affected(lists_.size());
+  // Whose lists name a moved particle, or ought to: those near its reference, before and after.
+  auto const look_around = [&] {
+    for (std::size_t n = 0; n < lists_.size(); ++n)
+      for (auto const& [mirror, rows] : moved)
+        if (mirror == lists_[n].source)
+          for (auto const row : rows)
+            lists_[n].target->owned_near(mirror->references() + 4 * std::size_t{row}, lists_[n].cutoff + skin(),
+                                         affected[n]);
+  };
+  look_around();
+  for (auto const& [mirror, rows] : moved) mirror->move(rows);
+  look_around();
+  for (std::size_t n = 0; n < lists_.size(); ++n) {
+    List& list = lists_[n];
+    auto& rows = affected[n];
+    for (auto const& [mirror, own] : moved)
+      if (mirror == list.target) rows.insert(rows.end(), own.begin(), own.end());
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    list.list.rebuild(*list.target, *list.source, rows);
+    found_again_ += static_cast<double>(rows.size());
+  }
+  ++moves_;
+}
+
+/// Gives those that are further than sqrt(square) from their references new ones, if they are no more than `most`.
+bool Neighbourhood::move_beyond(double square, std::size_t most) {
+  std::vector<Moved> moved;
+  std::size_t count = 0;
+  for (auto& mirror : mirrors_) {
+    moved.push_back({&mirror, mirror.beyond(square, most + 1 - count)});
+    count += moved.back().rows.size();
+    if (count > most) return false;
+  }
+  if (count > 0) move(moved);
+  return true;
+}
+
+/// Chooses how far lists are read, for the displacements of now; finds neighbours anew around a few particles that are
+/// ahead of all others (a knock-on atom). False if the lists don't hold any more.
+bool Neighbourhood::lists_hold() {
+  double largest2 = 0, all = 0;
+  std::size_t moved_before = 0;
+  for (auto const& mirror : mirrors_) {
+    largest2 = std::max(largest2, mirror.largest2());
+    all += static_cast<double>(mirror.owned());
+    moved_before += mirror.moved().size();
+  }
+  // Everybody pays for particles that have moved: some, until a build is cheaper.
+  bool const may_move = moved_before < most_moved && found_again_ < all;
+  auto const affordable = [&](double share) {
+    return may_move ? std::min(static_cast<std::size_t>(share * all / rows_around_one()), most_moved - moved_before)
+                    : 0;
+  };
+  std::size_t const few = affordable(share_of_few);
+  for (int ring = 0; ring < list_rings; ++ring) {
+    // A pair that is not in this part of the lists has come no closer than the cut-off if neither moved further.
+    double const allowed = 0.5 * skin() * (ring + 1) / list_rings;
+    if (largest2 <= allowed * allowed || (few > 0 && move_beyond(allowed * allowed, few))) {
+      ring_ = ring;
+      return true;
+    }
+  }
+  ring_ = list_rings - 1;
+  std::size_t const some = affordable(share_of_some);
+  double const soon = 0.35 * skin();
+  return some > few && move_beyond(soon * soon, some);
+}
+
+void Neighbourhood::refresh(int threads) {
+  if (lists_.empty()) return;
+  for (auto& mirror : mirrors_)
+    if (mirror.owned() != mirror.ensemble().size()) stale_ = true;
+  auto const follow = [&] {
+    bool changed = false;
+    for (auto& mirror : mirrors_)
+      if (mirror.refresh(worth_threads(mirror.owned(), particles_worth_threads, threads))) changed = true;
+    return changed;
+  };
+  if (!stale_ && (!follow() || lists_hold())) return;
+  build(threads);
+  follow();
+}
+
+// Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found
+// anew; then of each mirror the edges of the box and the references at its build, and the particles that were moved
+// since: number and reference of each.
+std::vector<double> Neighbourhood::state() const {
+  bool decided = true;
+  for (auto const& mirror : mirrors_) decided = decided && mirror.is_current();
+  std::vector<double> state{stale_ ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_};
+  for (auto const& mirror : mirrors_) {
+    auto const& edges = mirror.built_edges();
+    state.insert(state.end(), edges.begin(), edges.end());
+    auto const built = mirror.built_references();
+    state.insert(state.end(), built.begin(), built.end());
+    state.push_back(static_cast<double>(mirror.moved().size()));
+    for (auto const row : mirror.moved()) {
+      state.push_back(mirror.order()[row]);
+      double const* reference = mirror.references() + 4 * std::size_t{row};
+      state.insert(state.end(), reference, reference + 3);
+    }
+  }
+  return state;
+}
+
+void Neighbourhood::restore(std::span<double const> state, int threads) {
+  std::size_t at = 0;
+  auto const next = [&](std::size_t count) {
+    if (at + count > state.size())
+      throw Error(
+          fmt::format("the checkpoint's neighbour lists have {} numbers, too few for this simulation", state.size()));
+    at += count;
+    return state.subspan(at - count, count);
+  };
+  auto const head = next(4);
+  stale_ = head[0] != 0;
+  if (stale_ || lists_.empty()) return;
+  double const reach = longest_cutoff() + skin();
+  for (auto& mirror : mirrors_) {
+    Mirror::Edges edges;
+    std::ranges::copy(next(edges.size()), edges.begin());
+    mirror.build(reach, next(mirror.ensemble().size() * box_->dimension()), edges);
+    std::vector<std::uint32_t> row_of(mirror.owned()), rows;
+    for (std::uint32_t k = 0; k < mirror.owned(); ++k) row_of[mirror.order()[k]] = k;
+    std::vector<double> references;
+    for (auto count = static_cast<std::size_t>(next(1)[0]); count > 0; --count) {
+      auto const moved = next(4);
+      if (!(moved[0] >= 0 && moved[0] < static_cast<double>(row_of.size())))
+        throw Error(fmt::format("the checkpoint's neighbour lists name particle {} of '{}', which has {}", moved[0],
+                                mirror.ensemble().name(), row_of.size()));
+      rows.push_back(row_of[static_cast<std::size_t>(moved[0])]);
+      references.insert(references.end(), moved.begin() + 1, moved.end());
+    }
+    mirror.move(rows, references);
+  }
+  find_neighbours(threads);
+  if (head[1] != 0)
+    for (auto& mirror : mirrors_) mirror.refresh(1);
+  ring_ = static_cast<int>(head[2]);
+  found_again_ = head[3];
+}
+
+std::size_t Neighbourhood::bytes() const {
+  std::size_t bytes = 0;
+  for (auto const& mirror : mirrors_) bytes += mirror.bytes();
+  for (auto const& list : lists_) bytes += list.list.bytes();
+  return bytes;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,99 @@
+// Neighbourhood: mirrors of ensembles and the neighbour lists between them, kept up to date while particles move.
+#pragma once
+
+#include <boltzmann/neighbours/mirror.hpp>
+#include <boltzmann/neighbours/neighbour_list.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace boltzmann {
+
+/// Below so many particles one thread is faster than the start of two.
+inline constexpr std::size_t particles_worth_threads = 1U << 13U;
+/// `threads`, or 1 where there is less work than `least`.
+constexpr int worth_threads(std::size_t work, std::size_t least, int threads) { return work < least ? 1 : threads; }
+
+/// One mirror for each ensemble, and lists between them, each with a cut-off of its own. Lists reach cutoff + skin;
+/// they are built anew when particles have moved too far for that, and around a few particles that are ahead of all
+/// others (knock-on atoms) neighbours are found anew alone.
+class Neighbourhood {
+ public:
+  /// The box outlives the neighbourhood. `cutoff` is what the default skin, 0.12 of a cut-off, is a share of; without
+  /// it, that is the longest cut-off of the lists.
+  explicit Neighbourhood(Box const& box, double cutoff = std::numeric_limits<double>::infinity())
+      : box_(&box), cutoff_(cutoff) {}
+  Neighbourhood(Neighbourhood const&) = delete;
+  Neighbourhood& operator=(Neighbourhood const&) = delete;
+
+  /// A list of the neighbours of every particle of `target` among those of `source`; returns its number. Error if the
+  /// cut-off is not a positive length.
+  std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff);
+  /// The mirror of an ensemble, made when it is first asked for, with so many extra blocks (see Mirror).
+  Mirror& mirror(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
+  /// Changes the cut-off of a list: all lists are built anew at the next refresh.
+  void cutoff(std::size_t list, double length);
+  double cutoff(std::size_t list) const { return lists_[list].cutoff; }
+  /// How far particles may move before lists are built anew. Error if it is not a length of zero or more.
+  void skin(double length);
+  double skin() const;
+  /// Lists are built anew at the next refresh.
+  void stale() { stale_ = true; }
+
+  /// Mirrors take the ensembles' rows of now. Afterwards every pair within the cut-off is in its list, no further than
+  /// ring(). PhysicsFailure if a position is not finite.
+  void refresh(int threads);
+
+  bool empty() const { return lists_.empty(); }
+  NeighbourList const& list(std::size_t list) const { return lists_[list].list; }
+  Mirror const& target(std::size_t list) const { return *lists_[list].target; }
+  Mirror const& source(std::size_t list) const { return *lists_[list].source; }
+  /// How far lists are to be read: the argument of NeighbourList::lengths().
+  int ring() const { return ring_; }
+
+  /// What, besides the particles, determines the order of neighbours and how far lists are read; restore() takes it
+  /// back. Error if it does not fit.
+  std::vector<double> state() const;
+  void restore(std::span<double const> state, int threads);
+
+  /// How often lists were built, and how often neighbours were found anew around fast particles alone.
+  std::size_t builds() const { return builds_; }
+  std::size_t moves() const { return moves_; }
+  std::size_t bytes() const;
+
+ private:
+  struct List {
+    Mirror *target, *source;
+    double cutoff;
+    NeighbourList list;
+  };
+  struct Moved {  // rows of a mirror that need new references
+    Mirror* mirror;
+    std::vector<std::uint32_t> rows;
+  };
+
+  bool lists_hold();
+  void build(int threads);
+  void find_neighbours(int threads);
+  bool move_beyond(double square, std::size_t most);
+  void move(std::vector<Moved> const& moved);
+  double rows_around_one() const;
+  double longest_cutoff() const;
+
+  Box const* box_;
+  double cutoff_;
+  std::optional<double> skin_;
+  bool stale_ = true;
+  int ring_ = 0;
+  double found_again_ = 0;  // rows found anew since the lists were built
+  std::size_t builds_ = 0, moves_ = 0;
+  std::deque<Mirror> mirrors_;
+  std::deque<List> lists_;
+};
+
+}  // namespace boltzmann

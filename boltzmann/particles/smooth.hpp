@@ -1,0 +1,93 @@
+// Smooth particles: pieces of a continuum, each spread over its range (Hoover and Hoover's SPAM).
+#pragma once
+
+#include <boltzmann/core/tensor.hpp>
+#include <boltzmann/particles/newton.hpp>
+
+namespace boltzmann {
+
+/// What the other smooth particles do to one: a force, and the rates of what it carries.
+template <int D, class Real>
+struct SmoothInfluence {
+  Vector<D, Real> force;
+  Real heating;       ///< m de/dt, e the internal energy per mass
+  Real density_rate;  ///< where density evolves by continuity; else zero
+  Real range_rate;    ///< where ranges follow the density; else zero
+};
+
+/// A piece of a continuum. Mass, velocity and specific energy are its own; density, pressure, temperature and sound speed
+/// are what the scheme finds from its neighbours and its material, for the state as it stands when somebody looks.
+template <int D, class Real = double>
+struct Smooth : Newton<D, Real> {
+  static constexpr char const* class_name = "Smooth";
+  static constexpr bool velocity_dependent = true;
+  using Influence = SmoothInfluence<D, Real>;
+
+  Real specific_energy;  ///< internal energy per mass
+  Real range;            ///< of its weight, which is zero beyond
+  Real density;
+  Real pressure;  ///< of its state: what viscosity and strength add is not in it
+  Real temperature;
+  Real sound_speed;
+
+  /// Eq 1 to 3: dr/dt = v, dv/dt = F/m, de/dt = heating/m.
+  template <class Self, class I, class Rate>
+  static void equations(Self const& p, I const& influence, Rate const& rate) {
+    auto const inverse_mass = 1 / p.mass;
+    rate(&Smooth::position, p.velocity);
+    rate(&Smooth::velocity, influence.force * inverse_mass);
+    rate(&Smooth::specific_energy, influence.heating * inverse_mass);
+    rate(&Smooth::density, influence.density_rate);
+    rate(&Smooth::range, influence.range_rate);
+  }
+
+  template <class Self>
+  static FieldTable<Self> fields() {
+    return Newton<D, Real>::template fields<Self>()
+        .add(&Smooth::specific_energy, "specific_energy", dimensions::velocity * dimensions::velocity,
+             "internal energy per mass")
+        .add(&Smooth::range, "range", dimensions::length, "radius beyond which its weight is zero")
+        .add(&Smooth::density, "density", dimensions::mass / pow(dimensions::length, D), "mass density")
+        .add(&Smooth::pressure, "pressure", dimensions::energy / pow(dimensions::length, D), "pressure of its state")
+        .add(&Smooth::temperature, "temperature", dimensions::temperature, "temperature")
+        .add(&Smooth::sound_speed, "sound_speed", dimensions::velocity, "speed of sound");
+  }
+};
+
+/// What the others do to a piece of a solid: its stress turns and grows with them, too.
+template <int D, class Real>
+struct SolidInfluence : SmoothInfluence<D, Real> {
+  Tensor<D, Real> stress_rate;
+  Real plastic_rate;
+  Real damage_rate;
+};
+
+/// A piece of a solid: it remembers how it has been sheared.
+template <int D, class Real = double>
+struct Solid : Smooth<D, Real> {
+  static constexpr char const* class_name = "Solid";
+  using Influence = SolidInfluence<D, Real>;
+
+  Tensor<D, Real> stress;  ///< deviatoric, positive in tension. In 2D and 1D the rest of it stands on the other axes
+                           ///< (plane, uniaxial strain): its trace over three axes is zero.
+  Real plastic_strain;     ///< equivalent, accumulated
+  Real damage;             ///< 0 whole, 1 broken: no tension, no shear
+
+  template <class Self, class I, class Rate>
+  static void equations(Self const& p, I const& influence, Rate const& rate) {
+    Smooth<D, Real>::equations(p, influence, rate);
+    rate(&Solid::stress, influence.stress_rate);
+    rate(&Solid::plastic_strain, influence.plastic_rate);
+    rate(&Solid::damage, influence.damage_rate);
+  }
+
+  template <class Self>
+  static FieldTable<Self> fields() {
+    return Smooth<D, Real>::template fields<Self>()
+        .add(&Solid::stress, "stress", dimensions::energy / pow(dimensions::length, D), "deviatoric stress")
+        .add(&Solid::plastic_strain, "plastic_strain", dimensions::none, "equivalent plastic strain")
+        .add(&Solid::damage, "damage", dimensions::none, "0 whole, 1 broken");
+  }
+};
+
+}  // namespace boltzmann

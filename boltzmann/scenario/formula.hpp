@@ -1,0 +1,52 @@
+// Formulas: a number for each particle from an expression in its place and its fields, "-sin(2 pi x)" as a program has
+// it.
+#pragma once
+
+#include <boltzmann/core/error.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// What is wrong with a formula, and at which of its characters (from 0).
+struct FormulaError : Error {
+  FormulaError(std::size_t at, std::string const& message) : Error(message), offset(at) {}
+  std::size_t offset;
+};
+
+/// An expression of numbers (2, 0.5, 1e-3), names, + - * / ^ (powers; from right to left, before a sign: -x^2 is
+/// -(x^2)), parentheses, comparisons (< <= > >= == !=: 1 or 0), && || !, a ? b : c, pi, and the functions abs acos asin
+/// atan atan2 ceil cos cosh exp floor if log max min mod pow sin sinh sqrt tan tanh. All in double; logarithms are
+/// natural, angles in radians. Of if(a, b, c) and of a ? b : c only what is chosen is calculated.
+class Formula {
+ public:
+  /// `names` are those that may stand in it, besides pi. FormulaError, e.g. "unknown name 'X'; there are x, y, r, pi;
+  /// did you mean 'x'?".
+  Formula(std::string_view text, std::span<std::string const> names);
+
+  /// `values` in the order of the names.
+  double operator()(std::span<double const> values) const { return value(root_, values); }
+  /// Which of the names stand in it, as indices, sorted.
+  std::vector<std::size_t> const& used() const { return used_; }
+
+ private:
+  friend class FormulaReader;
+  enum class Kind { number, name, negative, opposite, binary, function, choice };
+  struct Node {
+    Kind kind = Kind::number;
+    double number = 0;
+    std::size_t what = 0;  // the name, the operator or the function
+    std::size_t first = 0, second = 0, third = 0;
+  };
+  double value(std::size_t node, std::span<double const> values) const;
+
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> used_;
+  std::size_t root_ = 0;
+};
+
+}  // namespace boltzmann

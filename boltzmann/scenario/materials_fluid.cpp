@@ -1,0 +1,11 @@
+// Materials of fluids.
+#include <boltzmann/scenario/material_binding.hpp>
+
+namespace boltzmann::detail {
+
+BoundMaterial bind_fluid(EquationOfState const& state, FluxNumbers const& fluxes, int dimension) {
+  return std::visit([&](auto const& material) { return bound_with_fluxes<Smooth>(material, fluxes, dimension); },
+                    state);
+}
+
+}  // namespace boltzmann::detail

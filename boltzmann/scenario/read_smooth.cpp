@@ -1,0 +1,231 @@
+// Reads [smooth] and the materials of ensembles: continuum mechanics with smooth particles.
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/scenario/materials.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace boltzmann {
+namespace {
+
+/// A table in braces under a key; a mistake with the example if it is something else.
+Item const* inner_table(Section& section, std::string_view key, std::string_view example, Reading& reading) {
+  Item const* item = section.find(key);
+  if (!item || item->is(Item::Kind::table)) return item;
+  reading.mistake(item->place, fmt::format("{}: a table is needed, {} = {}, not {}", key, key, example, found(*item)));
+  return nullptr;
+}
+
+std::optional<ArtificialViscosity> read_artificial_viscosity(Section& section, Reading& reading) {
+  Item const* table = inner_table(section, "artificial_viscosity", "{ alpha = 1, beta = 2, balsara = false }", reading);
+  if (!table) return std::nullopt;
+  Section inner(*table, "artificial_viscosity", reading.context);
+  ArtificialViscosity viscosity;
+  viscosity.alpha = inner.quantity("alpha", dimensions::none, not_negative).value_or(viscosity.alpha);
+  viscosity.beta = inner.quantity("beta", dimensions::none, not_negative).value_or(viscosity.beta);
+  viscosity.balsara = inner.boolean("balsara", viscosity.balsara);
+  inner.finish();
+  return viscosity;
+}
+
+std::optional<VariableRange> read_variable_range(Section& section, Reading& reading) {
+  Item const* table = inner_table(section, "variable_range", "{ spacings = 3 }", reading);
+  if (!table) return std::nullopt;
+  Section inner(*table, "variable_range", reading.context);
+  VariableRange variable;
+  variable.spacings = inner.quantity("spacings", dimensions::none, positive).value_or(variable.spacings);
+  variable.shortest = inner.quantity("shortest", dimensions::length, not_negative).value_or(0);
+  variable.longest = inner.quantity("longest", dimensions::length, positive).value_or(0);
+  if (variable.longest > 0 && variable.longest < variable.shortest)
+    reading.mistake(inner.place("longest"),
+                    fmt::format("longest: {} is below shortest = {}", variable.longest, variable.shortest));
+  inner.finish();
+  return variable;
+}
+
+// ---- Materials ----
+
+NumberRange range_of(MaterialRange range) {
+  switch (range) {
+    case MaterialRange::any:
+      break;
+    case MaterialRange::non_negative:
+      return not_negative;
+    case MaterialRange::positive:
+      return positive;
+    case MaterialRange::above_one:
+      return {1, std::numeric_limits<double>::infinity(), true};
+  }
+  return any_number;
+}
+
+/// The parameters that stand in a table; those that may be missing are left out.
+MaterialValues read_values(Section& section, std::string_view what, std::vector<MaterialParameter> const& parameters,
+                           Reading& reading) {
+  MaterialValues values;
+  for (auto const& parameter : parameters) {
+    Item const* item = section.find(parameter.name);
+    bool const reduced = reading.context.base.is_reduced();
+    if (!item && !usual_value(parameter, reduced)) {
+      Dimension const dimension = parameter.dimension(std::max(reading.dimension, 1));
+      auto const units = example_units(dimension);
+      std::string const example = reduced || units.empty() ? fmt::format("{} = 1.4", parameter.name)
+                                                           : fmt::format("{} = \"1 {}\"", parameter.name, units[0]);
+      reading.mistake(section.place(),
+                      fmt::format("{} needs '{}', {}; add e.g. {}", what, parameter.name, parameter.doc, example));
+    } else if (item && reading.dimension > 0) {
+      if (auto const value = read_quantity(*item, parameter.name, parameter.dimension(reading.dimension),
+                                           reading.context, range_of(parameter.range)))
+        values.emplace_back(parameter.name, *value);
+    }
+  }
+  return values;
+}
+
+std::vector<PressurePoint> read_points(Item const& item, Reading& reading) {
+  auto const wrong = [&](Item const& where) {
+    reading.mistake(where.place, fmt::format("points: pairs of a density and a pressure are needed, [[1, 0], [2, 3]], "
+                                             "not {}",
+                                             found(where)));
+    return std::vector<PressurePoint>{};
+  };
+  if (!item.is(Item::Kind::array) || item.elements.empty()) return wrong(item);
+  std::vector<PressurePoint> points;
+  for (auto const& pair : item.elements) {
+    if (!pair.is(Item::Kind::array) || pair.elements.size() != 2) return wrong(pair);
+    if (reading.dimension == 0) continue;
+    Dimension const volume = pow(dimensions::length, reading.dimension);
+    auto const density =
+        read_quantity(pair.elements[0], "density", dimensions::mass / volume, reading.context, positive);
+    auto const pressure = read_quantity(pair.elements[1], "pressure", dimensions::energy / volume, reading.context);
+    if (!density || !pressure) return {};
+    points.push_back({*density, *pressure});
+  }
+  return points;
+}
+
+/// The points of a table; the table itself checks them.
+void read_table(Section& section, MaterialChoice& choice, Reading& reading, std::optional<PressureTable>& from_file) {
+  Item const *points = section.find("points"), *file = section.find("file");
+  if ((points == nullptr) == (file == nullptr)) {
+    reading.mistake(points ? points->place : section.place(),
+                    "material 'table' needs 'points' or 'file', one of them; e.g. points = [[1, 0], [2, 3]]");
+    return;
+  }
+  if (points) {
+    choice.points = read_points(*points, reading);
+    return;
+  }
+  auto const path = read_text(*file, "file", reading.context);
+  if (!path) return;
+  std::filesystem::path full = *path;
+  if (full.is_relative() && !reading.context.folder.empty())
+    full = std::filesystem::path(reading.context.folder) / full;
+  std::string const name = std::filesystem::absolute(full).lexically_normal().string();
+  if (guarded(reading, file->place, [&] { from_file = PressureTable::from_file(name); }))
+    const_cast<Item&>(*file).text = name;  // the stored scenario must find the file from any folder
+}
+
+}  // namespace
+
+std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  if (!ensemble.has("material")) {
+    ensemble.need("material", "material = { kind = \"ideal-gas\", gamma = 1.4 }");
+    return std::nullopt;
+  }
+  Item const* table = inner_table(ensemble, "material", "{ kind = \"ideal-gas\", gamma = 1.4 }", reading);
+  if (!table) return std::nullopt;
+  Section section(*table, "material", reading.context);
+  Item const* word = section.need("kind", "kind = \"ideal-gas\"");
+  std::vector<std::string> names;
+  for (auto const& material : material_catalogue()) names.emplace_back(material.name);
+  auto const name = word ? read_word(*word, "material", names, reading.context) : std::nullopt;
+  if (!name) return std::nullopt;
+  section.rename(fmt::format("material '{}'", *name));
+  MaterialChoice choice;
+  choice.info = find_material(*name);
+  choice.parameters = read_values(section, fmt::format("material '{}'", *name), choice.info->parameters, reading);
+  std::optional<PressureTable> from_file;
+  if (choice.info->tabulated) read_table(section, choice, reading, from_file);
+  choice.fluxes = read_values(section, "a material", flux_parameters(), reading);
+  if (choice.info->barotropic)
+    for (auto const& [key, value] : choice.fluxes)
+      if (key == "conductivity" && value > 0)
+        reading.mistake(section.place("conductivity"),
+                        fmt::format("conductivity: material '{}' has no temperature, so that no heat flows", *name));
+  if (Item const* elastic = inner_table(section, "elastic", "{ shear_modulus = 1 }", reading)) {
+    if (kind.matter != Matter::solid) {
+      reading.mistake(
+          section.place("elastic"),
+          fmt::format("elastic: particles of class {} have no strength; those of class Solid have", kind.name));
+    } else {
+      Section inner(*elastic, "elastic", reading.context);
+      choice.elastic = read_values(inner, "elastic", elastic_parameters(), reading);
+      inner.finish();
+    }
+  } else if (kind.matter == Matter::solid && !section.has("elastic")) {
+    reading.mistake(table->place,
+                    "the material of a solid needs 'elastic', its strength; add e.g. elastic = { "
+                    "shear_modulus = 1 }");
+  }
+  section.finish();
+  if (reading.context.mistakes.count() != before || reading.dimension == 0) return std::nullopt;
+  std::optional<BoundMaterial> bound;
+  guarded(reading, table->place, [&] {
+    bound = from_file ? bind_table(*from_file, choice, kind.matter, reading.dimension)
+                      : bind_material(choice, kind.matter, reading.dimension);
+  });
+  return bound;
+}
+
+void read_smooth(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  ReadSmooth& smooth = reading.smooth;
+  smooth.wanted = true;
+  Section section(table, "[smooth]", reading.context);
+  auto const weight = section.word("weight", weight_names());
+  auto const density = section.word("density", {"summation", "continuity"});
+  auto const mean = section.word("mean_density", {"arithmetic", "geometric"});
+  auto const heating = section.word("heating", {"shared", "own"});
+  auto const viscosity = read_artificial_viscosity(section, reading);
+  smooth.variable_place = section.place("variable_range");
+  smooth.variable = read_variable_range(section, reading);
+  auto const skin = section.quantity("skin", dimensions::length, not_negative);
+  section.finish();
+  smooth.from_continuity = density && *density == "continuity";
+  if (smooth.from_continuity && smooth.variable)
+    reading.mistake(smooth.variable_place,
+                    "variable_range: ranges follow densities that are summed; with density = \"continuity\" they stay");
+  if (reading.run.cutoff)
+    reading.mistake(reading.run.cutoff_place,
+                    "cutoff: smooth particles act as far as their 'range', a field of the ensembles; leave it out");
+  if (reading.run.skin) reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
+  if (reading.context.mistakes.count() != before || !reading.box) return;
+  guarded(reading, table.place, [&] {
+    auto scheme = std::make_unique<SmoothScheme>(*reading.box, weight ? weight_named(*weight) : WeightShape::lucy);
+    if (smooth.from_continuity) scheme->density_from(DensityFrom::continuity);
+    if (mean && *mean == "geometric") scheme->mean_density(MeanDensity::geometric);
+    if (heating && *heating == "own") scheme->heating(Heating::own);
+    if (viscosity) scheme->artificial_viscosity(*viscosity);
+    if (skin) scheme->skin(*skin);
+    reading.result->smooth = scheme.get();
+    reading.result->scheme = std::move(scheme);
+  });
+}
+
+void load_smooth(Reading& reading) {
+  SmoothScheme& scheme = *reading.result->smooth;
+  for (auto const& ensemble : reading.ensembles) {
+    if (!ensemble.particles || !ensemble.material) return;
+    guarded(reading, ensemble.place,
+            [&] { scheme.add_material(*ensemble.particles, ensemble.material->kernels, ensemble.material->material); });
+  }
+  if (reading.context.mistakes.none() && reading.smooth.variable && !reading.ensembles.empty())
+    guarded(reading, reading.smooth.variable_place, [&] { scheme.variable_range(*reading.smooth.variable); });
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,36 @@
+// A law that gives a force, as one that gives the influence on smooth particles.
+#pragma once
+
+namespace boltzmann {
+
+/// Calls law(p) or law(p, time), and puts the force into an influence that has nothing else: no heat.
+template <class Law>
+struct ForceOn {
+  Law law;
+
+  template <class P, class... Time>
+  auto operator()(P const& p, Time... time) const requires requires(Law const& l) {
+    l(p, time...);
+  }
+  {
+    auto const result = law(p, time...);
+    typename P::Influence influence{};
+    if constexpr (requires { result.energy; }) {
+      struct Both {
+        typename P::Influence force;
+        double energy;
+      };
+      influence.force = result.force;
+      return Both{influence, result.energy};
+    } else {
+      influence.force = result;
+      return influence;
+    }
+  }
+
+  void check() const {
+    if constexpr (requires { law.check(); }) law.check();
+  }
+};
+
+}  // namespace boltzmann

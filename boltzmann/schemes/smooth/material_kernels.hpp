@@ -1,0 +1,189 @@
+// What is done to each smooth particle between the passes: its material, on rows of the user's own class.
+#pragma once
+
+#include <boltzmann/laws/material.hpp>
+#include <boltzmann/particles/rows.hpp>
+#include <boltzmann/schemes/smooth/passes.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace boltzmann {
+
+/// The particles of one ensemble among the sorted rows of all, as plain memory.
+struct MaterialTask {
+  double* particles = nullptr;             ///< rows of the ensemble
+  double* influence = nullptr;             ///< of the ensemble
+  std::uint32_t first = 0;                 ///< number of its first particle among all
+  std::uint32_t const* order = nullptr;    ///< sorted row -> number of the particle among all
+  std::uint32_t const* members = nullptr;  ///< the sorted rows of this ensemble; null: all
+  double* fluid = nullptr;                 ///< SmoothFluid's block of sorted rows
+  double* matter = nullptr;                ///< SmoothMatter's first block; null: no pass reads it
+  std::size_t block_stride = 0;            ///< from one of its blocks to the next
+  double const* density = nullptr;         ///< sums of the density pass; null: the density is the particle's own
+  double const* gradients = nullptr;       ///< sums of the gradient pass
+  double const* rates = nullptr;           ///< sums of the rate pass
+  double* factor = nullptr;                ///< grad-h factor of each sorted row; null: all have one range
+  bool adaptive = false;                   ///< ranges follow densities; else factors are 1
+  double self = 0;                         ///< w(0) range^D
+  std::size_t* not_finite = nullptr;  ///< of each range of members that begins at a multiple of the grain: the first
+                                      ///< particle whose state is not finite, or else what stood there
+  bool uniform = false;               ///< rates are accelerations alone
+  bool continuity = false;            ///< densities evolve
+  bool balsara = false;
+  double shortest = 0, longest = 0;  ///< between which ranges vary
+  double spacings = 0;               ///< range = spacings (mass / density)^(1/D) between them
+};
+
+using MaterialKernel = void (*)(void const* material, MaterialTask const& task, std::size_t begin, std::size_t end);
+
+/// The kernels of a material for a class.
+struct MaterialKernels {
+  MaterialKernel state = nullptr;   ///< density and state, into the particles and SmoothFluid's block
+  MaterialKernel fluxes = nullptr;  ///< into SmoothMatter's blocks, and rates of further fields into the influence
+  MaterialKernel rates = nullptr;   ///< adds to the influence
+  double (*diffusivity)(void const* material, double const* particle) = nullptr;  ///< null: none
+  bool needs_gradients = false, has_fluxes = false, barotropic = false, constant_push = false;
+  double push = 0;  ///< where it is constant
+};
+
+namespace detail {
+
+inline constexpr std::size_t material_grain = 2048;  // particles of a range
+
+template <class P, class Body>
+[[gnu::always_inline]] inline void each_member(MaterialTask const& task, std::size_t begin, std::size_t end,
+                                               Body const& body) {
+  for (std::size_t n = begin; n < end; ++n) {
+    std::size_t const k = task.members ? task.members[n] : n, i = task.order[k] - task.first;
+    body(k, i, reinterpret_cast<Row<P>*>(task.particles)[i]);
+  }
+}
+
+template <int D>
+double power(double x) {
+  return D == 1 ? x : D == 2 ? x * x : x * x * x;
+}
+
+/// Whether a particle is at a limit between which ranges vary, and its density holds it there: its range is then a
+/// constant.
+template <class P>
+bool is_held(MaterialTask const& task, P const& p) {
+  constexpr int D = P::dimension;
+  double const wanted = power<D>(task.spacings) * p.mass / p.density;  // range^D
+  return (p.range >= task.longest && wanted >= power<D>(task.longest)) ||
+         (p.range <= task.shortest && wanted <= power<D>(task.shortest));
+}
+
+template <class P, class M>
+void find_state(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  constexpr int D = P::dimension;
+  M const& material = *static_cast<M const*>(the_material);
+  std::size_t& not_finite = task.not_finite[begin / material_grain];
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
+    if (task.density) {
+      double const self = p.mass * task.self / power<D>(p.range);
+      if (task.factor) {
+        auto const& sums = reinterpret_cast<VariableDensitySum<double> const*>(task.density)[k];
+        p.density = sums.density + self;
+        bool const follows = task.adaptive && sums.stretch < 0 && !is_held(task, p);
+        task.factor[k] = follows ? -D * p.density / sums.stretch : 1;
+      } else {
+        p.density = reinterpret_cast<DensitySum<double> const*>(task.density)[k].density + self;
+      }
+    }
+    if constexpr (is_barotropic<M>) p.specific_energy = material.energy(p.density);
+    State const state = material.state(p);
+    p.pressure = state.pressure;
+    p.temperature = state.temperature;
+    p.sound_speed = state.sound_speed;
+    if (!std::isfinite(state.pressure + state.sound_speed) && i < not_finite) not_finite = i;
+    double* const fluid = task.fluid + row_block * k;
+    fluid[0] = p.density;
+    fluid[1] = state.pressure / (p.density * p.density) * (task.factor ? task.factor[k] : 1);
+    fluid[2] = state.temperature;
+    fluid[3] = state.sound_speed;
+  });
+}
+
+/// Balsara's switch: |div v| / (|div v| + |curl v| + 1e-4 c/h).
+template <int D>
+double shear_switch(Tensor<D> const& gradient, double sound_speed, double range) {
+  double curl2 = 0;
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < a; ++b) curl2 += square(gradient[a][b] - gradient[b][a]);
+  double const div = std::abs(trace(gradient)), rest = std::sqrt(curl2) + 2e-4 * sound_speed / range;
+  return div + rest > 0 ? div / (div + rest) : 1;
+}
+
+template <class P, class M>
+void find_fluxes(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  constexpr int D = P::dimension;
+  [[maybe_unused]] M const& material = *static_cast<M const*>(the_material);
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
+    Gradients<D> gradients{};
+    if (task.gradients) {
+      auto const& sums = reinterpret_cast<GradientSum<D, double> const*>(task.gradients)[k];
+      gradients = {sums.velocity, sums.temperature};
+    }
+    double values[1 + D * (D + 1) / 2 + D] = {};
+    values[0] = task.balsara ? shear_switch(gradients.velocity, p.sound_speed, p.range) : 1;
+    if constexpr (has_fluxes<M, P>) {
+      Fluxes<D> const fluxes = material.fluxes(p, gradients);
+      double const by_density2 = (task.factor ? task.factor[k] : 1) / (p.density * p.density);
+      double* value = values + 1;
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b) *value++ = fluxes.pressure[a][b] * by_density2;
+      for (int a = 0; a < D; ++a) *value++ = fluxes.heat[a] * by_density2;
+    }
+    for (std::size_t c = 0; c < std::size(values); ++c)
+      task.matter[c / row_block * task.block_stride + row_block * k + c % row_block] = values[c];
+    if constexpr (has_rates<M, P>) {
+      auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
+      material.rates(static_cast<P const&>(p), gradients, influence);
+    }
+  });
+}
+
+template <class P, class M>
+void add_rates(void const*, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  constexpr int D = P::dimension;
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
+    auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
+    if (task.uniform) {
+      influence.force += reinterpret_cast<Vector<D> const*>(task.rates)[k] * p.mass;
+      return;
+    }
+    auto const& rates = reinterpret_cast<RateSum<D, double> const*>(task.rates)[k];
+    influence.force += rates.acceleration * p.mass;
+    if constexpr (!is_barotropic<M>) influence.heating += rates.heating * p.mass;
+    if (task.continuity) influence.density_rate += rates.compression;
+    if (task.adaptive) {
+      if (!is_held(task, p)) influence.range_rate -= p.range / (D * p.density) * task.factor[k] * rates.compression;
+    }
+  });
+}
+
+}  // namespace detail
+
+template <class P, class M>
+MaterialKernels material_kernels(M const& material) {
+  MaterialKernels kernels;
+  kernels.state = detail::find_state<P, M>;
+  kernels.fluxes = detail::find_fluxes<P, M>;
+  kernels.rates = detail::add_rates<P, M>;
+  if constexpr (requires(P const& p) { material.diffusivity(p); })
+    kernels.diffusivity = [](void const* m, double const* particle) {
+      return static_cast<M const*>(m)->diffusivity(static_cast<P const&>(*reinterpret_cast<Row<P> const*>(particle)));
+    };
+  kernels.has_fluxes = has_fluxes<M, P>;
+  kernels.needs_gradients = has_fluxes<M, P> || has_rates<M, P>;
+  kernels.barotropic = is_barotropic<M>;
+  if constexpr (has_constant_push<M> && is_barotropic<M>) {
+    kernels.constant_push = true;
+    kernels.push = material.pressure_by_density2();
+  }
+  return kernels;
+}
+
+}  // namespace boltzmann

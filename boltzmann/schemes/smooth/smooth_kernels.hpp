@@ -1,0 +1,34 @@
+// The kernels of smooth particles: every pass over neighbour lists, for one weight in one dimension.
+#pragma once
+
+#include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/laws/weight.hpp>
+#include <boltzmann/schemes/pair/pair_task.hpp>
+
+namespace boltzmann {
+
+/// Passes; `law` is a PassParameters. Sums are stored in the order of rows.
+struct SmoothPasses {
+  PairKernel density = nullptr;
+  PairKernel gradients = nullptr, gradients_geometric = nullptr;
+  PairKernel uniform = nullptr;  ///< only where ranges are the same
+  PairKernel pressure = nullptr, viscous = nullptr, all = nullptr;
+};
+
+struct SmoothKernels {
+  SmoothPasses same;      ///< all particles have one range
+  SmoothPasses variable;  ///< each has its own
+};
+
+/// In 1D, 2D, 3D.
+struct SmoothKernelTable {
+  SmoothKernels in[3];
+};
+
+template <InstructionSet set, class Shape>
+SmoothKernelTable const& smooth_kernels();
+
+/// The table of a weight, in the instruction set in use.
+SmoothKernelTable const& smooth_kernels_of(WeightShape shape);
+
+}  // namespace boltzmann

@@ -1,0 +1,527 @@
+// The recipe of SPAM, step by step, and when each is needed.
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_unit.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+constexpr std::size_t pair_grain = 256, particle_grain = detail::material_grain;
+constexpr std::size_t worth_some_threads = 1U << 12U;  // particles
+constexpr double skin_of_range = 0.08;
+constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+template <class Function>
+decltype(auto) in_dimension(int dimension, Function const& function) {
+  if (dimension == 1) return function(std::integral_constant<int, 1>{});
+  if (dimension == 2) return function(std::integral_constant<int, 2>{});
+  return function(std::integral_constant<int, 3>{});
+}
+
+template <class Particle>
+constexpr std::size_t blocks_of = (sizeof(Particle) / sizeof(double) + row_block - 1) / row_block;
+
+/// What lies behind the places of points: a block of fluid, and blocks of matter.
+std::size_t place_blocks(int dimension) {
+  return in_dimension(dimension, [](auto d) { return row_stride<SmoothPlace<d>> / row_block; });
+}
+std::size_t matter_blocks(int dimension) {
+  return in_dimension(dimension, [](auto d) { return blocks_of<SmoothMatter<d>> - blocks_of<SmoothFluid<d>>; });
+}
+
+/// What each number of a point's row is, for its images.
+std::vector<ImageComponent> image_components(int dimension, bool matter) {
+  return in_dimension(dimension, [&](auto d) {
+    constexpr int D = d;
+    std::vector<ImageComponent> components((matter ? blocks_of<SmoothMatter<D>> : blocks_of<SmoothFluid<D>>)*row_block,
+                                           {ImageRule::same, 0, 0});
+    std::size_t const fluid = blocks_of<SmoothPlace<D>> * row_block;
+    for (int a = 0; a < D; ++a) {
+      components[static_cast<std::size_t>(a)] = {ImageRule::position, a, 0};
+      components[static_cast<std::size_t>(D + 1 + a)] = {ImageRule::velocity, a, 0};
+    }
+    components[fluid + 2] = {ImageRule::temperature, 0, 0};
+    if (!matter) return components;
+    std::size_t next = fluid + row_block + 1;
+    for (int a = 0; a < D; ++a)
+      for (int b = a; b < D; ++b) components[next++] = {ImageRule::tensor, a, b};
+    for (int a = 0; a < D; ++a) components[next++] = {ImageRule::heat_flux, a, 0};
+    return components;
+  });
+}
+
+double smoothing_length(WeightShape shape) {
+  return for_weight(shape, [](auto s) { return decltype(s)::smoothing_length; });
+}
+
+}  // namespace
+
+SmoothKernelTable const& smooth_kernels_of(WeightShape shape) {
+  return for_instruction_set([&](auto set) -> SmoothKernelTable const& {
+    return for_weight(
+        shape, [](auto s) -> SmoothKernelTable const& { return smooth_kernels<decltype(set)::value, decltype(s)>(); });
+  });
+}
+
+struct SmoothScheme::Loaded {
+  AnyEnsemble* ensemble;
+  MaterialKernels kernels;
+  std::shared_ptr<void const> material;
+  std::size_t first = 0;               // number of its first particle among all
+  std::vector<std::uint32_t> members;  // its rows of the mirror, if it is not alone
+  MaterialTask task;
+};
+
+struct SmoothScheme::Outside {
+  AnyEnsemble* ensemble;
+  ExternalKernels kernels;
+  std::shared_ptr<void const> law;
+};
+
+SmoothScheme::SmoothScheme(Box box, WeightShape shape) : Scheme(std::move(box)), shape_(shape) {
+  points_ = in_dimension(this->box().dimension(), [](auto d) -> std::unique_ptr<AnyEnsemble> {
+    return std::make_unique<Ensemble<SmoothPlace<d>>>("smooth particles");
+  });
+}
+
+SmoothScheme::~SmoothScheme() = default;
+
+void SmoothScheme::add_material(AnyEnsemble& ensemble, MaterialKernels const& kernels,
+                                std::shared_ptr<void const> material) {
+  if (std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& loaded) { return loaded->ensemble == &ensemble; }))
+    throw Error(fmt::format("ensemble '{}' is made of something already: one material each", ensemble.name()));
+  load(ensemble);
+  loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kernels, std::move(material), 0, {}, {}}));
+  hood_.reset();
+}
+
+void SmoothScheme::add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels,
+                                std::shared_ptr<void const> law) {
+  load(ensemble);
+  outside_.push_back(std::make_unique<Outside>(Outside{&ensemble, kernels, std::move(law)}));
+}
+
+void SmoothScheme::heating(Heating heating) {
+  parameters_.own_share = heating == Heating::own ? 1 : 0.5;
+  parameters_.other_share = heating == Heating::own ? 0 : 0.5;
+}
+
+void SmoothScheme::artificial_viscosity(ArtificialViscosity const& viscosity) {
+  check_parameter("artificial viscosity", "alpha", viscosity.alpha, AllowedRange::non_negative);
+  check_parameter("artificial viscosity", "beta", viscosity.beta, AllowedRange::non_negative);
+  viscosity_ = viscosity;
+  parameters_.alpha = viscosity.alpha;
+  parameters_.beta = viscosity.beta;
+  hood_.reset();
+}
+
+void SmoothScheme::skin(double length) {
+  if (!(length >= 0) || !std::isfinite(length))
+    throw Error(fmt::format("the skin is a length of zero or more, not {}", length));
+  skin_ = length;
+  if (hood_) hood_->skin(length);
+}
+
+void SmoothScheme::variable_range(VariableRange const& variable) {
+  check_parameter("variable range", "spacings", variable.spacings, AllowedRange::positive);
+  check_parameter("variable range", "shortest", variable.shortest, AllowedRange::non_negative);
+  check_parameter("variable range", "longest", variable.longest, AllowedRange::non_negative);
+  if (density_from_ == DensityFrom::continuity)
+    throw Error("ranges follow densities that are summed; with densities from continuity they stay");
+  take_places();
+  variable_ = variable;
+  if (variable.longest == 0) variable_->longest = 4 * longest_;
+  if (variable_->longest < variable.shortest)
+    throw Error(
+        fmt::format("variable range: longest = {} is below shortest = {}", variable_->longest, variable.shortest));
+  hood_.reset();
+  // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
+  // between two ranges that are too short and too long: density range^D grows with the range.
+  constexpr int most_iterations = 200;
+  constexpr double precision = 1e-12;
+  std::vector<double> factor_of(count()), shorter(count(), variable_->shortest), longer(count(), variable_->longest);
+  for (int iteration = 0;; ++iteration) {
+    complete(0);
+    for (std::size_t k = 0; k < factors_.size(); ++k) factor_of[hood_->target(0).order()[k]] = factors_[k];
+    double largest_change = 0;
+    in_dimension(box().dimension(), [&](auto d) {
+      constexpr int D = d;
+      for (auto const& loaded : loaded_)
+        for (std::size_t i = 0; i < loaded->ensemble->size(); ++i) {
+          auto& p = *reinterpret_cast<Smooth<D>*>(loaded->ensemble->row(i));
+          double &low = shorter[loaded->first + i], &high = longer[loaded->first + i];
+          double const excess = std::log(p.density / p.mass * detail::power<D>(p.range / variable.spacings));
+          (excess < 0 ? low : high) = std::clamp(p.range, variable_->shortest, variable_->longest);
+          double wanted = p.range * std::exp(std::clamp(-excess * factor_of[loaded->first + i] / D, -1.0, 1.0));
+          if (std::abs(wanted / p.range - 1) > precision && !(wanted > low && wanted < high)) {
+            if (wanted <= low && low > variable_->shortest)
+              wanted = std::sqrt(low * high);
+            else if (wanted >= high && high < variable_->longest)
+              wanted = low > 0 ? std::sqrt(low * high) : 0.5 * high;
+            else
+              wanted = std::clamp(wanted, low, high);
+          }
+          largest_change = std::max(largest_change, std::abs(wanted / p.range - 1));
+          p.range = wanted;
+        }
+    });
+    if (largest_change < precision) break;
+    if (iteration == most_iterations)
+      throw Error(fmt::format("variable range: the ranges still change by {:.1e} after {} iterations", largest_change,
+                              most_iterations));
+  }
+}
+
+std::size_t SmoothScheme::count() const {
+  std::size_t count = 0;
+  for (auto const& loaded : loaded_) count += loaded->ensemble->size();
+  return count;
+}
+
+int SmoothScheme::worth(std::size_t particles) const { return particles < worth_some_threads ? 1 : threads(); }
+
+/// Step 1: where the particles are, and how they move.
+void SmoothScheme::take_places() {
+  if (points_->size() != count()) points_->resize(count());
+  std::size_t first = 0;
+  shortest_ = infinite;
+  longest_ = 0;
+  for (auto& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    loaded->first = first;
+    struct Extent {
+      double shortest = infinite, longest = 0;
+      std::size_t wrong = std::numeric_limits<std::size_t>::max();
+    };
+    std::vector<Extent> extents(ensemble.size() / particle_grain + 1);
+    in_dimension(box().dimension(), [&](auto d) {
+      constexpr int D = d;
+      for_ranges(ensemble.size(), particle_grain, worth(ensemble.size()), [&](std::size_t begin, std::size_t end) {
+        Extent extent;
+        for (std::size_t i = begin; i < end; ++i) {
+          auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
+          auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(first + i));
+          place.position = p.position;
+          place.mass = p.mass;
+          place.velocity = p.velocity;
+          place.range = p.range;
+          if (!(p.range > 0 && p.range < infinite) && i < extent.wrong) extent.wrong = i;
+          extent.shortest = std::min(extent.shortest, p.range);
+          extent.longest = std::max(extent.longest, p.range);
+        }
+        extents[begin / particle_grain] = extent;
+      });
+    });
+    for (auto const& extent : extents) {
+      if (extent.wrong < ensemble.size())
+        throw PhysicsFailure(fmt::format("particle {} of '{}' has the range {}; it must be positive", extent.wrong,
+                                         ensemble.name(), ensemble.row(extent.wrong)[ensemble.field("range").offset]));
+      shortest_ = std::min(shortest_, extent.shortest);
+      longest_ = std::max(longest_, extent.longest);
+    }
+    first += ensemble.size();
+  }
+}
+
+/// Lists that reach as far as the longest range.
+void SmoothScheme::prepare() {
+  int const dimension = box().dimension();
+  for (int a = 0; a < dimension; ++a)
+    if (box().boundary(a) != Boundary::open && longest_ > box().length(a))
+      throw Error(
+          fmt::format("the range {} of smooth particles is longer than axis {} of the box, which allows at most {}",
+                      longest_, "xyz"[a], box().length(a)));
+  bool const vary = variable_.has_value();
+  if (!hood_) {
+    bool const matter = viscosity_.balsara || std::any_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) {
+                          return loaded->kernels.has_fluxes;
+                        });
+    hood_ = std::make_unique<Neighbourhood>(box());
+    hood_->mirror(*points_, 1 + (matter ? matter_blocks(dimension) : 0))
+        .components(image_components(dimension, matter));
+    hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
+    hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
+    return;
+  }
+  double const cutoff = hood_->cutoff(0);
+  if (vary ? longest_ > cutoff || longest_ < 0.8 * cutoff : longest_ != cutoff)
+    reach(vary ? room_to_grow * longest_ : longest_);
+}
+
+void SmoothScheme::reach(double cutoff) {
+  hood_->cutoff(0, cutoff);
+  if (skin_ < 0) hood_->skin(skin_of_range * cutoff);
+}
+
+/// Which sorted rows are whose: with one ensemble, all.
+void SmoothScheme::find_members() {
+  if (loaded_.size() == 1 || members_of_build_ == hood_->builds()) return;
+  members_of_build_ = hood_->builds();
+  Mirror const& mirror = hood_->target(0);
+  for (auto& loaded : loaded_) loaded->members.clear();
+  for (std::uint32_t k = 0; k < mirror.owned(); ++k) {
+    auto const after = std::find_if(loaded_.rbegin(), loaded_.rend(), [&](auto const& loaded) {
+      return loaded->first <= mirror.order()[k] && loaded->ensemble->size() > 0;
+    });
+    (*after)->members.push_back(k);
+  }
+}
+
+void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result) {
+  Mirror const& mirror = hood_->target(0);
+  NeighbourList const& list = hood_->list(0);
+  if (sums_.size() < components * mirror.owned()) sums_.resize(components * mirror.owned());
+  for (auto& loaded : loaded_) loaded->task.*result = sums_.data();
+  PairTask task;
+  task.target = task.source = mirror.rows();
+  task.targets = mirror.owned();
+  task.sources = mirror.total();
+  task.overwrite = true;
+  task.same = true;
+  task.target_stride = task.source_stride = mirror.block_stride();
+  task.row = list.rows();
+  task.length = list.lengths(hood_->ring());
+  task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
+  task.influence = sums_.data();
+  for_ranges(task.targets, pair_grain, worth(16 * task.targets),
+             [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
+}
+
+void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
+  constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+  for (auto const& loaded : loaded_) {
+    std::size_t const size = loaded->ensemble->size();
+    std::vector<std::size_t> not_finite(size / particle_grain + 1, nobody);
+    loaded->task.not_finite = not_finite.data();
+    for_ranges(size, particle_grain, worth(size), [&](std::size_t begin, std::size_t end) {
+      (loaded->kernels.*kernel)(loaded->material.get(), loaded->task, begin, end);
+    });
+    std::size_t const first = *std::min_element(not_finite.begin(), not_finite.end());
+    if (first != nobody) throw PhysicsFailure(explain(*loaded->ensemble, first));
+  }
+}
+
+void SmoothScheme::find(Until until) {
+  take_places();
+  if (points_->size() == 0) return;
+  prepare();
+  hood_->refresh(threads());
+  find_members();
+  int const dimension = box().dimension();
+  Mirror& mirror = hood_->mirror(*points_);
+  std::size_t const fluid = place_blocks(dimension), matter = fluid + 1, end = mirror.blocks() + mirror.extra_blocks();
+  auto const any = [&](auto const& what) {
+    return std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& loaded) { return what(loaded->kernels); });
+  };
+  bool const own = variable_ || shortest_ != longest_, viscous = viscosity_.alpha > 0 || viscosity_.beta > 0;
+  bool const gradients = viscosity_.balsara || any([](auto const& kernels) { return kernels.needs_gradients; });
+  double const push = loaded_.front()->kernels.push;
+  bool const uniform = !own && !viscous && !gradients && density_from_ == DensityFrom::summation &&
+                       !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
+  parameters_.range = longest_;
+  parameters_.push = push;
+  if (own) factors_.resize(mirror.owned());
+  double const self = for_weight(shape_, [&](auto s) {
+    using Shape = decltype(s);
+    return in_dimension(dimension, [](auto d) { return Shape::template norm<d> * Shape::template value<d>(0.0); });
+  });
+  for (auto& loaded : loaded_) {
+    MaterialTask& task = loaded->task;
+    task = {};
+    task.particles = loaded->ensemble->row(0);
+    task.influence = loaded->ensemble->influence(0);
+    task.first = static_cast<std::uint32_t>(loaded->first);
+    task.order = mirror.order();
+    task.members = loaded_.size() == 1 ? nullptr : loaded->members.data();
+    task.fluid = mirror.block(fluid);
+    task.matter = end > matter ? mirror.block(matter) : nullptr;
+    task.block_stride = mirror.block_stride();
+    task.factor = own ? factors_.data() : nullptr;
+    task.adaptive = variable_.has_value();
+    task.self = self;
+    task.uniform = uniform;
+    task.continuity = density_from_ == DensityFrom::continuity;
+    task.balsara = viscosity_.balsara;
+    if (variable_) {
+      task.spacings = variable_->spacings;
+      task.shortest = variable_->shortest;
+      task.longest = variable_->longest;
+    }
+  }
+  SmoothKernels const& kernels = smooth_kernels_of(shape_).in[dimension - 1];
+  SmoothPasses const& passes = own ? kernels.variable : kernels.same;
+  auto const D = static_cast<std::size_t>(dimension);
+
+  // Step 2 and the state of step 4. Where forces need no density, it waits until somebody looks.
+  if (!uniform || until == Until::state) {
+    if (density_from_ == DensityFrom::summation) run_pass(passes.density, own ? 2 : 1, &MaterialTask::density);
+    run_material(&MaterialKernels::state);
+  }
+  if (until == Until::state) return;
+  if (!uniform) mirror.refresh_images(fluid, matter, worth(mirror.owned()));
+
+  // Step 3, and the fluxes of step 4.
+  if (gradients) {
+    run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D,
+             &MaterialTask::gradients);
+    run_material(&MaterialKernels::fluxes);
+    mirror.refresh_images(matter, end, worth(mirror.owned()));
+  }
+
+  // Step 5.
+  run_pass(uniform     ? passes.uniform
+           : gradients ? passes.all
+           : viscous   ? passes.viscous
+                       : passes.pressure,
+           uniform ? D : D + 2, &MaterialTask::rates);
+  run_material(&MaterialKernels::rates);
+}
+
+void SmoothScheme::add_influences(double time) {
+  ++calculations_;
+  time_ = time;
+  find(Until::rates);
+  for (auto const& outside : outside_) {
+    ExternalTask task;
+    task.rows = outside->ensemble->row(0);
+    task.influence = outside->ensemble->influence(0);
+    task.time = time;
+    for_ranges(
+        outside->ensemble->size(), particle_grain, worth(outside->ensemble->size()),
+        [&](std::size_t begin, std::size_t end) { outside->kernels.influence(outside->law.get(), task, begin, end); });
+  }
+}
+
+void SmoothScheme::complete(double) { find(Until::state); }
+
+Measures SmoothScheme::measure(double time) {
+  complete(time);
+  Measures measures;
+  auto const& all = ensembles();
+  measures.per_particle.resize(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    AnyEnsemble const& ensemble = *all[e];
+    auto const mass = ensemble.field("mass").offset, energy = ensemble.field("specific_energy").offset;
+    measures.per_particle[e].resize(ensemble.size());
+    CompensatedSum sum;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      sum += measures.per_particle[e][i] = p[mass] * p[energy];
+    }
+    measures.internal += sum.value();
+  }
+  for (auto const& outside : outside_) {
+    if (!outside->kernels.has_energy) {
+      measures.unknown = "an external law on '" + outside->ensemble->name() + "'";
+      continue;
+    }
+    std::vector<double> energy(outside->ensemble->size());
+    ExternalTask task;
+    task.rows = outside->ensemble->row(0);
+    task.time = time;
+    task.energy = energy.data();
+    outside->kernels.measure(outside->law.get(), task, 0, energy.size());
+    CompensatedSum sum;
+    for (double const u : energy) sum += u;
+    measures.external += sum.value();
+  }
+  return measures;
+}
+
+double SmoothScheme::length_scale(AnyEnsemble const& ensemble) const {
+  double shortest = infinite;
+  auto const offset = ensemble.field("range").offset;
+  for (std::size_t i = 0; i < ensemble.size(); ++i) shortest = std::min(shortest, ensemble.row(i)[offset]);
+  return smoothing_length(shape_) * shortest;
+}
+
+double SmoothScheme::courant_step() {
+  if (calculations_ == 0)
+    calculate(time_);
+  else
+    complete(time_);
+  double longest = infinite;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const range = ensemble.field("range").offset, speed = ensemble.field("sound_speed").offset,
+               mass = ensemble.field("mass").offset;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      double const h = smoothing_length(shape_) * p[range];
+      double force2 = 0;
+      for (int a = 0; a < box().dimension(); ++a) force2 += square(ensemble.influence(i)[a]);
+      double const sound = 0.4 * h / (p[speed] * (1 + 0.6 * viscosity_.alpha));
+      double const push = 0.25 * std::sqrt(h * p[mass] / std::sqrt(force2));
+      longest = std::min(longest, std::min(sound, push));
+      if (loaded->kernels.diffusivity)
+        longest = std::min(longest, 0.125 * h * h / loaded->kernels.diffusivity(loaded->material.get(), p));
+    }
+  }
+  return longest;
+}
+
+std::string SmoothScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  double const* p = ensemble.row(i);
+  auto const value = [&](char const* name) { return p[ensemble.field(name).offset]; };
+  if (value("specific_energy") < 0)
+    return fmt::format(
+        "the specific energy of particle {} of '{}' is negative, {:.4g}: too large a step, or a shock "
+        "without artificial viscosity",
+        i, ensemble.name(), value("specific_energy"));
+  for (auto const* name : {"density", "specific_energy", "pressure", "sound_speed"})
+    if (!std::isfinite(value(name)) || (name == std::string_view("density") && value(name) <= 0))
+      return fmt::format("the {} of particle {} of '{}' is {} (its density is {:.4g}, its specific energy {:.4g})",
+                         name, i, ensemble.name(), value(name), value("density"), value("specific_energy"));
+  return "";
+}
+
+void SmoothScheme::make_reversible(double) {
+  throw Error(
+      "the reversible leap-frog can't run smooth particles, whose rates depend on velocities; use leap-frog, rk2 "
+      "or rk4");
+}
+
+std::vector<std::string> SmoothScheme::advice(double step_size) {
+  double const longest = courant_step(), part = std::abs(step_size) / longest;
+  if (!std::isfinite(longest)) return {};
+  std::string const line = fmt::format("the step is {:.3g} of the Courant step {:.4g}", part, longest);
+  return {part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
+}
+
+std::size_t SmoothScheme::bytes() const {
+  auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
+  std::size_t bytes = points_->bytes() + of(sums_) + of(factors_);
+  for (auto const& loaded : loaded_) bytes += of(loaded->members);
+  return bytes + (hood_ ? hood_->bytes() : 0);
+}
+
+std::string SmoothScheme::report() const {
+  return hood_ ? fmt::format("{} calculations of rates, lists built {} times", calculations_, hood_->builds()) : "";
+}
+
+std::vector<double> SmoothScheme::state() const {
+  if (!hood_) return {};
+  std::vector<double> state{hood_->cutoff(0)};
+  auto const hood = hood_->state();
+  state.insert(state.end(), hood.begin(), hood.end());
+  return state;
+}
+
+void SmoothScheme::restore(std::span<double const> state) {
+  if (state.empty()) return;
+  take_places();
+  prepare();
+  reach(state[0]);
+  hood_->restore(state.subspan(1), threads());
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,136 @@
+// SmoothScheme: continuum mechanics with smooth particles (SPAM): the recipe of Hoover and Hoover as passes over pairs.
+#pragma once
+
+#include <boltzmann/neighbours/neighbourhood.hpp>
+#include <boltzmann/schemes/pair/external_kernels.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/schemes/smooth/force_on.hpp>
+#include <boltzmann/schemes/smooth/material_kernels.hpp>
+#include <boltzmann/schemes/smooth/smooth_kernels.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// How the density of a particle is known.
+enum class DensityFrom {
+  summation,  ///< of the weights around it (Eq 8): mass is conserved exactly
+  continuity  ///< of its past (Eq 1): no deficit at free surfaces; give densities at the start
+};
+/// The mean density in gradients (Eq 17).
+enum class MeanDensity { arithmetic, geometric };
+/// Who is heated by the work that pressure does on a pair: both by the same (Eq 14), or each by what its own pressure
+/// does, so that in smooth flow each stays on its isentrope. Total energy is conserved either way.
+enum class Heating { shared, own };
+
+/// Monaghan's artificial viscosity: alpha for weak shocks, beta against particles that run through each other.
+struct ArtificialViscosity {
+  double alpha = 1, beta = 2;
+  bool balsara = false;  ///< less of it in shear (Balsara 1995)
+};
+
+/// Ranges that follow the density: range = spacings (mass / density)^(1/D), between two limits.
+struct VariableRange {
+  double spacings = 3;
+  double shortest = 0;
+  double longest = 0;  ///< 0: four times the longest at the start
+};
+
+class SmoothScheme final : public Scheme {
+ public:
+  /// Smooth particles with weights of this shape; their ranges are the particles' own.
+  explicit SmoothScheme(Box box, WeightShape shape = WeightShape::lucy);
+  ~SmoothScheme() override;
+
+  /// Loads an ensemble of a class made from Smooth, and says what it is made of. Particles of all ensembles act on
+  /// each other.
+  template <class P, class M>
+  void material(Ensemble<P>& ensemble, M const& material) {
+    static_assert(std::is_base_of_v<Smooth<P::dimension>, P>, "a smooth particle is of a class derived from Smooth");
+    static_assert(Material<M, P>, "a material has a function State state(auto const& p) const; see laws/material.hpp");
+    if constexpr (requires { material.check(); }) material.check();
+    add_material(ensemble, material_kernels<P>(material), std::make_shared<M>(material));
+  }
+
+  /// A force from outside on all particles of an ensemble: law(p) or law(p, time) is a force or an Interaction.
+  template <class P, class Law>
+  void external(Ensemble<P>& ensemble, Law const& law) {
+    static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
+    if constexpr (requires { law.check(); }) law.check();
+    add_external(ensemble, external_kernels<P, ForceOn<Law>>(), std::make_shared<ForceOn<Law>>(ForceOn<Law>{law}));
+  }
+
+  void density_from(DensityFrom from) { density_from_ = from; }
+  void mean_density(MeanDensity mean) { mean_density_ = mean; }
+  void heating(Heating heating);
+  /// Error if alpha or beta is negative.
+  void artificial_viscosity(ArtificialViscosity const& viscosity);
+  /// Lets ranges vary and sets them for the state as it stands. From then on they evolve with the density. Ensembles
+  /// are to be loaded before; densities are summed. Error if they can't be found.
+  void variable_range(VariableRange const& variable);
+  /// How far particles may move before lists are rebuilt: lists reach range + skin. Default 0.08 of the longest range.
+  void skin(double length);
+
+  /// The longest step that follows sound and diffusion from particle to particle: the smallest of
+  /// 0.4 h/(c + 0.6 (alpha c + beta h |div v|-like bound)) and h^2/8 over the diffusivity, with h the smoothing length,
+  /// and sqrt(h / acceleration) / 4.
+  double courant_step();
+
+  void add_influences(double time) override;
+  void complete(double time) override;
+  Measures measure(double time = 0) override;
+  bool velocity_dependent(AnyEnsemble const&) const override { return true; }
+  double length_scale(AnyEnsemble const& ensemble) const override;
+  double longest_step() override { return courant_step(); }
+  std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
+  std::vector<std::string> advice(double step_size) override;
+  std::string report() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+  WeightShape shape() const { return shape_; }
+
+  // For code that knows classes only at run time (scenarios).
+  void add_material(AnyEnsemble& ensemble, MaterialKernels const& kernels, std::shared_ptr<void const> material);
+  void add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels, std::shared_ptr<void const> law);
+
+ private:
+  struct Loaded;
+  struct Outside;
+
+  enum class Until { state, rates };
+  void find(Until until);
+  void prepare();
+  void reach(double cutoff);
+  void take_places();
+  /// Sums over pairs, for materials to read as `result`.
+  void run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result);
+  void run_material(MaterialKernel MaterialKernels::*kernel);
+  void find_members();
+  int worth(std::size_t particles) const;
+  std::size_t count() const;
+
+  WeightShape shape_;
+  DensityFrom density_from_ = DensityFrom::summation;
+  MeanDensity mean_density_ = MeanDensity::arithmetic;
+  ArtificialViscosity viscosity_{0, 0, false};
+  PassParameters parameters_;
+  std::optional<VariableRange> variable_;
+  double skin_ = -1;                     // not chosen
+  double longest_ = 0, shortest_ = 0;    // ranges of the particles
+  std::unique_ptr<AnyEnsemble> points_;  // the places of all particles, ensemble after ensemble
+  std::unique_ptr<Neighbourhood> hood_;  // of the points; none before the first calculation
+  std::vector<std::unique_ptr<Loaded>> loaded_;
+  std::vector<std::unique_ptr<Outside>> outside_;
+  std::vector<double> sums_;     // of the last pass, in the order of rows
+  std::vector<double> factors_;  // grad-h
+  std::size_t calculations_ = 0, members_of_build_ = 0;
+  double time_ = 0;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,63 @@
+// Rayleigh-Benard convection with smooth particles (figure 4 of Hoover and Hoover's SPAM): a gas between a hot floor
+// and a cold ceiling, walls of odd mirror images; Nusselt's number is in diagnoses.csv.
+#include <boltzmann/boltzmann.hpp>
+#include <boltzmann/diagnoses/heat_flux.hpp>
+#include <boltzmann/laws/materials/ideal_gas.hpp>
+#include <boltzmann/laws/materials/viscous.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+
+#include <cstdio>
+#include <numbers>
+
+using namespace boltzmann;
+
+int main(int argc, char** argv) try {
+  double const rayleigh = argc > 2 ? std::stod(argv[2]) : 10000, prandtl = 0.71;
+  // Units: the height, the mean temperature, the gas constant and the mean density are one.
+  double const width = 4, spacing = 0.05, difference = 0.4, gamma = 1.02, cv = 1 / (gamma - 1), cp = gamma * cv;
+  // Gravity as Hoover chose it: at rest the density is the same everywhere, for the warmer has more to carry.
+  double const gravity = difference, free_fall = std::sqrt(gravity * difference);
+  // Ra = g (dT/H - g/cp) H^4 / (T nu kappa), Pr = nu / kappa: only what is steeper than the adiabat drives the flow.
+  double const diffusivity = std::sqrt(gravity * (difference - gravity / cp) / (rayleigh * prandtl));
+  double const viscosity = prandtl * diffusivity, conductivity = diffusivity * cp;
+
+  Box box(Vector{0.0, 0.0}, Vector{width, 1.0}, {Boundary::periodic, Boundary::mirror});
+  box.wall(1, Box::End::low, {.slips = false, .temperature = 1 + difference / 2});
+  box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
+
+  Ensemble<Smooth<2>> gas("gas", 0);
+  block_load(gas, Lattice::square, spacing, {80, 20}, {spacing / 2, spacing / 2}, true);
+  double const k = std::numbers::pi, stir = 0.3 * free_fall;  // two pairs of rolls, turning gently
+  for (auto& p : gas) {
+    double const x = p.position[0], y = p.position[1];
+    p.mass = spacing * spacing;
+    p.range = 4 * spacing;
+    p.specific_energy = cv * (1 + difference * (0.5 - y));
+    p.velocity = {-stir * std::sin(k * x) * std::cos(k * y), stir * std::cos(k * x) * std::sin(k * y)};
+  }
+  gas.appearance.diameter = spacing;
+
+  SmoothScheme scheme(box);
+  scheme.material(gas, Newtonian<IdealGas>{{gamma, cv}, viscosity, 0, conductivity});
+  scheme.external(gas, UniformGravity<2>{Vector{0.0, -gravity}});
+
+  double const step = 0.5 * scheme.courant_step(), duration = 40 / free_fall;
+  Simulation simulation(scheme, step);
+  simulation.integrate(gas, Method::leap_frog);
+
+  auto nusselt =
+      std::make_unique<HeatFlux>(std::vector<AnyEnsemble const*>{&gas},
+                                 HeatFluxOptions{.axis = 1, .conductivity = conductivity, .since = duration / 2});
+  HeatFlux const& flux = *nusselt;
+  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/convection-cpp", true);
+  recording.diagnoses(10, {"energies"});
+  std::vector<std::unique_ptr<Diagnosis>> more;
+  more.push_back(std::move(nusselt));
+  recording.diagnoses(10, std::move(more));
+  recording.picture({.drawing = "map", .y = "temperature"});
+  recording.picture({.drawing = "contours", .y = "temperature", .file = "contours.png"});
+  run_with_progress(recording, static_cast<std::uint64_t>(duration / step));
+  std::printf("Nusselt's number: %.2f, spread %.2f, over the second half of the run\n", flux.mean(), flux.spread());
+} catch (std::exception const& error) {
+  return report(error);
+}

@@ -1,0 +1,69 @@
+// A dam breaks: a column of water, once the wall is taken away, runs along the floor (Martin and Moyce 1952).
+#include <boltzmann/boltzmann.hpp>
+#include <boltzmann/laws/materials/tait.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+
+#include <cstdio>
+
+using namespace boltzmann;
+
+// A diagnosis of one's own: the front of the water, in the experiment's units Z = z/a and T = t sqrt(2g/a).
+struct Front : Diagnosis {
+  double width, gravity, half_spacing;
+  std::vector<std::pair<double, double>> track;
+
+  Front(double a, double g, double half) : width(a), gravity(g), half_spacing(half) {}
+  std::vector<Column> columns() const override { return {{"T", dimensions::none}, {"Z", dimensions::none}}; }
+  void measure(Sample const& sample, std::vector<double>& values) override {
+    double const z = extremes(quantity(*sample.ensembles[0], "position.x")).maximum + half_spacing;
+    track.emplace_back(sample.time * std::sqrt(2 * gravity / width), z / width);
+    values.insert(values.end(), {track.back().first, track.back().second});
+  }
+};
+
+int main(int argc, char** argv) try {
+  double const width = 1, height = 2, gravity = 1, spacing = 0.05;
+  Tait const water{.reference_density = 1, .sound_speed = 20};  // ten times as fast as anything will flow
+
+  Box box(Vector{0.0, 0.0}, Vector{9.0, 3.0}, Boundary::mirror);
+  box.open_end(1, Box::End::high);
+
+  Ensemble<Smooth<2>> column("water", 0);
+  block_load(column, Lattice::square, spacing, {20, 40}, {spacing / 2, spacing / 2}, true);
+  for (auto& p : column) {
+    double const pressure = gravity * (height - p.position[1]);
+    p.density = std::pow(1 + pressure / water.stiffness(), 1 / water.gamma);
+    p.mass = p.density * spacing * spacing;
+    p.range = 2.6 * spacing;
+  }
+  column.appearance.diameter = spacing;
+
+  SmoothScheme scheme(box, WeightShape::wendland);
+  scheme.material(column, water);
+  scheme.density_from(DensityFrom::continuity);  // sums would find half a density at the free surface
+  scheme.artificial_viscosity({.alpha = 0.05, .beta = 0});
+  scheme.external(column, UniformGravity<2>{Vector{0.0, -gravity}});
+
+  double const step = 0.6 * scheme.courant_step();
+  Simulation simulation(scheme, step);
+  simulation.integrate(column, Method::leap_frog);
+
+  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/dam-break-cpp", true);
+  std::vector<std::unique_ptr<Diagnosis>> instruments;
+  instruments.push_back(std::make_unique<Front>(width, gravity, spacing / 2));
+  auto const& front = static_cast<Front const&>(*instruments.front());
+  recording.diagnoses(10, {"energies"});
+  recording.diagnoses(10, std::move(instruments));
+  recording.picture({.colour = "pressure"});
+  run_with_progress(recording, static_cast<std::uint64_t>(5.4 / std::sqrt(2 * gravity / width) / step));
+
+  std::printf("   T   experiment  here\n");
+  for (auto const& [t, z] : {std::pair{0.849, 1.245}, {1.602, 1.884}, {2.95, 3.728}, {3.905, 4.999}, {5.316, 6.717}})
+    for (auto const& [time, here] : front.track)
+      if (time >= t) {
+        std::printf("%.3f    %.3f    %.3f\n", t, z, here);
+        break;
+      }
+} catch (std::exception const& error) {
+  return report(error);
+}

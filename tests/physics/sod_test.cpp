@@ -1,0 +1,156 @@
+// Sod's shock tube (scenarios/sod.toml) against the exact solution of the Riemann problem.
+#include <tests/physics/riemann.hpp>
+#include <tests/physics/smooth_gas.hpp>
+
+#include <boltzmann/laws/materials/ideal_gas.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+namespace boltzmann {
+namespace {
+
+constexpr double end_time = 0.2;
+constexpr GasState left_state{1, 0, 1}, right_state{0.125, 0, 0.1};
+
+// The published star values.
+TEST(Riemann, HasTheStarValuesOfSod) {
+  Riemann const diatomic(left_state, right_state, 1.4);
+  EXPECT_NEAR(diatomic.star_pressure(), 0.303130, 1e-6);
+  EXPECT_NEAR(diatomic.star_velocity(), 0.927453, 1e-6);
+  EXPECT_NEAR(diatomic.left_density(), 0.426319, 1e-6);
+  EXPECT_NEAR(diatomic.right_density(), 0.265574, 1e-6);
+  EXPECT_NEAR(diatomic.shock_speed(), 1.752156, 1e-6);
+  Riemann const monatomic(left_state, right_state, 5.0 / 3);
+  EXPECT_NEAR(monatomic.star_pressure(), 0.293945, 1e-6);
+  EXPECT_NEAR(monatomic.star_velocity(), 0.841195, 1e-6);
+}
+
+// What defines the solution: mass, momentum and energy flow through the shock; along the fan entropy and u + 2c/(g - 1)
+// stay; seen in a mirror, and from a moving frame, it is the same.
+TEST(Riemann, KeepsWhatFlowsThroughItsWaves) {
+  double const gamma = 1.4;
+  Riemann const tube(left_state, right_state, gamma);
+  GasState const behind = tube.at(1.5);
+  auto const flux = [&](GasState const& s) {
+    double const u = s.velocity - tube.shock_speed(), e = s.pressure / ((gamma - 1) * s.density);
+    return std::array{s.density * u, s.density * u * u + s.pressure,
+                      u * (s.density * (e + 0.5 * u * u) + s.pressure)};
+  };
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(flux(behind)[k], flux(right_state)[k], 1e-12);
+  for (double const speed : {-1.1, -0.8, -0.4, -0.1}) {
+    GasState const s = tube.at(speed);
+    double const c = std::sqrt(gamma * s.pressure / s.density);
+    EXPECT_NEAR(s.pressure / std::pow(s.density, gamma), 1, 1e-12);
+    EXPECT_NEAR(s.velocity + 5 * c, 5 * std::sqrt(gamma), 1e-12);
+    EXPECT_NEAR(s.velocity - c, speed, 1e-12);
+  }
+  Riemann const mirrored({0.125, 3, 0.1}, {1, 3, 1}, gamma);
+  for (double const speed : {-1.3, -0.9, -0.2, 0.1, 0.5, 1.0, 1.6, 1.9}) {
+    EXPECT_NEAR(mirrored.at(3 - speed).density, tube.at(speed).density, 1e-12);
+    EXPECT_NEAR(mirrored.at(3 - speed).velocity, 3 - tube.at(speed).velocity, 1e-12);
+    EXPECT_NEAR(mirrored.at(3 - speed).pressure, tube.at(speed).pressure, 1e-12);
+  }
+}
+
+struct Tube {
+  double error;  ///< mean over space of |density - exact|
+  double shock;  ///< where the density is half way between both sides of the shock, by where it should be
+  double pressure, velocity, left_density, right_density;  ///< in the middle of both plateaus, by exact
+  double energy_drift;
+};
+
+/// A tube of so many particles in the length 1, and so many across (periodic). Equal masses: the right side has eight
+/// times fewer in 1D; else equal spacings, the right ones lighter.
+template <int D>
+Tube run_tube(double gamma, std::size_t along, std::size_t across, bool equal_masses) {
+  Riemann const exact(left_state, right_state, gamma);
+  double const spacing = 1.0 / static_cast<double>(along), width = spacing * static_cast<double>(across);
+  Ensemble<Smooth<D>> gas("gas", along);
+  Vector<D> low{}, high{};
+  low[0] = -0.5, high[0] = 0.5;
+  std::array<Boundary, D> boundaries;
+  boundaries.fill(Boundary::periodic);
+  boundaries[0] = Boundary::mirror;
+  std::array<std::size_t, D> counts;
+  counts.fill(across);
+  counts[0] = along;
+  for (int a = 1; a < D; ++a) high[a] = width;
+  if (equal_masses) {
+    std::size_t const on_the_left = along * 8 / 9;
+    double const mass = 0.5 / static_cast<double>(on_the_left);
+    for (std::size_t i = 0; i < along; ++i) {
+      gas[i].mass = mass;
+      gas[i].position[0] = i < on_the_left ? (static_cast<double>(i) + 0.5) * mass - 0.5
+                                           : (static_cast<double>(i - on_the_left) + 0.5) * 8 * mass;
+    }
+    high[0] = static_cast<double>(along - on_the_left) * 8 * mass;
+  } else {
+    fill(gas, low, spacing, counts);
+  }
+  for (auto& p : gas) {
+    GasState const& state = p.position[0] < 0 ? left_state : right_state;
+    if (!equal_masses) p.mass = state.density * std::pow(spacing, D);
+    p.specific_energy = state.pressure / ((gamma - 1) * state.density);
+    p.range = 3 * spacing;
+  }
+  SmoothScheme scheme(Box(low, high, boundaries));
+  scheme.material(gas, IdealGas{gamma});
+  scheme.artificial_viscosity({});
+  scheme.heating(Heating::own);
+  scheme.variable_range({.spacings = D == 3 ? 2.4 : 3});
+  Simulation simulation(scheme, 1);
+  simulation.integrate(gas, Method::leap_frog);
+  double const start = total_energy(scheme, gas);
+  run_by_courant(simulation, scheme, end_time, 0.5, 1);
+  Tube tube{};
+  tube.energy_drift = std::abs(total_energy(scheme, gas) / start - 1);
+  scheme.complete(end_time);
+  std::array<double, 4> sums{}, numbers{};
+  double space = 0, shock = -1;
+  double const contact = exact.star_velocity(), half = 0.5 * (exact.right_density() + right_state.density);
+  for (auto const& p : gas) {
+    double const speed = p.position[0] / end_time, volume = p.mass / p.density;
+    tube.error += volume * std::abs(p.density - exact.at(speed).density);
+    space += volume;
+    if (p.density > half && speed > shock) shock = speed;
+    bool const left = speed > 0.2 && speed < contact - 0.15;
+    bool const right = speed > contact + 0.15 && speed < exact.shock_speed() - 0.2;
+    if (left || right) {
+      sums[0] += p.pressure, ++numbers[0];
+      sums[1] += p.velocity[0], ++numbers[1];
+      sums[left ? 2 : 3] += p.density, ++numbers[left ? 2 : 3];
+    }
+  }
+  tube.error /= space;
+  tube.shock = shock / exact.shock_speed();
+  tube.pressure = sums[0] / numbers[0] / exact.star_pressure();
+  tube.velocity = sums[1] / numbers[1] / exact.star_velocity();
+  tube.left_density = sums[2] / numbers[2] / exact.left_density();
+  tube.right_density = sums[3] / numbers[3] / exact.right_density();
+  std::printf("L1 %.4f shock %.4f p %.4f u %.4f rho %.4f %.4f energy %.1e\n", tube.error, tube.shock, tube.pressure,
+              tube.velocity, tube.left_density, tube.right_density, tube.energy_drift);
+  return tube;
+}
+
+void expect_near_exact(Tube const& tube, double error, double shock, double plateau) {
+  EXPECT_LT(tube.error, error);
+  EXPECT_NEAR(tube.shock, 1, shock);
+  EXPECT_NEAR(tube.pressure, 1, plateau);
+  EXPECT_NEAR(tube.velocity, 1, plateau);
+  EXPECT_NEAR(tube.left_density, 1, plateau);
+  EXPECT_NEAR(tube.right_density, 1, plateau);
+  EXPECT_LT(tube.energy_drift, 2e-5);
+}
+
+class SodIn1D : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Gammas, SodIn1D, testing::Values(1.4, 5.0 / 3));
+
+TEST_P(SodIn1D, WithEqualSpacings) { expect_near_exact(run_tube<1>(GetParam(), 400, 1, false), 0.007, 0.005, 0.01); }
+TEST_P(SodIn1D, WithEqualMasses) { expect_near_exact(run_tube<1>(GetParam(), 400, 1, true), 0.008, 0.01, 0.01); }
+
+TEST(Sod, In2D) { expect_near_exact(run_tube<2>(1.4, 200, 12, false), 0.02, 0.01, 0.02); }
+TEST(Sod, In3D) { expect_near_exact(run_tube<3>(1.4, 100, 10, false), 0.03, 0.02, 0.03); }
+
+}  // namespace
+}  // namespace boltzmann
