@@ -16,6 +16,14 @@
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/laws/magnetic.hpp>
+#include <boltzmann/laws/materials/elastic.hpp>
+#include <boltzmann/laws/materials/ideal_gas.hpp>
+#include <boltzmann/laws/materials/isentropic_gas.hpp>
+#include <boltzmann/laws/materials/pressure_table.hpp>
+#include <boltzmann/laws/materials/stiffened_gas.hpp>
+#include <boltzmann/laws/materials/tait.hpp>
+#include <boltzmann/laws/materials/van_der_waals.hpp>
+#include <boltzmann/laws/materials/viscous.hpp>
 #include <boltzmann/laws/mixing.hpp>
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/pendulum.hpp>
@@ -38,5 +46,6 @@
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/simulation.hpp>

@@ -19,6 +19,10 @@ Picture picture_of(PicturePlan const& plan) {
   picture.slice = plan.slice;
   picture.at = plan.at;
   picture.logarithmic = plan.logarithmic;
+  picture.smoothing = {plan.weight, plan.range};
+  picture.levels = plan.levels;
+  picture.level_count = plan.level_count;
+  picture.cells = plan.cells;
   for (auto const& [frequency, speed] : plan.curves) picture.curves.push_back({frequency, speed});
   return picture;
 }

@@ -36,6 +36,8 @@ class Diagnosis {
   virtual void measure(Sample const& sample, std::vector<double>& values) = 0;
   virtual bool needs_energies() const { return false; }
   virtual bool needs_mesh() const { return false; }
+  /// Whether it follows particles from look to look by their numbers.
+  virtual bool by_number() const { return false; }
   /// What it remembers from earlier looks (initial velocities of a group, ...), for checkpoints.
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(std::span<double const>) {}

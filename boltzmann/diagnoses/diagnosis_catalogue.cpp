@@ -176,7 +176,7 @@ class Energies final : public SystemDiagnosis {
   std::vector<Column> columns_of_all() const override {
     std::vector<Column> columns;
     if (!whole_only_) columns.push_back({"kinetic energy", dimensions::energy});
-    for (char const* name : {"potential energy", "external energy", "total energy"})
+    for (char const* name : {"potential energy", "external energy", "internal energy", "total energy"})
       columns.push_back({name, dimensions::energy});
     return columns;
   }
@@ -185,8 +185,9 @@ class Energies final : public SystemDiagnosis {
     bool const known = sample.measures != nullptr && sample.measures->unknown.empty();
     double const potential = known ? sample.measures->potential : nan;
     double const external = known ? sample.measures->external : nan;
+    double const internal = known ? sample.measures->internal : nan;
     if (!whole_only_) values.push_back(kinetic);
-    values.insert(values.end(), {potential, external, kinetic + potential + external});
+    values.insert(values.end(), {potential, external, internal, kinetic + potential + external + internal});
   }
 
  private:
@@ -307,13 +308,15 @@ class GroupDiagnosis : public Diagnosis {
     for (std::size_t g = 0; g < names_.size(); ++g) {
       std::size_t const e = index_in(sample, names_[g]);
       AnyEnsemble const& ensemble = *sample.ensembles[e];
-      measure_group(g, ensemble,
-                    similar_             ? groups_[g]
-                    : particles_.empty() ? all_particles(ensemble)
-                                         : particles_,
-                    energies_of(sample, e), values);
+      auto const group = similar_ ? groups_[g] : particles_.empty() ? all_particles(ensemble) : particles_;
+      for (std::uint32_t const i : group)
+        if (i >= ensemble.size())
+          throw Error(fmt::format("a group has particle {} of '{}', which has {} now", i, names_[g], ensemble.size()));
+      measure_group(g, ensemble, group, energies_of(sample, e), values);
     }
   }
+
+  bool by_number() const final { return similar_ || !particles_.empty(); }
 
   /// Nothing before the first look; then, for each ensemble, the size of its group and the numbers of its particles.
   std::vector<double> state() const final {
@@ -516,7 +519,7 @@ std::vector<Entry> const& table() {
     group_and_quantity.emplace_back("quantity");
     return std::vector<Entry>{
         {{"energies",
-          "kinetic, potential, external and total energy; kinetic energy of each named ensemble",
+          "kinetic, potential, external, internal and total energy; kinetic energy of each named ensemble",
           {"ensembles"}},
          make<Energies>},
         {{"momentum", "total momentum: the sum of m v", {"ensembles"}}, make<Momentum>},

@@ -12,8 +12,8 @@ ClassVariant const* ParticleClass::in(int dimension) const {
 std::vector<ParticleClass> const& particle_classes() {
   static std::vector<ParticleClass> const all = [] {
     std::vector<ParticleClass> classes;
-    for (auto const& family : {detail::newton_classes(), detail::laplace_classes(), detail::flow_classes(),
-                               detail::smooth_classes()})
+    for (auto const& family :
+         {detail::newton_classes(), detail::laplace_classes(), detail::flow_classes(), detail::smooth_classes()})
       classes.insert(classes.end(), family.begin(), family.end());
     return classes;
   }();

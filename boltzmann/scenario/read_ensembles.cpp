@@ -193,7 +193,8 @@ class Loader {
     }
     if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
     if (kind_ == "fill" && own_count == 0) {
-      reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
+      if (reading_.box)
+        reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
       return false;
     }
     count_ = static_cast<std::size_t>(own_count);
@@ -305,7 +306,7 @@ class Loader {
     if (!spacing || !reading_.box || reading_.context.mistakes.count() != before) return 0;
     block_.spacing = *spacing;
     double count = 0;
-    guarded(reading_, section_.place("lattice"), [&] {
+    guarded(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
       Filling const filling{block_.kind, *spacing, low, high};
       count = static_cast<double>(site_count(filling, dimension));
       if (variant_ && !fits_memory(count, *variant_, section_.place("spacing"), reading_)) return;
@@ -566,6 +567,7 @@ void read_ensemble(Item const& table, Reading& reading) {
             }
   }
   bool const smooth = kind && kind->matter != Matter::none;
+  ensemble.range_place = section.place(section.has("range") ? "range" : "formulas");
   if (smooth) check_smooth(section, loader ? loader->volume() : std::nullopt, loadable, reading);
   if (kind && smooth != reading.smooth.wanted)
     reading.mistake(class_item->place, smooth

@@ -165,7 +165,7 @@ void read_influence(Item const& table, Reading& reading) {
     section.finish();
   }
   if (reading.context.mistakes.count() != before || !law || !a || !b || !a->particles || !b->particles ||
-      !reading.result->scheme || !parameters)
+      !reading.result->scheme || !parameters || (reading.smooth.wanted && !reading.result->smooth))
     return;
   if (reading.result->smooth) {
     if (section.has("particles") || section.has("where"))

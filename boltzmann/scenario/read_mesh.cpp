@@ -160,6 +160,7 @@ void read_scheme(Section& document, Reading& reading) {
   if (table) read_mesh(*table, reading);
   reading.mesh.usable = reading.context.mistakes.count() == before;
   Item const* smooth = find_table(document, "smooth");
+  reading.smooth.wanted = smooth != nullptr;
   if (table && smooth)
     reading.mistake(smooth->place, "[smooth] and [mesh]: a scenario has one of them; smooth particles have no mesh");
   if (smooth && !table) read_smooth(*smooth, reading);

@@ -89,8 +89,15 @@ void read_diagnosis(Item const& table, Reading& reading) {
     Dimension const conductivity = dimensions::energy / (dimensions::time * dimensions::temperature) /
                                    pow(dimensions::length, reading.dimension - 2);
     if (Item const* item = section.need("conductivity", "conductivity = 0.1"))
-      parameters.conductivity = read_quantity(*item, "conductivity", conductivity, reading.context, positive).value_or(0);
+      parameters.conductivity =
+          read_quantity(*item, "conductivity", conductivity, reading.context, positive).value_or(0);
   }
+  if (has("weight"))
+    if (auto const weight = section.word("weight", weight_names())) parameters.weight = weight_named(*weight);
+  if (has("range")) parameters.range = section.quantity("range", dimensions::length, positive).value_or(0);
+  if (has("gamma"))
+    parameters.gamma =
+        section.quantity("gamma", dimensions::none, {1, std::numeric_limits<double>::infinity(), true}).value_or(0);
   if (has("since")) parameters.since = section.quantity("since", dimensions::time).value_or(0);
   if (has("modes")) parameters.modes = static_cast<std::size_t>(section.integer("modes", 1).value_or(0));
   if (has("quantity") && kind.of_mesh) parameters.quantity = section.text("quantity").value_or("");
@@ -152,12 +159,12 @@ void read_ends(Section& section, PicturePlan& plan, Dimension dimension) {
   if (auto const high = section.quantity("high", dimension)) plan.high = *high;
 }
 
-/// The part of a 3D mesh that is shown.
+/// The part of a field in 3D that is shown.
 void read_slice(Section& section, PicturePlan& plan, Reading& reading) {
   if (reading.dimension == 1 || reading.dimension == 2) {
     for (char const* key : {"slice", "at"})
       if (section.find(key))
-        reading.mistake(section.place(key), fmt::format("{}: slices are of a mesh in 3D; in {}D the whole is shown",
+        reading.mistake(section.place(key), fmt::format("{}: slices are of fields in 3D; in {}D the whole is shown",
                                                         key, reading.dimension));
     return;
   }
@@ -196,6 +203,51 @@ void read_particle_style(Section& section, PicturePlan& plan, Reading& reading, 
   read_ends(section, plan, colour_dimension);
 }
 
+/// What a field of the particles is measured in: the density of Eq 4, or a quantity.
+Dimension dimension_of(std::string const& name, Reading const& reading) {
+  for (auto const& ensemble : reading.ensembles) {
+    if (!ensemble.particles) continue;
+    Dimension const volume = pow(dimensions::length, std::max(reading.dimension, 1));
+    if (name.empty() || name == "density")
+      return (ensemble.particles->find_field("mass") ? dimensions::mass : dimensions::none) / volume;
+    for (auto const& quantity : quantities(*ensemble.particles))
+      if (quantity.name == name) return quantity.dimension;
+  }
+  return dimensions::none;
+}
+
+/// How many levels there are, or which.
+void read_levels(Section& section, PicturePlan& plan, Dimension dimension, Reading& reading) {
+  Item const* item = section.find("levels");
+  if (!item) return;
+  if (!item->is(Item::Kind::array)) {
+    plan.level_count = static_cast<int>(read_integer(*item, "levels", 1, 1000, reading.context).value_or(0));
+    return;
+  }
+  if (item->elements.empty()) reading.mistake(item->place, "levels: an array without any; leave it out, or give some");
+  for (auto const& element : item->elements)
+    if (auto const level = read_quantity(element, "levels", dimension, reading.context)) {
+      if (!plan.levels.empty() && *level <= plan.levels.back())
+        reading.mistake(element.place,
+                        fmt::format("levels: {} must be above {}, the one before", *level, plan.levels.back()));
+      plan.levels.push_back(*level);
+    }
+}
+
+/// A field of the particles: a map, contours or bands.
+void read_smooth_field(Section& section, PicturePlan& plan, Reading& reading) {
+  Dimension const dimension = dimension_of(plan.y, reading);
+  read_slice(section, plan, reading);
+  if (plan.drawing != "bands") read_ends(section, plan, dimension);
+  if (plan.drawing != "map") read_levels(section, plan, dimension, reading);
+  if (plan.drawing != "map" && reading.dimension == 1)
+    reading.mistake(section.place("drawing"),
+                    fmt::format("drawing: '{}' are drawn in 2D and 3D; in 1D 'map' draws a curve", plan.drawing));
+  if (auto const weight = section.word("weight", weight_names())) plan.weight = weight_named(*weight);
+  plan.range = section.quantity("range", dimensions::length, positive).value_or(0);
+  if (auto const cells = section.integer("cells", 2, 4000)) plan.cells = static_cast<int>(*cells);
+}
+
 void read_picture(Item const& table, Reading& reading, Recorded recorded) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[output.pictures]]", reading.context);
@@ -208,7 +260,8 @@ void read_picture(Item const& table, Reading& reading, Recorded recorded) {
     plan.drawing = *drawing;
     section.rename(fmt::format("[[output.pictures]] '{}'", plan.drawing));
   }
-  bool const on_mesh = plan.drawing == "mesh" || plan.drawing == "wave-spectrum";
+  bool const of_particles = plan.drawing == "map" || plan.drawing == "contours" || plan.drawing == "bands";
+  bool const on_mesh = plan.drawing == "mesh" || plan.drawing == "wave-spectrum" || of_particles;
   if (!on_mesh) plan.x = section.text("x").value_or("");
   plan.y = section.text("y").value_or("");
   if (!on_mesh && plan.drawing != "time-series") read_particle_style(section, plan, reading, recorded);
@@ -222,6 +275,7 @@ void read_picture(Item const& table, Reading& reading, Recorded recorded) {
         if ((plan.y.empty() ? "potential" : plan.y).starts_with(field->name)) dimension = field->dimension;
     read_ends(section, plan, dimension);
   }
+  if (of_particles) read_smooth_field(section, plan, reading);
   if (plan.drawing == "wave-spectrum") read_curves(section, plan, reading);
   if (plan.drawing == "time-series") plan.logarithmic = section.boolean("logarithmic");
   bool const of_diagnoses = plan.drawing == "time-series" || plan.drawing == "wave-spectrum" ||

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 namespace boltzmann {
 namespace {
@@ -185,7 +186,6 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
 void read_smooth(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   ReadSmooth& smooth = reading.smooth;
-  smooth.wanted = true;
   Section section(table, "[smooth]", reading.context);
   auto const weight = section.word("weight", weight_names());
   auto const density = section.word("density", {"summation", "continuity"});
@@ -224,8 +224,22 @@ void load_smooth(Reading& reading) {
     guarded(reading, ensemble.place,
             [&] { scheme.add_material(*ensemble.particles, ensemble.material->kernels, ensemble.material->material); });
   }
-  if (reading.context.mistakes.none() && reading.smooth.variable && !reading.ensembles.empty())
-    guarded(reading, reading.smooth.variable_place, [&] { scheme.variable_range(*reading.smooth.variable); });
+  if (reading.context.mistakes.none() && reading.smooth.variable && !reading.ensembles.empty()) try {
+      scheme.variable_range(*reading.smooth.variable);
+    } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
+      reading.mistake(reading.smooth.variable_place, failure.what());
+    }
+  for (auto const& ensemble : reading.ensembles) {
+    auto const ranges = ensemble.particles->column(ensemble.particles->field("range"));
+    for (int a = 0; a < reading.dimension && !ranges.empty(); ++a) {
+      double const longest = *std::max_element(ranges.begin(), ranges.end()), length = reading.box->length(a);
+      if (reading.box->boundary(a) == Boundary::open || longest <= length) continue;
+      reading.mistake(ensemble.range_place,
+                      fmt::format("range: {} is longer than axis {} of the box, which allows at most {}", longest,
+                                  "xyz"[a], length));
+      break;
+    }
+  }
 }
 
 }  // namespace boltzmann

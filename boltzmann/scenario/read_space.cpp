@@ -94,7 +94,8 @@ void read_step(Item const& item, ReadRun& run, Reading& reading) {
     run.courant = 1;
   } else if (item.is(Item::Kind::table)) {
     Section section(item, "step", reading.context);
-    run.courant = section.need_quantity("courant", dimensions::none, "courant = 0.5", positive);
+    run.courant = item.entries.empty() ? section.need_quantity("courant", dimensions::none, "courant = 0.5", positive)
+                                       : section.quantity("courant", dimensions::none, positive);
     section.finish();
   } else {
     run.step = read_quantity(item, "step", dimensions::time, reading.context, positive);

@@ -19,7 +19,7 @@ namespace boltzmann {
 /// An ensemble of the file; `particles` is null if it could not be loaded.
 struct ReadEnsemble {
   std::string name;
-  Place place, load_place;
+  Place place, load_place, range_place;
   ParticleClass const* kind = nullptr;
   AnyEnsemble* particles = nullptr;
   std::unique_ptr<Integrator> integrator;

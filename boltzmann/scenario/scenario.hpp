@@ -47,10 +47,15 @@ struct PicturePlan {
   double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours, in the base;
   double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN: those of the state
   bool trace = false;                                      ///< draw the tracks of all frames, not the last state
-  std::string slice = "z";                                 ///< mesh in 3D: the axis that the slice is normal to
+  std::string slice = "z";                                 ///< fields in 3D: the axis that the slice is normal to
   double at = std::numeric_limits<double>::quiet_NaN();    ///< where on it; NaN: in the middle
   std::vector<std::array<double, 2>> curves;               ///< wave-spectrum: frequency and speed of each curve over it
   bool logarithmic = false;                                ///< time-series: the values on a logarithmic axis
+  WeightShape weight = WeightShape::lucy;                  ///< map, contours, bands: how particles are spread
+  double range = 0;                                        ///< of that weight; 0: chosen by the drawing
+  std::vector<double> levels;                              ///< contours, bands; empty: level_count even ones
+  int level_count = 0;                                     ///< 0: chosen by the drawing
+  int cells = 300;                                         ///< of its grid, along the longest side
 };
 
 /// How often what is written.

@@ -81,6 +81,8 @@ class Scheme {
   virtual double length_scale(AnyEnsemble const& ensemble) const = 0;
   /// The longest step that makes sense for the state as it stands (the Courant step); infinite if unknown.
   virtual double longest_step() { return __builtin_inf(); }
+  /// The same as far as sound goes, at the last calculation, which knows it without looking again.
+  virtual double sound_step() const { return __builtin_inf(); }
   /// Why influences on particle i may not be finite (two particles at one place, ...), for the message of a failure;
   /// empty if unknown.
   virtual std::string explain(AnyEnsemble const& ensemble, std::size_t i) const = 0;

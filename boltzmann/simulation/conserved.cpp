@@ -72,7 +72,8 @@ Conserved conserved(Simulation const& simulation) {
     total.energy = kinetic + measures.potential + measures.external + measures.internal;
   else
     total.no_energy = measures.unknown + " gives no energy";
-  total.energy_scale = kinetic + std::abs(measures.potential) + std::abs(measures.external) + std::abs(measures.internal);
+  total.energy_scale =
+      kinetic + std::abs(measures.potential) + std::abs(measures.external) + std::abs(measures.internal);
   return total;
 }
 

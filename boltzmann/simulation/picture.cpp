@@ -732,8 +732,14 @@ std::vector<std::string> const& drawing_names() {
   return names;
 }
 
+void check_tracks(Simulation const& simulation) {
+  if (!simulation.adaptations().empty())
+    throw Error("a picture with tracks needs particles that keep their numbers; here some come and go between steps");
+}
+
 Canvas draw(Picture const& picture, PictureContext const& context) {
   check_drawing(picture);
+  if (picture.trace) check_tracks(context.simulation);
   return Drawer(picture, context).draw();
 }
 

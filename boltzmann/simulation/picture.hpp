@@ -65,6 +65,9 @@ struct PictureContext {
 /// Draws. Error for an unknown drawing, field or column (with the allowed ones and the nearest).
 Canvas draw(Picture const& picture, PictureContext const& context);
 
+/// Error if particles can't be followed from frame to frame by their numbers, since adaptations change those.
+void check_tracks(Simulation const& simulation);
+
 /// What there is to draw besides ensembles and columns.
 struct PictureSources {
   std::vector<MeshField const*> mesh_fields;

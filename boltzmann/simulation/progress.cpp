@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace boltzmann {
@@ -112,6 +113,15 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
       if (*line) (*line)->look(now.step());
     });
   }
+  // Likewise; most runs keep their numbers of particles.
+  auto const counted = std::make_shared<std::optional<double>>();
+  if (!simulation.adaptations().empty()) {
+    counted->emplace(0);
+    simulation.observe_progress([counted](Simulation const& now) {
+      if (!*counted) return;
+      for (auto const* ensemble : now.ensembles()) **counted += static_cast<double>(ensemble->size());
+    });
+  }
   auto const start = Clock::now();
   auto const end_line = [&] {
     if (*line) (*line)->clear();
@@ -121,11 +131,14 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
     simulation.run(steps);
   } catch (...) {
     end_line();
+    counted->reset();
     throw;
   }
   end_line();
   report.seconds = seconds_since(start);
   report.steps = simulation.step() - first;
+  report.particle_steps = counted->value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
+  counted->reset();
   report.interrupted = interrupt.seen() && report.steps < static_cast<std::int64_t>(steps);
   return report;
 }

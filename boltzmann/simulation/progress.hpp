@@ -15,7 +15,8 @@ struct ProgressOptions {
 /// How a run went.
 struct RunReport {
   std::int64_t steps = 0;      ///< done in this run
-  std::int64_t particles = 0;  ///< of all ensembles
+  std::int64_t particles = 0;  ///< of all ensembles, at the start
+  double particle_steps = 0;   ///< the sum of the numbers of particles over all steps
   double seconds = 0;          ///< of the loop, with all observers
   bool interrupted = false;    ///< by Ctrl-C or SIGTERM
 };

@@ -151,6 +151,12 @@ struct Recording::State {
       if (std::find(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(i), columns[i]) !=
           columns.begin() + static_cast<std::ptrdiff_t>(i))
         throw Error("two diagnoses give a column called '" + columns[i] + "'");
+    for (auto const& diagnosis : list)
+      if (!simulation.adaptations().empty() && diagnosis->by_number())
+        throw Error(
+            fmt::format("the diagnosis of '{}' follows particles by their numbers, which change where particles "
+                        "come and go between steps",
+                        diagnosis->columns().front().name));
     if (every_mesh > 0 && mesh_fields().empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     std::set<std::string> files;
@@ -158,6 +164,7 @@ struct Recording::State {
       boltzmann::check(picture, ensembles(), columns,
                        {picture.drawing == "mesh" ? mesh_fields() : std::vector<MeshField const*>{}, instruments()});
       if (!files.insert(picture.file).second) throw Error("two pictures are called '" + picture.file + "'");
+      if (picture.trace) check_tracks(simulation);
       if (picture.trace && every_trajectory == 0)
         throw Error("the picture '" + picture.file + "' shows tracks, which needs a trajectory");
     }
@@ -471,19 +478,24 @@ std::string large(double number) {
 
 void print_summary(Recording const& recording, RunReport const& report, Conserved const& start, double recorded) {
   Simulation const& simulation = recording.simulation();
-  fmt::print("\n{} particles, {} steps to step {}, time {}\n\n", report.particles, report.steps, simulation.step(),
+  std::size_t now = 0;
+  for (auto const* ensemble : simulation.ensembles()) now += ensemble->size();
+  bool const changed = now != static_cast<std::size_t>(report.particles);
+  fmt::print("\n{} particles{}, {} steps to step {}, time {}\n\n", report.particles,
+             changed ? fmt::format(" at the start, {} at the end", now) : "", report.steps, simulation.step(),
              quantity_text(simulation.time(), dimensions::time, recording.base(), 6));
   if (report.steps > 0) {
     for (auto const& line : conserved_table(start, conserved(simulation), recording.base())) fmt::print("{}\n", line);
     double const work = std::max(report.seconds - recorded, 1e-9);
-    double const particle_steps = static_cast<double>(report.particles) * static_cast<double>(report.steps);
     fmt::print("\n  speed    {} particle-steps/s, {:.3g} ns for a particle and step, {:.3g} s in all",
-               large(particle_steps / work), work / std::max(particle_steps, 1.0) * 1e9, report.seconds);
+               large(report.particle_steps / work), work / std::max(report.particle_steps, 1.0) * 1e9, report.seconds);
     if (recorded > 0) fmt::print(" ({:.2g} s of it measuring and writing)", recorded);
     fmt::print("\n");
   }
   for (auto const* scheme : simulation.schemes())
     if (auto const line = scheme->report(); !line.empty()) fmt::print("  scheme   {}\n", line);
+  for (auto const* adaptation : simulation.adaptations())
+    if (auto const line = adaptation->report(recording.base()); !line.empty()) fmt::print("  changes  {}\n", line);
   fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));
   std::fflush(stdout);
 }

@@ -48,6 +48,27 @@ void Simulation::observe_progress(std::function<void(Simulation const&)> observe
   progress_.push_back(std::move(observer));
 }
 
+void Simulation::adapt(std::uint64_t every, std::unique_ptr<Adaptation> adaptation) {
+  if (every == 0) throw Error("an adaptation changes particles every 1 or more steps, not every 0");
+  changes_.push_back({static_cast<std::int64_t>(every), std::move(adaptation)});
+  checked_ = false;
+}
+
+void Simulation::adapt(std::uint64_t every, std::function<void()> change) {
+  struct Call final : Adaptation {
+    explicit Call(std::function<void()> what) : function(std::move(what)) {}
+    void change() override { function(); }
+    std::function<void()> function;
+  };
+  adapt(every, std::unique_ptr<Adaptation>(std::make_unique<Call>(std::move(change))));
+}
+
+std::vector<Adaptation const*> Simulation::adaptations() const {
+  std::vector<Adaptation const*> all;
+  for (auto const& change : changes_) all.push_back(change.adaptation.get());
+  return all;
+}
+
 void Simulation::step_size(double size) {
   if (!std::isfinite(size) || size == 0)
     throw Error(fmt::format("the step size is a finite time other than zero, not {}", size));
@@ -86,9 +107,6 @@ void Simulation::check() {
     if (part == parts_.end())
       throw Error("ensemble '" + ensemble->name() +
                   "' has no integrator: call integrate(ensemble, Method::...), one of " + join(method_names()));
-    double scale = std::numeric_limits<double>::infinity();
-    for (auto const* scheme : schemes_) scale = std::min(scale, scheme->length_scale(*ensemble));
-    part->longest_move2 = scale * scale;
     part->time_after.clear();
     part->integrator->threads(schemes_.front()->threads());
     bool const takes = part->integrator->takes_rotations();
@@ -98,23 +116,26 @@ void Simulation::check() {
     if (takes) part->integrator->rotate(std::move(rotations));
     part->stages = part->integrator->stages();
     for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
-    part->keeps_influences =
-        part->integrator->method() == Method::leap_frog &&
-        std::any_of(schemes_.begin(), schemes_.end(),
-                    [&](Scheme const* scheme) { return scheme->velocity_dependent(*ensemble); });
+    part->keeps_influences = part->integrator->method() == Method::leap_frog &&
+                             std::any_of(schemes_.begin(), schemes_.end(),
+                                         [&](Scheme const* scheme) { return scheme->velocity_dependent(*ensemble); });
     stages_ = std::max(stages_, part->stages);
     reversible = reversible || part->integrator->method() == Method::reversible_leap_frog;
   }
   std::erase_if(parts_, [&](Part const& p) {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
+  take_lengths();
+  if (reversible && !changes_.empty())
+    throw Error("the reversible leap-frog can't take back what an adaptation does between steps; use leap-frog");
   if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
   for (auto* scheme : schemes_) {
     double const longest = scheme->longest_step();
     if (std::abs(step_size_) > far_above * longest)
-      throw Error(fmt::format("the step {:.4g} is far above the longest that makes sense, {:.4g} (sound and diffusion "
-                              "must not outrun it)",
-                              std::abs(step_size_), longest));
+      throw Error(
+          fmt::format("the step {:.4g} is far above the longest that makes sense, {:.4g} (sound and diffusion "
+                      "must not outrun it)",
+                      std::abs(step_size_), longest));
   }
   calculate(time());
   for (auto* ensemble : ensembles_)
@@ -201,10 +222,16 @@ void Simulation::advance(double dt) {
     }
   }
   for (auto const& part : parts_) check_moves(part);
+  for (auto const* scheme : schemes_)
+    if (std::abs(dt) > far_above * scheme->sound_step())
+      throw PhysicsFailure(
+          fmt::format("sound has become so fast that the step {:.4g} is far above the longest that makes "
+                      "sense, {:.4g}",
+                      std::abs(dt), scheme->sound_step()));
 }
 
 std::unique_ptr<WholeSteps> Simulation::whole_steps(double dt) {
-  if (schemes_.size() != 1) return nullptr;
+  if (schemes_.size() != 1 || !changes_.empty()) return nullptr;
   std::vector<Mover> movers;
   for (auto const& part : parts_) {
     Method const method = part.integrator->method();
@@ -244,14 +271,67 @@ bool Simulation::keeps_influences() const {
 }
 
 /// Of all rows, whatever their meaning.
-std::uint64_t Simulation::checksum() const {
+std::uint64_t Simulation::checksum(bool with_influences) const {
   std::uint64_t sum = 0;
+  auto const take = [&](double const* words, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k)
+      sum = (std::rotl(sum, 5) ^ std::bit_cast<std::uint64_t>(words[k])) * 0x9E3779B97F4A7C15U;
+  };
   for (auto const* ensemble : ensembles_) {
-    auto const words = ensemble->size() * ensemble->stride();
-    for (std::size_t k = 0; k < words; ++k)
-      sum = (std::rotl(sum, 5) ^ std::bit_cast<std::uint64_t>(ensemble->row(0)[k])) * 0x9E3779B97F4A7C15U;
+    take(ensemble->row(0), ensemble->size() * ensemble->stride());
+    if (with_influences) take(ensemble->influence(0), ensemble->size() * ensemble->influence_size());
   }
   return sum;
+}
+
+void Simulation::take_lengths() {
+  for (auto& part : parts_) {
+    double scale = std::numeric_limits<double>::infinity();
+    for (auto const* scheme : schemes_) scale = std::min(scale, scheme->length_scale(*part.ensemble));
+    part.longest_move2 = scale * scale;
+  }
+}
+
+/// Particles have been changed between steps.
+void Simulation::take_particles() {
+  for (auto* scheme : schemes_)
+    for (auto* ensemble : scheme->ensembles()) {
+      scheme->box().check(*ensemble);
+      scheme->box().wrap(*ensemble);
+    }
+  fresh_ = kept_ = false;
+  shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
+  take_lengths();
+}
+
+void Simulation::adapt_now() {
+  auto const sizes = [&] {
+    std::vector<std::size_t> all;
+    for (auto const& part : parts_) all.push_back(part.ensemble->size());
+    return all;
+  };
+  bool completed = false;
+  for (auto const& change : changes_) {
+    if (step_ % change.every != 0) continue;
+    if (!completed) complete();
+    auto const before = checksum(true);
+    auto const sizes_before = sizes();
+    try {
+      change.adaptation->change();
+      auto const sizes_now = sizes();
+      for (std::size_t k = 0; k < parts_.size(); ++k)
+        if (sizes_now[k] != sizes_before[k] && !parts_[k].integrator->same_for_all())
+          throw Error(
+              fmt::format("ensemble '{}' had {} particles and has {} now, but some of them are frozen, by number",
+                          parts_[k].ensemble->name(), sizes_before[k], sizes_now[k]));
+      completed = sizes_now == sizes_before && checksum(true) == before;
+      if (!completed) take_particles();
+    } catch (Error const& error) {
+      throw Error(fmt::format("step {}: {}", step_, error.what()));
+    } catch (PhysicsFailure const& failure) {
+      throw PhysicsFailure(fmt::format("step {}: {}", step_, failure.what()));
+    }
+  }
 }
 
 bool Simulation::observation_due() const {
@@ -271,6 +351,8 @@ void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
 
 void Simulation::run(std::uint64_t steps, int direction) {
   check();
+  if (direction < 0 && !changes_.empty())
+    throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
   if (!observed_) {
     observed_ = true;
     observe_now();
@@ -295,6 +377,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }
     step_ += direction;
+    if (!changes_.empty()) adapt_now();
     if (!observations_.empty()) {
       if (whole && observation_due()) whole->store();
       observe_now();
@@ -334,7 +417,13 @@ std::vector<double> Simulation::state() const {
     if (!part.keeps_influences) continue;
     state.push_back(fresh ? 1 : 0);
     auto const* influence = part.ensemble->influence(0);
-    if (fresh) state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
+    if (fresh)
+      state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
+  }
+  for (auto const& change : changes_) {
+    auto const part = change.adaptation->state();
+    state.push_back(static_cast<double>(part.size()));
+    state.insert(state.end(), part.begin(), part.end());
   }
   return state;
 }
@@ -370,6 +459,14 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influence(0));
     at += count;
   }
+  for (auto const& change : changes_) {
+    if (at >= state.size()) throw misfit();
+    auto const count = static_cast<std::size_t>(state[at++]);
+    if (at + count > state.size()) throw misfit();
+    change.adaptation->restore(state.subspan(at, count));
+    at += count;
+  }
+  take_lengths();
   complete();
   kept_checksum_ = checksum();
   fresh_ = false;

@@ -3,7 +3,9 @@
 
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/simulation/adaptation.hpp>
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -35,6 +37,17 @@ class Simulation {
   /// Calls the observer after every step, for its number and time only: whatever it costs to bring particles up to date
   /// (see WholeSteps) is not spent.
   void observe_progress(std::function<void(Simulation const&)> observer);
+
+  /// Lets something change particles, or their number, after every step whose number is a multiple of `every`, before
+  /// observers look. A run with adaptations can't go backwards, nor by the reversible leap-frog.
+  void adapt(std::uint64_t every, std::unique_ptr<Adaptation> adaptation);
+  template <std::derived_from<Adaptation> A>
+  void adapt(std::uint64_t every, A adaptation) {
+    adapt(every, std::unique_ptr<Adaptation>(std::make_unique<A>(std::move(adaptation))));
+  }
+  void adapt(std::uint64_t every, std::function<void()> change);
+  /// In the order in which they are called.
+  std::vector<Adaptation const*> adaptations() const;
 
   /// Makes ready and refuses what can't run: an ensemble without integrator, particles where they can't be, influences
   /// that are not finite (two particles at one place). Error with one line. run() calls it once.
@@ -83,6 +96,10 @@ class Simulation {
     std::function<bool(std::int64_t step)> due;
     std::function<void(Simulation const&)> observer;
   };
+  struct Change {
+    std::int64_t every;
+    std::unique_ptr<Adaptation> adaptation;
+  };
 
   void advance(double dt);
   std::unique_ptr<WholeSteps> whole_steps(double dt);
@@ -92,9 +109,12 @@ class Simulation {
   void move_walls(double time);
   void check_moves(Part const& part) const;
   void observe_now() const;
+  void adapt_now();
+  void take_particles();
+  void take_lengths();
   void complete() const;
   bool keeps_influences() const;
-  std::uint64_t checksum() const;
+  std::uint64_t checksum(bool with_influences = false) const;
   void adopt(Scheme& scheme);
   void make_reversible(FixedPoint const& grid);
   FixedPoint choose_grid() const;
@@ -103,6 +123,7 @@ class Simulation {
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Part> parts_;
   std::vector<Observation> observations_;
+  std::vector<Change> changes_;
   std::vector<std::function<void(Simulation const&)>> progress_;
   FixedPoint grid_;
   Scheme::Shortcut shortcut_;

@@ -69,7 +69,7 @@ TEST_F(Diagnoses, OfTheWholeSystem) {
   // at its minimum the pair has -depth and no force; the field has 2 * 1 + 4 * 1
   EXPECT_EQ(
       look("energies", parameters()),
-      (Values{{"kinetic energy", 11}, {"potential energy", -0.5}, {"external energy", 6}, {"total energy", 16.5}}));
+      (Values{{"kinetic energy", 11}, {"potential energy", -0.5}, {"external energy", 6}, {"internal energy", 0}, {"total energy", 16.5}}));
   auto const p = look("pressure", parameters());
   EXPECT_NEAR(p.at("pressure"), 22.0 / (2 * 20), 1e-14);
   EXPECT_NEAR(p.at("pressure xx"), 18.0 / 20, 1e-14);
@@ -103,7 +103,7 @@ TEST_F(Diagnoses, UnknownEnergiesAreNaNAndTheColumnsStay) {
   measures_.unknown = "a law on 'atoms'";
   auto const energies = look("energies", parameters());
   EXPECT_EQ(energies.at("kinetic energy"), 11);
-  for (char const* name : {"potential energy", "external energy", "total energy"})
+  for (char const* name : {"potential energy", "external energy", "internal energy", "total energy"})
     EXPECT_TRUE(std::isnan(energies.at(name)));
   auto with = parameters();
   with.quantity = "potential-energy";

@@ -99,7 +99,7 @@ Tube run_tube(double gamma, std::size_t along, std::size_t across, bool equal_ma
   scheme.artificial_viscosity({});
   scheme.heating(Heating::own);
   scheme.variable_range({.spacings = D == 3 ? 2.4 : 3});
-  Simulation simulation(scheme, 1);
+  Simulation simulation(scheme, 1e-6);
   simulation.integrate(gas, Method::leap_frog);
   double const start = total_energy(scheme, gas);
   run_by_courant(simulation, scheme, end_time, 0.5, 1);

@@ -41,6 +41,13 @@ double sum(AnyEnsemble const& particles, std::string const& name) {
   return total;
 }
 
+/// "[x, x, last]", in 3D.
+std::string vector_text(int dimension, std::string const& x, std::string const& last) {
+  std::string text = "[";
+  for (int a = 1; a < dimension; ++a) text += x + ", ";
+  return text + last + "]";
+}
+
 std::string const gas =
     "[units]\nbase = \"reduced\"\n"
     "[box]\nlow = [0, 0]\nhigh = [4, 2]\nboundary = [\"periodic\", \"mirror\"]\n"
@@ -231,10 +238,10 @@ TEST(SmoothScenario, HasTheStatesOfItsMaterials) {
       // Compression waves of a solid: c^2 + 4 G / 3 rho. The energy of a solid evolves, whatever is under it.
       double const sound2 = one.sound_speed * one.sound_speed + (kind == "Solid" ? 4 * 3 / (3 * rho) : 0);
       EXPECT_NEAR(field(p, 0, "sound_speed"), std::sqrt(sound2), 1e-12 * (1 + sound2)) << one.material;
-      if (kind == "Solid")
-        EXPECT_EQ(field(p, 0, "specific_energy"), e);
-      else if (!std::isnan(one.energy))
-        EXPECT_NEAR(field(p, 0, "specific_energy"), one.energy, 1e-12);
+      double const energy = kind == "Solid" ? e : one.energy;
+      if (!std::isnan(energy)) {
+        EXPECT_NEAR(field(p, 0, "specific_energy"), energy, 1e-12) << one.material;
+      }
       seen.push_back(one.material.substr(8, one.material.find('"', 8) - 8));
     }
   for (auto const& material : material_catalogue())
@@ -245,10 +252,9 @@ TEST(SmoothScenario, HasTheStatesOfItsMaterials) {
 // In 1D, 2D and 3D, with units: water at 1100 kg/m^D, c = 1500 m/s at 1000 kg/m^D.
 TEST(SmoothScenario, MaterialsHaveTheUnitsOfTheSpace) {
   for (int d = 1; d <= 3; ++d) {
-    auto const list = [&](std::string const& x) {
-      return "[" + x + (d > 1 ? ", " + x : "") + (d > 2 ? ", " + x : "") + "]";
-    };
-    std::string const density = d == 1 ? "kg/m" : d == 2 ? "kg/m^2" : "kg/m^3";
+    auto const list = [&](std::string const& x) { return vector_text(d, x, x); };
+    std::string density = "kg/m^";
+    density += std::to_string(d);
     std::string const pressure = d == 1 ? "MN" : d == 2 ? "MN/m" : "MPa";
     auto const scenario = read(
         "[units]\nbase = \"custom\"\nlength = \"1 mm\"\nmass = \"1 g\"\ntime = \"1 us\"\n[box]\nlow = " + list("0") +
@@ -275,13 +281,13 @@ TEST(SmoothScenario, SolidsHaveStrength) {
   for (auto const& [yield, expected] :
        {std::pair<std::string, double>{"", 0.02}, {", yield_stress = 0.01", 0.01 / std::sqrt(3)}}) {
     auto const scenario = read(
-        "[units]\nbase = \"reduced\"\n[box]\nlow = [-9, -9]\nhigh = [9, 9]\n[run]\nstep = 0.001\nsteps = 20\n"
+        "[units]\nbase = \"reduced\"\n[box]\nlow = [-9, -9]\nhigh = [9, 9]\n[run]\nstep = 0.0002\nsteps = 100\n"
         "[smooth]\ndensity = \"continuity\"\nweight = \"wendland\"\n[[ensembles]]\nname = \"block\"\n"
         "class = \"Solid\"\ndensity = 1\nrange = 0.3\nload = { kind = \"fill\", spacing = 0.1, low = [-2, -2], high = "
         "[2, 2] }\nmaterial = { kind = \"tait\", reference_density = 1, sound_speed = 1, elastic = { "
         "shear_modulus = 1" +
         yield + " } }\nformulas = { velocity = [\"y\", 0] }\n");
-    scenario->simulation->run(20);
+    scenario->simulation->run(100);
     AnyEnsemble const& block = *scenario->ensembles[0];
     double stress = 0, plastic = 0, inside = 0;
     for (std::size_t i = 0; i < block.size(); ++i)
@@ -323,9 +329,7 @@ TEST(SmoothScenario, RunsAShockTube) {
 TEST(SmoothScenario, FallsAndIsSlowed) {
   for (std::string const kind : {"Smooth", "Solid"})
     for (int d = 1; d <= 3; ++d) {
-      auto const list = [&](std::string const& x, std::string const& last) {
-        return "[" + (d > 1 ? x + ", " : "") + (d > 2 ? x + ", " : "") + last + "]";
-      };
+      auto const list = [&](std::string const& x, std::string const& last) { return vector_text(d, x, last); };
       std::string const text =
           "[units]\nbase = \"reduced\"\n[box]\nlow = " + list("-9", "-9") + "\nhigh = " + list("9", "9") +
           "\n[run]\nstep = 0.01\nsteps = 100\n[smooth]\n[[ensembles]]\nname = \"a\"\nclass = \"" + kind +
@@ -404,7 +408,7 @@ TEST(SmoothScenario, FillsWithLattices) {
 TEST(SmoothScenario, FillsWhereAFormulaSays) {
   auto const disc = read(loaded("{ kind = \"fill\", spacing = 0.02, where = \"r < 0.9\" }", "density = 1\n"));
   AnyEnsemble const& a = *disc->ensembles[0];
-  EXPECT_NEAR(sum(a, "mass"), pi * 0.81, 0.005);
+  EXPECT_NEAR(sum(a, "mass"), pi * 0.81, 0.01);
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(std::hypot(a.row(i)[0], a.row(i)[1]), 0.9);
   auto const part = read(loaded("{ kind = \"fill\", spacing = 0.1, low = [0.5, -1], high = [1, 0] }", "density = 1\n"));
   EXPECT_EQ(part->ensembles[0]->size(), 50U);
@@ -452,7 +456,7 @@ TEST(SmoothScenario, FormulasGiveFields) {
   auto const scenario =
       read(loaded("{ kind = \"fill\", spacing = 0.1 }",
                   "mass = 0.01\nformulas = { specific_energy = \"1 + r^2 + mass\", velocity = [\"-y\", "
-                  "\"x*specific_energy\"], range = 0.25 }\n"
+                  "\"x*specific_energy\"] }\n"
                   "[[ensembles.set]]\nwhere = \"x > 1 && velocity.x < 0\"\nspecific_energy = 7\n"
                   "formulas = { position = [\"x - 3\", \"y\"], mass = \"2*mass\" }\n"));
   AnyEnsemble const& a = *scenario->ensembles[0];
@@ -465,7 +469,6 @@ TEST(SmoothScenario, FormulasGiveFields) {
     EXPECT_EQ(field(a, i, "velocity"), -y);
     EXPECT_NEAR(field(a, i, "velocity", 1), x * e, 1e-13);
     EXPECT_EQ(field(a, i, "mass"), there ? 0.02 : 0.01);
-    EXPECT_EQ(field(a, i, "range"), 0.25);
   }
   EXPECT_EQ(moved, 100U);
 }

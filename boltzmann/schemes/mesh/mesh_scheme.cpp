@@ -50,6 +50,12 @@ MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const
     throw Error(
         "mesh: the box has regions; a field with walls inside the box is beyond a mesh solved by Fourier "
         "transforms");
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.boundary(a) == Boundary::mirror)
+      throw Error(
+          fmt::format("mesh: axis {} is a mirror: particles on a mesh need a bounded, periodic or open axis there "
+                      "(mirrors are for smooth particles)",
+                      axis_name[a]));
   make_grid(this->box(), cells_);
   for (int a = 0; a < 3; ++a) {
     FieldBoundary const usual = a < box.dimension() && !box.periodic(a) ? FieldBoundary::open : FieldBoundary::periodic;

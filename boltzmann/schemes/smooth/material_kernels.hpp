@@ -10,6 +10,13 @@
 
 namespace boltzmann {
 
+/// What is worth knowing about the states of some particles.
+struct Found {
+  static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+  std::size_t not_finite = nobody;  ///< the first particle whose state is not
+  double sound_rate = 0;            ///< the largest sound speed / range
+};
+
 /// The particles of one ensemble among the sorted rows of all, as plain memory.
 struct MaterialTask {
   double* particles = nullptr;             ///< rows of the ensemble
@@ -26,10 +33,9 @@ struct MaterialTask {
   double* factor = nullptr;                ///< grad-h factor of each sorted row; null: all have one range
   bool adaptive = false;                   ///< ranges follow densities; else factors are 1
   double self = 0;                         ///< w(0) range^D
-  std::size_t* not_finite = nullptr;  ///< of each range of members that begins at a multiple of the grain: the first
-                                      ///< particle whose state is not finite, or else what stood there
-  bool uniform = false;               ///< rates are accelerations alone
-  bool continuity = false;            ///< densities evolve
+  Found* found = nullptr;                  ///< one for each range of members that begins at a multiple of the grain
+  bool uniform = false;                    ///< rates are accelerations alone
+  bool continuity = false;                 ///< densities evolve
   bool balsara = false;
   double shortest = 0, longest = 0;  ///< between which ranges vary
   double spacings = 0;               ///< range = spacings (mass / density)^(1/D) between them
@@ -43,7 +49,7 @@ struct MaterialKernels {
   MaterialKernel fluxes = nullptr;  ///< into SmoothMatter's blocks, and rates of further fields into the influence
   MaterialKernel rates = nullptr;   ///< adds to the influence
   double (*diffusivity)(void const* material, double const* particle) = nullptr;  ///< null: none
-  bool needs_gradients = false, has_fluxes = false, barotropic = false, constant_push = false;
+  bool needs_gradients = false, constant_push = false;
   double push = 0;  ///< where it is constant
 };
 
@@ -79,7 +85,7 @@ template <class P, class M>
 void find_state(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
   constexpr int D = P::dimension;
   M const& material = *static_cast<M const*>(the_material);
-  std::size_t& not_finite = task.not_finite[begin / material_grain];
+  Found& found = task.found[begin / material_grain];
   each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
     if (task.density) {
       double const self = p.mass * task.self / power<D>(p.range);
@@ -97,7 +103,8 @@ void find_state(void const* the_material, MaterialTask const& task, std::size_t 
     p.pressure = state.pressure;
     p.temperature = state.temperature;
     p.sound_speed = state.sound_speed;
-    if (!std::isfinite(state.pressure + state.sound_speed) && i < not_finite) not_finite = i;
+    if (!std::isfinite(state.pressure + state.sound_speed) && i < found.not_finite) found.not_finite = i;
+    found.sound_rate = max(found.sound_rate, state.sound_speed / p.range);
     double* const fluid = task.fluid + row_block * k;
     fluid[0] = p.density;
     fluid[1] = state.pressure / (p.density * p.density) * (task.factor ? task.factor[k] : 1);
@@ -176,9 +183,7 @@ MaterialKernels material_kernels(M const& material) {
     kernels.diffusivity = [](void const* m, double const* particle) {
       return static_cast<M const*>(m)->diffusivity(static_cast<P const&>(*reinterpret_cast<Row<P> const*>(particle)));
     };
-  kernels.has_fluxes = has_fluxes<M, P>;
   kernels.needs_gradients = has_fluxes<M, P> || has_rates<M, P>;
-  kernels.barotropic = is_barotropic<M>;
   if constexpr (has_constant_push<M> && is_barotropic<M>) {
     kernels.constant_push = true;
     kernels.push = material.pressure_by_density2();

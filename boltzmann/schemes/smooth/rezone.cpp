@@ -294,10 +294,16 @@ void Rezoning::check() const {
                            region->high[k], k));
 }
 
-Rezoned rezone(AnyEnsemble& ensemble, Box const& box, Rezoning const& rezoning) {
-  Rows const rows(ensemble);
+void check(AnyEnsemble const& ensemble, Box const& box, Rezoning const& rezoning) {
   rezoning.check();
   check_dimension_of(ensemble, box);
+  for (char const* name : {"mass", "specific_energy", "range", "density"}) Rows::place(ensemble, name, 1);
+  for (char const* name : {"position", "velocity"}) Rows::place(ensemble, name, ensemble.dimension());
+}
+
+Rezoned rezone(AnyEnsemble& ensemble, Box const& box, Rezoning const& rezoning) {
+  check(ensemble, box, rezoning);
+  Rows const rows(ensemble);
   int const density = Rows::place(ensemble, "density", 1), d = rows.dimension;
 
   // Who, by the state as it stands.

@@ -14,8 +14,10 @@ namespace boltzmann {
 
 // For every class with the fields mass, position, velocity, specific_energy and range; Error if one is missing. All
 // other fields must be local or per mass, as those of Smooth and Solid are: halves have copies of them, a merged
-// particle has their average by mass. Influences become zero: they, and the densities, are to be found anew. So rezone
-// between two calls of Simulation::run, not within one.
+// particle has their average by mass. Influences become zero: they, and the densities, are to be found anew: rezone
+// between two calls of Simulation::run, or within one by Simulation::adapt (see Rezoner). Where the specific energy is
+// a function of the density (barotropic materials) it follows the density that is found, and the sum of energies
+// changes.
 
 /// Splits particle i into two of half its mass, at its position plus and minus `offset` (one number per axis), with its
 /// velocity, energy and all else. Mass, momentum, energy, angular momentum and centre of mass stay to rounding. Their
@@ -74,5 +76,7 @@ struct Rezoned {
 /// nothing is split. The result depends on the particles alone. Error for wrong options, missing fields and densities
 /// that are not positive; PhysicsFailure where a position, range or mass is not finite.
 Rezoned rezone(AnyEnsemble& ensemble, Box const& box, Rezoning const& rezoning);
+/// Error if the ensemble, whatever its state, can't be rezoned so in this box.
+void check(AnyEnsemble const& ensemble, Box const& box, Rezoning const& rezoning);
 
 }  // namespace boltzmann

@@ -14,8 +14,9 @@
 namespace boltzmann {
 namespace {
 
+constexpr std::size_t pass_worth_threads = 1U << 10U;  // particles: each has many neighbours
 constexpr std::size_t pair_grain = 256, particle_grain = detail::material_grain;
-constexpr std::size_t worth_some_threads = 1U << 12U;  // particles
+constexpr double courant_number = 0.4;
 constexpr double skin_of_range = 0.08;
 constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -187,7 +188,9 @@ std::size_t SmoothScheme::count() const {
   return count;
 }
 
-int SmoothScheme::worth(std::size_t particles) const { return particles < worth_some_threads ? 1 : threads(); }
+int SmoothScheme::worth(std::size_t particles) const {
+  return worth_threads(particles, particles_worth_threads, threads());
+}
 
 /// Step 1: where the particles are, and how they move.
 void SmoothScheme::take_places() {
@@ -197,6 +200,7 @@ void SmoothScheme::take_places() {
   longest_ = 0;
   for (auto& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded->ensemble;
+    if (loaded->first != first) members_of_build_ = 0;
     loaded->first = first;
     struct Extent {
       double shortest = infinite, longest = 0;
@@ -242,10 +246,9 @@ void SmoothScheme::prepare() {
                       longest_, "xyz"[a], box().length(a)));
   bool const vary = variable_.has_value();
   if (!hood_) {
-    bool const matter = viscosity_.balsara || std::any_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) {
-                          return loaded->kernels.has_fluxes;
-                        });
+    bool const matter = recipe().gradients;
     hood_ = std::make_unique<Neighbourhood>(box());
+    members_of_build_ = 0;
     hood_->mirror(*points_, 1 + (matter ? matter_blocks(dimension) : 0))
         .components(image_components(dimension, matter));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
@@ -292,47 +295,55 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double co
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
   task.influence = sums_.data();
-  for_ranges(task.targets, pair_grain, worth(16 * task.targets),
+  for_ranges(task.targets, pair_grain, worth_threads(task.targets, pass_worth_threads, threads()),
              [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
 }
 
 void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
-  constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
   for (auto const& loaded : loaded_) {
     std::size_t const size = loaded->ensemble->size();
-    std::vector<std::size_t> not_finite(size / particle_grain + 1, nobody);
-    loaded->task.not_finite = not_finite.data();
+    std::vector<Found> found(size / particle_grain + 1);
+    loaded->task.found = found.data();
     for_ranges(size, particle_grain, worth(size), [&](std::size_t begin, std::size_t end) {
       (loaded->kernels.*kernel)(loaded->material.get(), loaded->task, begin, end);
     });
-    std::size_t const first = *std::min_element(not_finite.begin(), not_finite.end());
-    if (first != nobody) throw PhysicsFailure(explain(*loaded->ensemble, first));
+    for (auto const& part : found) {
+      if (part.not_finite != Found::nobody) throw PhysicsFailure(explain(*loaded->ensemble, part.not_finite));
+      sound_rate_ = std::max(sound_rate_, part.sound_rate);
+    }
   }
 }
 
-void SmoothScheme::find(Until until) {
-  take_places();
-  if (points_->size() == 0) return;
-  prepare();
-  hood_->refresh(threads());
-  find_members();
-  int const dimension = box().dimension();
-  Mirror& mirror = hood_->mirror(*points_);
-  std::size_t const fluid = place_blocks(dimension), matter = fluid + 1, end = mirror.blocks() + mirror.extra_blocks();
+double SmoothScheme::sound_step() const {
+  return courant_number * smoothing_length(shape_) / (sound_rate_ * (1 + 0.6 * viscosity_.alpha));
+}
+
+/// What the recipe needs for the particles, materials and options of now.
+SmoothScheme::Recipe SmoothScheme::recipe() const {
   auto const any = [&](auto const& what) {
     return std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& loaded) { return what(loaded->kernels); });
   };
-  bool const own = variable_ || shortest_ != longest_, viscous = viscosity_.alpha > 0 || viscosity_.beta > 0;
-  bool const gradients = viscosity_.balsara || any([](auto const& kernels) { return kernels.needs_gradients; });
   double const push = loaded_.front()->kernels.push;
-  bool const uniform = !own && !viscous && !gradients && density_from_ == DensityFrom::summation &&
-                       !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
-  parameters_.range = longest_;
-  parameters_.push = push;
-  if (own) factors_.resize(mirror.owned());
+  Recipe recipe;
+  recipe.own_ranges = variable_ || shortest_ != longest_;
+  recipe.viscous = viscosity_.alpha > 0 || viscosity_.beta > 0;
+  recipe.gradients = viscosity_.balsara || any([](auto const& kernels) { return kernels.needs_gradients; });
+  recipe.uniform = !recipe.own_ranges && !recipe.viscous && !recipe.gradients &&
+                   density_from_ == DensityFrom::summation &&
+                   !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
+  SmoothKernels const& kernels = smooth_kernels_of(shape_).in[box().dimension() - 1];
+  recipe.passes = recipe.own_ranges ? &kernels.variable : &kernels.same;
+  return recipe;
+}
+
+/// Where the material of each ensemble finds what it needs.
+void SmoothScheme::set_tasks(Recipe const& recipe, Mirror& mirror) {
+  if (recipe.own_ranges) factors_.resize(mirror.owned());
+  std::size_t const fluid = place_blocks(box().dimension());
   double const self = for_weight(shape_, [&](auto s) {
     using Shape = decltype(s);
-    return in_dimension(dimension, [](auto d) { return Shape::template norm<d> * Shape::template value<d>(0.0); });
+    return in_dimension(box().dimension(),
+                        [](auto d) { return Shape::template norm<d> * Shape::template value<d>(0.0); });
   });
   for (auto& loaded : loaded_) {
     MaterialTask& task = loaded->task;
@@ -343,12 +354,12 @@ void SmoothScheme::find(Until until) {
     task.order = mirror.order();
     task.members = loaded_.size() == 1 ? nullptr : loaded->members.data();
     task.fluid = mirror.block(fluid);
-    task.matter = end > matter ? mirror.block(matter) : nullptr;
+    task.matter = mirror.extra_blocks() > 1 ? mirror.block(fluid + 1) : nullptr;
     task.block_stride = mirror.block_stride();
-    task.factor = own ? factors_.data() : nullptr;
+    task.factor = recipe.own_ranges ? factors_.data() : nullptr;
     task.adaptive = variable_.has_value();
     task.self = self;
-    task.uniform = uniform;
+    task.uniform = recipe.uniform;
     task.continuity = density_from_ == DensityFrom::continuity;
     task.balsara = viscosity_.balsara;
     if (variable_) {
@@ -357,20 +368,36 @@ void SmoothScheme::find(Until until) {
       task.longest = variable_->longest;
     }
   }
-  SmoothKernels const& kernels = smooth_kernels_of(shape_).in[dimension - 1];
-  SmoothPasses const& passes = own ? kernels.variable : kernels.same;
-  auto const D = static_cast<std::size_t>(dimension);
+  parameters_.range = longest_;
+  parameters_.push = loaded_.front()->kernels.push;
+}
 
-  // Step 2 and the state of step 4. Where forces need no density, it waits until somebody looks.
-  if (!uniform || until == Until::state) {
-    if (density_from_ == DensityFrom::summation) run_pass(passes.density, own ? 2 : 1, &MaterialTask::density);
+void SmoothScheme::find(Until until) {
+  take_places();
+  if (points_->size() == 0) return;
+  prepare();
+  hood_->refresh(threads());
+  find_members();
+  Mirror& mirror = hood_->mirror(*points_);
+  Recipe const recipe = this->recipe();
+  SmoothPasses const& passes = *recipe.passes;
+  set_tasks(recipe, mirror);
+  auto const D = static_cast<std::size_t>(box().dimension());
+  std::size_t const fluid = place_blocks(box().dimension()), matter = fluid + 1,
+                    end = mirror.blocks() + mirror.extra_blocks();
+
+  // Step 2, and the state of step 4. Where forces need no density, it waits until somebody looks.
+  if (!recipe.uniform || until == Until::state) {
+    if (density_from_ == DensityFrom::summation)
+      run_pass(passes.density, recipe.own_ranges ? 2 : 1, &MaterialTask::density);
+    sound_rate_ = 0;
     run_material(&MaterialKernels::state);
   }
   if (until == Until::state) return;
-  if (!uniform) mirror.refresh_images(fluid, matter, worth(mirror.owned()));
+  if (!recipe.uniform) mirror.refresh_images(fluid, matter, worth(mirror.owned()));
 
   // Step 3, and the fluxes of step 4.
-  if (gradients) {
+  if (recipe.gradients) {
     run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D,
              &MaterialTask::gradients);
     run_material(&MaterialKernels::fluxes);
@@ -378,11 +405,11 @@ void SmoothScheme::find(Until until) {
   }
 
   // Step 5.
-  run_pass(uniform     ? passes.uniform
-           : gradients ? passes.all
-           : viscous   ? passes.viscous
-                       : passes.pressure,
-           uniform ? D : D + 2, &MaterialTask::rates);
+  run_pass(recipe.uniform     ? passes.uniform
+           : recipe.gradients ? passes.all
+           : recipe.viscous   ? passes.viscous
+                              : passes.pressure,
+           recipe.uniform ? D : D + 2, &MaterialTask::rates);
   run_material(&MaterialKernels::rates);
 }
 
@@ -459,7 +486,7 @@ double SmoothScheme::courant_step() {
       double const h = smoothing_length(shape_) * p[range];
       double force2 = 0;
       for (int a = 0; a < box().dimension(); ++a) force2 += square(ensemble.influence(i)[a]);
-      double const sound = 0.4 * h / (p[speed] * (1 + 0.6 * viscosity_.alpha));
+      double const sound = courant_number * h / (p[speed] * (1 + 0.6 * viscosity_.alpha));
       double const push = 0.25 * std::sqrt(h * p[mass] / std::sqrt(force2));
       longest = std::min(longest, std::min(sound, push));
       if (loaded->kernels.diffusivity)

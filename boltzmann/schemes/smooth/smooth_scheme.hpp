@@ -85,6 +85,7 @@ class SmoothScheme final : public Scheme {
   bool velocity_dependent(AnyEnsemble const&) const override { return true; }
   double length_scale(AnyEnsemble const& ensemble) const override;
   double longest_step() override { return courant_step(); }
+  double sound_step() const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
@@ -104,6 +105,15 @@ class SmoothScheme final : public Scheme {
   struct Outside;
 
   enum class Until { state, rates };
+  struct Recipe {
+    bool own_ranges = false;  // not one range for all
+    bool viscous = false;     // artificially
+    bool gradients = false;   // are needed
+    bool uniform = false;     // P / rho^2 is the same for all: forces need no density
+    SmoothPasses const* passes = nullptr;
+  };
+  Recipe recipe() const;
+  void set_tasks(Recipe const& recipe, Mirror& mirror);
   void find(Until until);
   void prepare();
   void reach(double cutoff);
@@ -131,6 +141,7 @@ class SmoothScheme final : public Scheme {
   std::vector<double> factors_;  // grad-h
   std::size_t calculations_ = 0, members_of_build_ = 0;
   double time_ = 0;
+  double sound_rate_ = 0;  // the largest sound speed / range, at the last calculation that asked for states
 };
 
 }  // namespace boltzmann
