@@ -3,7 +3,7 @@
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/materials/ideal_gas.hpp>
 #include <boltzmann/laws/materials/isentropic_gas.hpp>
-#include <boltzmann/laws/materials/viscous.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/neighbours/cells.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>

@@ -23,7 +23,7 @@
 #include <boltzmann/laws/materials/stiffened_gas.hpp>
 #include <boltzmann/laws/materials/tait.hpp>
 #include <boltzmann/laws/materials/van_der_waals.hpp>
-#include <boltzmann/laws/materials/viscous.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/laws/mixing.hpp>
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/pendulum.hpp>

@@ -1,8 +1,6 @@
 // Cavitation: a square of van der Waals' liquid flies apart, comes under tension, and breaks up into drops.
 #include <boltzmann/boltzmann.hpp>
-#include <boltzmann/laws/materials/van_der_waals.hpp>
 #include <boltzmann/loaders/jitter.hpp>
-#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 using namespace boltzmann;
 

@@ -2,9 +2,6 @@
 // floor and a cold ceiling, walls of odd mirror images; Nusselt's number is in diagnoses.csv.
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
-#include <boltzmann/laws/materials/stiffened_gas.hpp>
-#include <boltzmann/laws/materials/viscous.hpp>
-#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 #include <cstdio>
 #include <numbers>

@@ -1,7 +1,5 @@
 // A dam breaks: a column of water, once the wall is taken away, runs along the floor (Martin and Moyce 1952).
 #include <boltzmann/boltzmann.hpp>
-#include <boltzmann/laws/materials/tait.hpp>
-#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 #include <cstdio>
 

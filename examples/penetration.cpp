@@ -1,8 +1,5 @@
 // Penetration of one solid by another: a steel rod hits a softer plate at 1.5 km/s, goes through it, and breaks it.
 #include <boltzmann/boltzmann.hpp>
-#include <boltzmann/laws/materials/elastic.hpp>
-#include <boltzmann/laws/materials/stiffened_gas.hpp>
-#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 using namespace boltzmann;
 using namespace boltzmann::units;

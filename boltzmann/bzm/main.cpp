@@ -111,11 +111,11 @@ int command_line(int argc, char** argv) {
                   "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
       ->required();
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
-  sub->add_option("--drawing", render_options.drawing, "cartesian, phase-space, spectrum, time-series or mesh");
+  sub->add_option("--drawing", render_options.drawing, "cartesian, phase-space, spectrum, time-series, map, contours, bands or mesh");
   sub->add_option("--x", render_options.x,
                   "what is to the right: a field (phase-space), position.x or time (spectrum)");
   sub->add_option("--y", render_options.y,
-                  "what is upwards: a field, columns of diagnoses.csv (time-series), or what a mesh shows");
+                  "what is upwards: a field, columns of diagnoses.csv (time-series), or what a mesh or a map shows");
   sub->add_option("--colour,--color", render_options.colour,
                   "colour by a field, speed, kinetic-energy or potential-energy");
   sub->add_option("--size", render_options.size, "diameters by the same");

@@ -159,8 +159,10 @@ void show_class(ParticleClass const& one) {
   }
   auto const& largest = one.variants.back();
   fmt::print("\n  fields in {}D\n", largest.dimension);
+  std::size_t width = 12;
+  for (auto const& field : largest.fields) width = std::max(width, field.name.size());
   for (auto const& field : largest.fields)
-    fmt::print("    {:<15} {:<10} {:<22} {}\n", field.name,
+    fmt::print("    {:<{}} {:<10} {:<22} {}\n", field.name, width,
                field.components == 1 ? "number" : fmt::format("{} numbers", field.components), name_of(field.dimension),
                field.doc);
   fmt::print("\n  quantities for pictures and diagnoses\n");

@@ -1,15 +1,13 @@
 // Tables of pair energies: splines through functions, points and files, and how far off they are.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/table.hpp>
+#include <boltzmann/laws/two_columns.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <string_view>
 
 namespace boltzmann {
 namespace {
@@ -293,40 +291,9 @@ Table::Table(std::span<TablePoint const> points, SplineEnds ends, PerOctave fine
       }()) {}
 
 Table Table::from_file(std::string const& path, SplineEnds ends, Tolerance tolerance) {
-  std::ifstream file(path);
-  if (!file) throw Error(fmt::format("{}: can't open the table", path));
   std::vector<TablePoint> points;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    std::string_view text = line;
-    text = text.substr(0, text.find('#'));
-    std::vector<double> values;
-    constexpr std::string_view blank = " \t\r\f\v,";
-    while (true) {
-      auto const begin = text.find_first_not_of(blank);
-      if (begin == std::string_view::npos) break;
-      auto const end = std::min(text.find_first_of(blank, begin), text.size());
-      auto word = text.substr(begin, end - begin);
-      text.remove_prefix(end);
-      if (word.starts_with('+')) word.remove_prefix(1);
-      double value = 0;
-      auto const [last, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc{} || last != word.data() + word.size() || !std::isfinite(value))
-        throw Error(fmt::format("{}:{}: '{}' is not a finite number", path, number, word));
-      values.push_back(value);
-    }
-    if (values.empty()) continue;
-    if (values.size() != 2)
-      throw Error(
-          fmt::format("{}:{}: {} numbers; a line has two, a distance and an energy", path, number, values.size()));
-    if (values[0] < 0) throw Error(fmt::format("{}:{}: the distance {:.6g} is negative", path, number, values[0]));
-    if (!points.empty() && values[0] <= points.back().distance)
-      throw Error(fmt::format("{}:{}: the distance {:.6g} must be above {:.6g}, the one before", path, number,
-                              values[0], points.back().distance));
-    points.push_back({values[0], values[1]});
-  }
-  if (file.bad()) throw Error(fmt::format("{}: can't read the table", path));
-  if (points.size() < 2) throw Error(fmt::format("{}: {} points; a table needs at least 2", path, points.size()));
+  for (auto const& [distance, energy] : read_two_columns(path, "a distance", "an energy", false))
+    points.push_back({distance, energy});
   try {
     return Table(points, ends, tolerance);
   } catch (Error const& error) {

@@ -161,7 +161,7 @@ std::array<double, 3> cells_of(Filling const& filling, int dimension) {
 
 }  // namespace
 
-std::size_t site_count(Filling const& filling, int dimension) {
+std::size_t filling_count(Filling const& filling, int dimension) {
   auto const cells = cells_of(filling, dimension);
   double const count = cells[0] * cells[1] * cells[2];
   if (count > std::numeric_limits<std::uint32_t>::max())
@@ -169,8 +169,8 @@ std::size_t site_count(Filling const& filling, int dimension) {
   return static_cast<std::size_t>(count);
 }
 
-std::vector<Place> lattice_sites(Filling const& filling, int dimension) {
-  std::size_t const count = site_count(filling, dimension);
+std::vector<Place> filling_sites(Filling const& filling, int dimension) {
+  std::size_t const count = filling_count(filling, dimension);
   auto const cells = cells_of(filling, dimension);
   bool const shifted = filling.kind == Lattice::triangular;
   std::vector<Place> places;

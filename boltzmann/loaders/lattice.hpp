@@ -55,9 +55,9 @@ struct Filling {
   std::array<double, 3> low{0, 0, 0}, high{1, 1, 1};
 };
 /// Error if it can't be filled by that lattice, the spacing is not positive or low is not below high.
-std::size_t site_count(Filling const& filling, int dimension);
+std::size_t filling_count(Filling const& filling, int dimension);
 /// In the order x fastest, then y, then z.
-std::vector<std::array<double, 3>> lattice_sites(Filling const& filling, int dimension);
+std::vector<std::array<double, 3>> filling_sites(Filling const& filling, int dimension);
 /// The length, area or volume that each site has.
 double site_volume(Filling const& filling, int dimension);
 

@@ -155,6 +155,7 @@ bool apply(FieldFormula const& formula, AnyEnsemble& particles, std::vector<std:
       values[c] = value;
       if (std::isfinite(value) && (!must_be_positive || value > 0)) continue;
       std::vector<std::string> at;
+      at.reserve(3);
       for (int a = 0; a < particles.dimension(); ++a) at.push_back(fmt::format("{:.6g}", row[a]));
       reading.mistake(formula.place,
                       fmt::format("{}: the formula gives {:.6g} for particle {} at ({}); it must be {}",

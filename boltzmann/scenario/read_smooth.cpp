@@ -194,6 +194,7 @@ void read_smooth(Item const& table, Reading& reading) {
   auto const viscosity = read_artificial_viscosity(section, reading);
   smooth.variable_place = section.place("variable_range");
   smooth.variable = read_variable_range(section, reading);
+  read_rezone(section, reading);
   auto const skin = section.quantity("skin", dimensions::length, not_negative);
   section.finish();
   smooth.from_continuity = density && *density == "continuity";

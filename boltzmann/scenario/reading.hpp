@@ -7,6 +7,7 @@
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
+#include <boltzmann/schemes/smooth/rezone.hpp>
 
 #include <memory>
 #include <optional>
@@ -43,11 +44,20 @@ struct ReadMesh {
   std::vector<MeshField const*> fields;  ///< once somebody has asked for them
 };
 
+struct ReadRezone {
+  Place place;
+  std::int64_t every = 1;
+  Rezoning policy;
+  Item const* on = nullptr;             ///< null: all ensembles
+  std::vector<AnyEnsemble*> ensembles;  ///< once they are there
+};
+
 struct ReadSmooth {
   bool wanted = false;  ///< there is a [smooth], with mistakes or without
   bool from_continuity = false;
   std::optional<VariableRange> variable;
   Place variable_place;
+  std::vector<ReadRezone> rezones;
 };
 
 /// Everything that has been read so far. What could not be read is empty, and has left a mistake.
@@ -109,6 +119,10 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
 /// Loads ensembles into the scheme.
 void load_scheme(Section& document, Reading& reading);
 void load_smooth(Reading& reading);
+/// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
+void read_rezone(Section& smooth, Reading& reading);
+void load_rezone(Reading& reading);
+void add_rezoners(Reading const& reading);
 /// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
 /// calculated, with one mistake for all that ask.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);

@@ -31,6 +31,7 @@ void build(Item& document, Reading& reading) {
   read_scheme(top, reading);
   read_ensembles(top, reading);
   load_scheme(top, reading);
+  load_rezone(reading);
   read_influences(top, reading);
   settle_run(document, reading);
   read_diagnoses(top, reading);
@@ -46,6 +47,7 @@ void build(Item& document, Reading& reading) {
   if (!result.simulation) return;
   for (auto& ensemble : reading.ensembles)
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
+  add_rezoners(reading);
   try {
     result.simulation->check();
   } catch (Error const& error) {

@@ -412,7 +412,7 @@ TEST(New, KeepsWhatIsThere) {
 TEST(List, ShowsEveryKindAndShowExplainsEveryName) {
   Folder folder;
   auto const all = bzm({"list"}, folder.string()).out;
-  for (auto const* word : {"scenarios", "Newton", "lennard-jones", "leap-frog", "energies"})
+  for (auto const* word : {"scenarios", "Newton", "lennard-jones", "ideal-gas", "leap-frog", "energies"})
     EXPECT_TRUE(has(all, word)) << word;
   std::istringstream names(bzm({"list", "--names"}, folder.string()).out +
                            bzm({"list", "--names", "units"}, folder.string()).out);
@@ -433,6 +433,14 @@ TEST(Show, GivesTheBytesOfAParticle) {
   EXPECT_TRUE(has(newton, "velocity     3 numbers  velocity")) << newton;
   auto const unit = bzm({"show", "eV"}, folder.string()).out;
   EXPECT_TRUE(has(unit, "1.602176634e-19")) << unit;
+}
+
+TEST(Show, ExplainsAMaterial) {
+  Folder folder;
+  auto const tait = bzm({"show", "tait"}, folder.string()).out;
+  for (auto const* part : {"equation of state", "reference_density", "kg/m^3", "7 unless told", "shear_viscosity",
+                           "elastic = { ... }", "unlimited unless told", "boltzmann/laws/materials/tait.hpp"})
+    EXPECT_TRUE(has(tait, part)) << part << "\n" << tait;
 }
 
 TEST(Doctor, ComputesTheKnownEnergy) {

@@ -6,7 +6,7 @@
 #include <boltzmann/laws/materials/stiffened_gas.hpp>
 #include <boltzmann/laws/materials/tait.hpp>
 #include <boltzmann/laws/materials/van_der_waals.hpp>
-#include <boltzmann/laws/materials/viscous.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -195,12 +195,12 @@ TEST(Materials, RefuseWrongParameters) {
   EXPECT_EQ(message([] {
               Newtonian<IdealGas>{{1.4}, -1}.check();
             }),
-            "viscous: shear_viscosity = -1 must be zero or positive");
+            "newtonian: shear_viscosity = -1 must be zero or positive");
   EXPECT_EQ(message([] { Newtonian<IdealGas>{{0.4}}.check(); }), "ideal-gas: gamma - 1 = -0.6 must be positive");
   EXPECT_EQ(message([] {
               Newtonian<Tait>{{1, 1}, 0, 0, 1}.check();
             }),
-            "viscous: a conductivity needs a material with a temperature and a specific_heat()");
+            "newtonian: a conductivity needs a material with a temperature and a specific_heat()");
   EXPECT_EQ(message([] { Elastic<Tait>{{1, 1}, 0}.check(); }), "elastic: shear_modulus = 0 must be positive");
   EXPECT_EQ(message([] { Elastic<Tait>{{1, 1}, 1, -2}.check(); }), "elastic: yield_stress = -2 must be positive");
   EXPECT_EQ(message([] {

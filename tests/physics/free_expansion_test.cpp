@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 namespace boltzmann {
 namespace {
@@ -23,59 +24,77 @@ struct Fourfold {
   Ensemble<Smooth<2>> gas{"gas"};
   SmoothScheme scheme;
 
-  Fourfold(std::size_t count, double range, Boundary boundary)
+  Fourfold(std::size_t count, double range, Boundary boundary, std::uint64_t seed)
       : n(static_cast<double>(count)), box(Vector{0.0, 0.0}, Vector{2 * n, 2 * n}, boundary), scheme(box) {
     fill<2>(gas, Vector{n / 2, n / 2}, 1, {count, count});
-    jitter(gas, 0.1, 1);
+    jitter(gas, 0.1, seed);
     for (auto& p : gas) p.mass = 1, p.range = range;
     scheme.material(gas, QuadraticGas{});
-  }
-  double entropy(double Entropy::*how) {
-    scheme.complete(0);
-    return smooth_entropy({gas}, box).with_fluctuations.*how;
   }
 };
 
 struct Gain {
-  double sum, integral, energy_drift, momentum, without, full;
+  double sum, integral, without, full;   ///< entropy / N k at the end
+  double plateau_sum, plateau_integral;  ///< its mean over the last sound time
+  double energy_drift, momentum;
 };
 
-/// Over two sound times.
-Gain expand(std::size_t count, double range, Boundary boundary) {
-  Fourfold run(count, range, boundary);
-  Simulation simulation(run.scheme, 0.25);
+/// 4,096 particles over two sound times.
+Gain expand(double range, Boundary boundary, std::uint64_t seed) {
+  Fourfold run(64, range, boundary, seed);
+  double const step = 0.25, sound_time = run.box.length(0);
+  auto const steps = [&](double sound_times) { return static_cast<std::uint64_t>(sound_times * sound_time / step); };
+  Simulation simulation(run.scheme, step);
   simulation.integrate(run.gas, Method::rk4);
   double const energy = total_energy(run.scheme, run.gas);
   SmoothEntropy const before = smooth_entropy({run.gas}, run.box);
-  simulation.run(static_cast<std::uint64_t>(2 * run.box.length(0) / 0.25));
+  simulation.run(steps(1));
   Gain gain{};
-  gain.energy_drift = std::abs(total_energy(run.scheme, run.gas) / energy - 1);
-  gain.momentum = momentum_share(run.gas);
-  SmoothEntropy const after = smooth_entropy({run.gas}, run.box);
+  SmoothEntropy after;
+  constexpr int looks = 8;
+  for (int look = 0; look < looks; ++look) {
+    simulation.run(steps(1.0 / looks));
+    run.scheme.complete(simulation.time());
+    after = smooth_entropy({run.gas}, run.box);
+    gain.plateau_sum += (after.with_fluctuations.sum - before.with_fluctuations.sum) / looks;
+    gain.plateau_integral += (after.with_fluctuations.integral - before.with_fluctuations.integral) / looks;
+  }
   gain.sum = after.with_fluctuations.sum - before.with_fluctuations.sum;
   gain.integral = after.with_fluctuations.integral - before.with_fluctuations.integral;
   gain.without = after.without_fluctuations.sum - before.without_fluctuations.sum;
   gain.full = after.with_all_motion.sum - before.with_all_motion.sum;
-  std::printf("range %g: sum %.4f integral %.4f without %.4f full %.4f energy %.2e momentum %.2e\n", range, gain.sum,
-              gain.integral, gain.without, gain.full, gain.energy_drift, gain.momentum);
+  gain.energy_drift = std::abs(total_energy(run.scheme, run.gas) / energy - 1);
+  gain.momentum = momentum_share(run.gas);
+  std::printf("range %g: sum %.4f integral %.4f plateau %.4f %.4f without %.4f full %.4f energy %.2e momentum %.2e\n",
+              range, gain.sum, gain.integral, gain.plateau_sum, gain.plateau_integral, gain.without, gain.full,
+              gain.energy_drift, gain.momentum);
   return gain;
 }
 
 // 4,096 particles, against an independent program's numbers. ln 4 = 1.386 is approached from below as the range grows.
+// At range 3 the sum still swings by 0.01 from look to look: means over the last sound time and two runs.
 TEST(FreeExpansion, GainsTheEntropyOfFourfoldSpace) {
-  Gain const near = expand(64, 3, Boundary::periodic), far = expand(64, 6, Boundary::periodic);
-  EXPECT_NEAR(near.sum, 0.652, 0.02 * 0.652);
-  EXPECT_NEAR(near.integral, 0.921, 0.02 * 0.921);
-  EXPECT_NEAR(far.sum, 1.150, 0.02 * 1.150);
-  EXPECT_NEAR(far.integral, 1.179, 0.02 * 1.179);
-  for (Gain const& gain : {near, far}) {
-    EXPECT_LT(gain.energy_drift, 2e-6);
-    EXPECT_LT(gain.momentum, 1e-14);
-    EXPECT_NEAR(gain.without, 0, 0.02);  // each particle stays on its isentrope
-    EXPECT_GT(gain.full, gain.sum);
+  double sum = 0, integral = 0;
+  for (std::uint64_t const seed : {1, 2}) {
+    Gain const near = expand(3, Boundary::periodic, seed);
+    sum += near.plateau_sum / 2;
+    integral += near.plateau_integral / 2;
+    EXPECT_LT(near.energy_drift, 5e-4);  // a period of a pair is only 16 steps: halve the step, and it is 30 times less
   }
-  EXPECT_GT(far.sum, near.sum);
-  EXPECT_LT(far.integral, std::log(4));
+  EXPECT_NEAR(sum, 0.652, 0.02 * 0.652);
+  EXPECT_NEAR(integral, 0.921, 0.01 * 0.921);
+  Gain const far = expand(6, Boundary::periodic, 1);
+  EXPECT_NEAR(far.sum, 1.150, 0.01 * 1.150);
+  EXPECT_NEAR(far.integral, 1.179, 0.01 * 1.179);
+  EXPECT_LT(far.energy_drift, 2e-6);
+  EXPECT_LT(far.momentum, 1e-14);
+  EXPECT_NEAR(far.without, 0, 1e-3);  // each particle stays on its isentrope
+  EXPECT_GT(far.full, far.sum + 0.02);
+  Gain const walled = expand(6, Boundary::mirror, 1);
+  EXPECT_NEAR(walled.plateau_sum, far.plateau_sum, 0.005);
+  EXPECT_NEAR(walled.plateau_integral, far.plateau_integral, 0.005);
+  EXPECT_LT(walled.energy_drift, 2e-6);
+  EXPECT_GT(walled.momentum, 1e-6);  // walls push
 }
 
 // With P = rho^2 / 2 the acceleration is Eq 20: atoms with the weight as pair potential.
@@ -94,7 +113,7 @@ struct WeightAsPotential {
 
 TEST(FreeExpansion, IsMolecularDynamicsWithTheWeightAsPotential) {
   for (double const range : {3.0, 6.0}) {
-    Fourfold run(24, range, Boundary::periodic);
+    Fourfold run(24, range, Boundary::periodic, 1);
     Ensemble<Newton<2>> atoms("atoms", run.gas.size());
     for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i].position = run.gas[i].position, atoms[i].mass = 1;
     PairScheme pairs(run.box, range);
@@ -116,40 +135,106 @@ TEST(FreeExpansion, IsMolecularDynamicsWithTheWeightAsPotential) {
     double kinetic = 0;
     for (auto const& a : atoms) kinetic += 0.5 * norm2(a.velocity);
     double const self = 0.5 * weight_at(WeightShape::lucy, 2, 0, range).value * static_cast<double>(atoms.size());
-    EXPECT_NEAR(kinetic + pairs.measure().potential + self, energy, 1e-5 * energy);
+    EXPECT_NEAR(kinetic + pairs.measure().potential + self, energy, 1e-4 * energy);
   }
 }
 
 // Study 1: a gas of one degree of freedom, gamma = 3: P = 2 rho e, in twice its space.
 struct Twofold {
-  double sum, integral, energy_drift;
+  double sum, integral, without, energy_drift;
 };
-Twofold expand_1d(std::size_t count, double spacings, double until) {
-  double const n = static_cast<double>(count);
+Twofold expand_1d(std::size_t count, double range, double sound_times) {
+  double const n = static_cast<double>(count), step = 0.1;
   Box const box(Vector{0.0}, Vector{2 * n}, Boundary::mirror);
   Ensemble<Smooth<1>> gas("gas");
   fill<1>(gas, Vector{n / 2}, 1, {count});
   jitter(gas, 0.1, 1);
-  for (auto& p : gas) p.mass = 1, p.range = spacings, p.specific_energy = 1.0 / 6;
+  for (auto& p : gas) p.mass = 1, p.range = range, p.specific_energy = 1.0 / 6;
   SmoothScheme scheme(box);
   scheme.material(gas, IdealGas{3});
-  Simulation simulation(scheme, 0.1);
+  scheme.heating(Heating::own);
+  Simulation simulation(scheme, step);
   simulation.integrate(gas, Method::rk4);
   double const energy = total_energy(scheme, gas);
   SmoothEntropy const before = smooth_entropy({gas}, box);
-  simulation.run(static_cast<std::uint64_t>(until * 2 * n / 0.1));
+  simulation.run(static_cast<std::uint64_t>(sound_times * 2 * n / step));
   Twofold result{};
   result.energy_drift = std::abs(total_energy(scheme, gas) / energy - 1);
   SmoothEntropy const after = smooth_entropy({gas}, box);
   result.sum = after.with_fluctuations.sum - before.with_fluctuations.sum;
   result.integral = after.with_fluctuations.integral - before.with_fluctuations.integral;
-  std::printf("1D range %g: sum %.4f integral %.4f energy %.1e\n", spacings, result.sum, result.integral,
-              result.energy_drift);
+  result.without = after.without_fluctuations.sum - before.without_fluctuations.sum;
+  std::printf("1D range %g t %g: sum %.4f integral %.4f without %.4f energy %.1e\n", range, sound_times, result.sum,
+              result.integral, result.without, result.energy_drift);
   return result;
 }
+// ln 2 = 0.693 is approached from below as the range grows, as in 2D.
 TEST(FreeExpansion1D, ApproachesTheEntropyOfTwofoldSpace) {
-  for (double t : {2., 4., 8.})
-    for (double s : {3., 6., 12., 24.}) expand_1d(512, s, t);
+  Twofold last{};
+  for (double const range : {4.0, 20.0}) {
+    Twofold const gain = expand_1d(256, range, 8);
+    EXPECT_LT(gain.energy_drift, 2e-5);
+    EXPECT_NEAR(gain.without, 0, 1e-3);  // each particle stays on its isentrope
+    EXPECT_GT(gain.sum, last.sum + 0.1);
+    EXPECT_GT(gain.integral, last.integral + 0.05);
+    EXPECT_LT(gain.integral, std::numbers::ln2);
+    last = gain;
+  }
+  EXPECT_GT(last.sum, 0.8 * std::numbers::ln2);
+  EXPECT_GT(last.integral, 0.8 * std::numbers::ln2);
+}
+
+/// A slab of gas at x < 0 with sound speed 1 begins to expand into vacuum; what the particles between two parts of the
+/// fan have, against the exact solution: mean differences.
+template <int D, class Gas>
+std::array<double, 2> rarefy(Gas const& material, std::size_t along, std::size_t across, double range) {
+  double const length = static_cast<double>(along), width = static_cast<double>(across);
+  Vector<D> low{}, high{};
+  low[0] = -length, high[0] = 2 * length;
+  std::array<Boundary, D> boundaries;
+  boundaries.fill(Boundary::periodic);
+  boundaries[0] = Boundary::mirror;
+  std::array<std::size_t, D> counts;
+  counts.fill(across);
+  counts[0] = along;
+  for (int a = 1; a < D; ++a) high[a] = width;
+  Ensemble<Smooth<D>> gas("gas");
+  fill<D>(gas, low, 1, counts);
+  for (auto& p : gas) p.mass = 1, p.range = range;
+  SmoothScheme scheme(Box(low, high, boundaries));
+  scheme.material(gas, material);
+  scheme.variable_range({.spacings = range, .longest = 3 * range});
+  double const step = 0.2, time = 0.8 * length;
+  Simulation simulation(scheme, step);
+  simulation.integrate(gas, Method::rk4);
+  simulation.run(static_cast<std::uint64_t>(std::round(time / step)));
+  scheme.complete(time);
+  std::array<double, 2> error{};
+  std::size_t number = 0;
+  for (auto const& p : gas) {
+    double const xi = p.position[0] / time;
+    if (xi < -0.9 || xi > 0.7) continue;
+    double const density = D == 1 ? (1 - xi) / 2 : square((2 - xi) / 3);
+    double const velocity = D == 1 ? (1 + xi) / 2 : 2 * (1 + xi) / 3;
+    error[0] += std::abs(p.density - density);
+    error[1] += std::abs(p.velocity[0] - velocity);
+    ++number;
+  }
+  for (auto& e : error) e /= static_cast<double>(number);
+  std::printf("%dD: %.5f %.5f of %zu\n", D, error[0], error[1], number);
+  return error;
+}
+
+TEST(FreeExpansion1D, RarefiesIntoVacuum) {
+  auto const error = rarefy<1>(IsentropicGas{1.0 / 3, 3}, 400, 1, 4);
+  EXPECT_LT(error[0], 0.005);
+  EXPECT_LT(error[1], 0.005);
+}
+
+TEST(FreeExpansion, RarefiesIntoVacuumIn2D) {
+  auto const error = rarefy<2>(QuadraticGas{}, 120, 13, 4);
+  EXPECT_LT(error[0], 0.01);
+  EXPECT_LT(error[1], 0.01);
 }
 
 }  // namespace

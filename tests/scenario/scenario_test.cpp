@@ -3,6 +3,7 @@
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/picture.hpp>
@@ -289,6 +290,15 @@ TEST(Guide, NamesEverythingThatAScenarioCanSay) {
     for (auto const& field : entry.variants.back().fields)
       if (field.name != "position") expect(field.name);
   }
+  for (auto const& material : material_catalogue()) {
+    expect(std::string(material.name));
+    for (auto const& parameter : material.parameters) expect(std::string(parameter.name));
+  }
+  for (auto const& parameter : flux_parameters()) expect(std::string(parameter.name));
+  for (auto const& parameter : elastic_parameters()) {
+    EXPECT_NE(guide.find(std::string(parameter.name) + " = ..."), std::string::npos) << parameter.name;
+  }
+  for (auto const& weight : weight_names()) expect(weight);
   for (auto const& method : method_names()) expect(method);
   for (auto const& kind : diagnosis_kinds()) {
     expect(kind.name);

@@ -2,7 +2,7 @@
 // state, stored scenarios give the same bits.
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/laws/materials/ideal_gas.hpp>
-#include <boltzmann/laws/materials/viscous.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
@@ -80,7 +80,7 @@ TEST(SmoothScenario, IsTheSimulationThatAProgramWouldMake) {
   box.wall(1, Box::End::low, {.slips = false, .velocity = {0.5, 0, 0}, .temperature = 1.5});
   box.wall(1, Box::End::high, {.velocity = {0, -0.1, 0}});
   Ensemble<Smooth<2>> particles("gas", 800);
-  auto const sites = lattice_sites(Filling{Lattice::square, 0.1, {0, 0, 0}, {4, 2, 0}}, 2);
+  auto const sites = filling_sites(Filling{Lattice::square, 0.1, {0, 0, 0}, {4, 2, 0}}, 2);
   ASSERT_EQ(sites.size(), particles.size());
   for (std::size_t i = 0; i < sites.size(); ++i) particles[i].position = {sites[i][0], sites[i][1]};
   jitter(particles, 0.02, 1);
@@ -324,6 +324,28 @@ TEST(SmoothScenario, RunsAShockTube) {
   EXPECT_NEAR(velocity / count, 0.92745, 0.015);
 }
 
+// The guide's example, Taylor and Green's vortices: the kinetic energy decays as exp(-16 pi^2 nu t).
+TEST(SmoothScenario, OfTheGuideIsRight) {
+  std::ifstream in(BOLTZMANN_SOURCE "/docs/guide/scenarios.md");
+  std::string const guide((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  auto const section = guide.find("## [smooth]"), begin = guide.find("```toml\n", section) + 8;
+  auto const scenario = read(guide.substr(begin, guide.find("```", begin) - begin),
+                             {{"ensembles.0.load.spacing=0.0125", "ensembles.0.range=0.05"}, {}, {}, {}});
+  scenario->simulation->check();
+  AnyEnsemble const& fluid = *scenario->ensembles[0];
+  auto const kinetic = [&] {
+    double energy = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i)
+      energy += 0.5 * field(fluid, i, "mass") *
+                (std::pow(field(fluid, i, "velocity"), 2) + std::pow(field(fluid, i, "velocity", 1), 2));
+    return energy;
+  };
+  EXPECT_NEAR(kinetic(), 0.25, 1e-12);
+  scenario->simulation->run(static_cast<std::uint64_t>(scenario->steps));
+  double const expected = -16 * pi * pi * 0.01 * scenario->simulation->time();
+  EXPECT_NEAR(std::log(kinetic() / 0.25), expected, 0.05 * std::abs(expected));
+}
+
 // ---- Outside ----
 
 TEST(SmoothScenario, FallsAndIsSlowed) {
@@ -471,6 +493,17 @@ TEST(SmoothScenario, FormulasGiveFields) {
     EXPECT_EQ(field(a, i, "mass"), there ? 0.02 : 0.01);
   }
   EXPECT_EQ(moved, 100U);
+}
+
+TEST(SmoothScenario, MassesFollowDensitiesOfSomeToo) {
+  auto const scenario = read(loaded("{ kind = \"fill\", spacing = 0.1 }",
+                                    "density = 1\n[[ensembles.set]]\nwhere = \"x < 0\"\ndensity = 4\n"
+                                    "[[ensembles.set]]\nwhere = \"x > 1\"\nformulas = { density = \"2*density\" }\n"));
+  AnyEnsemble const& a = *scenario->ensembles[0];
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double const x = a.row(i)[0];
+    EXPECT_NEAR(field(a, i, "mass"), x < 0 ? 0.04 : x > 1 ? 0.02 : 0.01, 1e-15);
+  }
 }
 
 // Formulas serve every class.

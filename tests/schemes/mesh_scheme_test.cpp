@@ -594,6 +594,17 @@ TEST(MeshBits, AreTheSameForAnyThreadsAndOrder) {
   expect_same_bits<3>(5, Boundary::open);
 }
 
+// ---- where there is none ----
+
+TEST(MeshBoxes, HaveNoMirrors) {
+  Box const mirrored(Vector{0.0, 0.0}, Vector{1.0, 1.0}, {Boundary::periodic, Boundary::mirror});
+  EXPECT_TRUE(has(failure([&] {
+                    MeshScheme(mirrored, {8, 8}, coulomb(1));
+                  }),
+                  "mesh: axis y is a mirror: particles on a mesh need a bounded, periodic or open axis there (mirrors "
+                  "are for smooth particles)"));
+}
+
 // ---- few and none ----
 
 TEST(MeshOfFew, NoneOneAndTwo) {

@@ -8,6 +8,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/message.hpp>
 
 #include <random>
 
@@ -333,6 +334,12 @@ TEST(PairScheme, RefusesWhatItCannotDo) {
   EXPECT_THROW(good.internal(twin, smooth_law), Error);
   Ensemble<Newton<3>> wrong_dimension("deep", 2);
   EXPECT_THROW(good.internal(wrong_dimension, smooth_law), Error);
+  for (double const cutoff : {no_cutoff, 1.0}) {
+    PairScheme mirrored(Box(Vector{0., 0.}, Vector{4., 3.}, {Boundary::open, Boundary::mirror}), cutoff);
+    EXPECT_EQ(message([&] { mirrored.internal(twin, smooth_law); }),
+              "axis y is a mirror: particles that interact by pairs need a bounded, periodic or open axis there "
+              "(mirrors are for smooth particles)");
+  }
   atoms[2].position = {std::nan(""), 0};
   EXPECT_THROW(good.calculate(), PhysicsFailure);
 }

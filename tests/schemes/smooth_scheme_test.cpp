@@ -4,7 +4,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/materials/ideal_gas.hpp>
-#include <boltzmann/laws/materials/viscous.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>

@@ -1,14 +1,12 @@
 // Tables of pressures: the cubic that does not overshoot, its integral, and files.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/materials/pressure_table.hpp>
+#include <boltzmann/laws/two_columns.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <string_view>
 
 namespace boltzmann {
 namespace {
@@ -129,40 +127,9 @@ double PressureTable::energy(double density) const {
 }
 
 PressureTable PressureTable::from_file(std::string const& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(fmt::format("{}: can't open the table", path));
   std::vector<PressurePoint> points;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    std::string_view text = line;
-    text = text.substr(0, text.find('#'));
-    constexpr std::string_view blank = " \t\r\f\v,";
-    std::vector<double> values;
-    while (true) {
-      text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
-      if (text.empty()) break;
-      auto const word = text.substr(0, text.find_first_of(blank));
-      text.remove_prefix(word.size());
-      auto const* const begin = word.data() + (word.front() == '+' ? 1 : 0);
-      auto const* const end = word.data() + word.size();
-      double value = 0;
-      auto const [last, error] = std::from_chars(begin, end, value);
-      if (error != std::errc{} || last != end || !std::isfinite(value))
-        throw Error(fmt::format("{}:{}: '{}' is not a finite number", path, number, word));
-      values.push_back(value);
-    }
-    if (values.empty()) continue;
-    if (values.size() != 2)
-      throw Error(
-          fmt::format("{}:{}: {} numbers; a line has two, a density and a pressure", path, number, values.size()));
-    if (values[0] <= 0) throw Error(fmt::format("{}:{}: the density {:.6g} must be positive", path, number, values[0]));
-    if (!points.empty() && values[0] <= points.back().density)
-      throw Error(fmt::format("{}:{}: the density {:.6g} must be above {:.6g}, the one before", path, number, values[0],
-                              points.back().density));
-    points.push_back({values[0], values[1]});
-  }
-  if (file.bad()) throw Error(fmt::format("{}: can't read the table", path));
-  if (points.size() < 2) throw Error(fmt::format("{}: {} points; a table needs at least 2", path, points.size()));
+  for (auto const& [density, pressure] : read_two_columns(path, "a density", "a pressure", true))
+    points.push_back({density, pressure});
   return PressureTable(points);
 }
 

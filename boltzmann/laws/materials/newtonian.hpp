@@ -65,11 +65,11 @@ struct Newtonian {
 
   void check() const {
     if constexpr (requires { material.check(); }) material.check();
-    check_parameter("viscous", "shear_viscosity", shear_viscosity, AllowedRange::non_negative);
-    check_parameter("viscous", "bulk_viscosity", bulk_viscosity, AllowedRange::non_negative);
-    check_parameter("viscous", "conductivity", conductivity, AllowedRange::non_negative);
+    check_parameter("newtonian", "shear_viscosity", shear_viscosity, AllowedRange::non_negative);
+    check_parameter("newtonian", "bulk_viscosity", bulk_viscosity, AllowedRange::non_negative);
+    check_parameter("newtonian", "conductivity", conductivity, AllowedRange::non_negative);
     if (!has_specific_heat && conductivity > 0)
-      throw Error("viscous: a conductivity needs a material with a temperature and a specific_heat()");
+      throw Error("newtonian: a conductivity needs a material with a temperature and a specific_heat()");
   }
 
  private:

@@ -1,0 +1,64 @@
+// Loader: reads the table that says where the particles of an ensemble are, and puts them there. Private to this room.
+#pragma once
+
+#include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// How the particles of one ensemble are put in their places.
+class Loader {
+ public:
+  Loader(Item const& table, Reading& reading, ClassVariant const* variant)
+      : reading_(reading), variant_(variant), section_(table, "load", reading.context), place_(table.place) {}
+
+  /// Reads the table. `number` is what the ensemble says (0: what can't be read); afterwards count() particles are to
+  /// be made.
+  bool read(std::optional<std::size_t> number, Place const& number_place);
+  std::size_t count() const { return count_; }
+  /// The space (length, area, volume) that each particle has, of lattices; nothing otherwise.
+  std::optional<double> volume() const { return volume_; }
+  /// Error if the lower rooms refuse.
+  void load(AnyEnsemble& particles);
+  std::string const& file() const { return file_; }
+
+ private:
+  double read_block();
+  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
+  double read_fill();
+  double read_positions();
+  double read_file();
+
+  Reading& reading_;
+  ClassVariant const* variant_;
+  Section section_;
+  Place place_;
+  std::string kind_, file_;
+  std::size_t count_ = 0;
+  LatticeBlock block_;
+  bool centred_ = true;
+  std::optional<double> volume_;
+  double jitter_ = 0, distance_ = 0, temperature_ = 1, acceleration_ = 0, amplitude_ = 0;
+  Wave wave_;
+  bool quiet_ = false;
+  std::vector<double> positions_;
+  XyzFrame frame_;
+  XyzOptions options_;
+};
+
+/// A wave to be added to the velocities.
+struct VelocityRipple {
+  Wave wave;
+  int component = 0;
+  double amplitude = 0;
+};
+VelocityRipple read_velocity_ripple(Item const& item, Reading& reading);
+
+}  // namespace boltzmann

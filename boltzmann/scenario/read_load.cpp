@@ -1,0 +1,277 @@
+// Reads load = { kind = ... }: where the particles of an ensemble are.
+#include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/loaders/jitter.hpp>
+#include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
+#include <boltzmann/scenario/loader.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+constexpr double most_particles = 1e9;
+
+/// What so many particles take, with their influences, the schemes' copies and lists.
+double memory_of(double count, ClassVariant const& variant) {
+  return count * (3.0 * static_cast<double>(variant.row_bytes) + 200);
+}
+
+bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
+  double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  double const needed = memory_of(count, variant), gib = 1024.0 * 1024 * 1024;
+  if (count <= most_particles && needed <= machine) return true;
+  reading.mistake(place, fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} "
+                                     "GiB, and at most 1000000000 are allowed",
+                                     count, std::ceil(needed / gib), machine / gib));
+  return false;
+}
+
+/// The axis that a key names, from 0 on; `otherwise` if it is missing or wrong.
+int read_axis(Section& section, char const* key, int otherwise, Reading const& reading) {
+  std::vector<std::string> axes{"x", "y", "z"};
+  if (reading.dimension > 0) axes.resize(static_cast<std::size_t>(reading.dimension));
+  auto const word = section.word(key, axes);
+  return word ? (*word)[0] - 'x' : otherwise;
+}
+
+/// axis, mode or wave_number, phase.
+Wave read_wave(Section& section, Reading& reading) {
+  int const axis = read_axis(section, "axis", 0, reading);
+  double const phase = section.quantity("phase", dimensions::angle).value_or(0);
+  auto const mode = section.integer("mode", 1);
+  auto const wave_number = section.quantity("wave_number", dimensions::wave_number, positive);
+  if (section.has("mode") == section.has("wave_number"))
+    reading.mistake(section.place("wave_number"),
+                    "a wave needs 'mode', its periods in the box, or 'wave_number', 2 pi over its length: one of them");
+  if (wave_number) return {axis, *wave_number, phase};
+  return mode && reading.box ? wave_of_mode(*reading.box, axis, static_cast<double>(*mode), phase)
+                             : Wave{axis, 0, phase};
+}
+
+}  // namespace
+
+VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
+  if (!item.is(Item::Kind::table)) {
+    reading.mistake(
+        item.place,
+        fmt::format("velocity_ripple: a table is needed, {{ mode = 1, amplitude = 0.1 }}, not {}", found(item)));
+    return {};
+  }
+  Section section(item, "velocity_ripple", reading.context);
+  VelocityRipple ripple;
+  ripple.wave = read_wave(section, reading);
+  ripple.component = read_axis(section, "component", ripple.wave.axis, reading);
+  ripple.amplitude = section.need_quantity("amplitude", dimensions::velocity, "amplitude = 0.1").value_or(0);
+  section.finish();
+  return ripple;
+}
+
+bool Loader::read(std::optional<std::size_t> number, Place const& number_place) {
+  std::size_t const before = reading_.context.mistakes.count();
+  Item const* word = section_.need("kind", "kind = \"block\"");
+  if (!word) return false;
+  auto const kind = read_word(
+      *word, "load", {"block", "fill", "random", "quiet", "ripple", "gravity", "positions", "file"}, reading_.context);
+  if (!kind) return false;
+  kind_ = *kind;
+  double own_count = 0;  // from what is loaded
+  if (kind_ == "block") own_count = read_block();
+  if (kind_ == "fill") own_count = read_fill();
+  if (kind_ == "block" || kind_ == "fill")
+    jitter_ = section_.quantity("jitter", dimensions::none, {0, 1}).value_or(0) * block_.spacing;
+  if (kind_ == "random")
+    distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
+  if (kind_ == "ripple") {
+    wave_ = read_wave(section_, reading_);
+    amplitude_ = section_.need_quantity("amplitude", dimensions::none, "amplitude = 0.1", {-1, 1}).value_or(0);
+    quiet_ = section_.boolean("quiet");
+  }
+  if (kind_ == "gravity") {
+    temperature_ =
+        section_.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive).value_or(1);
+    acceleration_ =
+        section_.need_quantity("acceleration", dimensions::acceleration, "acceleration = \"9.81 m/s^2\"").value_or(0);
+  }
+  if (kind_ == "positions") own_count = read_positions();
+  if (kind_ == "file") own_count = read_file();
+  section_.finish();
+  if (reading_.context.mistakes.count() != before) return false;
+  if (kind_ == "random" || kind_ == "quiet" || kind_ == "ripple" || kind_ == "gravity") {
+    if (!number) {
+      reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", kind_));
+      return false;
+    }
+    own_count = static_cast<double>(*number);
+  } else if (number.value_or(0) != 0 && static_cast<double>(*number) != own_count) {
+    reading_.mistake(number_place, fmt::format("number: {} particles, but load \"{}\" has places for {:.0f}; leave "
+                                               "'number' out",
+                                               *number, kind_, own_count));
+    return false;
+  }
+  if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
+  if (kind_ == "fill" && own_count == 0) {
+    if (reading_.box) reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
+    return false;
+  }
+  count_ = static_cast<std::size_t>(own_count);
+  return count_ > 0;
+}
+
+void Loader::load(AnyEnsemble& particles) {
+  std::uint64_t const seed = reading_.run.seed;
+  if (kind_ == "block") {
+    block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
+  } else if (kind_ == "random") {
+    random_load(particles, *reading_.box, seed, distance_);
+  } else if (kind_ == "quiet") {
+    quiet_load(particles, *reading_.box);
+  } else if (kind_ == "ripple" && quiet_) {
+    quiet_load(particles, *reading_.box, wave_, amplitude_);
+  } else if (kind_ == "ripple") {
+    ripple_load(particles, *reading_.box, wave_, amplitude_, seed);
+  } else if (kind_ == "gravity") {
+    gravity_load(particles, *reading_.box, temperature_, acceleration_, reading_.boltzmann_constant(), seed);
+  } else if (kind_ == "positions" || kind_ == "fill") {
+    for (std::size_t i = 0; i < count_; ++i)
+      std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),
+                  particles.row(i));
+  } else {
+    xyz_load(particles, frame_, options_);
+  }
+  if (jitter_ > 0) jitter(particles, jitter_, seed);
+}
+
+double Loader::read_block() {
+  int const dimension = reading_.dimension;
+  auto const name = section_.word("lattice", {"square", "triangular", "fcc", "bcc"});
+  if (name) block_.kind = lattice_named(*name);
+  block_.spacing =
+      section_.need_quantity("spacing", dimensions::length, "spacing = \"2.551 angstrom\"", positive).value_or(1);
+  double count = 1;
+  if (Item const* counts = section_.need("counts", "counts = [25, 10]")) {
+    if (!counts->is(Item::Kind::array) ||
+        (dimension > 0 && counts->elements.size() != static_cast<std::size_t>(dimension))) {
+      reading_.mistake(
+          counts->place,
+          fmt::format("counts: an array of {} whole numbers is needed, one for each axis, not {}{}", dimension,
+                      found(*counts),
+                      counts->is(Item::Kind::array) ? fmt::format(" of {}", counts->elements.size()) : ""));
+    } else {
+      for (std::size_t a = 0; a < counts->elements.size() && a < 3; ++a)
+        if (auto const n = read_integer(counts->elements[a], "counts", 1, 1'000'000'000'000, reading_.context)) {
+          block_.counts[a] = static_cast<std::size_t>(*n);
+          count *= static_cast<double>(*n);
+        }
+    }
+  }
+  if (Item const* origin = section_.find("origin")) {
+    if (origin->is(Item::Kind::text)) {
+      centred_ = read_word(*origin, "origin", {"centred"}, reading_.context).has_value();
+    } else if (dimension > 0) {
+      if (auto const at = read_vector(*origin, "origin", dimension, dimensions::length, reading_.context)) {
+        std::copy(at->begin(), at->end(), block_.origin.begin());
+        centred_ = false;
+      }
+    }
+  }
+  if (block_.kind == Lattice::fcc) count *= 4;
+  if (block_.kind == Lattice::bcc) count *= 2;
+  if (dimension > 0) {
+    try {
+      volume_ = std::pow(block_.spacing / spacing_for_density(block_.kind, dimension, 1), dimension);
+    } catch (Error const&) {  // there is no such lattice: load() says so
+    }
+  }
+  return count;
+}
+
+double Loader::read_fill() {
+  int const dimension = reading_.dimension;
+  std::size_t const before = reading_.context.mistakes.count();
+  auto const name = section_.word("lattice", {"square", "triangular"});
+  if (name) block_.kind = lattice_named(*name);
+  auto const spacing = section_.need_quantity("spacing", dimensions::length, "spacing = 0.1", positive);
+  std::array<double, 3> low{}, high{};
+  Item const *low_item = section_.find("low"), *high_item = section_.find("high"), *where = section_.find("where");
+  for (int a = 0; a < dimension && reading_.box; ++a) {
+    low[static_cast<std::size_t>(a)] = reading_.box->low(a);
+    high[static_cast<std::size_t>(a)] = reading_.box->high(a);
+  }
+  for (auto const& [item, edge] : {std::pair(low_item, &low), std::pair(high_item, &high)})
+    if (item && dimension > 0)
+      if (auto const at =
+              read_vector(*item, item == low_item ? "low" : "high", dimension, dimensions::length, reading_.context))
+        std::copy(at->begin(), at->end(), edge->begin());
+  if (reading_.box)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+      if (!(low[a] < high[a]) && reading_.context.mistakes.count() == before)
+        reading_.mistake(
+            high_item ? high_item->place : low_item->place,
+            fmt::format("{}: {} must be {} {} along {}", high_item ? "high" : "low", high_item ? high[a] : low[a],
+                        high_item ? "above" : "below", high_item ? low[a] : high[a], "xyz"[a]));
+  FormulaNames names(std::max(dimension, 1));
+  auto const formula =
+      where && dimension > 0 ? read_formula(*where, "where", names, {}, reading_) : std::optional<Formula>{};
+  if (!spacing || !reading_.box || reading_.context.mistakes.count() != before) return 0;
+  block_.spacing = *spacing;
+  double count = 0;
+  guarded(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
+    Filling const filling{block_.kind, *spacing, low, high};
+    count = static_cast<double>(filling_count(filling, dimension));
+    if (variant_ && !fits_memory(count, *variant_, section_.place("spacing"), reading_)) return;
+    volume_ = site_volume(filling, dimension);
+    count = 0;
+    for (auto const& place : filling_sites(filling, dimension)) {
+      if (formula && names.evaluate(*formula, place.data()) == 0) continue;
+      positions_.insert(positions_.end(), place.begin(), place.begin() + dimension);
+      ++count;
+    }
+  });
+  return count;
+}
+
+double Loader::read_positions() {
+  Item const* list = section_.need("positions", "positions = [[0, 0], [1, 0]]");
+  if (!list) return 0;
+  if (!list->is(Item::Kind::array) || list->elements.empty()) {
+    reading_.mistake(list->place,
+                     fmt::format("positions: an array of positions is needed, [[0, 0], [1, 0]], not {}", found(*list)));
+    return 0;
+  }
+  Dimension dimension = dimensions::length;
+  if (variant_)
+    for (auto const& field : variant_->fields)
+      if (field.name == "position") dimension = field.dimension;
+  if (reading_.dimension > 0)
+    for (auto const& element : list->elements)
+      if (auto const at = read_vector(element, "positions", reading_.dimension, dimension, reading_.context))
+        positions_.insert(positions_.end(), at->begin(), at->end());
+  return static_cast<double>(list->elements.size());
+}
+
+double Loader::read_file() {
+  Item const* path_item = section_.need("path", "path = \"atoms.xyz\"");
+  auto const path = path_item ? read_text(*path_item, "path", reading_.context) : std::nullopt;
+  auto const frame = section_.integer("frame", 0).value_or(0);
+  options_.species = section_.text("species").value_or("");
+  options_.length = section_.quantity("length", dimensions::length, positive).value_or(1);
+  options_.velocity = section_.quantity("velocity", dimensions::velocity, positive).value_or(1);
+  if (!path) return 0;
+  std::filesystem::path full = *path;
+  if (full.is_relative() && !reading_.context.folder.empty())
+    full = std::filesystem::path(reading_.context.folder) / full;
+  file_ = std::filesystem::absolute(full).lexically_normal().string();
+  guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); });
+  if (options_.species.empty()) return static_cast<double>(frame_.size());
+  return static_cast<double>(std::count(frame_.species.begin(), frame_.species.end(), options_.species));
+}
+
+}  // namespace boltzmann

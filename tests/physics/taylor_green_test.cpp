@@ -1,0 +1,87 @@
+// Taylor and Green's vortices (scenarios/taylor-green.toml) in a viscous fluid: speeds decay as exp(-8 pi^2 nu t /
+// L^2).
+#include <tests/physics/smooth_gas.hpp>
+
+#include <boltzmann/laws/materials/tait.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace boltzmann {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vector<2> vortices(Vector<2> const& place) {
+  double const x = 2 * pi * place[0], y = 2 * pi * place[1];
+  return {-std::cos(x) * std::sin(y), std::sin(x) * std::cos(y)};
+}
+
+struct Decay {
+  double rate;       ///< of the vortices' amplitude, by exact
+  double amplitude;  ///< at the end, by exact
+  double speed;      ///< root of the mean square, by exact
+  double error;      ///< mean |v - exact|, by the exact mean speed at the end
+  double momentum;
+};
+
+/// n x n particles in the unit box; the greatest speed is 1, the speed of sound 10.
+Decay decay(std::size_t n, double viscosity, double end_time) {
+  double const spacing = 1 / static_cast<double>(n);
+  Ensemble<Smooth<2>> fluid("fluid");
+  fill<2>(fluid, Vector{0.0, 0.0}, spacing, {n, n});
+  for (auto& p : fluid) {
+    p.mass = spacing * spacing;
+    p.range = 5 * spacing;
+    p.velocity = vortices(p.position);
+  }
+  SmoothScheme scheme(Box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::periodic), WeightShape::wendland);
+  scheme.material(fluid, Newtonian<Tait>{{.reference_density = 1, .sound_speed = 10}, viscosity, 0, 0});
+  Simulation simulation(scheme, 1e-6);
+  simulation.integrate(fluid, Method::leap_frog);
+  run_by_courant(simulation, scheme, end_time, 0.8, 1);
+  double const expected = std::exp(-8 * pi * pi * viscosity * end_time);
+  double along = 0, of_wave = 0, square_of_speed = 0, apart = 0, size = 0;
+  for (auto const& p : fluid) {
+    Vector<2> const wave = vortices(p.position);
+    along += dot(p.velocity, wave);
+    of_wave += dot(wave, wave);
+    square_of_speed += norm2(p.velocity);
+    apart += magnitude(p.velocity - wave * expected);
+    size += magnitude(wave) * expected;
+  }
+  Decay result{};
+  result.amplitude = along / of_wave / expected;
+  result.rate = -std::log(along / of_wave) / (8 * pi * pi * viscosity * end_time);
+  result.speed = std::sqrt(2 * square_of_speed / static_cast<double>(fluid.size())) / expected;
+  result.error = apart / size;
+  result.momentum = momentum_share(fluid);
+  std::printf("n %zu rate %.4f amplitude %.4f speed %.4f error %.4f momentum %.1e\n", n, result.rate, result.amplitude,
+              result.speed, result.error, result.momentum);
+  return result;
+}
+
+// At a Reynolds number of 50. What the weights smooth away of the viscous force falls with the square of their range.
+TEST(TaylorGreen, SpeedsDecayAsTheyShould) {
+  double const viscosity = 0.02, end_time = 0.2;
+  Decay const coarse = decay(32, viscosity, end_time), fine = decay(128, viscosity, end_time);
+  EXPECT_NEAR(fine.rate, 1, 0.02);
+  EXPECT_NEAR(fine.amplitude, 1, 0.01);
+  EXPECT_NEAR(fine.speed, 1, 0.01);
+  EXPECT_LT(fine.error, 0.03);
+  EXPECT_LT(fine.momentum, 1e-13);
+  double const order = std::log((1 - coarse.rate) / (1 - fine.rate)) / std::log(4);
+  EXPECT_GT(order, 1.5);
+  EXPECT_LT(order, 2.2);
+}
+
+TEST(TaylorGreen, DecayIsProportionalToTheViscosity) {
+  EXPECT_NEAR(decay(80, 0.04, 0.1).rate, 1, 0.03);
+  EXPECT_NEAR(decay(80, 0.1, 0.04).rate, 1, 0.03);
+}
+
+}  // namespace
+}  // namespace boltzmann
