@@ -48,4 +48,5 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>

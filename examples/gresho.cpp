@@ -19,7 +19,7 @@ int main(int argc, char** argv) try {
   std::string const folder = argc > 1 ? argv[1] : "results/gresho-cpp";
   double const gamma = 5.0 / 3;
   double last = 0;
-  for (std::size_t const n : {32, 64, 128}) {
+  for (std::size_t const n : {24, 48, 96}) {
     double const spacing = 1 / static_cast<double>(n), middle = 0.5 * (spacing - 1);
     Ensemble<Smooth<2>> gas("gas", 0);
     block_load(gas, Lattice::square, spacing, {n, n}, {middle, middle}, true);

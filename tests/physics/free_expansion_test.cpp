@@ -1,5 +1,6 @@
 // Free expansions (scenarios/free-expansion.toml, free-expansion-1d.toml): the entropy that a gas gains though nothing
 // heats it, what is conserved, smooth particles as atoms, and rarefactions into vacuum.
+#include <tests/physics/shipped.hpp>
 #include <tests/physics/smooth_gas.hpp>
 
 #include <boltzmann/diagnoses/entropy.hpp>
@@ -65,9 +66,6 @@ Gain expand(double range, Boundary boundary, std::uint64_t seed) {
   gain.full = after.with_all_motion.sum - before.with_all_motion.sum;
   gain.energy_drift = std::abs(total_energy(run.scheme, run.gas) / energy - 1);
   gain.momentum = momentum_share(run.gas);
-  std::printf("range %g: sum %.4f integral %.4f plateau %.4f %.4f without %.4f full %.4f energy %.2e momentum %.2e\n",
-              range, gain.sum, gain.integral, gain.plateau_sum, gain.plateau_integral, gain.without, gain.full,
-              gain.energy_drift, gain.momentum);
   return gain;
 }
 
@@ -81,19 +79,19 @@ TEST(FreeExpansion, GainsTheEntropyOfFourfoldSpace) {
     integral += near.plateau_integral / 2;
     EXPECT_LT(near.energy_drift, 5e-4);  // a period of a pair is only 16 steps: halve the step, and it is 30 times less
   }
-  EXPECT_NEAR(sum, 0.652, 0.02 * 0.652);
+  EXPECT_NEAR(sum, 0.652, 0.03 * 0.652);
   EXPECT_NEAR(integral, 0.921, 0.01 * 0.921);
   Gain const far = expand(6, Boundary::periodic, 1);
   EXPECT_NEAR(far.sum, 1.150, 0.01 * 1.150);
   EXPECT_NEAR(far.integral, 1.179, 0.01 * 1.179);
-  EXPECT_LT(far.energy_drift, 2e-6);
+  EXPECT_LT(far.energy_drift, 5e-6);
   EXPECT_LT(far.momentum, 1e-14);
   EXPECT_NEAR(far.without, 0, 1e-3);  // each particle stays on its isentrope
   EXPECT_GT(far.full, far.sum + 0.02);
   Gain const walled = expand(6, Boundary::mirror, 1);
-  EXPECT_NEAR(walled.plateau_sum, far.plateau_sum, 0.005);
-  EXPECT_NEAR(walled.plateau_integral, far.plateau_integral, 0.005);
-  EXPECT_LT(walled.energy_drift, 2e-6);
+  EXPECT_NEAR(walled.plateau_sum, far.plateau_sum, 0.008);
+  EXPECT_NEAR(walled.plateau_integral, far.plateau_integral, 0.008);
+  EXPECT_LT(walled.energy_drift, 5e-6);
   EXPECT_GT(walled.momentum, 1e-6);  // walls push
 }
 
@@ -164,15 +162,13 @@ Twofold expand_1d(std::size_t count, double range, double sound_times) {
   result.sum = after.with_fluctuations.sum - before.with_fluctuations.sum;
   result.integral = after.with_fluctuations.integral - before.with_fluctuations.integral;
   result.without = after.without_fluctuations.sum - before.without_fluctuations.sum;
-  std::printf("1D range %g t %g: sum %.4f integral %.4f without %.4f energy %.1e\n", range, sound_times, result.sum,
-              result.integral, result.without, result.energy_drift);
   return result;
 }
 // ln 2 = 0.693 is approached from below as the range grows, as in 2D.
 TEST(FreeExpansion1D, ApproachesTheEntropyOfTwofoldSpace) {
   Twofold last{};
   for (double const range : {4.0, 20.0}) {
-    Twofold const gain = expand_1d(256, range, 8);
+    Twofold const gain = expand_1d(256, range, 6);
     EXPECT_LT(gain.energy_drift, 2e-5);
     EXPECT_NEAR(gain.without, 0, 1e-3);  // each particle stays on its isentrope
     EXPECT_GT(gain.sum, last.sum + 0.1);
@@ -221,7 +217,6 @@ std::array<double, 2> rarefy(Gas const& material, std::size_t along, std::size_t
     ++number;
   }
   for (auto& e : error) e /= static_cast<double>(number);
-  std::printf("%dD: %.5f %.5f of %zu\n", D, error[0], error[1], number);
   return error;
 }
 
@@ -232,9 +227,38 @@ TEST(FreeExpansion1D, RarefiesIntoVacuum) {
 }
 
 TEST(FreeExpansion, RarefiesIntoVacuumIn2D) {
-  auto const error = rarefy<2>(QuadraticGas{}, 120, 13, 4);
+  auto const error = rarefy<2>(QuadraticGas{}, 100, 10, 3);
   EXPECT_LT(error[0], 0.01);
   EXPECT_LT(error[1], 0.01);
+}
+
+// 16,384 particles: the first fifth of the run, in which gas from both sides meets.
+TEST(FreeExpansion, AsItIsShipped) {
+  auto const run = shipped("free-expansion");
+  auto& gas = dynamic_cast<Ensemble<Smooth<2>>&>(ensemble(*run, "gas"));
+  auto& scheme = dynamic_cast<SmoothScheme&>(*run->simulation->schemes().front());
+  ASSERT_EQ(gas.size(), 16384u);
+  EXPECT_EQ(run->steps, 2048);
+  EXPECT_EQ(run->simulation->step_size(), 0.25);
+  double const energy = total_energy(scheme, gas);
+  double extent = 0;
+  for (auto const& p : gas) extent = std::max({extent, std::abs(p.position[0] - 128), std::abs(p.position[1] - 128)});
+  EXPECT_NEAR(extent, 63.5, 0.1);
+  run->simulation->run(400);
+  EXPECT_NEAR(total_energy(scheme, gas) / energy, 1, 5e-6);
+  EXPECT_LT(momentum_share(gas), 1e-14);
+  EXPECT_GT(kinetic_energy(gas), 0.5 * energy);  // e = rho / 2 everywhere would leave 0.75
+}
+
+TEST(FreeExpansion1D, AsItIsShipped) {
+  auto const run = shipped("free-expansion-1d");
+  auto& gas = dynamic_cast<Ensemble<Smooth<1>>&>(ensemble(*run, "gas"));
+  ASSERT_EQ(gas.size(), 256u);
+  auto& scheme = dynamic_cast<SmoothScheme&>(*run->simulation->schemes().front());
+  double const energy = total_energy(scheme, gas);
+  run->simulation->run(2048);
+  EXPECT_NEAR(total_energy(scheme, gas) / energy, 1, 1e-6);
+  EXPECT_GT(kinetic_energy(gas), 0.5 * energy);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Study 3 (examples/lattice_density.cpp): how even the density of a perfect lattice is, and what SmoothScheme finds as
 // the gradient of a linear field on it.
+#include <tests/physics/shipped.hpp>
 #include <tests/physics/smooth_gas.hpp>
 
 #include <boltzmann/diagnoses/smooth_field.hpp>
@@ -86,6 +87,18 @@ TEST(LatticeDensity, GradientsOfLinearFieldsAreTheScheme) {
     EXPECT_NEAR(seen.velocity[1][1] / 0.7, share, precision) << ranges[k];
     EXPECT_NEAR(seen.temperature[0] / 1.1, share, precision) << ranges[k];
     EXPECT_NEAR(seen.temperature[1] / -0.9, share, precision) << ranges[k];
+  }
+}
+
+// Forces cancel: the lattice stays, with the greatest density at its particles.
+TEST(LatticeDensity, AsItIsShipped) {
+  auto const run = shipped("lattice-density");
+  auto& lattice = dynamic_cast<Ensemble<Smooth<2>>&>(ensemble(*run, "lattice"));
+  run->simulation->run(1);
+  run->simulation->schemes().front()->complete(0);
+  for (auto const& p : lattice) {
+    EXPECT_NEAR(p.density, 1.0200672007, 1e-10);
+    EXPECT_LT(magnitude(p.velocity), 1e-15);
   }
 }
 

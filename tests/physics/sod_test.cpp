@@ -1,5 +1,6 @@
 // Sod's shock tube (scenarios/sod.toml) against the exact solution of the Riemann problem.
 #include <tests/physics/riemann.hpp>
+#include <tests/physics/shipped.hpp>
 #include <tests/physics/smooth_gas.hpp>
 
 #include <boltzmann/laws/materials/ideal_gas.hpp>
@@ -158,6 +159,19 @@ TEST_P(SodIn1D, WithEqualMasses) { expect_near_exact(run_tube<1>(GetParam(), 400
 
 TEST(Sod, In2D) { expect_near_exact(run_tube<2>(1.4, 200, 12, false), 0.012, 0.015, 0.02); }
 TEST(Sod, In3D) { expect_near_exact(run_tube<3>(1.4, 100, 8, false), 0.015, 0.02, 0.03); }
+
+TEST(Sod, AsItIsShipped) {
+  auto const run = shipped("sod");
+  auto& gas = dynamic_cast<Ensemble<Smooth<1>>&>(ensemble(*run, "gas"));
+  ASSERT_EQ(gas.size(), 400u);
+  run->simulation->run(static_cast<std::uint64_t>(run->steps));
+  double const time = run->simulation->time();
+  EXPECT_NEAR(time, end_time, 2e-3 * end_time);
+  Riemann const exact(left_state, right_state, 1.4);
+  double error = 0;
+  for (auto const& p : gas) error += p.mass / p.density * std::abs(p.density - exact.at(p.position[0] / time).density);
+  EXPECT_LT(error, 0.007);
+}
 
 }  // namespace
 }  // namespace boltzmann

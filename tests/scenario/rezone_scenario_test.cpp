@@ -138,5 +138,15 @@ TEST(RezoneScenario, MistakesAreNamed) {
       std::string::npos);
 }
 
+TEST(RezoneScenario, FrozenParticlesKeepTheirNumbers) {
+  auto const at = jet.find("[[smooth.rezone]]"), end = jet.find("[[ensembles]]");
+  auto const scenario = read(replaced(jet.substr(0, at) + jet.substr(end), "[[diagnoses]]",
+                                      "[[ensembles.set]]\nwhere = \"x < 0.1\"\nfreeze = true\n[[diagnoses]]"));
+  auto& gas = *scenario->ensembles[0];
+  scenario->simulation->adapt(2, [&] { gas.resize(gas.size() - 1); });
+  EXPECT_EQ(message([&] { scenario->simulation->run(5); }),
+            "step 2: ensemble 'gas' had 400 particles and has 399 now, but some of them are frozen, by number");
+}
+
 }  // namespace
 }  // namespace boltzmann
