@@ -1,5 +1,5 @@
 // Sod's shock tube: two gases at rest, a membrane between them goes away. A shock runs to the right, a rarefaction to
-// the left, between them stands what was mixed never: a contact.
+// the left, and between them the two gases still touch: the contact.
 #include <boltzmann/boltzmann.hpp>
 
 #include <cstdio>

@@ -15,7 +15,8 @@ namespace boltzmann {
 
 /// Particles in the middles of the cells of a square lattice that fills a block, x fastest.
 template <int D>
-void fill(Ensemble<Smooth<D>>& gas, Vector<D> const& low, double spacing, std::type_identity_t<std::array<std::size_t, D>> const& counts) {
+void fill(Ensemble<Smooth<D>>& gas, Vector<D> const& low, double spacing,
+          std::type_identity_t<std::array<std::size_t, D>> const& counts) {
   std::size_t number = 1;
   for (auto const count : counts) number *= count;
   gas.resize(number);
