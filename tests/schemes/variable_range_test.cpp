@@ -12,8 +12,8 @@ namespace boltzmann {
 namespace {
 
 /// 40 particles at distance 1, 10 lighter (or the others closer) on the right.
-Ensemble<Smooth<1>> jump(double ratio, bool equal_masses) {
-  Ensemble<Smooth<1>> gas("gas", 50);
+void jump(Ensemble<Smooth<1>>& gas, double ratio, bool equal_masses) {
+  gas.resize(50);
   double x = 0;
   for (std::size_t i = 0; i < gas.size(); ++i) {
     double const spacing = i < 40 || !equal_masses ? 1 : ratio;
@@ -23,7 +23,6 @@ Ensemble<Smooth<1>> jump(double ratio, bool equal_masses) {
     gas[i].specific_energy = 1;
     x += spacing;
   }
-  return gas;
 }
 
 // Repeated substitution of range = spacings m / rho never settles here.
@@ -31,10 +30,11 @@ TEST(VariableRange, SettlesAtJumps) {
   for (bool const equal_masses : {true, false})
     for (double const spacings : {2.0, 3.0, 4.0, 6.0})
       for (double const ratio : {2.0, 8.0, 100.0}) {
-        auto gas = jump(ratio, equal_masses);
+        Ensemble<Smooth<1>> gas("gas");
+        jump(gas, ratio, equal_masses);
         SmoothScheme scheme(Box(Vector{-2000.0}, Vector{3000.0}));
         scheme.material(gas, IdealGas{1.4});
-        scheme.variable_range({.spacings = spacings, .longest = 1000});
+        scheme.variable_range({.spacings = spacings, .longest = 5000});
         scheme.complete(0);
         for (auto const& p : gas)
           EXPECT_NEAR(p.range * p.density / (spacings * p.mass), 1, 1e-10) << ratio << " " << spacings;
@@ -42,7 +42,8 @@ TEST(VariableRange, SettlesAtJumps) {
 }
 
 TEST(VariableRange, StaysBetweenItsLimits) {
-  auto gas = jump(8, true);
+  Ensemble<Smooth<1>> gas("gas");
+  jump(gas, 8, true);
   SmoothScheme scheme(Box(Vector{-2000.0}, Vector{3000.0}));
   scheme.material(gas, IdealGas{1.4});
   scheme.variable_range({.spacings = 3, .shortest = 3.5, .longest = 12});
@@ -84,7 +85,7 @@ TEST(VariableRange, EnergyIsConservedAtTheLimit) {
         std::max_element(gas.begin(), gas.end(), [](auto const& p, auto const& q) { return p.range < q.range; })->range,
         4.1);
   }
-  EXPECT_LT(drift[0], 1e-3);
+  EXPECT_LT(drift[0], 1e-6);
   EXPECT_LT(drift[1], drift[0]);
 }
 
