@@ -34,6 +34,7 @@
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ripple_load.hpp>
