@@ -188,7 +188,7 @@ void read_smooth(Item const& table, Reading& reading) {
   ReadSmooth& smooth = reading.smooth;
   Section section(table, "[smooth]", reading.context);
   auto const weight = section.word("weight", weight_names());
-  auto const density = section.word("density", {"summation", "continuity"});
+  auto const density = section.word("density", {"summation", "continuity", "volumes"});
   auto const mean = section.word("mean_density", {"arithmetic", "geometric"});
   auto const heating = section.word("heating", {"shared", "own"});
   auto const viscosity = read_artificial_viscosity(section, reading);
@@ -197,7 +197,7 @@ void read_smooth(Item const& table, Reading& reading) {
   read_rezone(section, reading);
   auto const skin = section.quantity("skin", dimensions::length, not_negative);
   section.finish();
-  smooth.from_continuity = density && *density == "continuity";
+  smooth.from_continuity = density && *density != "summation";
   if (smooth.from_continuity && smooth.variable)
     reading.mistake(smooth.variable_place,
                     "variable_range: ranges follow densities that are summed; with density = \"continuity\" they stay");
@@ -208,7 +208,8 @@ void read_smooth(Item const& table, Reading& reading) {
   if (reading.context.mistakes.count() != before || !reading.box) return;
   guarded(reading, table.place, [&] {
     auto scheme = std::make_unique<SmoothScheme>(*reading.box, weight ? weight_named(*weight) : WeightShape::lucy);
-    if (smooth.from_continuity) scheme->density_from(DensityFrom::continuity);
+    if (smooth.from_continuity)
+      scheme->density_from(*density == "volumes" ? DensityFrom::volumes : DensityFrom::continuity);
     if (mean && *mean == "geometric") scheme->mean_density(MeanDensity::geometric);
     if (heating && *heating == "own") scheme->heating(Heating::own);
     if (viscosity) scheme->artificial_viscosity(*viscosity);
@@ -229,6 +230,7 @@ void load_smooth(Reading& reading) {
       scheme.variable_range(*reading.smooth.variable);
     } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
       reading.mistake(reading.smooth.variable_place, failure.what());
+      return;
     }
   for (auto const& ensemble : reading.ensembles) {
     auto const ranges = ensemble.particles->column(ensemble.particles->field("range"));

@@ -21,6 +21,7 @@ std::string wanted(Dimension dimension, Base const& base) {
 }  // namespace
 
 std::string NumberRange::text() const {
+  if (low_excluded && std::isfinite(high)) return fmt::format("above {}, at most {}", low, high);
   if (low_excluded && low == 0) return "positive";
   if (low_excluded) return fmt::format("above {}", low);
   if (low == 0 && std::isinf(high)) return "zero or more";

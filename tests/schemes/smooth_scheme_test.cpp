@@ -321,6 +321,49 @@ TEST(SmoothScheme, ContinuityFollowsTheSum) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.35);
 }
 
+TEST(SmoothScheme, VolumesSeeNoDifferenceOfDensitiesInContact) {
+  // A lattice, eight times as heavy on one side, is squeezed evenly: d rho/dt = -rho div v everywhere, as on a lattice
+  // of one density. Counted by mass, the light side would be compressed as if the heavy one were part of it.
+  struct Rates {
+    double light, heavy, far;
+  };
+  auto const rates = [](DensityFrom from) {
+    Ensemble<Smooth<2>> matter("matter", 20 * 20);
+    for (std::size_t i = 0; i < matter.size(); ++i) {
+      auto& p = matter[i];
+      p.position = {0.5 + static_cast<double>(i % 20), 0.5 + static_cast<double>(i / 20)};
+      p.velocity = p.position * -0.01;
+      p.mass = p.density = p.position[0] < 10 ? 1 : 8;
+      p.specific_energy = 1 / p.density;
+      p.range = 3;
+    }
+    SmoothScheme scheme(Box(Vector{0.0, 0.0}, Vector{20.0, 20.0}), WeightShape::wendland);
+    scheme.material(matter, IdealGas{1.4});
+    scheme.density_from(from);
+    scheme.calculate();
+    double momentum = 0, energy = 0, powers = 0;
+    for (std::size_t i = 0; i < matter.size(); ++i) {
+      auto const& influence = matter.influence_on(i);
+      momentum += influence.force[0];
+      energy += dot(influence.force, matter[i].velocity) + influence.heating;
+      powers += std::abs(influence.heating);
+    }
+    EXPECT_LT(std::abs(momentum), 1e-13);
+    EXPECT_LT(std::abs(energy), 1e-14 * powers);
+    auto const at = [&](std::size_t column) {
+      auto const i = 10 * 20 + column;
+      return matter.influence_on(i).density_rate / matter[i].density;
+    };
+    return Rates{at(9), at(10), at(5)};
+  };
+  Rates const volumes = rates(DensityFrom::volumes), masses = rates(DensityFrom::continuity);
+  EXPECT_NEAR(volumes.far, 0.02, 2e-4);
+  EXPECT_NEAR(volumes.light, volumes.far, 1e-12);
+  EXPECT_NEAR(volumes.heavy, volumes.far, 1e-12);
+  EXPECT_NEAR(masses.far, volumes.far, 1e-12);
+  EXPECT_GT(masses.light, 2 * volumes.far);
+}
+
 TEST(SmoothScheme, VariableRangesFollowTheDensity) {
   Ensemble<Smooth<2>> gas("gas", 400);
   fill(gas, 0.3);

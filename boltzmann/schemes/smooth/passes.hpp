@@ -14,6 +14,9 @@ struct PassParameters {
   /// Which part of the work that the pressure of a particle does on a pair heats itself, and which the other: a half
   /// each in Eq 14; all and nothing keep each particle on its isentrope.
   double own_share = 0.5, other_share = 0.5;
+  /// Neighbours count by volume: with the velocities v of both, d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad
+  /// w, and P_i / (rho_i rho_j) instead of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
+  bool volumes = false;
   double alpha = 0, beta = 0;  ///< artificial viscosity (Monaghan 1992)
 };
 
@@ -132,6 +135,13 @@ struct RatePass {
       from_q += stress_times(q.stress, r) * slope_q;
       heat = dot(p.heat, r) * slope_p + dot(q.heat, r) * slope_q;
     }
+    Real compression = slope_p * approach;
+    if (parameters.volumes) {
+      Real const ratio = p.density / q.density, inverse = q.density / p.density;
+      from_p *= ratio;
+      from_q *= inverse;
+      compression *= ratio;
+    }
     auto push = from_p + from_q;
     Real work = parameters.own_share * dot(from_p, v) + parameters.other_share * dot(from_q, v);
     if constexpr (terms != RateTerms::pressure) {
@@ -147,7 +157,7 @@ struct RatePass {
       push += r * drag;
       work += 0.5 * drag * approach;
     }
-    return RateSum{push * q.mass, q.mass * (work + heat), q.mass * slope_p * approach};
+    return RateSum{push * q.mass, q.mass * (work + heat), q.mass * compression};
   }
 };
 

@@ -19,6 +19,7 @@ constexpr std::size_t pair_grain = 256, particle_grain = detail::material_grain;
 constexpr double courant_number = 0.4;
 constexpr double skin_of_range = 0.08;
 constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
+constexpr double alone = 0.8;          // the part of the density that is one's own
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 template <class Function>
@@ -58,6 +59,37 @@ std::vector<ImageComponent> image_components(int dimension, bool matter) {
     for (int a = 0; a < D; ++a) components[next++] = {ImageRule::heat_flux, a, 0};
     return components;
   });
+}
+
+/// What is too long, or empty. Between two walls of an axis a particle sees images behind one of them, not behind both.
+std::string too_long(Box const& box, double range, double reach) {
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (box.boundary(a) != Boundary::open && range > box.length(a))
+      return fmt::format("the range {} of smooth particles is longer than axis {} of the box, which allows at most {}",
+                         range, "xyz"[a], box.length(a));
+    if (box.walled(a, Box::End::low) && box.walled(a, Box::End::high) && reach > box.length(a))
+      return fmt::format(
+          "the walls of axis {} are {:.6g} apart, too near for smooth particles of range {:.6g}, whose lists of "
+          "neighbours reach {:.6g}",
+          "xyz"[a], box.length(a), range, reach);
+  }
+  return "";
+}
+
+bool has_temperature(Box const& box) {
+  for (int a = 0; a < box.dimension(); ++a)
+    for (auto const end : {Box::End::low, Box::End::high})
+      if (box.walled(a, end) && std::isfinite(box.wall(a, end).temperature)) return true;
+  return false;
+}
+
+/// What is wrong with a particle that can't be weighed.
+std::string not_usable(AnyEnsemble const& ensemble, std::size_t i) {
+  for (auto const* name : {"range", "mass"})
+    if (double const value = ensemble.row(i)[ensemble.field(name).offset]; !(value > 0 && value < infinite))
+      return fmt::format("particle {} of '{}' has the {} {}; it must be positive", i, ensemble.name(), name, value);
+  return fmt::format("particle {} of '{}' has the density {}; it must be positive, and as it is not summed, be given",
+                     i, ensemble.name(), ensemble.row(i)[ensemble.field("density").offset]);
 }
 
 double smoothing_length(WeightShape shape) {
@@ -100,6 +132,11 @@ void SmoothScheme::add_material(AnyEnsemble& ensemble, MaterialKernels const& ke
                                 std::shared_ptr<void const> material) {
   if (std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& loaded) { return loaded->ensemble == &ensemble; }))
     throw Error(fmt::format("ensemble '{}' is made of something already: one material each", ensemble.name()));
+  if (variable_)
+    throw Error(
+        fmt::format("ensemble '{}' comes after variable_range(), which finds the ranges of those that are "
+                    "there: say what all are made of before",
+                    ensemble.name()));
   load(ensemble);
   loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kernels, std::move(material), 0, {}, {}}));
   hood_.reset();
@@ -136,8 +173,9 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
   check_parameter("variable range", "spacings", variable.spacings, AllowedRange::positive);
   check_parameter("variable range", "shortest", variable.shortest, AllowedRange::non_negative);
   check_parameter("variable range", "longest", variable.longest, AllowedRange::non_negative);
-  if (density_from_ == DensityFrom::continuity)
+  if (density_from_ != DensityFrom::summation)
     throw Error("ranges follow densities that are summed; with densities from continuity they stay");
+  if (loaded_.empty()) throw Error("variable_range() finds the ranges of particles: say what they are made of before");
   take_places();
   variable_ = variable;
   if (variable.longest == 0) variable_->longest = 4 * longest_;
@@ -177,8 +215,11 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
     });
     if (largest_change < precision) break;
     if (iteration == most_iterations)
-      throw Error(fmt::format("variable range: the ranges still change by {:.1e} after {} iterations", largest_change,
-                              most_iterations));
+      throw Error(
+          fmt::format("variable range: there are no ranges of {:.6g} spacings (after {} iterations they still change "
+                      "by {:.1e}); with this weight it takes more than {:.3g}, 3 are usual",
+                      variable.spacings, most_iterations, largest_change,
+                      std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
   }
 }
 
@@ -195,6 +236,7 @@ int SmoothScheme::worth(std::size_t particles) const {
 /// Step 1: where the particles are, and how they move.
 void SmoothScheme::take_places() {
   if (points_->size() != count()) points_->resize(count());
+  bool const evolves = density_from_ != DensityFrom::summation;
   std::size_t first = 0;
   shortest_ = infinite;
   longest_ = 0;
@@ -218,7 +260,8 @@ void SmoothScheme::take_places() {
           place.mass = p.mass;
           place.velocity = p.velocity;
           place.range = p.range;
-          if (!(p.range > 0 && p.range < infinite) && i < extent.wrong) extent.wrong = i;
+          bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
+          if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
           extent.shortest = std::min(extent.shortest, p.range);
           extent.longest = std::max(extent.longest, p.range);
         }
@@ -226,9 +269,7 @@ void SmoothScheme::take_places() {
       });
     });
     for (auto const& extent : extents) {
-      if (extent.wrong < ensemble.size())
-        throw PhysicsFailure(fmt::format("particle {} of '{}' has the range {}; it must be positive", extent.wrong,
-                                         ensemble.name(), ensemble.row(extent.wrong)[ensemble.field("range").offset]));
+      if (extent.wrong < ensemble.size()) throw PhysicsFailure(not_usable(ensemble, extent.wrong));
       shortest_ = std::min(shortest_, extent.shortest);
       longest_ = std::max(longest_, extent.longest);
     }
@@ -239,12 +280,9 @@ void SmoothScheme::take_places() {
 /// Lists that reach as far as the longest range.
 void SmoothScheme::prepare() {
   int const dimension = box().dimension();
-  for (int a = 0; a < dimension; ++a)
-    if (box().boundary(a) != Boundary::open && longest_ > box().length(a))
-      throw Error(
-          fmt::format("the range {} of smooth particles is longer than axis {} of the box, which allows at most {}",
-                      longest_, "xyz"[a], box().length(a)));
   bool const vary = variable_.has_value();
+  if (vary && density_from_ != DensityFrom::summation)
+    throw Error("ranges that vary follow densities that are summed; density_from(DensityFrom::summation) has these");
   if (!hood_) {
     bool const matter = recipe().gradients;
     hood_ = std::make_unique<Neighbourhood>(box());
@@ -253,11 +291,16 @@ void SmoothScheme::prepare() {
         .components(image_components(dimension, matter));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
-    return;
+  } else {
+    double const cutoff = hood_->cutoff(0);
+    if (vary ? longest_ > cutoff || longest_ < 0.8 * cutoff : longest_ != cutoff)
+      reach(vary ? room_to_grow * longest_ : longest_);
   }
-  double const cutoff = hood_->cutoff(0);
-  if (vary ? longest_ > cutoff || longest_ < 0.8 * cutoff : longest_ != cutoff)
-    reach(vary ? room_to_grow * longest_ : longest_);
+  if (auto line = too_long(box(), longest_, hood_->cutoff(0) + hood_->skin()); !line.empty()) {
+    if (vary) line += "; 'longest' of the variable range limits it";
+    if (calculations_ > 1) throw PhysicsFailure(line);
+    throw Error(line);
+  }
 }
 
 void SmoothScheme::reach(double cutoff) {
@@ -360,7 +403,7 @@ void SmoothScheme::set_tasks(Recipe const& recipe, Mirror& mirror) {
     task.adaptive = variable_.has_value();
     task.self = self;
     task.uniform = recipe.uniform;
-    task.continuity = density_from_ == DensityFrom::continuity;
+    task.continuity = density_from_ != DensityFrom::summation;
     task.balsara = viscosity_.balsara;
     if (variable_) {
       task.spacings = variable_->spacings;
@@ -369,6 +412,7 @@ void SmoothScheme::set_tasks(Recipe const& recipe, Mirror& mirror) {
     }
   }
   parameters_.range = longest_;
+  parameters_.volumes = density_from_ == DensityFrom::volumes;
   parameters_.push = loaded_.front()->kernels.push;
 }
 
@@ -521,7 +565,27 @@ std::vector<std::string> SmoothScheme::advice(double step_size) {
   double const longest = courant_step(), part = std::abs(step_size) / longest;
   if (!std::isfinite(longest)) return {};
   std::string const line = fmt::format("the step is {:.3g} of the Courant step {:.4g}", part, longest);
-  return {part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
+  std::vector<std::string> lines{part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
+  if (has_temperature(box()) &&
+      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; }))
+    lines.emplace_back("warning: a wall has a temperature, but no material conducts heat: it does nothing");
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const mass = ensemble.field("mass").offset, range = ensemble.field("range").offset,
+               density = ensemble.field("density").offset;
+    double own = 0;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      own += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
+    }
+    own /= static_cast<double>(ensemble.size());
+    if (own > alone)
+      lines.push_back(
+          fmt::format("warning: the particles of '{}' hardly have neighbours, {:.0f} % of their density is their own; "
+                      "the usual range is 3 times their distance",
+                      ensemble.name(), 100 * std::min(own, 1.0)));
+  }
+  return lines;
 }
 
 std::size_t SmoothScheme::bytes() const {

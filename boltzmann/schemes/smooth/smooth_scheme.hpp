@@ -17,8 +17,10 @@ namespace boltzmann {
 
 /// How the density of a particle is known.
 enum class DensityFrom {
-  summation,  ///< of the weights around it (Eq 8): mass is conserved exactly
-  continuity  ///< of its past (Eq 1): no deficit at free surfaces; give densities at the start
+  summation,   ///< of the weights around it (Eq 8): mass is conserved exactly
+  continuity,  ///< of its past (Eq 1), as the sum would change: no deficit at free surfaces; give densities at the
+               ///< start
+  volumes  ///< the same, where bodies of different densities touch: a neighbour counts by its volume, not by its mass
 };
 /// The mean density in gradients (Eq 17).
 enum class MeanDensity { arithmetic, geometric };
