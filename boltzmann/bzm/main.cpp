@@ -111,7 +111,8 @@ int command_line(int argc, char** argv) {
                   "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
       ->required();
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
-  sub->add_option("--drawing", render_options.drawing, "cartesian, phase-space, spectrum, time-series, map, contours, bands or mesh");
+  sub->add_option("--drawing", render_options.drawing,
+                  "cartesian, phase-space, spectrum, time-series, map, contours, bands or mesh");
   sub->add_option("--x", render_options.x,
                   "what is to the right: a field (phase-space), position.x or time (spectrum)");
   sub->add_option("--y", render_options.y,

@@ -30,6 +30,15 @@ void for_each_enthalpy(std::span<AnyEnsemble* const> ensembles, int axis, Functi
 
 }  // namespace
 
+double temperature_difference(Box const& box, int axis) {
+  auto const temperature = [&](Box::End end) { return box.walled(axis, end) ? box.wall(axis, end).temperature : nan; };
+  double const difference = temperature(Box::End::low) - temperature(Box::End::high);
+  if (!(difference != 0) || std::isnan(difference))
+    throw Error(fmt::format("a heat flux along {} needs walls of different temperatures at both ends of this axis",
+                            "xyz"[axis]));
+  return difference;
+}
+
 HeatFlux::HeatFlux(std::vector<AnyEnsemble const*> const& ensembles, HeatFluxOptions const& options)
     : options_(options), dimension_(ensembles.empty() ? 0 : ensembles.front()->dimension()) {
   if (ensembles.empty()) throw Error("a heat flux needs smooth particles; the simulation has none");
@@ -56,13 +65,7 @@ std::vector<Column> HeatFlux::columns() const {
 
 void HeatFlux::measure(Sample const& sample, std::vector<double>& values) {
   int const axis = options_.axis;
-  auto const temperature = [&](Box::End end) {
-    return sample.box.walled(axis, end) ? sample.box.wall(axis, end).temperature : nan;
-  };
-  double const difference = temperature(Box::End::low) - temperature(Box::End::high);
-  if (!(difference != 0) || std::isnan(difference))
-    throw Error(fmt::format("a heat flux along {} needs walls of different temperatures at both ends of this axis",
-                            "xyz"[axis]));
+  double const difference = temperature_difference(sample.box, axis);
   double const conductive = options_.conductivity * difference / sample.box.length(axis);
 
   CompensatedSum mass, enthalpy, carried;

@@ -14,6 +14,9 @@ struct HeatFluxOptions {
   double since = 0;         ///< means and spreads are taken from this time on
 };
 
+/// Of the walls at the low and the high end of an axis. Error if they have no different temperatures.
+double temperature_difference(Box const& box, int axis);
+
 /// Means over the whole layer of length L between walls at temperatures T0 (low end) and T1 (high end):
 ///   conductive  conductivity (T0 - T1) / L: the volume average of -conductivity dT/dx, by Gauss' theorem
 ///   convective  (1 / V) Sum m v (h - <h>), v the velocity along the axis, h = e + P / rho the enthalpy per mass and

@@ -171,8 +171,8 @@ class Alternating : public MethodOf<P> {
 };
 
 /// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, seen from the whole steps.
-/// Where influences depend on what is kicked (P::velocity_dependent), the drift's end is predicted: the second kick takes
-/// the prediction back and adds its own. That keeps the second order.
+/// Where influences depend on what is kicked (P::velocity_dependent), the drift's end is predicted: the second kick
+/// takes the prediction back and adds its own. That keeps the second order.
 template <class P>
 class LeapFrog final : public Alternating<P> {
  public:
@@ -182,22 +182,18 @@ class LeapFrog final : public Alternating<P> {
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
     auto const plain = [](double& x, double dx) { x += dx; };
+    std::size_t const kicked = predicts ? this->kicked() : 0;
     if (stage == 0) {
       for (auto const& rotation : rotations_) turn(rotation, 0.5 * dt);
-      if constexpr (predicts) kicks_.resize(this->ensemble_.size());
+      if constexpr (predicts) kicks_.resize(kicked * this->ensemble_.size());
       this->each([&](std::size_t i, LargestMove& move) {
         this->kick(i, 0.5 * dt, plain);
         this->drift(i, dt, move, plain);
         if constexpr (predicts) {
-          P &p = this->ensemble_[i], &kick = kicks_[i];
-          this->equations(i, [&](auto member, auto const& derivative) {
-            if constexpr (!is_position<P, decltype(member)>)
-              each_component(
-                  [&](double& x, double& dx, double rate) {
-                    dx = 0.5 * dt * rate;
-                    x += dx;
-                  },
-                  p.*member, kick.*member, derivative);
+          double* predicted = kicks_.data() + kicked * i;
+          this->kick(i, 0.5 * dt, [&](double& x, double dx) {
+            *predicted++ = dx;
+            x += dx;
           });
         }
       });
@@ -205,12 +201,8 @@ class LeapFrog final : public Alternating<P> {
     }
     this->each_again([&](std::size_t i, LargestMove& move) {
       if constexpr (predicts) {
-        P &p = this->ensemble_[i], &kick = kicks_[i];
-        this->equations(i, [&](auto member, auto const& derivative) {
-          if constexpr (!is_position<P, decltype(member)>)
-            each_component([&](double& x, double& dx, double rate) { x += 0.5 * dt * rate - dx; }, p.*member,
-                           kick.*member, derivative);
-        });
+        double const* predicted = kicks_.data() + kicked * i;
+        this->kick(i, 0.5 * dt, [&](double& x, double dx) { x += dx - *predicted++; });
       } else {
         this->kick(i, 0.5 * dt, plain);
       }
@@ -228,6 +220,15 @@ class LeapFrog final : public Alternating<P> {
     else
       return false;
   }();
+  /// How many numbers of a particle are kicked.
+  static std::size_t kicked() {
+    std::size_t count = 0;
+    P const nobody{};
+    P::equations(nobody, typename P::Influence{}, [&](auto member, auto const& derivative) {
+      if constexpr (!is_position<P, decltype(member)>) count += sizeof(derivative) / sizeof(double);
+    });
+    return count;
+  }
   void turn(Rotation const& rotation, double time) {
     auto const& only = rotation.only;
     std::size_t const count = only ? only->size() : this->ensemble_.size();
@@ -237,7 +238,7 @@ class LeapFrog final : public Alternating<P> {
   }
 
   std::vector<Rotation> rotations_;
-  std::vector<P> kicks_;  // of the prediction
+  std::vector<double> kicks_;  // of the prediction, kicked() numbers a particle
 };
 
 template <class P>

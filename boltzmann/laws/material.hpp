@@ -34,9 +34,9 @@ struct Fluxes {
 //
 //   State state(p)                     needed: pressure, temperature, sound speed from p.density and p.specific_energy
 //   Fluxes<D> fluxes(p, gradients)     viscosity, conduction, strength
-//   double diffusivity(p)              of momentum or heat, the larger, in length^2 / time: limits the step; with fluxes
-//   void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid)
-//   double energy(density)             barotropic: the specific energy is this function of the density, and does not
+//   double diffusivity(p)              of momentum or heat, the larger, in length^2 / time: limits the step; with
+//   fluxes void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid) double
+//   energy(density)             barotropic: the specific energy is this function of the density, and does not
 //                                      evolve
 //   double pressure_by_density2()      P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces
 //                                      then need no density
@@ -47,16 +47,21 @@ concept Material = requires(M const& material, P const& p) {
   { material.state(p) } -> std::convertible_to<State>;
 };
 template <class M, class P>
-inline constexpr bool has_fluxes =
-    requires(M const& material, P const& p, Gradients<P::dimension> const& gradients) { material.fluxes(p, gradients); };
+inline constexpr bool has_fluxes = requires(M const& material, P const& p, Gradients<P::dimension> const& gradients) {
+  material.fluxes(p, gradients);
+};
 template <class M, class P>
-inline constexpr bool has_rates =
-    requires(M const& material, P const& p, Gradients<P::dimension> const& gradients, typename P::Influence& influence) {
-      material.rates(p, gradients, influence);
-    };
+inline constexpr bool has_rates = requires(M const& material, P const& p, Gradients<P::dimension> const& gradients,
+                                           typename P::Influence& influence) {
+  material.rates(p, gradients, influence);
+};
 template <class M>
-inline constexpr bool is_barotropic = requires(M const& material) { material.energy(1.0); };
+inline constexpr bool is_barotropic = requires(M const& material) {
+  material.energy(1.0);
+};
 template <class M>
-inline constexpr bool has_constant_push = requires(M const& material) { material.pressure_by_density2(); };
+inline constexpr bool has_constant_push = requires(M const& material) {
+  material.pressure_by_density2();
+};
 
 }  // namespace boltzmann

@@ -10,19 +10,21 @@
 
 namespace boltzmann {
 
-// A shape gives a weight as a function of q = r / range, for 0 <= q <= 1 (everything is zero at q = 1, and taken as zero
-// beyond), without its normalisation:
+// A shape gives a weight as a function of q = r / range, for 0 <= q <= 1 (everything is zero at q = 1, and taken as
+// zero beyond), without its normalisation:
 //   norm<D>           the factor that makes the integral over D-dimensional space, in units of the range, one
 //   value(q)
-//   slope(q, 1/q)     value'(q) / q: finite at q = 0, so that a gradient needs no unit vector; 1/q may be anything there
-//   curvature(q)      value''(q)
+//   slope(q, 1/q)     value'(q) / q: finite at q = 0, so that a gradient needs no unit vector; 1/q may be anything
+//   there curvature(q)      value''(q)
 
 /// (1 - q)^3 (1 + 3q): Lucy 1977, two continuous derivatives. The weight of the source texts.
 struct Lucy {
   static constexpr char const* name = "lucy";
   static constexpr double smoothing_length = 0.5;  ///< in parts of the range
   template <int D>
-  static constexpr double norm = D == 1 ? 1.25 : D == 2 ? 5 / std::numbers::pi : 105 / (16 * std::numbers::pi);
+  static constexpr double norm = D == 1   ? 1.25
+                                 : D == 2 ? 5 / std::numbers::pi
+                                          : 105 / (16 * std::numbers::pi);
   template <int D, class Real>
   static Real value(Real q) {
     Real const u = 1.0 - q;
@@ -45,7 +47,9 @@ struct Wendland {
   static constexpr char const* name = "wendland";
   static constexpr double smoothing_length = 0.5;  ///< in parts of the range
   template <int D>
-  static constexpr double norm = D == 1 ? 1.25 : D == 2 ? 7 / std::numbers::pi : 21 / (2 * std::numbers::pi);
+  static constexpr double norm = D == 1   ? 1.25
+                                 : D == 2 ? 7 / std::numbers::pi
+                                          : 21 / (2 * std::numbers::pi);
   template <int D, class Real>
   static Real value(Real q) {
     if constexpr (D == 1) return Lucy::value<1>(q);
@@ -71,7 +75,9 @@ struct CubicSpline {
   static constexpr char const* name = "cubic-spline";
   static constexpr double smoothing_length = 0.5;  ///< in parts of the range
   template <int D>
-  static constexpr double norm = D == 1 ? 1.0 / 3 : D == 2 ? 10 / (7 * std::numbers::pi) : 2 / std::numbers::pi;
+  static constexpr double norm = D == 1   ? 1.0 / 3
+                                 : D == 2 ? 10 / (7 * std::numbers::pi)
+                                          : 2 / std::numbers::pi;
   template <int D, class Real>
   static Real value(Real q) {
     Real const a = 2.0 - 2.0 * q, b = max(Real(1.0 - 2.0 * q), Real(0.0));
@@ -89,12 +95,15 @@ struct CubicSpline {
   }
 };
 
-/// The quintic B-spline: with s = 3q, (3 - s)^5 - 6 (2 - s)^5 + 15 (1 - s)^5, brackets counting where they are positive.
+/// The quintic B-spline: with s = 3q, (3 - s)^5 - 6 (2 - s)^5 + 15 (1 - s)^5, brackets counting where they are
+/// positive.
 struct QuinticSpline {
   static constexpr char const* name = "quintic-spline";
   static constexpr double smoothing_length = 1.0 / 3;
   template <int D>
-  static constexpr double norm = D == 1 ? 1.0 / 40 : D == 2 ? 63 / (478 * std::numbers::pi) : 9 / (40 * std::numbers::pi);
+  static constexpr double norm = D == 1   ? 1.0 / 40
+                                 : D == 2 ? 63 / (478 * std::numbers::pi)
+                                          : 9 / (40 * std::numbers::pi);
   template <int D, class Real>
   static Real value(Real q) {
     Real const s = 3.0 * q, a = 3.0 - s, b = max(Real(2.0 - s), Real(0.0)), c = max(Real(1.0 - s), Real(0.0));

@@ -48,7 +48,7 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
     begin = kernel(task, begin, end, out);
     if (begin == end) return;
     if (out.used + out.wanted > index.size()) {
-      index.reserve(std::max(out.used + out.wanted, index.size() + index.size() / 8));  // and no more than that
+      index.reserve(std::max(out.used + out.wanted, index.size() + index.size() / 32));  // and no more
       index.resize(index.capacity());
     }
     if (out.wanted_scratch > out.scratch) scratch.lend(out, out.wanted_scratch + out.wanted_scratch / 2);

@@ -15,8 +15,9 @@ struct SmoothInfluence {
   Real range_rate;    ///< where ranges follow the density; else zero
 };
 
-/// A piece of a continuum. Mass, velocity and specific energy are its own; density, pressure, temperature and sound speed
-/// are what the scheme finds from its neighbours and its material, for the state as it stands when somebody looks.
+/// A piece of a continuum. Mass, velocity and specific energy are its own; density, pressure, temperature and sound
+/// speed are what the scheme finds from its neighbours and its material, for the state as it stands when somebody
+/// looks.
 template <int D, class Real = double>
 struct Smooth : Newton<D, Real> {
   static constexpr char const* class_name = "Smooth";

@@ -123,9 +123,26 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
       reading.mistake(entry.place, fmt::format("formulas: '{}' stands beside them, too; leave one out", field->name));
     Item const& item = entry.item;
     FieldFormula result{*field, {}, item.place};
+    // Where nothing stands yet, a formula can't use what it gives itself, or what comes after it. Densities come first.
+    auto const comes_after = [&](Entry const& other) {
+      return &other == &entry || (other.key != "density" && (entry.key == "density" || &other > &entry));
+    };
+    auto const check_known = [&](Formula const& formula) {
+      if (with_position) return;
+      for (std::size_t const name : formula.used())
+        for (auto const& other : table->entries)
+          if (other.key == names.field(name) && comes_after(other)) {
+            reading.mistake(item.place, fmt::format("{}: '{}' is not known yet: only fields whose formulas stand "
+                                                    "further left are, and those with values",
+                                                    field->name, names.names()[name]));
+            return;
+          }
+    };
     if (field->components == 1 && !item.is(Item::Kind::array)) {
-      if (auto formula = read_formula(item, field->name, names, unknown, reading))
+      if (auto formula = read_formula(item, field->name, names, unknown, reading)) {
+        check_known(*formula);
         result.components.push_back(std::move(*formula));
+      }
     } else if (!item.is(Item::Kind::array) || item.elements.size() != static_cast<std::size_t>(field->components)) {
       reading.mistake(
           item.place,
@@ -134,8 +151,10 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
       continue;
     } else {
       for (auto const& element : item.elements)
-        if (auto formula = read_formula(element, field->name, names, unknown, reading))
+        if (auto formula = read_formula(element, field->name, names, unknown, reading)) {
+          check_known(*formula);
           result.components.push_back(std::move(*formula));
+        }
     }
     if (result.components.size() == static_cast<std::size_t>(field->components)) formulas.push_back(std::move(result));
   }

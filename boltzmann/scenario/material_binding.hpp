@@ -5,11 +5,11 @@
 #include <boltzmann/laws/materials/elastic.hpp>
 #include <boltzmann/laws/materials/ideal_gas.hpp>
 #include <boltzmann/laws/materials/isentropic_gas.hpp>
+#include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/laws/materials/pressure_table.hpp>
 #include <boltzmann/laws/materials/stiffened_gas.hpp>
 #include <boltzmann/laws/materials/tait.hpp>
 #include <boltzmann/laws/materials/van_der_waals.hpp>
-#include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/scenario/materials.hpp>
 
 #include <variant>

@@ -2,6 +2,7 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
+#include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/simulation/picture.hpp>
 
@@ -30,6 +31,19 @@ std::vector<std::string> axis_names(Reading const& reading) {
 bool all_loaded(Reading const& reading) {
   return !reading.ensembles.empty() && std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
                                                    [](ReadEnsemble const& e) { return e.particles != nullptr; });
+}
+
+/// How far the particles of a field are spread; 0: not told. A mistake if they have more images between walls than one.
+double read_range_of_weight(Section& section, Reading& reading) {
+  double const range = section.quantity("range", dimensions::length, positive).value_or(0);
+  for (int a = 0; reading.box && a < reading.dimension; ++a)
+    if (reading.box->boundary(a) == Boundary::mirror && range > reading.box->length(a)) {
+      reading.mistake(section.place("range"), fmt::format("range: {:.6g} is longer than mirror axis {} of the box, "
+                                                          "which allows at most {:.6g}",
+                                                          range, "xyz"[a], reading.box->length(a)));
+      return 0;
+    }
+  return range;
 }
 
 void read_diagnosis(Item const& table, Reading& reading) {
@@ -94,7 +108,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
   }
   if (has("weight"))
     if (auto const weight = section.word("weight", weight_names())) parameters.weight = weight_named(*weight);
-  if (has("range")) parameters.range = section.quantity("range", dimensions::length, positive).value_or(0);
+  if (has("range")) parameters.range = read_range_of_weight(section, reading);
   if (has("gamma"))
     parameters.gamma =
         section.quantity("gamma", dimensions::none, {1, std::numeric_limits<double>::infinity(), true}).value_or(0);
@@ -122,6 +136,8 @@ void read_diagnosis(Item const& table, Reading& reading) {
   }
   guarded(reading, place, [&] {
     auto diagnosis = make_diagnosis(*name, parameters);
+    if (*name == "heat-flux" && reading.box)
+      temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
     auto const taken = column_names(reading);
     for (auto const& column : diagnosis->columns())
       if (std::find(taken.begin(), taken.end(), column.name) != taken.end())
@@ -244,7 +260,7 @@ void read_smooth_field(Section& section, PicturePlan& plan, Reading& reading) {
     reading.mistake(section.place("drawing"),
                     fmt::format("drawing: '{}' are drawn in 2D and 3D; in 1D 'map' draws a curve", plan.drawing));
   if (auto const weight = section.word("weight", weight_names())) plan.weight = weight_named(*weight);
-  plan.range = section.quantity("range", dimensions::length, positive).value_or(0);
+  plan.range = read_range_of_weight(section, reading);
   if (auto const cells = section.integer("cells", 2, 4000)) plan.cells = static_cast<int>(*cells);
 }
 

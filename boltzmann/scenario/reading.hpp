@@ -55,6 +55,8 @@ struct ReadRezone {
 struct ReadSmooth {
   bool wanted = false;  ///< there is a [smooth], with mistakes or without
   bool from_continuity = false;
+  bool shared_heating = true;
+  Place heating_place;
   std::optional<VariableRange> variable;
   Place variable_place;
   std::vector<ReadRezone> rezones;

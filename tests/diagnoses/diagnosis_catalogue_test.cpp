@@ -67,9 +67,11 @@ TEST_F(Diagnoses, OfTheWholeSystem) {
   EXPECT_EQ(look("temperature", parameters()),
             (Values{{"temperature", 11}, {"temperature x", 18}, {"temperature y", 4}}));
   // at its minimum the pair has -depth and no force; the field has 2 * 1 + 4 * 1
-  EXPECT_EQ(
-      look("energies", parameters()),
-      (Values{{"kinetic energy", 11}, {"potential energy", -0.5}, {"external energy", 6}, {"internal energy", 0}, {"total energy", 16.5}}));
+  EXPECT_EQ(look("energies", parameters()), (Values{{"kinetic energy", 11},
+                                                    {"potential energy", -0.5},
+                                                    {"external energy", 6},
+                                                    {"internal energy", 0},
+                                                    {"total energy", 16.5}}));
   auto const p = look("pressure", parameters());
   EXPECT_NEAR(p.at("pressure"), 22.0 / (2 * 20), 1e-14);
   EXPECT_NEAR(p.at("pressure xx"), 18.0 / 20, 1e-14);
@@ -178,7 +180,8 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "entropy, heat-flux, drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum; did you mean 'energies'?");
+      "entropy, heat-flux, drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum; did you mean "
+      "'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
   EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),

@@ -138,7 +138,9 @@ TEST(Cavitation, ExpandingLiquidTearsAtTheSpinodal) {
     mean_pressure /= count;
     double const spread = std::sqrt(std::max(0.0, squares / count - density * density)) / density;
     greatest_tension = std::max(greatest_tension, -mean_pressure);
-    if (spread < 0.02) EXPECT_NEAR(mean_pressure / pressure(density), 1, 0.03) << density;
+    if (spread < 0.02) {
+      EXPECT_NEAR(mean_pressure / pressure(density), 1, 0.03) << density;
+    }
     if (torn_at == 0 && spread > 0.05) torn_at = density;
   }
   // The greatest tension is that of the spinodal; voids open behind it.

@@ -6,8 +6,8 @@
 
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
-#include <boltzmann/laws/materials/stiffened_gas.hpp>
 #include <boltzmann/laws/materials/newtonian.hpp>
+#include <boltzmann/laws/materials/stiffened_gas.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>

@@ -340,7 +340,8 @@ bool PairScheme::velocity_dependent(AnyEnsemble const& ensemble) const {
   };
   return depends(near_, [&](Near const& near) { return near.target == &ensemble; }) ||
          depends(connected_, [&](Connected const& connected) { return connected.ensemble == &ensemble; }) ||
-         depends(external_, [&](External const& external) { return external.ensemble == &ensemble && !external.taken; });
+         depends(external_,
+                 [&](External const& external) { return external.ensemble == &ensemble && !external.taken; });
 }
 
 double PairScheme::length_scale(AnyEnsemble const& ensemble) const {

@@ -49,7 +49,7 @@ struct MaterialKernels {
   MaterialKernel fluxes = nullptr;  ///< into SmoothMatter's blocks, and rates of further fields into the influence
   MaterialKernel rates = nullptr;   ///< adds to the influence
   double (*diffusivity)(void const* material, double const* particle) = nullptr;  ///< null: none
-  bool needs_gradients = false, constant_push = false;
+  bool needs_gradients = false, barotropic = false, constant_push = false;
   double push = 0;  ///< where it is constant
 };
 
@@ -183,6 +183,7 @@ MaterialKernels material_kernels(M const& material) {
     kernels.diffusivity = [](void const* m, double const* particle) {
       return static_cast<M const*>(m)->diffusivity(static_cast<P const&>(*reinterpret_cast<Row<P> const*>(particle)));
     };
+  kernels.barotropic = is_barotropic<M>;
   kernels.needs_gradients = has_fluxes<M, P> || has_rates<M, P>;
   if constexpr (has_constant_push<M> && is_barotropic<M>) {
     kernels.constant_push = true;

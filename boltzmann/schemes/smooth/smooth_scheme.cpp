@@ -65,8 +65,9 @@ std::vector<ImageComponent> image_components(int dimension, bool matter) {
 std::string too_long(Box const& box, double range, double reach) {
   for (int a = 0; a < box.dimension(); ++a) {
     if (box.boundary(a) != Boundary::open && range > box.length(a))
-      return fmt::format("the range {} of smooth particles is longer than axis {} of the box, which allows at most {}",
-                         range, "xyz"[a], box.length(a));
+      return fmt::format(
+          "the range {:.6g} of smooth particles is longer than axis {} of the box, which allows at most {:.6g}", range,
+          "xyz"[a], box.length(a));
     if (box.walled(a, Box::End::low) && box.walled(a, Box::End::high) && reach > box.length(a))
       return fmt::format(
           "the walls of axis {} are {:.6g} apart, too near for smooth particles of range {:.6g}, whose lists of "
@@ -151,6 +152,7 @@ void SmoothScheme::add_external(AnyEnsemble& ensemble, ExternalKernels const& ke
 void SmoothScheme::heating(Heating heating) {
   parameters_.own_share = heating == Heating::own ? 1 : 0.5;
   parameters_.other_share = heating == Heating::own ? 0 : 0.5;
+  hood_.reset();
 }
 
 void SmoothScheme::artificial_viscosity(ArtificialViscosity const& viscosity) {
@@ -180,8 +182,8 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
   variable_ = variable;
   if (variable.longest == 0) variable_->longest = 4 * longest_;
   if (variable_->longest < variable.shortest)
-    throw Error(
-        fmt::format("variable range: longest = {} is below shortest = {}", variable_->longest, variable.shortest));
+    throw Error(fmt::format("variable range: longest = {:.6g} is below shortest = {:.6g}", variable_->longest,
+                            variable.shortest));
   hood_.reset();
   // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
   // between two ranges that are too short and too long: density range^D grows with the range.
@@ -220,6 +222,15 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
                       "by {:.1e}); with this weight it takes more than {:.3g}, 3 are usual",
                       variable.spacings, most_iterations, largest_change,
                       std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
+  }
+  // A gas that becomes thin is not to end the run: no longer than lists fit between the walls, with room to overshoot.
+  if (variable.longest == 0) {
+    take_places();
+    double const room = skin_ < 0 ? square(room_to_grow) * (1 + skin_of_range) : square(room_to_grow);
+    for (int a = 0; a < box().dimension(); ++a)
+      if (box().boundary(a) != Boundary::open)
+        variable_->longest =
+            std::min(variable_->longest, std::max(longest_, (box().length(a) - std::max(skin_, 0.0)) / room));
   }
 }
 
@@ -277,6 +288,17 @@ void SmoothScheme::take_places() {
   }
 }
 
+/// What a material without a heat of its own is given by another would be lost.
+void SmoothScheme::check_heating() const {
+  Loaded const *keeps = nullptr, *follows = nullptr;
+  for (auto const& loaded : loaded_) (loaded->kernels.barotropic ? follows : keeps) = loaded.get();
+  if (keeps && follows && parameters_.other_share > 0)
+    throw Error(
+        fmt::format("the energy of '{}' follows its density, that of '{}' evolves: they can't share the heat of "
+                    "their work; use heating(Heating::own)",
+                    follows->ensemble->name(), keeps->ensemble->name()));
+}
+
 /// Lists that reach as far as the longest range.
 void SmoothScheme::prepare() {
   int const dimension = box().dimension();
@@ -284,6 +306,7 @@ void SmoothScheme::prepare() {
   if (vary && density_from_ != DensityFrom::summation)
     throw Error("ranges that vary follow densities that are summed; density_from(DensityFrom::summation) has these");
   if (!hood_) {
+    check_heating();
     bool const matter = recipe().gradients;
     hood_ = std::make_unique<Neighbourhood>(box());
     members_of_build_ = 0;
@@ -490,6 +513,22 @@ Measures SmoothScheme::measure(double time) {
     }
     measures.internal += sum.value();
   }
+  // The mean over space of the pressure of the states: without viscosity and strength that is all there is.
+  bool const all_is_pressure =
+      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
+  CompensatedSum work;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset,
+               pressure = ensemble.field("pressure").offset;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      work += p[mass] / p[density] * p[pressure];
+    }
+  }
+  for (int a = 0; a < box().dimension(); ++a)
+    for (int b = 0; b < box().dimension(); ++b)
+      measures.virial[a][b] = !all_is_pressure ? std::numeric_limits<double>::quiet_NaN() : a == b ? work.value() : 0;
   for (auto const& outside : outside_) {
     if (!outside->kernels.has_energy) {
       measures.unknown = "an external law on '" + outside->ensemble->name() + "'";

@@ -38,7 +38,7 @@ struct ArtificialViscosity {
 struct VariableRange {
   double spacings = 3;
   double shortest = 0;
-  double longest = 0;  ///< 0: four times the longest at the start
+  double longest = 0;  ///< 0: four times the longest at the start, or what the box allows
 };
 
 class SmoothScheme final : public Scheme {
@@ -117,6 +117,7 @@ class SmoothScheme final : public Scheme {
   Recipe recipe() const;
   void set_tasks(Recipe const& recipe, Mirror& mirror);
   void find(Until until);
+  void check_heating() const;
   void prepare();
   void reach(double cutoff);
   void take_places();
