@@ -76,9 +76,9 @@ class SmoothScheme final : public Scheme {
   /// How far particles may move before lists are rebuilt: lists reach range + skin. Default 0.08 of the longest range.
   void skin(double length);
 
-  /// The longest step that follows sound and diffusion from particle to particle: the smallest of
-  /// 0.4 h/(c + 0.6 (alpha c + beta h |div v|-like bound)) and h^2/8 over the diffusivity, with h the smoothing length,
-  /// and sqrt(h / acceleration) / 4.
+  /// The longest step that follows sound, forces and diffusion from particle to particle: the smallest of 0.4 h / (c (1
+  /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and h^2 / 8 over the diffusivity, h being the smoothing length: half the
+  /// range, or a third for the quintic spline. Accelerations are those of the last calculation, if there was one.
   double courant_step();
 
   void add_influences(double time) override;
