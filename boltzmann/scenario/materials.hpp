@@ -65,7 +65,6 @@ struct MaterialChoice {
 struct BoundMaterial {
   MaterialKernels kernels;
   std::shared_ptr<void const> material;
-  bool barotropic = false;
 };
 
 /// For fluids (class Smooth) and solids (class Solid). Error, "ideal-gas: cv = 0 must be positive", if the numbers

@@ -130,20 +130,6 @@ void read_table(Section& section, MaterialChoice& choice, Reading& reading, std:
     const_cast<Item&>(*file).text = name;  // the stored scenario must find the file from any folder
 }
 
-/// The work on a pair can be shared only by two that keep heat, or by two that don't.
-void check_heating(Reading& reading) {
-  auto const find = [&](bool barotropic) {
-    return std::find_if(reading.ensembles.begin(), reading.ensembles.end(),
-                        [&](auto const& e) { return e.material && e.material->barotropic == barotropic; });
-  };
-  auto const cold = find(true), warm = find(false);
-  if (!reading.smooth.shared_heating || cold == reading.ensembles.end() || warm == reading.ensembles.end()) return;
-  reading.mistake(reading.smooth.heating_place,
-                  fmt::format("heating: the energy of '{}' follows from its density, that of '{}' does not, so that "
-                              "energy would be lost where they share the heat of a pair; add heating = \"own\"",
-                              cold->name, warm->name));
-}
-
 }  // namespace
 
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading) {
@@ -194,7 +180,6 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
     bound = from_file ? bind_table(*from_file, choice, kind.matter, reading.dimension)
                       : bind_material(choice, kind.matter, reading.dimension);
   });
-  if (bound) bound->barotropic = choice.info->barotropic;
   return bound;
 }
 
@@ -206,7 +191,6 @@ void read_smooth(Item const& table, Reading& reading) {
   auto const density = section.word("density", {"summation", "continuity", "volumes"});
   auto const mean = section.word("mean_density", {"arithmetic", "geometric"});
   auto const heating = section.word("heating", {"shared", "own"});
-  smooth.shared_heating = !(heating && *heating == "own");
   smooth.heating_place = section.place("heating");
   auto const viscosity = read_artificial_viscosity(section, reading);
   smooth.variable_place = section.place("variable_range");
@@ -243,7 +227,7 @@ void load_smooth(Reading& reading) {
     guarded(reading, ensemble.place,
             [&] { scheme.add_material(*ensemble.particles, ensemble.material->kernels, ensemble.material->material); });
   }
-  check_heating(reading);
+  guarded(reading, reading.smooth.heating_place, [&] { scheme.check_heating(); });
   if (reading.context.mistakes.none() && reading.smooth.variable && !reading.ensembles.empty()) try {
       scheme.variable_range(*reading.smooth.variable);
     } catch (std::runtime_error const& failure) {  // of the user's input or of the physics

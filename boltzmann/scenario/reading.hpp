@@ -55,7 +55,6 @@ struct ReadRezone {
 struct ReadSmooth {
   bool wanted = false;  ///< there is a [smooth], with mistakes or without
   bool from_continuity = false;
-  bool shared_heating = true;
   Place heating_place;
   std::optional<VariableRange> variable;
   Place variable_place;

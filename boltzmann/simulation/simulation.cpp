@@ -31,7 +31,7 @@ void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> in
       part.integrator = std::move(integrator);
       return;
     }
-  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}, false});
+  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}});
 }
 
 void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
@@ -101,6 +101,7 @@ void Simulation::check() {
       if (std::find(ensembles_.begin(), ensembles_.end(), ensemble) == ensembles_.end()) ensembles_.push_back(ensemble);
     }
   stages_ = 0;
+  keeps_influences_ = false;
   bool reversible = false;
   for (auto* ensemble : ensembles_) {
     auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
@@ -116,9 +117,10 @@ void Simulation::check() {
     if (takes) part->integrator->rotate(std::move(rotations));
     part->stages = part->integrator->stages();
     for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
-    part->keeps_influences = part->integrator->method() == Method::leap_frog &&
-                             std::any_of(schemes_.begin(), schemes_.end(),
-                                         [&](Scheme const* scheme) { return scheme->velocity_dependent(*ensemble); });
+    keeps_influences_ = keeps_influences_ || (part->integrator->method() == Method::leap_frog &&
+                                              std::any_of(schemes_.begin(), schemes_.end(), [&](Scheme const* scheme) {
+                                                return scheme->velocity_dependent(*ensemble);
+                                              }));
     stages_ = std::max(stages_, part->stages);
     reversible = reversible || part->integrator->method() == Method::reversible_leap_frog;
   }
@@ -266,10 +268,6 @@ void Simulation::complete() const {
   for (auto* scheme : schemes_) scheme->complete(time());
 }
 
-bool Simulation::keeps_influences() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](Part const& part) { return part.keeps_influences; });
-}
-
 /// Of all rows, whatever their meaning.
 std::uint64_t Simulation::checksum(bool with_influences) const {
   std::uint64_t sum = 0;
@@ -358,7 +356,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     observe_now();
   }
   // The particles may have been changed since the last run.
-  fresh_ = kept_ && keeps_influences() && checksum() == kept_checksum_;
+  fresh_ = kept_ && checksum() == kept_checksum_;
   running_ = true;
   struct Ended {
     bool& running;
@@ -386,7 +384,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   }
   if (whole) whole->store();
   complete();
-  kept_ = fresh_ && keeps_influences();
+  kept_ = fresh_ && keeps_influences_;
   if (kept_) kept_checksum_ = checksum();
 }
 
@@ -412,13 +410,14 @@ std::vector<double> Simulation::state() const {
     state.push_back(static_cast<double>(part.size()));
     state.insert(state.end(), part.begin(), part.end());
   }
-  bool const fresh = fresh_ && (running_ || (kept_ && checksum() == kept_checksum_));
-  for (auto const& part : parts_) {
-    if (!part.keeps_influences) continue;
+  if (keeps_influences_) {
+    bool const fresh = fresh_ && (running_ || (kept_ && checksum() == kept_checksum_));
     state.push_back(fresh ? 1 : 0);
-    auto const* influence = part.ensemble->influence(0);
-    if (fresh)
-      state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
+    for (auto const& part : parts_) {
+      auto const* influence = part.ensemble->influence(0);
+      if (fresh)
+        state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
+    }
   }
   for (auto const& change : changes_) {
     auto const part = change.adaptation->state();
@@ -446,19 +445,15 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     scheme->restore(state.subspan(at, count));
     at += count;
   }
-  kept_ = keeps_influences();
-  for (auto const& part : parts_) {
-    if (!part.keeps_influences) continue;
-    if (at >= state.size()) throw misfit();
-    if (state[at++] == 0) {
-      kept_ = false;
-      continue;
+  if (keeps_influences_ && at >= state.size()) throw misfit();
+  kept_ = keeps_influences_ && state[at++] != 0;
+  if (kept_)
+    for (auto const& part : parts_) {
+      std::size_t const count = part.ensemble->size() * part.ensemble->influence_size();
+      if (at + count > state.size()) throw misfit();
+      std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influence(0));
+      at += count;
     }
-    std::size_t const count = part.ensemble->size() * part.ensemble->influence_size();
-    if (at + count > state.size()) throw misfit();
-    std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influence(0));
-    at += count;
-  }
   for (auto const& change : changes_) {
     if (at >= state.size()) throw misfit();
     auto const count = static_cast<std::size_t>(state[at++]);

@@ -90,7 +90,6 @@ class Simulation {
     double longest_move2;  // square of the law's length
     int stages;
     std::vector<double> time_after;  // of each stage
-    bool keeps_influences;           // they are of velocities inside the step, and can't be had again from its end
   };
   struct Observation {
     std::function<bool(std::int64_t step)> due;
@@ -113,7 +112,6 @@ class Simulation {
   void take_particles();
   void take_lengths();
   void complete() const;
-  bool keeps_influences() const;
   std::uint64_t checksum(bool with_influences = false) const;
   void adopt(Scheme& scheme);
   void make_reversible(FixedPoint const& grid);
@@ -133,7 +131,8 @@ class Simulation {
   std::uint64_t seed_ = 1;
   int stages_ = 0;
   bool checked_ = false, fresh_ = false, observed_ = false, running_ = false;
-  bool kept_ = false;  // influences, for rows of this checksum
+  bool keeps_influences_ = false;  // some are of velocities inside the step, and can't be had again from its end
+  bool kept_ = false;              // influences, for rows of this checksum
   std::uint64_t kept_checksum_ = 0;
   volatile bool stop_ = false;
 };

@@ -1,5 +1,5 @@
 // Mistakes in scenarios: one table of what users get wrong, and what they are told.
-#include <boltzmann/scenario/scenario.hpp>
+#include "mistakes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
 namespace {
+
+using test::Mistake;
+using test::mistake_name;
+using test::mistakes_of;
 
 // A scenario without mistakes; the numbers on the right are those of the lines.
 std::string const good =
@@ -55,9 +59,7 @@ std::string const good =
 
 /// The scenario with one piece replaced by another; further pairs are replaced after it.
 std::string with(std::string const& old, std::string const& now, std::string text = good) {
-  auto const at = text.find(old);
-  if (at == std::string::npos) throw std::logic_error("the test's scenario has no '" + old + "'");
-  return text.replace(at, old.size(), now);
+  return test::replaced(std::move(text), old, now);
 }
 
 std::string const block = "{ kind = \"block\", lattice = \"square\", spacing = 4, counts = [4, 4], origin = [2, 2] }";
@@ -156,17 +158,9 @@ std::string in_space(std::string const& old, std::string const& now) {
   return with(old, now, text);
 }
 
-struct Row {
-  std::string name, text, place;
-  std::vector<std::string> parts;
-  Overrides overrides = {};
-};
-
-std::ostream& operator<<(std::ostream& out, Row const& row) { return out << row.name; }
-
 Overrides set(std::string const& assignment) { return {{assignment}, {}, {}, {}}; }
 
-std::vector<Row> const rows{
+std::vector<Mistake> const rows{
     // Not TOML.
     {"empty file", "", "1:1", {"empty", "[box]"}},
     {"blank file", "\n  \n", "1:1", {"empty"}},
@@ -467,7 +461,7 @@ std::vector<Row> const rows{
 };
 
 // Mistakes around a mesh. One mistake is one line: what would have looked at the mesh says nothing more.
-std::vector<Row> const mesh_rows{
+std::vector<Mistake> const mesh_rows{
     {"mesh without a law", plasma_with("law = \"coulomb\"\n", ""), "10:1", {"[mesh] has no 'law'", "coulomb"}},
     {"mesh with an unknown law",
      plasma_with("\"coulomb\"", "\"columb\""),
@@ -715,15 +709,6 @@ std::vector<Row> const mesh_rows{
      {"'time-series'", "diagnoses = 0"}},
 };
 
-std::vector<std::string> mistakes_of(std::string const& text, Overrides const& overrides = {}) {
-  try {
-    parse_scenario(text, "test.toml", overrides);
-  } catch (ScenarioErrors const& errors) {
-    return errors.lines;
-  }
-  return {};
-}
-
 TEST(Mistakes, TheGoodScenarioHasNone) {
   for (auto const& line : mistakes_of(good)) ADD_FAILURE() << line;
 }
@@ -765,27 +750,12 @@ TEST(Mistakes, TheGoodScenarioWithVorticesHasNone) {
   for (auto const& line : mistakes_of(good + vortices)) ADD_FAILURE() << line;
 }
 
-class MistakesTable : public testing::TestWithParam<Row> {};
+class MistakesTable : public testing::TestWithParam<Mistake> {};
 
-TEST_P(MistakesTable, IsToldInOneLine) {
-  Row const& row = GetParam();
-  auto const lines = mistakes_of(row.text, row.overrides);
-  ASSERT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
-  std::string const place = row.place.front() == '-' ? row.place + ": " : "test.toml:" + row.place + ": ";
-  EXPECT_EQ(lines[0].substr(0, place.size()), place) << lines[0];
-  for (auto const& part : row.parts)
-    EXPECT_NE(lines[0].find(part), std::string::npos) << part << "\nis not in\n" << lines[0];
-  EXPECT_EQ(lines[0].find('\n'), std::string::npos);
-}
+TEST_P(MistakesTable, IsToldInOneLine) { test::expect_one_line(GetParam()); }
 
-std::string row_name(testing::TestParamInfo<Row> const& info) {
-  std::string name;
-  for (char const c : info.param.name)
-    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-  return name + std::to_string(info.index);
-}
-INSTANTIATE_TEST_SUITE_P(Scenario, MistakesTable, testing::ValuesIn(rows), row_name);
-INSTANTIATE_TEST_SUITE_P(Mesh, MistakesTable, testing::ValuesIn(mesh_rows), row_name);
+INSTANTIATE_TEST_SUITE_P(Scenario, MistakesTable, testing::ValuesIn(rows), mistake_name);
+INSTANTIATE_TEST_SUITE_P(Mesh, MistakesTable, testing::ValuesIn(mesh_rows), mistake_name);
 
 TEST(Mistakes, AreAllToldInTheOrderOfTheFile) {
   std::string text = with("base = \"custom\"", "base = \"custom\"\nlenght = 1");  // 4:1
@@ -806,28 +776,7 @@ TEST(Mistakes, AreAllToldInTheOrderOfTheFile) {
 }
 
 // Whatever is missing or cut off: mistakes in one go, nothing else.
-TEST(Mistakes, OfAnyMissingLineAreTold) {
-  std::size_t told = 0, fine = 0;
-  auto const attempt = [&](std::string const& text) {
-    try {
-      parse_scenario(text, "test.toml");
-      ++fine;
-    } catch (ScenarioErrors const& errors) {
-      ++told;
-      EXPECT_FALSE(errors.lines.empty());
-      for (auto const& line : errors.lines) EXPECT_EQ(line.find("test.toml:"), 0U) << line;
-    }
-  };
-  std::string const text = good + vortices;
-  for (std::size_t begin = 0; begin < text.size();) {
-    std::size_t const end = text.find('\n', begin) + 1;
-    attempt(text.substr(0, begin) + text.substr(end));
-    begin = end;
-  }
-  for (std::size_t size = 0; size < text.size(); ++size) attempt(text.substr(0, size));
-  EXPECT_GT(told, 500U);
-  EXPECT_GT(fine, 10U);
-}
+TEST(Mistakes, OfAnyMissingLineAreTold) { test::expect_mistakes_of_what_is_missing(good + vortices, 500, 10); }
 
 TEST(Mistakes, OfTheFileSystem) {
   auto const message = [](std::string const& path) -> std::string {

@@ -1,18 +1,20 @@
 // Mistakes in scenarios of smooth particles: what users get wrong, and what they are told.
-#include <boltzmann/scenario/scenario.hpp>
+#include "mistakes.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <ostream>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
 namespace {
+
+using test::Mistake;
+using test::mistake_name;
+using test::mistakes_of;
 
 // A scenario without mistakes; the numbers on the right are those of the lines.
 std::string const good =
@@ -51,9 +53,7 @@ std::string const good =
     "kind = \"energies\"\n";                                                                   // 33
 
 std::string with(std::string const& old, std::string const& now, std::string text = good) {
-  auto const at = text.find(old);
-  if (at == std::string::npos) throw std::logic_error("the test's scenario has no '" + old + "'");
-  return text.replace(at, old.size(), now);
+  return test::replaced(std::move(text), old, now);
 }
 std::string material(std::string const& table) {
   return with("material = { kind = \"ideal-gas\", gamma = 1.4 }", "material = " + table);
@@ -72,14 +72,7 @@ std::string picture(std::string const& drawing, std::string const& keys) {
 }
 std::string entropy(std::string const& key) { return good + "[[diagnoses]]\nkind = \"entropy\"\n" + key; }
 
-struct Row {
-  std::string name, text, place;
-  std::vector<std::string> parts;
-  Overrides overrides = {};
-};
-std::ostream& operator<<(std::ostream& out, Row const& row) { return out << row.name; }
-
-std::vector<Row> const rows{
+std::vector<Mistake> const rows{
     // Walls.
     {"wall on a periodic axis",
      with("axis = \"y\"", "axis = \"x\""),
@@ -383,15 +376,6 @@ std::vector<Row> const rows{
      {"reversible", "depend on velocities"}},
 };
 
-std::vector<std::string> mistakes_of(std::string const& text, Overrides const& overrides = {}) {
-  try {
-    parse_scenario(text, "test.toml", overrides);
-  } catch (ScenarioErrors const& errors) {
-    return errors.lines;
-  }
-  return {};
-}
-
 TEST(SmoothMistakes, TheGoodScenarioHasNone) {
   for (std::string const& more :
        {picture("map", "y = \"velocity.x\"\nlow = -1\nhigh = 1\nweight = \"wendland\"\nrange = 0.2\ncells = 50\n"),
@@ -403,46 +387,13 @@ TEST(SmoothMistakes, TheGoodScenarioHasNone) {
     ADD_FAILURE() << line;
 }
 
-class SmoothMistakesTable : public testing::TestWithParam<Row> {};
+class SmoothMistakesTable : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SmoothMistakesTable, IsToldInOneLine) {
-  Row const& row = GetParam();
-  auto const lines = mistakes_of(row.text, row.overrides);
-  ASSERT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
-  std::string const place = row.place.front() == '-' ? row.place + ": " : "test.toml:" + row.place + ": ";
-  EXPECT_EQ(lines[0].substr(0, place.size()), place) << lines[0];
-  for (auto const& part : row.parts)
-    EXPECT_NE(lines[0].find(part), std::string::npos) << part << "\nis not in\n" << lines[0];
-}
+TEST_P(SmoothMistakesTable, IsToldInOneLine) { test::expect_one_line(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Scenario, SmoothMistakesTable, testing::ValuesIn(rows), [](auto const& info) {
-  std::string name;
-  for (char const c : info.param.name)
-    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-  return name + std::to_string(info.index);
-});
+INSTANTIATE_TEST_SUITE_P(Scenario, SmoothMistakesTable, testing::ValuesIn(rows), mistake_name);
 
-TEST(SmoothMistakes, OfAnyMissingLineAreTold) {
-  std::size_t told = 0, fine = 0;
-  auto const attempt = [&](std::string const& text) {
-    try {
-      parse_scenario(text, "test.toml");
-      ++fine;
-    } catch (ScenarioErrors const& errors) {
-      ++told;
-      EXPECT_FALSE(errors.lines.empty());
-      for (auto const& line : errors.lines) EXPECT_EQ(line.find("test.toml:"), 0U) << line;
-    }
-  };
-  for (std::size_t begin = 0; begin < good.size();) {
-    std::size_t const end = good.find('\n', begin) + 1;
-    attempt(good.substr(0, begin) + good.substr(end));
-    begin = end;
-  }
-  for (std::size_t size = 0; size < good.size(); ++size) attempt(good.substr(0, size));
-  EXPECT_GT(told, 400U);
-  EXPECT_GT(fine, 10U);
-}
+TEST(SmoothMistakes, OfAnyMissingLineAreTold) { test::expect_mistakes_of_what_is_missing(good, 400, 10); }
 
 // With the box, the class or the material unknown, what else is wrong is told all the same, and nothing that is right.
 TEST(SmoothMistakes, OfOneTableHideNoOthers) {

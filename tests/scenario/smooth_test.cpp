@@ -328,7 +328,7 @@ TEST(SmoothScenario, RunsAShockTube) {
 TEST(SmoothScenario, OfTheGuideIsRight) {
   std::ifstream in(BOLTZMANN_SOURCE "/docs/guide/scenarios.md");
   std::string const guide((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  auto const section = guide.find("## [smooth]"), begin = guide.find("```toml\n", section) + 8;
+  auto const section = guide.find("## [smooth]"), begin = guide.find("```toml scenario\n", section) + 17;
   auto const scenario = read(guide.substr(begin, guide.find("```", begin) - begin),
                              {{"ensembles.0.load.spacing=0.0125", "ensembles.0.range=0.05"}, {}, {}, {}});
   scenario->simulation->check();

@@ -195,9 +195,10 @@ TEST(SmoothMisuse, HeatIsNotSharedWithAMaterialThatKeepsNone) {
     scheme.calculate();
     FAIL() << "not refused";
   } catch (Error const& error) {
-    EXPECT_STREQ(error.what(),
-                 "the energy of 'water' follows its density, that of 'gas' evolves: they can't share the "
-                 "heat of their work; use heating(Heating::own)");
+    EXPECT_STREQ(
+        error.what(),
+        "heating: the energy of 'water' follows from its density, that of 'gas' does not, so that energy would "
+        "be lost where they share the heat of a pair; heating = \"own\" (Heating::own) shares none");
   }
   scheme.heating(Heating::own);
   EXPECT_NO_THROW(scheme.calculate());

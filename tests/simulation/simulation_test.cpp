@@ -1,4 +1,5 @@
 // The loop: same bits for any thread count and after a restart, failures as one line, N = 0, 1, 2.
+#include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
@@ -121,6 +122,51 @@ TEST(Simulation, RestoredRunEqualsContinuedRun) {
   restart<2>(Boundary::periodic, Method::rk2, 41);
   restart<2>(Boundary::periodic, Method::euler, 41);
   restart<2>(Boundary::bounded, Method::reversible_leap_frog, 41);
+}
+
+// Where one ensemble feels drag, leap-frog's influences at a step's end are of predicted velocities: those of all
+// ensembles, also of one without drag whose lists were built another time, go on as they were.
+struct TwoLiquids {
+  Ensemble<Newton<2>> slowed{"slowed", 450}, free{"free", 450};
+  PairScheme scheme{Box(Vector{0.0, 0.0}, Vector{33.0, 33.0}, Boundary::periodic), 2.5};
+  Simulation simulation{scheme, 0.004};
+
+  TwoLiquids() {
+    std::mt19937_64 random(5);
+    for (std::size_t i = 0; i < 900; ++i) {
+      auto& p = i % 2 == 0 ? slowed[i / 2] : free[i / 2];
+      p.position = {1.1 * (static_cast<double>(i % 30) + 0.5), 1.1 * (static_cast<double>(i / 30) + 0.5)};
+      for (std::size_t a = 0; a < 2; ++a) p.velocity[a] = std::normal_distribution(0.0, 1.2)(random);
+    }
+    LennardJones const law{1.0, 1.0};
+    scheme.internal(slowed, law);
+    scheme.internal(free, law);
+    scheme.between(slowed, free, law);
+    scheme.external(slowed, Drag{0.3});
+    simulation.integrate(slowed, Method::leap_frog);
+    simulation.integrate(free, Method::leap_frog);
+  }
+  std::vector<double> rows() const {
+    std::vector<double> all(slowed.row(0), slowed.row(0) + slowed.size() * slowed.stride());
+    all.insert(all.end(), free.row(0), free.row(0) + free.size() * free.stride());
+    return all;
+  }
+};
+
+TEST(Simulation, DragOnOneOfTwoEnsemblesIsRestoredToTheBit) {
+  for (std::uint64_t const at : {1, 8, 37}) {
+    TwoLiquids whole, first, second;
+    whole.simulation.run(60);
+    first.simulation.run(at);
+    auto const state = first.simulation.state();
+    std::memcpy(second.slowed.row(0), first.slowed.row(0), 450 * first.slowed.stride() * sizeof(double));
+    std::memcpy(second.free.row(0), first.free.row(0), 450 * first.free.stride() * sizeof(double));
+    second.simulation.restore(first.simulation.step(), 0.004, first.simulation.seed(), state);
+    second.simulation.run(60 - at);
+    EXPECT_EQ(whole.rows(), second.rows()) << at;
+    first.simulation.run(60 - at);
+    EXPECT_EQ(whole.rows(), first.rows()) << at;
+  }
 }
 
 // VERIFICATION.md: below 1e-5 per particle per 1000 steps at dt 0.005 (LJ time units; here r0 = sigma 2^(1/6)).

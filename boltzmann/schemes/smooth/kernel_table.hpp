@@ -24,6 +24,8 @@ constexpr SmoothPasses smooth_passes() {
   passes.gradients_geometric = smooth_pass<W, SmoothFluid<D>, GradientPass<Shape, variable, true>>;
   passes.viscous = smooth_pass<W, SmoothFluid<D>, RatePass<Shape, variable, RateTerms::viscous>>;
   passes.all = smooth_pass<W, SmoothMatter<D>, RatePass<Shape, variable, RateTerms::all>>;
+  passes.viscous_by_volume = smooth_pass<W, SmoothFluid<D>, RatePass<Shape, variable, RateTerms::viscous, true>>;
+  passes.all_by_volume = smooth_pass<W, SmoothMatter<D>, RatePass<Shape, variable, RateTerms::all, true>>;
   if constexpr (variable) {
     passes.pressure = passes.viscous;
   } else {

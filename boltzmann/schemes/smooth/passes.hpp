@@ -14,9 +14,6 @@ struct PassParameters {
   /// Which part of the work that the pressure of a particle does on a pair heats itself, and which the other: a half
   /// each in Eq 14; all and nothing keep each particle on its isentrope.
   double own_share = 0.5, other_share = 0.5;
-  /// Neighbours count by volume: with the velocities v of both, d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad
-  /// w, and P_i / (rho_i rho_j) instead of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
-  bool volumes = false;
   double alpha = 0, beta = 0;  ///< artificial viscosity (Monaghan 1992)
 };
 
@@ -116,7 +113,10 @@ enum class RateTerms { pressure, viscous, all };
 /// Eq 13, 14 and the continuity equation, with the grad-h factors of variable ranges inside push, stress and heat.
 /// Artificial viscosity: Pi = (-alpha c mu + beta mu^2) / rho with means of both particles, mu = h v.r / (r^2 +
 /// h^2/100) of those that approach, h the smoothing length (Monaghan 1992).
-template <class Shape, bool variable, RateTerms terms>
+///
+/// With `volumes` neighbours count by these: d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad w, and P_i /
+/// (rho_i rho_j) in place of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
+template <class Shape, bool variable, RateTerms terms, bool volumes = false>
 struct RatePass {
   PassParameters parameters;
 
@@ -136,7 +136,7 @@ struct RatePass {
       heat = dot(p.heat, r) * slope_p + dot(q.heat, r) * slope_q;
     }
     Real compression = slope_p * approach;
-    if (parameters.volumes) {
+    if constexpr (volumes) {
       Real const ratio = p.density / q.density, inverse = q.density / p.density;
       from_p *= ratio;
       from_q *= inverse;

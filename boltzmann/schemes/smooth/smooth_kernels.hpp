@@ -13,6 +13,7 @@ struct SmoothPasses {
   PairKernel gradients = nullptr, gradients_geometric = nullptr;
   PairKernel uniform = nullptr;  ///< only where ranges are the same
   PairKernel pressure = nullptr, viscous = nullptr, all = nullptr;
+  PairKernel viscous_by_volume = nullptr, all_by_volume = nullptr;
 };
 
 struct SmoothKernels {

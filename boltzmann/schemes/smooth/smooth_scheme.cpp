@@ -1,7 +1,6 @@
 // The recipe of SPAM, step by step, and when each is needed.
-#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/schemes/smooth/loaded.hpp>
 
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_unit.hpp>
 
@@ -12,22 +11,13 @@
 #include <limits>
 
 namespace boltzmann {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t pass_worth_threads = 1U << 10U;  // particles: each has many neighbours
-constexpr std::size_t pair_grain = 256, particle_grain = detail::material_grain;
-constexpr double courant_number = 0.4;
-constexpr double skin_of_range = 0.08;
-constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
-constexpr double alone = 0.8;          // the part of the density that is one's own
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-template <class Function>
-decltype(auto) in_dimension(int dimension, Function const& function) {
-  if (dimension == 1) return function(std::integral_constant<int, 1>{});
-  if (dimension == 2) return function(std::integral_constant<int, 2>{});
-  return function(std::integral_constant<int, 3>{});
-}
+constexpr std::size_t pair_grain = 256;
 
 template <class Particle>
 constexpr std::size_t blocks_of = (sizeof(Particle) / sizeof(double) + row_block - 1) / row_block;
@@ -77,13 +67,6 @@ std::string too_long(Box const& box, double range, double reach) {
   return "";
 }
 
-bool has_temperature(Box const& box) {
-  for (int a = 0; a < box.dimension(); ++a)
-    for (auto const end : {Box::End::low, Box::End::high})
-      if (box.walled(a, end) && std::isfinite(box.wall(a, end).temperature)) return true;
-  return false;
-}
-
 /// What is wrong with a particle that can't be weighed.
 std::string not_usable(AnyEnsemble const& ensemble, std::size_t i) {
   for (auto const* name : {"range", "mass"})
@@ -91,10 +74,6 @@ std::string not_usable(AnyEnsemble const& ensemble, std::size_t i) {
       return fmt::format("particle {} of '{}' has the {} {}; it must be positive", i, ensemble.name(), name, value);
   return fmt::format("particle {} of '{}' has the density {}; it must be positive, and as it is not summed, be given",
                      i, ensemble.name(), ensemble.row(i)[ensemble.field("density").offset]);
-}
-
-double smoothing_length(WeightShape shape) {
-  return for_weight(shape, [](auto s) { return decltype(s)::smoothing_length; });
 }
 
 }  // namespace
@@ -105,21 +84,6 @@ SmoothKernelTable const& smooth_kernels_of(WeightShape shape) {
         shape, [](auto s) -> SmoothKernelTable const& { return smooth_kernels<decltype(set)::value, decltype(s)>(); });
   });
 }
-
-struct SmoothScheme::Loaded {
-  AnyEnsemble* ensemble;
-  MaterialKernels kernels;
-  std::shared_ptr<void const> material;
-  std::size_t first = 0;               // number of its first particle among all
-  std::vector<std::uint32_t> members;  // its rows of the mirror, if it is not alone
-  MaterialTask task;
-};
-
-struct SmoothScheme::Outside {
-  AnyEnsemble* ensemble;
-  ExternalKernels kernels;
-  std::shared_ptr<void const> law;
-};
 
 SmoothScheme::SmoothScheme(Box box, WeightShape shape) : Scheme(std::move(box)), shape_(shape) {
   points_ = in_dimension(this->box().dimension(), [](auto d) -> std::unique_ptr<AnyEnsemble> {
@@ -169,69 +133,6 @@ void SmoothScheme::skin(double length) {
     throw Error(fmt::format("the skin is a length of zero or more, not {}", length));
   skin_ = length;
   if (hood_) hood_->skin(length);
-}
-
-void SmoothScheme::variable_range(VariableRange const& variable) {
-  check_parameter("variable range", "spacings", variable.spacings, AllowedRange::positive);
-  check_parameter("variable range", "shortest", variable.shortest, AllowedRange::non_negative);
-  check_parameter("variable range", "longest", variable.longest, AllowedRange::non_negative);
-  if (density_from_ != DensityFrom::summation)
-    throw Error("ranges follow densities that are summed; with densities from continuity they stay");
-  if (loaded_.empty()) throw Error("variable_range() finds the ranges of particles: say what they are made of before");
-  take_places();
-  variable_ = variable;
-  if (variable.longest == 0) variable_->longest = 4 * longest_;
-  if (variable_->longest < variable.shortest)
-    throw Error(fmt::format("variable range: longest = {:.6g} is below shortest = {:.6g}", variable_->longest,
-                            variable.shortest));
-  hood_.reset();
-  // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
-  // between two ranges that are too short and too long: density range^D grows with the range.
-  constexpr int most_iterations = 200;
-  constexpr double precision = 1e-12;
-  std::vector<double> factor_of(count()), shorter(count(), variable_->shortest), longer(count(), variable_->longest);
-  for (int iteration = 0;; ++iteration) {
-    complete(0);
-    for (std::size_t k = 0; k < factors_.size(); ++k) factor_of[hood_->target(0).order()[k]] = factors_[k];
-    double largest_change = 0;
-    in_dimension(box().dimension(), [&](auto d) {
-      constexpr int D = d;
-      for (auto const& loaded : loaded_)
-        for (std::size_t i = 0; i < loaded->ensemble->size(); ++i) {
-          auto& p = *reinterpret_cast<Smooth<D>*>(loaded->ensemble->row(i));
-          double &low = shorter[loaded->first + i], &high = longer[loaded->first + i];
-          double const excess = std::log(p.density / p.mass * detail::power<D>(p.range / variable.spacings));
-          (excess < 0 ? low : high) = std::clamp(p.range, variable_->shortest, variable_->longest);
-          double wanted = p.range * std::exp(std::clamp(-excess * factor_of[loaded->first + i] / D, -1.0, 1.0));
-          if (std::abs(wanted / p.range - 1) > precision && !(wanted > low && wanted < high)) {
-            if (wanted <= low && low > variable_->shortest)
-              wanted = std::sqrt(low * high);
-            else if (wanted >= high && high < variable_->longest)
-              wanted = low > 0 ? std::sqrt(low * high) : 0.5 * high;
-            else
-              wanted = std::clamp(wanted, low, high);
-          }
-          largest_change = std::max(largest_change, std::abs(wanted / p.range - 1));
-          p.range = wanted;
-        }
-    });
-    if (largest_change < precision) break;
-    if (iteration == most_iterations)
-      throw Error(
-          fmt::format("variable range: there are no ranges of {:.6g} spacings (after {} iterations they still change "
-                      "by {:.1e}); with this weight it takes more than {:.3g}, 3 are usual",
-                      variable.spacings, most_iterations, largest_change,
-                      std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
-  }
-  // A gas that becomes thin is not to end the run: no longer than lists fit between the walls, with room to overshoot.
-  if (variable.longest == 0) {
-    take_places();
-    double const room = skin_ < 0 ? square(room_to_grow) * (1 + skin_of_range) : square(room_to_grow);
-    for (int a = 0; a < box().dimension(); ++a)
-      if (box().boundary(a) != Boundary::open)
-        variable_->longest =
-            std::min(variable_->longest, std::max(longest_, (box().length(a) - std::max(skin_, 0.0)) / room));
-  }
 }
 
 std::size_t SmoothScheme::count() const {
@@ -293,10 +194,10 @@ void SmoothScheme::check_heating() const {
   Loaded const *keeps = nullptr, *follows = nullptr;
   for (auto const& loaded : loaded_) (loaded->kernels.barotropic ? follows : keeps) = loaded.get();
   if (keeps && follows && parameters_.other_share > 0)
-    throw Error(
-        fmt::format("the energy of '{}' follows its density, that of '{}' evolves: they can't share the heat of "
-                    "their work; use heating(Heating::own)",
-                    follows->ensemble->name(), keeps->ensemble->name()));
+    throw Error(fmt::format(
+        "heating: the energy of '{}' follows from its density, that of '{}' does not, so that energy would be "
+        "lost where they share the heat of a pair; heating = \"own\" (Heating::own) shares none",
+        follows->ensemble->name(), keeps->ensemble->name()));
 }
 
 /// Lists that reach as far as the longest range.
@@ -380,10 +281,6 @@ void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
   }
 }
 
-double SmoothScheme::sound_step() const {
-  return courant_number * smoothing_length(shape_) / (sound_rate_ * (1 + 0.6 * viscosity_.alpha));
-}
-
 /// What the recipe needs for the particles, materials and options of now.
 SmoothScheme::Recipe SmoothScheme::recipe() const {
   auto const any = [&](auto const& what) {
@@ -398,7 +295,13 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
                    density_from_ == DensityFrom::summation &&
                    !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
   SmoothKernels const& kernels = smooth_kernels_of(shape_).in[box().dimension() - 1];
-  recipe.passes = recipe.own_ranges ? &kernels.variable : &kernels.same;
+  SmoothPasses const& passes = *(recipe.passes = recipe.own_ranges ? &kernels.variable : &kernels.same);
+  bool const by_volume = density_from_ == DensityFrom::volumes;
+  recipe.rates = recipe.uniform     ? passes.uniform
+                 : recipe.gradients ? (by_volume ? passes.all_by_volume : passes.all)
+                 : by_volume        ? passes.viscous_by_volume
+                 : recipe.viscous   ? passes.viscous
+                                    : passes.pressure;
   return recipe;
 }
 
@@ -435,7 +338,6 @@ void SmoothScheme::set_tasks(Recipe const& recipe, Mirror& mirror) {
     }
   }
   parameters_.range = longest_;
-  parameters_.volumes = density_from_ == DensityFrom::volumes;
   parameters_.push = loaded_.front()->kernels.push;
 }
 
@@ -472,11 +374,7 @@ void SmoothScheme::find(Until until) {
   }
 
   // Step 5.
-  run_pass(recipe.uniform     ? passes.uniform
-           : recipe.gradients ? passes.all
-           : recipe.viscous   ? passes.viscous
-                              : passes.pressure,
-           recipe.uniform ? D : D + 2, &MaterialTask::rates);
+  run_pass(recipe.rates, recipe.uniform ? D : D + 2, &MaterialTask::rates);
   run_material(&MaterialKernels::rates);
 }
 
@@ -485,10 +383,7 @@ void SmoothScheme::add_influences(double time) {
   time_ = time;
   find(Until::rates);
   for (auto const& outside : outside_) {
-    ExternalTask task;
-    task.rows = outside->ensemble->row(0);
-    task.influence = outside->ensemble->influence(0);
-    task.time = time;
+    ExternalTask const task = outside->task(time);
     for_ranges(
         outside->ensemble->size(), particle_grain, worth(outside->ensemble->size()),
         [&](std::size_t begin, std::size_t end) { outside->kernels.influence(outside->law.get(), task, begin, end); });
@@ -497,134 +392,10 @@ void SmoothScheme::add_influences(double time) {
 
 void SmoothScheme::complete(double) { find(Until::state); }
 
-Measures SmoothScheme::measure(double time) {
-  complete(time);
-  Measures measures;
-  auto const& all = ensembles();
-  measures.per_particle.resize(all.size());
-  for (std::size_t e = 0; e < all.size(); ++e) {
-    AnyEnsemble const& ensemble = *all[e];
-    auto const mass = ensemble.field("mass").offset, energy = ensemble.field("specific_energy").offset;
-    measures.per_particle[e].resize(ensemble.size());
-    CompensatedSum sum;
-    for (std::size_t i = 0; i < ensemble.size(); ++i) {
-      double const* p = ensemble.row(i);
-      sum += measures.per_particle[e][i] = p[mass] * p[energy];
-    }
-    measures.internal += sum.value();
-  }
-  // The mean over space of the pressure of the states: without viscosity and strength that is all there is.
-  bool const all_is_pressure =
-      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
-  CompensatedSum work;
-  for (auto const& loaded : loaded_) {
-    AnyEnsemble const& ensemble = *loaded->ensemble;
-    auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset,
-               pressure = ensemble.field("pressure").offset;
-    for (std::size_t i = 0; i < ensemble.size(); ++i) {
-      double const* p = ensemble.row(i);
-      work += p[mass] / p[density] * p[pressure];
-    }
-  }
-  for (int a = 0; a < box().dimension(); ++a)
-    for (int b = 0; b < box().dimension(); ++b)
-      measures.virial[a][b] = !all_is_pressure ? std::numeric_limits<double>::quiet_NaN() : a == b ? work.value() : 0;
-  for (auto const& outside : outside_) {
-    if (!outside->kernels.has_energy) {
-      measures.unknown = "an external law on '" + outside->ensemble->name() + "'";
-      continue;
-    }
-    std::vector<double> energy(outside->ensemble->size());
-    ExternalTask task;
-    task.rows = outside->ensemble->row(0);
-    task.time = time;
-    task.energy = energy.data();
-    outside->kernels.measure(outside->law.get(), task, 0, energy.size());
-    CompensatedSum sum;
-    for (double const u : energy) sum += u;
-    measures.external += sum.value();
-  }
-  return measures;
-}
-
-double SmoothScheme::length_scale(AnyEnsemble const& ensemble) const {
-  double shortest = infinite;
-  auto const offset = ensemble.field("range").offset;
-  for (std::size_t i = 0; i < ensemble.size(); ++i) shortest = std::min(shortest, ensemble.row(i)[offset]);
-  return smoothing_length(shape_) * shortest;
-}
-
-double SmoothScheme::courant_step() {
-  if (calculations_ == 0)
-    calculate(time_);
-  else
-    complete(time_);
-  double longest = infinite;
-  for (auto const& loaded : loaded_) {
-    AnyEnsemble const& ensemble = *loaded->ensemble;
-    auto const range = ensemble.field("range").offset, speed = ensemble.field("sound_speed").offset,
-               mass = ensemble.field("mass").offset;
-    for (std::size_t i = 0; i < ensemble.size(); ++i) {
-      double const* p = ensemble.row(i);
-      double const h = smoothing_length(shape_) * p[range];
-      double force2 = 0;
-      for (int a = 0; a < box().dimension(); ++a) force2 += square(ensemble.influence(i)[a]);
-      double const sound = courant_number * h / (p[speed] * (1 + 0.6 * viscosity_.alpha));
-      double const push = 0.25 * std::sqrt(h * p[mass] / std::sqrt(force2));
-      longest = std::min(longest, std::min(sound, push));
-      if (loaded->kernels.diffusivity)
-        longest = std::min(longest, 0.125 * h * h / loaded->kernels.diffusivity(loaded->material.get(), p));
-    }
-  }
-  return longest;
-}
-
-std::string SmoothScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
-  double const* p = ensemble.row(i);
-  auto const value = [&](char const* name) { return p[ensemble.field(name).offset]; };
-  if (value("specific_energy") < 0)
-    return fmt::format(
-        "the specific energy of particle {} of '{}' is negative, {:.4g}: too large a step, or a shock "
-        "without artificial viscosity",
-        i, ensemble.name(), value("specific_energy"));
-  for (auto const* name : {"density", "specific_energy", "pressure", "sound_speed"})
-    if (!std::isfinite(value(name)) || (name == std::string_view("density") && value(name) <= 0))
-      return fmt::format("the {} of particle {} of '{}' is {} (its density is {:.4g}, its specific energy {:.4g})",
-                         name, i, ensemble.name(), value(name), value("density"), value("specific_energy"));
-  return "";
-}
-
 void SmoothScheme::make_reversible(double) {
   throw Error(
       "the reversible leap-frog can't run smooth particles, whose rates depend on velocities; use leap-frog, rk2 "
       "or rk4");
-}
-
-std::vector<std::string> SmoothScheme::advice(double step_size) {
-  double const longest = courant_step(), part = std::abs(step_size) / longest;
-  if (!std::isfinite(longest)) return {};
-  std::string const line = fmt::format("the step is {:.3g} of the Courant step {:.4g}", part, longest);
-  std::vector<std::string> lines{part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
-  if (has_temperature(box()) &&
-      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; }))
-    lines.emplace_back("warning: a wall has a temperature, but no material conducts heat: it does nothing");
-  for (auto const& loaded : loaded_) {
-    AnyEnsemble const& ensemble = *loaded->ensemble;
-    auto const mass = ensemble.field("mass").offset, range = ensemble.field("range").offset,
-               density = ensemble.field("density").offset;
-    double own = 0;
-    for (std::size_t i = 0; i < ensemble.size(); ++i) {
-      double const* p = ensemble.row(i);
-      own += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
-    }
-    own /= static_cast<double>(ensemble.size());
-    if (own > alone)
-      lines.push_back(
-          fmt::format("warning: the particles of '{}' hardly have neighbours, {:.0f} % of their density is their own; "
-                      "the usual range is 3 times their distance",
-                      ensemble.name(), 100 * std::min(own, 1.0)));
-  }
-  return lines;
 }
 
 std::size_t SmoothScheme::bytes() const {

@@ -97,6 +97,8 @@ class SmoothScheme final : public Scheme {
   void restore(std::span<double const> state) override;
 
   WeightShape shape() const { return shape_; }
+  /// Error if materials that keep heat share it with some that don't; the first calculation asks, too.
+  void check_heating() const;
 
   // For code that knows classes only at run time (scenarios).
   void add_material(AnyEnsemble& ensemble, MaterialKernels const& kernels, std::shared_ptr<void const> material);
@@ -113,11 +115,11 @@ class SmoothScheme final : public Scheme {
     bool gradients = false;   // are needed
     bool uniform = false;     // P / rho^2 is the same for all: forces need no density
     SmoothPasses const* passes = nullptr;
+    PairKernel rates = nullptr;  // of the passes
   };
   Recipe recipe() const;
   void set_tasks(Recipe const& recipe, Mirror& mirror);
   void find(Until until);
-  void check_heating() const;
   void prepare();
   void reach(double cutoff);
   void take_places();

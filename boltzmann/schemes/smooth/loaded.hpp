@@ -1,0 +1,51 @@
+// What a SmoothScheme has loaded, and what its sources share. Private to this room.
+#pragma once
+
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+namespace boltzmann {
+
+struct SmoothScheme::Loaded {
+  AnyEnsemble* ensemble;
+  MaterialKernels kernels;
+  std::shared_ptr<void const> material;
+  std::size_t first = 0;               // number of its first particle among all
+  std::vector<std::uint32_t> members;  // its rows of the mirror, if it is not alone
+  MaterialTask task;
+};
+
+struct SmoothScheme::Outside {
+  AnyEnsemble* ensemble;
+  ExternalKernels kernels;
+  std::shared_ptr<void const> law;
+
+  ExternalTask task(double time) const {
+    ExternalTask task;
+    task.rows = ensemble->row(0);
+    task.influence = ensemble->influence(0);
+    task.time = time;
+    return task;
+  }
+};
+
+namespace detail {
+
+inline constexpr std::size_t particle_grain = material_grain;
+inline constexpr double skin_of_range = 0.08;
+inline constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+template <class Function>
+decltype(auto) in_dimension(int dimension, Function const& function) {
+  if (dimension == 1) return function(std::integral_constant<int, 1>{});
+  if (dimension == 2) return function(std::integral_constant<int, 2>{});
+  return function(std::integral_constant<int, 3>{});
+}
+
+}  // namespace detail
+}  // namespace boltzmann

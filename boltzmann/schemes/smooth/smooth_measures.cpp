@@ -1,0 +1,158 @@
+// What a SmoothScheme says of its particles: energies, steps that make sense, and what is wrong.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/schemes/smooth/loaded.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+using namespace detail;
+
+namespace {
+
+constexpr double courant_number = 0.4;
+constexpr double alone = 0.8;  // the part of the density that is one's own
+
+double smoothing_length(WeightShape shape) {
+  return for_weight(shape, [](auto s) { return decltype(s)::smoothing_length; });
+}
+
+bool has_temperature(Box const& box) {
+  for (int a = 0; a < box.dimension(); ++a)
+    for (auto const end : {Box::End::low, Box::End::high})
+      if (box.walled(a, end) && std::isfinite(box.wall(a, end).temperature)) return true;
+  return false;
+}
+
+}  // namespace
+
+Measures SmoothScheme::measure(double time) {
+  complete(time);
+  Measures measures;
+  auto const& all = ensembles();
+  measures.per_particle.resize(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    AnyEnsemble const& ensemble = *all[e];
+    auto const mass = ensemble.field("mass").offset, energy = ensemble.field("specific_energy").offset;
+    measures.per_particle[e].resize(ensemble.size());
+    CompensatedSum sum;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      sum += measures.per_particle[e][i] = p[mass] * p[energy];
+    }
+    measures.internal += sum.value();
+  }
+  // The mean over space of the pressure of the states: without viscosity and strength that is all there is.
+  bool const all_is_pressure =
+      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
+  CompensatedSum work;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset,
+               pressure = ensemble.field("pressure").offset;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      work += p[mass] / p[density] * p[pressure];
+    }
+  }
+  for (int a = 0; a < box().dimension(); ++a)
+    for (int b = 0; b < box().dimension(); ++b)
+      measures.virial[a][b] = !all_is_pressure ? std::numeric_limits<double>::quiet_NaN() : a == b ? work.value() : 0;
+  for (auto const& outside : outside_) {
+    if (!outside->kernels.has_energy) {
+      measures.unknown = "an external law on '" + outside->ensemble->name() + "'";
+      continue;
+    }
+    std::vector<double> energy(outside->ensemble->size());
+    ExternalTask task = outside->task(time);
+    task.energy = energy.data();
+    outside->kernels.measure(outside->law.get(), task, 0, energy.size());
+    CompensatedSum sum;
+    for (double const u : energy) sum += u;
+    measures.external += sum.value();
+  }
+  return measures;
+}
+
+double SmoothScheme::length_scale(AnyEnsemble const& ensemble) const {
+  double shortest = infinite;
+  auto const offset = ensemble.field("range").offset;
+  for (std::size_t i = 0; i < ensemble.size(); ++i) shortest = std::min(shortest, ensemble.row(i)[offset]);
+  return smoothing_length(shape_) * shortest;
+}
+
+double SmoothScheme::courant_step() {
+  if (calculations_ == 0)
+    calculate(time_);
+  else
+    complete(time_);
+  double longest = infinite;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const range = ensemble.field("range").offset, speed = ensemble.field("sound_speed").offset,
+               mass = ensemble.field("mass").offset;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      double const h = smoothing_length(shape_) * p[range];
+      double force2 = 0;
+      for (int a = 0; a < box().dimension(); ++a) force2 += square(ensemble.influence(i)[a]);
+      double const sound = courant_number * h / (p[speed] * (1 + 0.6 * viscosity_.alpha));
+      double const push = 0.25 * std::sqrt(h * p[mass] / std::sqrt(force2));
+      longest = std::min(longest, std::min(sound, push));
+      if (loaded->kernels.diffusivity)
+        longest = std::min(longest, 0.125 * h * h / loaded->kernels.diffusivity(loaded->material.get(), p));
+    }
+  }
+  return longest;
+}
+
+std::string SmoothScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  double const* p = ensemble.row(i);
+  auto const value = [&](char const* name) { return p[ensemble.field(name).offset]; };
+  if (value("specific_energy") < 0)
+    return fmt::format(
+        "the specific energy of particle {} of '{}' is negative, {:.4g}: too large a step, or a shock "
+        "without artificial viscosity",
+        i, ensemble.name(), value("specific_energy"));
+  for (auto const* name : {"density", "specific_energy", "pressure", "sound_speed"})
+    if (!std::isfinite(value(name)) || (name == std::string_view("density") && value(name) <= 0))
+      return fmt::format("the {} of particle {} of '{}' is {} (its density is {:.4g}, its specific energy {:.4g})",
+                         name, i, ensemble.name(), value(name), value("density"), value("specific_energy"));
+  return "";
+}
+
+double SmoothScheme::sound_step() const {
+  return courant_number * smoothing_length(shape_) / (sound_rate_ * (1 + 0.6 * viscosity_.alpha));
+}
+
+std::vector<std::string> SmoothScheme::advice(double step_size) {
+  double const longest = courant_step(), part = std::abs(step_size) / longest;
+  if (!std::isfinite(longest)) return {};
+  std::string const line = fmt::format("the step is {:.3g} of the Courant step {:.4g}", part, longest);
+  std::vector<std::string> lines{part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
+  if (has_temperature(box()) &&
+      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; }))
+    lines.emplace_back("warning: a wall has a temperature, but no material conducts heat: it does nothing");
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const mass = ensemble.field("mass").offset, range = ensemble.field("range").offset,
+               density = ensemble.field("density").offset;
+    double own = 0;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* p = ensemble.row(i);
+      own += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
+    }
+    own /= static_cast<double>(ensemble.size());
+    if (own > alone)
+      lines.push_back(
+          fmt::format("warning: the particles of '{}' hardly have neighbours, {:.0f} % of their density is their own; "
+                      "the usual range is 3 times their distance",
+                      ensemble.name(), 100 * std::min(own, 1.0)));
+  }
+  return lines;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,77 @@
+// Finding ranges that fit the densities which they make.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/schemes/smooth/loaded.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+using namespace detail;
+
+void SmoothScheme::variable_range(VariableRange const& variable) {
+  check_parameter("variable range", "spacings", variable.spacings, AllowedRange::positive);
+  check_parameter("variable range", "shortest", variable.shortest, AllowedRange::non_negative);
+  check_parameter("variable range", "longest", variable.longest, AllowedRange::non_negative);
+  if (density_from_ != DensityFrom::summation)
+    throw Error("ranges follow densities that are summed; with densities from continuity they stay");
+  if (loaded_.empty()) throw Error("variable_range() finds the ranges of particles: say what they are made of before");
+  take_places();
+  variable_ = variable;
+  if (variable.longest == 0) variable_->longest = 4 * longest_;
+  if (variable_->longest < variable.shortest)
+    throw Error(fmt::format("variable range: longest = {:.6g} is below shortest = {:.6g}", variable_->longest,
+                            variable.shortest));
+  hood_.reset();
+  // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
+  // between two ranges that are too short and too long: density range^D grows with the range.
+  constexpr int most_iterations = 200;
+  constexpr double precision = 1e-12;
+  std::vector<double> factor_of(count()), shorter(count(), variable_->shortest), longer(count(), variable_->longest);
+  for (int iteration = 0;; ++iteration) {
+    complete(0);
+    for (std::size_t k = 0; k < factors_.size(); ++k) factor_of[hood_->target(0).order()[k]] = factors_[k];
+    double largest_change = 0;
+    in_dimension(box().dimension(), [&](auto d) {
+      constexpr int D = d;
+      for (auto const& loaded : loaded_)
+        for (std::size_t i = 0; i < loaded->ensemble->size(); ++i) {
+          auto& p = *reinterpret_cast<Smooth<D>*>(loaded->ensemble->row(i));
+          double &low = shorter[loaded->first + i], &high = longer[loaded->first + i];
+          double const excess = std::log(p.density / p.mass * detail::power<D>(p.range / variable.spacings));
+          (excess < 0 ? low : high) = std::clamp(p.range, variable_->shortest, variable_->longest);
+          double wanted = p.range * std::exp(std::clamp(-excess * factor_of[loaded->first + i] / D, -1.0, 1.0));
+          if (std::abs(wanted / p.range - 1) > precision && !(wanted > low && wanted < high)) {
+            if (wanted <= low && low > variable_->shortest)
+              wanted = std::sqrt(low * high);
+            else if (wanted >= high && high < variable_->longest)
+              wanted = low > 0 ? std::sqrt(low * high) : 0.5 * high;
+            else
+              wanted = std::clamp(wanted, low, high);
+          }
+          largest_change = std::max(largest_change, std::abs(wanted / p.range - 1));
+          p.range = wanted;
+        }
+    });
+    if (largest_change < precision) break;
+    if (iteration == most_iterations)
+      throw Error(
+          fmt::format("variable range: there are no ranges of {:.6g} spacings (after {} iterations they still change "
+                      "by {:.1e}); with this weight it takes more than {:.3g}, 3 are usual",
+                      variable.spacings, most_iterations, largest_change,
+                      std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
+  }
+  // A gas that becomes thin is not to end the run: no longer than lists fit between the walls, with room to overshoot.
+  if (variable.longest == 0) {
+    take_places();
+    double const room = skin_ < 0 ? square(room_to_grow) * (1 + skin_of_range) : square(room_to_grow);
+    for (int a = 0; a < box().dimension(); ++a)
+      if (box().boundary(a) != Boundary::open)
+        variable_->longest =
+            std::min(variable_->longest, std::max(longest_, (box().length(a) - std::max(skin_, 0.0)) / room));
+  }
+}
+
+}  // namespace boltzmann
