@@ -24,7 +24,9 @@ enum class Boundary {
 
 std::string to_string(Boundary boundary);
 
-/// A wall at one end of a mirror axis: what the image beyond it of a particle with velocity v and temperature T has.
+/// A wall at one end of an axis. On a mirror axis: what the image beyond it of a particle with velocity v and
+/// temperature T has. On a bounded axis: what a particle has after it was reflected; there walls slip and are
+/// insulated, so that only the velocity along the normal counts (a piston, or a momentum mirror).
 struct Wall {
   /// The image's velocity: 2 u - v (u that of the wall) along the wall's normal, and along the wall itself v if
   /// particles slip on it, else 2 u - v there, too: then matter at the wall moves with it.
@@ -74,22 +76,25 @@ class Box {
   /// Length, area or volume of the box (as its walls stand now).
   double volume() const;
 
-  /// Whether particles are mirrored at this end: at both ends of a mirror axis, unless one was opened.
+  /// Whether there is a wall at this end: at both ends of a mirror or bounded axis, unless one was opened.
   bool walled(int axis, End end) const { return walled_[axis][static_cast<int>(end)]; }
   bool any_wall() const { return any_wall_; }
   /// The wall at this end. Error if there is none.
   Wall const& wall(int axis, End end) const;
   /// Puts this wall there (and closes the end again, if it was open); until then it slips, rests and is insulated.
-  /// Error if the axis is no mirror, or the wall's velocity or temperature is infinite (or its velocity no number).
+  /// Error if the axis is neither mirror nor bounded, or the wall's velocity or temperature is infinite (or its
+  /// velocity no number), or a wall of a bounded axis does not slip, has a temperature or moves along itself.
   void wall(int axis, End end, Wall const& wall);
-  /// Takes the wall away: particles leave freely at this end, and have no images beyond it. Error if the axis is no
-  /// mirror, or no wall would be left.
+  /// Takes the wall away: particles leave freely at this end, and have no images beyond it. Error if the axis is
+  /// neither mirror nor bounded, or no wall would be left.
   void open_end(int axis, End end);
   /// Whether some wall moves along its normal.
   bool walls_move() const { return walls_move_; }
   /// Puts moving walls where they are at this time since the start of the run, edge + velocity * time; low(), high(),
   /// length() and volume() follow. PhysicsFailure if a wall meets the other end of its axis.
   void move_walls(double time);
+  /// While held, walls that move reflect as if they stood still (a body is brought to a temperature before its run).
+  void hold_walls(bool held) { held_ = held; }
 
   /// What a particle's velocity component (temperature) is in its image beyond the given ends: side[a] is -1 for the
   /// wall at the low end of axis a, 1 for that at the high end, else 0. Beyond several walls the images are composed;
@@ -117,8 +122,10 @@ class Box {
 
   /// Brings every particle that has left back: periodic axes wrap, bounded axes and regions reflect position and
   /// velocity, beyond a wall a particle is replaced by its image (position and velocity). PhysicsFailure if a particle
-  /// has moved so far that one reflection does not bring it back, or is not finite.
-  void apply(AnyEnsemble& particles, int threads = 1) const;
+  /// has moved so far that one reflection does not bring it back, or is not finite. Returns the work that moving walls
+  /// of bounded axes have done on the particles (zero for classes without mass), the same bits for any number of
+  /// threads.
+  double apply(AnyEnsemble& particles, int threads = 1) const;
 
   /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog.
   void on_grid(double quantum);
@@ -148,7 +155,7 @@ class Box {
   std::array<double, 3> low_, high_;
   std::array<double, 3> first_low_, first_high_;  // at time 0
   std::array<Boundary, 3> boundaries_;
-  bool all_open_, any_wall_ = false, walls_move_ = false;
+  bool all_open_, any_wall_ = false, walls_move_ = false, held_ = false;
   std::array<std::array<bool, 2>, 3> walled_{};  // at the low and at the high end
   std::array<std::array<Wall, 2>, 3> walls_{};
   std::vector<Region> regions_;

@@ -112,6 +112,10 @@ class Mirror {
   std::size_t owned() const { return order_.size(); }
   std::size_t total() const { return order_.size() + ghost_source_.size(); }
   std::size_t sentinel() const { return owned(); }
+  /// The owned row that row k, owned or an image, shows; the sentinel's is none.
+  std::uint32_t owner(std::size_t k) const {
+    return k < owned() ? static_cast<std::uint32_t>(k) : ghost_source_[k - owned() - 1];
+  }
   /// Which particle of the ensemble each owned row is.
   std::uint32_t const* order() const { return order_.data(); }
   AnyEnsemble const& ensemble() const { return *ensemble_; }

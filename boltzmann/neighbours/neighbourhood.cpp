@@ -27,6 +27,10 @@ void check_cutoff(double cutoff) {
 
 std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff) {
   check_cutoff(cutoff);
+  for (std::size_t n = 0; n < lists_.size(); ++n)
+    if (&lists_[n].target->ensemble() == &target && &lists_[n].source->ensemble() == &source &&
+        lists_[n].cutoff == cutoff)
+      return n;
   lists_.push_back({&mirror(target), &mirror(source), cutoff, {}});
   stale_ = true;
   return lists_.size() - 1;

@@ -31,8 +31,8 @@ class Neighbourhood {
   Neighbourhood(Neighbourhood const&) = delete;
   Neighbourhood& operator=(Neighbourhood const&) = delete;
 
-  /// A list of the neighbours of every particle of `target` among those of `source`; returns its number. Error if the
-  /// cut-off is not a positive length.
+  /// A list of the neighbours of every particle of `target` among those of `source`; returns its number, that of an
+  /// equal list if there is one. Error if the cut-off is not a positive length.
   std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff);
   /// The mirror of an ensemble, made when it is first asked for, with so many extra blocks (see Mirror).
   Mirror& mirror(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);

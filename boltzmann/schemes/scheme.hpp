@@ -20,12 +20,16 @@ namespace boltzmann {
 struct Measures {
   double potential = 0;                           ///< of the influences between particles
   double external = 0;                            ///< in the external fields
-  double internal = 0;                            ///< of the particles themselves (smooth particles)
+  double internal = 0;                            ///< of the particles themselves (smooth particles, mesoparticles)
+  double work = 0;                                ///< that moving walls have done since the start of the run
+  double heat = 0;                                ///< that heat baths have given since the start of the run
   std::array<std::array<double, 3>, 3> virial{};  ///< - sum over pairs r_a F_b with r = q - p and F the force on p; the
                                                   ///< pressure tensor is (sum m v v + virial) / volume
   std::string unknown;  ///< empty, or the name of a law that gives no energy: the energies are then incomplete
   std::vector<std::vector<double>>
       per_particle;  ///< potential energy of each particle (half of each of its pairs), one vector per ensemble
+  std::vector<std::vector<double>> virial_per_particle;  ///< 9 numbers a particle, half of each of its pairs'; empty
+                                                         ///< where a scheme does not know
 };
 
 class Scheme {

@@ -12,6 +12,29 @@ namespace {
 
 constexpr double far_above = 4;  // the longest step that makes sense
 
+/// Takes off the velocity of the centre of mass, and returns it.
+std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
+  std::array<double, 3> drift{};
+  int const mass = ensemble.field("mass").offset, velocity = ensemble.field("velocity").offset;
+  for (int a = 0; a < ensemble.dimension(); ++a) {
+    double total = 0, momentum = 0;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* row = ensemble.row(i);
+      total += row[mass];
+      momentum += row[mass] * row[velocity + a];
+    }
+    if (total > 0) drift[a] = momentum / total;
+    for (std::size_t i = 0; i < ensemble.size(); ++i) ensemble.row(i)[velocity + a] -= drift[a];
+  }
+  return drift;
+}
+
+void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
+  int const velocity = ensemble.field("velocity").offset;
+  for (std::size_t i = 0; i < ensemble.size(); ++i)
+    for (int a = 0; a < ensemble.dimension(); ++a) ensemble.row(i)[velocity + a] += drift[a];
+}
+
 }  // namespace
 
 Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
@@ -21,6 +44,11 @@ Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
 
 void Simulation::add(Scheme& scheme) {
   schemes_.push_back(&scheme);
+  checked_ = false;
+}
+
+void Simulation::add(Flow& flow) {
+  flows_.push_back(&flow);
   checked_ = false;
 }
 
@@ -69,6 +97,11 @@ std::vector<Adaptation const*> Simulation::adaptations() const {
   return all;
 }
 
+void Simulation::prepare(std::shared_ptr<Flow> flow, std::uint64_t steps) {
+  preparations_.push_back({std::move(flow), steps});
+  checked_ = false;
+}
+
 void Simulation::step_size(double size) {
   if (!std::isfinite(size) || size == 0)
     throw Error(fmt::format("the step size is a finite time other than zero, not {}", size));
@@ -80,6 +113,7 @@ void Simulation::step_size(double size) {
 
 void Simulation::threads(int count) {
   for (auto* scheme : schemes_) scheme->threads(count);
+  for (auto* flow : flows_) flow->threads(count);
   for (auto& part : parts_) part.integrator->threads(count < 1 ? default_threads() : count);
 }
 
@@ -128,6 +162,7 @@ void Simulation::check() {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
   take_lengths();
+  check_flows();
   if (reversible && !changes_.empty())
     throw Error("the reversible leap-frog can't take back what an adaptation does between steps; use leap-frog");
   if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
@@ -153,6 +188,26 @@ void Simulation::check() {
         }
   fresh_ = true;
   checked_ = true;
+}
+
+void Simulation::check_flows() {
+  std::vector<Flow*> all = flows_;
+  for (auto const& preparation : preparations_) all.push_back(preparation.flow.get());
+  for (auto* flow : all) {
+    for (auto* ensemble : flow->ensembles()) {
+      auto const part =
+          std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
+      if (part == parts_.end())
+        throw Error("friction and noise act on ensemble '" + ensemble->name() +
+                    "', which no scheme of the simulation supervises");
+      bool const all = part->integrator->same_for_all();
+      if (part->integrator->method() != Method::leap_frog || !all)
+        throw Error("friction and noise act on ensemble '" + ensemble->name() +
+                    "', which needs leap-frog for all its particles then, not " +
+                    (all ? to_string(part->integrator->method()) : "some that are frozen"));
+    }
+    flow->check();
+  }
 }
 
 FixedPoint Simulation::choose_grid() const {
@@ -205,7 +260,7 @@ void Simulation::calculate(double time) {
   for (auto* scheme : schemes_) scheme->add_influences(time);
 }
 
-void Simulation::advance(double dt) {
+void Simulation::advance(double dt, std::vector<Flow*> const& flows) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double const start = time();
   double passed = 0;
@@ -220,9 +275,11 @@ void Simulation::advance(double dt) {
       passed = part.time_after[stage];
       if (motion != Motion::final) continue;
       move_walls(start + passed * dt);
-      for (auto const* scheme : schemes_) scheme->box().apply(*part.ensemble, scheme->threads());
+      for (auto const* scheme : schemes_) work_ += scheme->box().apply(*part.ensemble, scheme->threads());
     }
   }
+  if (!flows.empty() && !fresh_) calculate(start + passed * dt), fresh_ = true;
+  for (auto* flow : flows) flow->advance(context);
   for (auto const& part : parts_) check_moves(part);
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > far_above * scheme->sound_step())
@@ -233,7 +290,7 @@ void Simulation::advance(double dt) {
 }
 
 std::unique_ptr<WholeSteps> Simulation::whole_steps(double dt) {
-  if (schemes_.size() != 1 || !changes_.empty()) return nullptr;
+  if (schemes_.size() != 1 || !changes_.empty() || !flows_.empty()) return nullptr;
   std::vector<Mover> movers;
   for (auto const& part : parts_) {
     Method const method = part.integrator->method();
@@ -266,6 +323,7 @@ void Simulation::check_moves(Part const& part) const {
 
 void Simulation::complete() const {
   for (auto* scheme : schemes_) scheme->complete(time());
+  for (auto* flow : flows_) flow->complete();
 }
 
 /// Of all rows, whatever their meaning.
@@ -344,6 +402,34 @@ void Simulation::observe_now() const {
     if (observation.due(step_)) observation.observer(*this);
 }
 
+void Simulation::prepare_now() {
+  if (preparations_.empty()) return;
+  auto const preparations = std::move(preparations_);
+  preparations_.clear();
+  for (auto* scheme : schemes_) scheme->box().hold_walls(true);
+  for (auto const& [flow, steps] : preparations) {
+    flow->threads(schemes_.front()->threads());
+    std::vector<std::array<double, 3>> drifts;
+    for (auto* ensemble : flow->ensembles()) drifts.push_back(come_to_rest(*ensemble));
+    for (std::uint64_t n = 0; n < steps && !stop_; ++n) {
+      try {
+        advance(step_size_, {flow.get()});
+      } catch (PhysicsFailure const& failure) {
+        throw PhysicsFailure(fmt::format("step {} of the preparation: {}", n + 1, failure.what()));
+      }
+      ++step_;  // noise of its own for each
+    }
+    step_ = base_step_;
+    for (std::size_t e = 0; auto* ensemble : flow->ensembles()) {
+      come_to_rest(*ensemble);
+      set_moving(*ensemble, drifts[e++]);
+    }
+  }
+  for (auto* scheme : schemes_) scheme->box().hold_walls(false);
+  work_ = 0;
+  take_particles();
+}
+
 void Simulation::run(std::uint64_t steps) { run(steps, 1); }
 void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
 
@@ -351,7 +437,9 @@ void Simulation::run(std::uint64_t steps, int direction) {
   check();
   if (direction < 0 && !changes_.empty())
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
+  if (direction < 0 && !flows_.empty()) throw Error("a run with friction and noise can't go backwards");
   if (!observed_) {
+    if (steps > 0) prepare_now();
     observed_ = true;
     observe_now();
   }
@@ -370,7 +458,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
       if (whole)
         whole->step(time());
       else
-        advance(dt);
+        advance(dt, flows_);
     } catch (PhysicsFailure const& failure) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }
@@ -391,25 +479,35 @@ void Simulation::run(std::uint64_t steps, int direction) {
 Measures Simulation::measure() const {
   Measures total;
   for (auto* scheme : schemes_) {
-    Measures const part = scheme->measure(time());
+    Measures part = scheme->measure(time());
     total.potential += part.potential;
     total.external += part.external;
     total.internal += part.internal;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) total.virial[a][b] += part.virial[a][b];
     if (!part.unknown.empty()) total.unknown = part.unknown;
-    if (schemes_.size() == 1) total.per_particle = part.per_particle;
+    if (schemes_.size() == 1) {
+      total.per_particle = std::move(part.per_particle);
+      total.virial_per_particle = std::move(part.virial_per_particle);
+    }
+  }
+  total.work = work_;
+  for (auto const* flow : flows_) {
+    total.internal += flow->internal_energy();
+    total.heat += flow->heat();
   }
   return total;
 }
 
 std::vector<double> Simulation::state() const {
-  std::vector<double> state{static_cast<double>(base_step_), base_time_, grid_.position, grid_.velocity, grid_.force};
-  for (auto const* scheme : schemes_) {
-    auto const part = scheme->state();
+  std::vector<double> state{
+      static_cast<double>(base_step_), base_time_, grid_.position, grid_.velocity, grid_.force, work_};
+  auto const add = [&](std::vector<double> const& part) {
     state.push_back(static_cast<double>(part.size()));
     state.insert(state.end(), part.begin(), part.end());
-  }
+  };
+  for (auto const* scheme : schemes_) add(scheme->state());
+  for (auto const* flow : flows_) add(flow->state());
   if (keeps_influences_) {
     bool const fresh = fresh_ && (running_ || (kept_ && checksum() == kept_checksum_));
     state.push_back(fresh ? 1 : 0);
@@ -419,32 +517,31 @@ std::vector<double> Simulation::state() const {
         state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
     }
   }
-  for (auto const& change : changes_) {
-    auto const part = change.adaptation->state();
-    state.push_back(static_cast<double>(part.size()));
-    state.insert(state.end(), part.begin(), part.end());
-  }
+  for (auto const& change : changes_) add(change.adaptation->state());
   return state;
 }
 
 void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed, std::span<double const> state) {
   auto const misfit = [] { return Error("the checkpoint does not fit this simulation: its state has another length"); };
-  if (state.size() < 5) throw misfit();
+  if (state.size() < 6) throw misfit();
   grid_ = {state[2], state[3], state[4]};
   step_size_ = step_size;
   step_ = step;
   base_step_ = static_cast<std::int64_t>(state[0]);
   base_time_ = state[1];
+  work_ = state[5];
   seed_ = seed;
   check();
-  std::size_t at = 5;
-  for (auto* scheme : schemes_) {
+  std::size_t at = 6;
+  auto const next = [&] {
     if (at >= state.size()) throw misfit();
     auto const count = static_cast<std::size_t>(state[at++]);
     if (at + count > state.size()) throw misfit();
-    scheme->restore(state.subspan(at, count));
     at += count;
-  }
+    return state.subspan(at - count, count);
+  };
+  for (auto* scheme : schemes_) scheme->restore(next());
+  for (auto* flow : flows_) flow->restore(next());
   if (keeps_influences_ && at >= state.size()) throw misfit();
   kept_ = keeps_influences_ && state[at++] != 0;
   if (kept_)
@@ -454,13 +551,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
       std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influence(0));
       at += count;
     }
-  for (auto const& change : changes_) {
-    if (at >= state.size()) throw misfit();
-    auto const count = static_cast<std::size_t>(state[at++]);
-    if (at + count > state.size()) throw misfit();
-    change.adaptation->restore(state.subspan(at, count));
-    at += count;
-  }
+  for (auto const& change : changes_) change.adaptation->restore(next());
   take_lengths();
   complete();
   kept_checksum_ = checksum();

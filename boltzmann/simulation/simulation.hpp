@@ -1,6 +1,7 @@
 // Simulation: the loop. Schemes calculate influences, integrators advance particles, observers look at finished steps.
 #pragma once
 
+#include <boltzmann/flows/flow.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
@@ -21,6 +22,9 @@ class Simulation {
 
   /// A further scheme that adds its influences (its ensembles may be the same or others).
   void add(Scheme& scheme);
+  /// A flow that acts after every step, for the time of the step (it must outlive the simulation). Its ensembles are
+  /// advanced by leap-frog. A run with flows can't go backwards.
+  void add(Flow& flow);
 
   /// How an ensemble is advanced. Every ensemble needs one method.
   template <class P>
@@ -49,6 +53,11 @@ class Simulation {
   /// In the order in which they are called.
   std::vector<Adaptation const*> adaptations() const;
 
+  /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this flow in
+  /// place of the simulation's own, on velocities relative to the common one of each ensemble: a body is brought to a
+  /// temperature. Nobody observes these steps, they are not counted, and moving walls stand still.
+  void prepare(std::shared_ptr<Flow> flow, std::uint64_t steps);
+
   /// Makes ready and refuses what can't run: an ensemble without integrator, particles where they can't be, influences
   /// that are not finite (two particles at one place). Error with one line. run() calls it once.
   void check();
@@ -72,9 +81,10 @@ class Simulation {
   void threads(int count);
 
   std::vector<Scheme*> const& schemes() const { return schemes_; }
+  std::vector<Flow*> const& flows() const { return flows_; }
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   Method method(AnyEnsemble const& ensemble) const;
-  /// Energies and virial of the present state, over all schemes.
+  /// Energies and virial of the present state, over all schemes and flows.
   Measures measure() const;
 
   /// What, besides the particles, determines the bits of the next step.
@@ -100,7 +110,12 @@ class Simulation {
     std::unique_ptr<Adaptation> adaptation;
   };
 
-  void advance(double dt);
+  struct Preparation {
+    std::shared_ptr<Flow> flow;
+    std::uint64_t steps;
+  };
+
+  void advance(double dt, std::vector<Flow*> const& flows);
   std::unique_ptr<WholeSteps> whole_steps(double dt);
   bool observation_due() const;
   void run(std::uint64_t steps, int direction);
@@ -110,6 +125,8 @@ class Simulation {
   void observe_now() const;
   void adapt_now();
   void take_particles();
+  void check_flows();
+  void prepare_now();
   void take_lengths();
   void complete() const;
   std::uint64_t checksum(bool with_influences = false) const;
@@ -118,16 +135,18 @@ class Simulation {
   FixedPoint choose_grid() const;
 
   std::vector<Scheme*> schemes_;
+  std::vector<Flow*> flows_;
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Part> parts_;
   std::vector<Observation> observations_;
   std::vector<Change> changes_;
+  std::vector<Preparation> preparations_;
   std::vector<std::function<void(Simulation const&)>> progress_;
   FixedPoint grid_;
   Scheme::Shortcut shortcut_;
   double step_size_;
   std::int64_t step_ = 0, base_step_ = 0;
-  double base_time_ = 0;
+  double base_time_ = 0, work_ = 0;
   std::uint64_t seed_ = 1;
   int stages_ = 0;
   bool checked_ = false, fresh_ = false, observed_ = false, running_ = false;

@@ -250,7 +250,9 @@ Measures PairScheme::measure(double time) {
   neighbourhood_.refresh(threads());
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
-  std::vector<std::vector<double>> virial(all.size()), field(all.size());
+  auto& virial = measures.virial_per_particle;
+  virial.resize(all.size());
+  std::vector<std::vector<double>> field(all.size());
   for (std::size_t e = 0; e < all.size(); ++e) {
     measures.per_particle[e].assign(all[e]->size(), 0.0);
     virial[e].assign(9 * all[e]->size(), 0.0);

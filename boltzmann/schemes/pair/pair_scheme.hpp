@@ -78,6 +78,8 @@ class PairScheme final : public Scheme {
   /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
   void skin(double length) { neighbourhood_.skin(length); }
   double skin() const { return neighbourhood_.skin(); }
+  /// Mirrors and lists, as they stand since the last calculation: for what else acts between near particles.
+  Neighbourhood& neighbourhood() { return neighbourhood_; }
   /// Whether energies of laws with a cut-off are counted from their value there (the default): that is the energy which
   /// the cut-off forces conserve. Otherwise they are counted as the law has them, and jump whenever a pair crosses the
   /// cut-off.

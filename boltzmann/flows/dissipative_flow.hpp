@@ -1,0 +1,88 @@
+// Dissipative pair flow: friction, noise and heat conduction between near particles (DPD, DPDE).
+#pragma once
+
+#include <boltzmann/flows/dissipation.hpp>
+#include <boltzmann/flows/flow.hpp>
+#include <boltzmann/laws/state_law.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace boltzmann {
+
+/// How the flow of all pairs together is made of that of one.
+enum class FlowMethod {
+  order_free,  ///< all pairs act at once on the velocities of the step's end; each particle then gets back as heat what
+               ///< its motion has lost (energy reinjection)
+  pair_splitting,  ///< one pair after the other (Shardlow), in an order that depends on neighbour lists alone
+};
+std::string to_string(FlowMethod method);
+FlowMethod flow_method_named(std::string_view name);
+
+/// Total momentum, and total energy where particles have internal energies, are kept to rounding by every method,
+/// whatever the masses. Noise depends on the seed, the step and the numbers of the two particles alone; the same bits
+/// for any number of threads.
+class DissipativeFlow final : public Flow {
+ public:
+  /// Finds pairs by the neighbour lists of this scheme, which must be one of the simulation's. Boltzmann's constant in
+  /// the simulation's base.
+  DissipativeFlow(PairScheme& scheme, double boltzmann_constant);
+  ~DissipativeFlow() override;
+
+  /// The state law of an ensemble's internal energies: needed wherever the convention is not fixed_temperature. Error
+  /// if its class has no field "internal_energy".
+  void state(AnyEnsemble& ensemble, StateLaw law);
+  /// Dissipation among the particles of one ensemble. Error if its class has no mass or velocity, a parameter can't be,
+  /// or the range is longer than half of a periodic axis.
+  void internal(AnyEnsemble& ensemble, Dissipation const& dissipation);
+  /// And between those of two.
+  void between(AnyEnsemble& a, AnyEnsemble& b, Dissipation const& dissipation);
+
+  void method(FlowMethod method) { method_ = method; }
+  FlowMethod method() const { return method_; }
+  /// order_free: a second pass over the pairs, with the mean of the velocities before and after the first. Kinetic
+  /// temperatures are then right to second order in friction times step, not to first.
+  void corrector(bool wanted) { corrector_ = wanted; }
+  /// pair_splitting: every pair's new velocities are accepted or refused (Metropolis), so that each keeps the invariant
+  /// law exactly, and internal energies can't become negative.
+  void metropolis(bool wanted) { metropolis_ = wanted; }
+
+  std::vector<AnyEnsemble*> ensembles() const override;
+  void check() override;
+  void advance(StepContext const& context) override;
+  void complete() override;
+  double internal_energy() const override;
+  double heat() const override { return heat_; }
+  std::vector<std::string> advice(double step_size) override;
+  std::string report() const override;
+  std::size_t bytes() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+ private:
+  struct Member;    // an ensemble with its points
+  struct Coupling;  // a dissipation between two members, with its pairs
+  struct Splitting;
+
+  Member& member(AnyEnsemble& ensemble);
+  void couple(AnyEnsemble& target, AnyEnsemble& source, Dissipation const& dissipation);
+  void take_points();
+  void take_lists();
+  void order_free(StepContext const& context);
+  void pair_splitting(StepContext const& context);
+
+  PairScheme& scheme_;
+  double boltzmann_constant_;
+  FlowMethod method_ = FlowMethod::order_free;
+  bool corrector_ = false, metropolis_ = false;
+  double heat_ = 0;
+  std::uint64_t proposed_ = 0, refused_ = 0;
+  std::vector<std::unique_ptr<Member>> members_;
+  std::vector<std::unique_ptr<Coupling>> couplings_;
+  std::unique_ptr<Splitting> splitting_;
+};
+
+}  // namespace boltzmann

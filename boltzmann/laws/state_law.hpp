@@ -1,0 +1,50 @@
+// State laws: which temperature, heat capacity and entropy an internal energy stands for.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+class Stream;
+
+/// The caloric state law of a particle's internal degrees of freedom, from their heat capacity Cv(T): the energy is the
+/// integral of Cv from 0 to T, the entropy that of Cv / T, so that 1 / T = ds / d eps to rounding. Between the
+/// temperatures of a table Cv is linear, outside them it keeps the first and the last value.
+class StateLaw {
+ public:
+  /// Cv, energy per temperature, the same at all temperatures: eps = Cv T. Error if it is not positive.
+  explicit StateLaw(double heat_capacity);
+  /// Cv at ascending temperatures, at least two. Error if something is not positive or not ascending.
+  StateLaw(std::vector<double> temperatures, std::vector<double> heat_capacities);
+  /// Cv(T) as a function, tabulated on [lowest, highest], 0 < lowest < highest, so finely that between its points
+  /// energies are right to about 1e-6 for smooth functions. Error if it is not positive and finite there.
+  StateLaw(std::function<double(double)> const& heat_capacity, double lowest, double highest);
+
+  bool constant() const { return temperature_.empty(); }
+  /// The energy at a temperature, zero or more.
+  double energy(double temperature) const;
+  /// The temperature of an energy: zero or less of zero or less.
+  double temperature(double energy) const;
+  double heat_capacity(double temperature) const;
+  /// s(eps), up to a constant (zero at the first temperature of a table, at the energy 1 of a constant heat capacity).
+  /// Of positive energies.
+  double entropy(double energy) const;
+
+  /// Draws an internal energy in equilibrium with a heat bath: the density is proportional to
+  /// exp(s(eps) / k - eps / (k T)) (Eq 5 of the DPDE source; for constant Cv the Gamma distribution of shape
+  /// Cv / k + 1 and scale k T). Uses one number of the stream. Error if temperature or k is not positive.
+  double draw(double temperature, double boltzmann_constant, Stream& stream) const;
+  /// The fraction of that distribution below an energy, and its inverse for u in (0, 1).
+  double distribution(double energy, double temperature, double boltzmann_constant) const;
+  double quantile(double u, double temperature, double boltzmann_constant) const;
+
+ private:
+  double heat_capacity_ = 0;  // if constant
+  // At the points of a table: linear in between, so that energies are quadratic.
+  std::vector<double> temperature_, capacity_, energy_, entropy_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,17 @@
+// Internal energies in equilibrium with a heat bath, for mesoparticles.
+#pragma once
+
+#include <boltzmann/laws/state_law.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <cstdint>
+
+namespace boltzmann {
+
+/// Gives every particle an internal energy drawn from its exact invariant law at this temperature (StateLaw::draw), and
+/// the field "temperature", where the class has one, the temperature of it. Particle i draws from a stream of its own.
+/// Error if the class has no field "internal_energy", or temperature or k is not positive.
+void internal_energy_load(AnyEnsemble& ensemble, StateLaw const& law, double temperature, double boltzmann_constant,
+                          std::uint64_t seed);
+
+}  // namespace boltzmann

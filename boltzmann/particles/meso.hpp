@@ -1,0 +1,26 @@
+// Mesoparticles: groups of atoms taken as one, with the heat of what was left out (dissipative particle dynamics with
+// energy).
+#pragma once
+
+#include <boltzmann/particles/newton.hpp>
+
+namespace boltzmann {
+
+/// A molecule, or a lump of matter, as one particle: its internal energy is that of the degrees of freedom that are not
+/// followed. A DissipativeFlow exchanges it with the motion; a StateLaw says which temperature it stands for.
+template <int D, class Real = double>
+struct Meso : Newton<D, Real> {
+  static constexpr char const* class_name = "Meso";
+
+  Real internal_energy;
+  Real temperature;  ///< of the internal degrees of freedom, as the flow finds it when somebody looks
+
+  template <class Self>
+  static FieldTable<Self> fields() {
+    return Newton<D, Real>::template fields<Self>()
+        .add(&Meso::internal_energy, "internal_energy", dimensions::energy, "energy of what is inside it")
+        .add(&Meso::temperature, "temperature", dimensions::temperature, "temperature of what is inside it");
+  }
+};
+
+}  // namespace boltzmann
