@@ -1,5 +1,6 @@
 // Totals at both ends of a run, and the table that compares them.
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/flows/langevin_flow.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
@@ -38,6 +39,11 @@ std::string row(std::string const& name, double start, double end, double drift,
   return fmt::format("  {:<34} {:>16.9g} {:>16.9g}   {:>9.2e}  {}", name, start, end, drift, relative_to);
 }
 
+std::string name_of_energy(Conserved const& start, Conserved const& end) {
+  bool const work = start.work != 0 || end.work != 0, heat = start.heat != 0 || end.heat != 0;
+  return !work && !heat ? "energy" : std::string("energy less ") + (!heat ? "work" : !work ? "heat" : "work and heat");
+}
+
 }  // namespace
 
 Conserved conserved(Simulation const& simulation) {
@@ -45,6 +51,8 @@ Conserved conserved(Simulation const& simulation) {
   auto const& ensembles = simulation.ensembles();
   Measures const measures = simulation.measure();
   total.isolated = measures.external == 0;
+  total.work = measures.work;
+  total.heat = measures.heat;
   bool massive = !ensembles.empty();
   bool periodic = false;
   for (auto const* scheme : simulation.schemes()) {
@@ -55,6 +63,8 @@ Conserved conserved(Simulation const& simulation) {
       total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::bounded &&
                        scheme->box().boundary(a) != Boundary::mirror;
   }
+  for (auto const* flow : simulation.flows())
+    total.isolated = total.isolated && dynamic_cast<LangevinFlow const*>(flow) == nullptr;
   for (auto const* ensemble : ensembles) {
     if (!carries_momentum(*ensemble)) {
       massive = false;
@@ -69,7 +79,7 @@ Conserved conserved(Simulation const& simulation) {
   total.momentum = momentum(ensembles);
   if (!periodic && total.dimension > 1) total.angular_momentum = angular_momentum(ensembles);
   if (measures.unknown.empty())
-    total.energy = kinetic + measures.potential + measures.external + measures.internal;
+    total.energy = kinetic + measures.potential + measures.external + measures.internal - measures.work - measures.heat;
   else
     total.no_energy = measures.unknown + " gives no energy";
   total.energy_scale =
@@ -90,8 +100,8 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
     bool const near_zero = std::abs(*start.energy) < 1e-3 * start.energy_scale;
     double const scale = near_zero ? start.energy_scale : std::abs(*start.energy);
     auto const unit = base.display(dimensions::energy);
-    lines.push_back(row(with_unit("energy", unit.unit), *start.energy * unit.factor, *end.energy * unit.factor,
-                        part(*end.energy - *start.energy, scale),
+    lines.push_back(row(with_unit(name_of_energy(start, end), unit.unit), *start.energy * unit.factor,
+                        *end.energy * unit.factor, part(*end.energy - *start.energy, scale),
                         near_zero ? "of kinetic + |potential|" : "of itself"));
   } else if (!start.no_energy.empty()) {
     lines.push_back(fmt::format("  {:<34} not defined: {}", "energy", start.no_energy));
@@ -109,7 +119,7 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
     vector("angular momentum", dimensions::angular_momentum, *start.angular_momentum, *end.angular_momentum,
            std::max(start.angular_momentum_scale, end.angular_momentum_scale), "of the sum of |m r x v|");
   if (start.momentum && !(start.isolated && end.isolated))
-    lines.emplace_back("  (walls and influences from outside change momenta)");
+    lines.emplace_back("  (walls, heat baths and influences from outside change momenta)");
   return lines;
 }
 

@@ -13,15 +13,18 @@ namespace boltzmann {
 
 /// Totals over all ensembles whose class has a mass and a velocity.
 struct Conserved {
-  std::optional<double> energy;  ///< kinetic + potential + external; none if a law gives no energy or a class no mass
+  std::optional<double> energy;  ///< kinetic + potential + external + internal, less what has come from outside: work
+                                 ///< and heat; none if a law gives no energy or a class no mass
   std::string no_energy;         ///< why there is none
+  double work = 0;               ///< that moving walls have done since the start of the run
+  double heat = 0;               ///< that heat baths have given since the start of the run
   std::optional<std::array<double, 3>> momentum;          ///< none where a class has no mass
   std::optional<std::array<double, 3>> angular_momentum;  ///< about the origin; none on periodic axes
   double energy_scale = 0;                                ///< kinetic energy + |potential| + |external|
   double momentum_scale = 0;                              ///< sum of |m v|
   double angular_momentum_scale = 0;                      ///< sum of |m r x v|
   int dimension = 3;
-  bool isolated = true;  ///< no walls, and no energy in fields from outside: momentum can be conserved
+  bool isolated = true;  ///< no walls, no heat bath, and no energy in fields from outside: momentum can be conserved
 };
 
 /// Of the present state. Calculates the energies of all schemes once.
@@ -31,8 +34,9 @@ Conserved conserved(Simulation const& simulation);
 /// the product ("65.46 fs").
 std::string quantity_text(double number, Dimension dimension, Base const& base, int digits = 4);
 
-/// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy: relative to its own
-/// start (to its scale if it starts near zero); momenta: relative to their scales, since totals are often zero.
+/// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
+/// work and heat" where there was some): relative to its own start (to its scale if it starts near zero); momenta:
+/// relative to their scales, since totals are often zero.
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base);
 
 }  // namespace boltzmann

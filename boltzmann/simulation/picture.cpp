@@ -3,6 +3,7 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/drawings.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
+#include <boltzmann/diagnoses/profile.hpp>
 #include <boltzmann/diagnoses/spectrum_of.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/files/checkpoint.hpp>
@@ -100,6 +101,20 @@ bool of_smooth_field(Picture const& picture) {
 
 std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
 
+// The names of a profile's quantities, and its axis.
+std::vector<std::string> profile_names(Picture const& picture) {
+  auto const names = split(picture.y);
+  return names.empty() ? std::vector<std::string>{"density"} : names;
+}
+int profile_axis(Picture const& picture, int dimension) {
+  if (picture.x.empty()) return 0;
+  for (int a = 0; a < dimension; ++a)
+    if (picture.x == std::string("position.") + "xyz"[a]) return a;
+  throw Error("a profile in " + std::to_string(dimension) + "D is over position.x" +
+              (dimension > 1 ? (dimension > 2 ? ", position.y or position.z" : " or position.y") : "") + ", not '" +
+              picture.x + "'");
+}
+
 class Drawer {
  public:
   Drawer(Picture const& picture, PictureContext const& context)
@@ -109,6 +124,7 @@ class Drawer {
     if (picture_.drawing == "cartesian") return cartesian();
     if (picture_.drawing == "phase-space") return phase_space(picture_.x, picture_.y);
     if (picture_.drawing == "spectrum") return picture_.x == "time" ? spectrum_in_time() : spectrum_in_space();
+    if (picture_.drawing == "profile") return profiles();
     if (picture_.drawing == "mesh") return mesh();
     if (picture_.drawing == "wave-spectrum") return wave_spectrum();
     if (of_smooth_field(picture_)) return smooth_field();
@@ -487,6 +503,42 @@ class Drawer {
     return draw_time_series(series, {"time", heading(data.header[1]).unit}, y, title(false));
   }
 
+  Canvas profiles() const {
+    int const D = box().dimension(), a = profile_axis(picture_, D);
+    Measures const measures = context_.simulation.measure();
+    double const k = context_.base.is_reduced() ? 1 : context_.base(constants::boltzmann);
+    Bodies const bodies(ensembles_, &measures);
+    std::size_t number = 0;
+    for (auto const& source : bodies.sources()) number += source.ensemble->size();
+    if (number == 0) return too_few("a profile needs particles with a mass and a velocity");
+    auto const bins = std::clamp<std::size_t>(number / 30, 1, static_cast<std::size_t>(picture_.cells));
+    auto const [low, high] = extent(bodies, box(), a);
+    Profile const found = profile(bodies, box(), a, low, high, bins, k);
+
+    std::vector<ProfileQuantity> meanings;
+    for (auto const& name : profile_names(picture_)) meanings.push_back(profile_quantity(D, name));
+    bool const one = meanings.size() == 1;
+    bool const same = std::all_of(meanings.begin(), meanings.end(),
+                                  [&](auto const& m) { return m.dimension == meanings[0].dimension; });
+    // Of different dimensions each in its own unit.
+    std::vector<Values> values;
+    std::vector<Series> series;
+    for (auto const& what : meanings) {
+      values.push_back(found.values(what.name));
+      auto const shown = shown_in(what.dimension);
+      if (!same)
+        for (double& v : values.back()) v *= shown.factor;
+      bool const with_unit = !same && !shown.unit.empty();
+      series.push_back({one ? "" : with_unit ? what.label + " (" + shown.unit + ")" : what.label, {}, {}, {}});
+    }
+    for (std::size_t s = 0; s < series.size(); ++s) series[s].x = found.position, series[s].y = values[s];
+    Axis x = axis(std::string(1, "xyz"[a]), dimensions::length);
+    x.low = low, x.high = high;
+    Axis y = same ? axis(one ? meanings[0].label : "", meanings[0].dimension) : Axis{};
+    y.low = picture_.low, y.high = picture_.high, y.logarithmic = picture_.logarithmic;
+    return draw_profile(series, x, y, title());
+  }
+
   // A run that was stopped early is no reason to fail: the picture says why it is empty.
   Canvas too_few(std::string const& why) const {
     Canvas canvas;
@@ -727,8 +779,8 @@ void check_smooth_field(Picture const& picture, std::vector<AnyEnsemble*> const&
 }  // namespace
 
 std::vector<std::string> const& drawing_names() {
-  static std::vector<std::string> const names{"cartesian",     "phase-space", "spectrum", "time-series", "mesh",
-                                              "wave-spectrum", "map",         "contours", "bands"};
+  static std::vector<std::string> const names{"cartesian", "phase-space",   "spectrum", "time-series", "profile",
+                                              "mesh",      "wave-spectrum", "map",      "contours",    "bands"};
   return names;
 }
 
@@ -758,6 +810,12 @@ void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, s
   known(picture.colour);
   known(picture.size);
   if (picture.drawing == "phase-space") known(picture.x), known(picture.y);
+  if (picture.drawing == "profile" && !ensembles.empty()) {
+    int const D = ensembles.front()->dimension();
+    profile_axis(picture, D);
+    for (auto const& name : profile_names(picture)) profile_quantity(D, name);
+    if (picture.cells < 1) throw Error(fmt::format("a profile has one bin or more, not {}", picture.cells));
+  }
   if (picture.drawing == "spectrum" && picture.x != "time") {
     if (!picture.x.empty()) check_spectrum_axis(picture.x);
     known(picture.x), known(picture.y);

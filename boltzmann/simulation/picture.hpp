@@ -1,5 +1,6 @@
-// Pictures of a simulation: particles in space, phase space, a spectrum, a time series, smooth fields of the particles,
-// what a mesh has on its nodes or the waves on it, drawn from the present state and from the files of the run.
+// Pictures of a simulation: particles in space, phase space, a spectrum, a time series, profiles along an axis, smooth
+// fields of the particles, what a mesh has on its nodes or the waves on it, drawn from the present state and from the
+// files of the run.
 #pragma once
 
 #include <boltzmann/core/unit_base.hpp>
@@ -23,32 +24,35 @@ struct Dispersion {
 /// What a picture shows. `recording.picture({.colour = "speed"})` is the particles in space, coloured by speed.
 struct Picture {
   std::string drawing = "cartesian";  ///< one of drawing_names()
-  std::string x = {};  ///< phase-space: a field, "position.x". spectrum: "position.x" (across space) or "time"
+  std::string x = {};  ///< phase-space: a field, "position.x". spectrum: "position.x" (across space) or "time".
+                       ///< profile: "position.x" (also if empty), "position.y" or "position.z"
   std::string y = {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over
                        ///< time. time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's
                        ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential.
+                       ///< profile: names of profile_quantities(), separated by commas; empty: "density".
                        ///< wave-spectrum: which of those recorded, by its quantity; empty: the first
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
   bool trace = false;                ///< also the tracks through all frames of trajectory.h5 (cartesian, phase-space)
   double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours (contours: also of
-                                                          ///< the levels), or of the axis of a mesh or a map in 1D;
-                                                          ///< NaN: of the state
+                                                          ///< the levels), or of the axis of a profile, a mesh or a map
+                                                          ///< in 1D; NaN: of the state
   double high = std::numeric_limits<double>::quiet_NaN();
   std::string slice = "z";                               ///< fields in 3D: the axis that the slice is normal to
   double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
   std::vector<Dispersion> curves = {};                   ///< wave-spectrum: drawn over it
-  bool logarithmic = false;  ///< time-series: the values on a logarithmic axis, 12 decades at most
+  bool logarithmic = false;  ///< time-series, profile: the values on a logarithmic axis, 12 decades at most
   // map, contours, bands
   Smoothing smoothing = {};         ///< range 0: each particle's own; if a class has none, fitting_range()
   std::vector<double> levels = {};  ///< contours, bands: ascending; empty: level_count even ones
   int level_count = 0;              ///< 0: 8 for contours; the mean over the picture alone for bands
-  int cells = 300;                  ///< of the grid, along the longest side of the picture
+  int cells = 300;  ///< of the grid, along the longest side of the picture; profile: bins at most, fewer
+                    ///< if these had less than 30 particles in the mean
 };
 
-/// "cartesian", "phase-space", "spectrum", "time-series", "mesh", "wave-spectrum"; of the smooth fields of particles
-/// "map" (colours), "contours" (lines) and "bands" (shades between levels).
+/// "cartesian", "phase-space", "spectrum", "time-series", "profile", "mesh", "wave-spectrum"; of the smooth fields of
+/// particles "map" (colours), "contours" (lines) and "bands" (shades between levels).
 std::vector<std::string> const& drawing_names();
 
 /// The state that a picture shows and what is written about it.

@@ -102,9 +102,12 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   RunReport report;
   for (auto const* ensemble : simulation.ensembles()) report.particles += static_cast<std::int64_t>(ensemble->size());
   std::int64_t const first = simulation.step();
-  for (auto* scheme : simulation.schemes())
-    for (auto const& advice : scheme->advice(simulation.step_size()))
+  auto const print_advice = [&](std::vector<std::string> const& lines) {
+    for (auto const& advice : lines)
       if (!options.quiet || advice.starts_with("warning")) fmt::print(stderr, "{}\n", advice);
+  };
+  for (auto* scheme : simulation.schemes()) print_advice(scheme->advice(simulation.step_size()));
+  for (auto* flow : simulation.flows()) print_advice(flow->advice(simulation.step_size()));
   // The observer stays with the simulation, without effect once the line is gone.
   auto line = std::make_shared<std::unique_ptr<ProgressLine>>();
   if (!options.quiet) {

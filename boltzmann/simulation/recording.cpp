@@ -494,6 +494,8 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
   }
   for (auto const* scheme : simulation.schemes())
     if (auto const line = scheme->report(); !line.empty()) fmt::print("  scheme   {}\n", line);
+  for (auto const* flow : simulation.flows())
+    if (auto const line = flow->report(); !line.empty()) fmt::print("  flow     {}\n", line);
   for (auto const* adaptation : simulation.adaptations())
     if (auto const line = adaptation->report(recording.base()); !line.empty()) fmt::print("  changes  {}\n", line);
   fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));
@@ -506,7 +508,10 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   Simulation& simulation = recording.simulation();
   Interrupt const interrupt(simulation);
   simulation.check();
-  Conserved const start = conserved(simulation);
+  // What the run begins with is known only when it has been prepared. The observer stays with the simulation.
+  auto const start = std::make_shared<Conserved>(conserved(simulation));
+  simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
+                          [start](Simulation const& now) { *start = conserved(now); });
   double const before = recording.seconds();
   RunReport report;
   try {
@@ -519,7 +524,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   }
   double const recorded = recording.seconds() - before;
   recording.finish();
-  if (!options.quiet) print_summary(recording, report, start, recorded);
+  if (!options.quiet) print_summary(recording, report, *start, recorded);
   if (report.interrupted)
     fmt::print(stderr, "stopped by a signal after step {}; its checkpoint is written: {}/checkpoint.h5\n",
                simulation.step(), recording.folder());

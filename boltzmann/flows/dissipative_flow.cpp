@@ -1,0 +1,377 @@
+// What friction and noise act on: ensembles, their state laws, and the pairs that neighbour lists give.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/flows/members.hpp>
+#include <boltzmann/flows/splitting.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+constexpr double nowhere = 1e150;  // its square is finite
+constexpr double noticeable = 0.01;
+constexpr std::size_t sampled = 1000;
+constexpr char const* axis_name = "xyz";
+
+}  // namespace
+
+std::string DissipativeFlow::Member::who(std::size_t row) const {
+  return fmt::format("particle {} of '{}'", mirror->order()[row], ensemble->name());
+}
+
+FlowKernels const& flow_kernels_for(int dimension, bool projected) {
+  return for_instruction_set([](auto set) -> FlowKernelTable const& { return flow_kernels<set()>(); })
+      .of[dimension - 1][projected ? 1 : 0];
+}
+
+DissipativeFlow::DissipativeFlow(PairScheme& scheme, double boltzmann_constant)
+    : scheme_(scheme), boltzmann_constant_(boltzmann_constant), splitting_(std::make_unique<Splitting>()) {
+  if (!(boltzmann_constant > 0) || !std::isfinite(boltzmann_constant))
+    throw Error(fmt::format("Boltzmann's constant is positive, not {}", boltzmann_constant));
+}
+
+DissipativeFlow::~DissipativeFlow() = default;
+
+DissipativeFlow::Member& DissipativeFlow::member(AnyEnsemble& ensemble) {
+  for (auto& member : members_)
+    if (member->ensemble == &ensemble) return *member;
+  auto const at = [&](char const* name) {
+    Field const* field = ensemble.find_field(name);
+    return field ? field->offset : -1;
+  };
+  auto made = std::make_unique<Member>();
+  made->ensemble = &ensemble;
+  for (char const* name : {"mass", "velocity"})
+    if (at(name) < 0)
+      throw Error(fmt::format("friction can't act on ensemble '{}': class {} has no {}", ensemble.name(),
+                              ensemble.class_name(), name));
+  made->mass = at("mass");
+  made->velocity = at("velocity");
+  made->energy = at("internal_energy");
+  made->temperature = at("temperature");
+  made->mirror = &scheme_.neighbourhood().mirror(ensemble);
+  scheme_.load(ensemble);
+  members_.push_back(std::move(made));
+  return *members_.back();
+}
+
+void DissipativeFlow::state(AnyEnsemble& ensemble, StateLaw law) {
+  if (!ensemble.find_field("internal_energy"))
+    throw Error(fmt::format("ensemble '{}' of class {} has no internal energies that a state law could be of",
+                            ensemble.name(), ensemble.class_name()));
+  member(ensemble).law = std::move(law);
+}
+
+void DissipativeFlow::internal(AnyEnsemble& ensemble, Dissipation const& dissipation) {
+  couple(ensemble, ensemble, dissipation);
+}
+
+void DissipativeFlow::between(AnyEnsemble& a, AnyEnsemble& b, Dissipation const& dissipation) {
+  if (&a == &b) return couple(a, a, dissipation);
+  couple(a, b, dissipation);
+}
+
+void DissipativeFlow::couple(AnyEnsemble& target, AnyEnsemble& source, Dissipation const& dissipation) {
+  dissipation.check();
+  Box const& box = scheme_.box();
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (box.boundary(a) == Boundary::mirror)
+      throw Error(fmt::format(
+          "axis {} is a mirror: friction between pairs needs a bounded, periodic or open axis there", axis_name[a]));
+    if (box.periodic(a) && dissipation.range > 0.5 * box.length(a))
+      throw Error(
+          fmt::format("the range {} of friction is longer than half of the periodic axis {}, which allows at most {}: "
+                      "two particles must not meet twice",
+                      dissipation.range, axis_name[a], 0.5 * box.length(a)));
+  }
+  if (couplings_.size() > 200) throw Error("a flow has at most 100 kinds of friction");
+  Member &first = member(target), &second = member(source);
+  bool const fixed = dissipation.convention == Convention::fixed_temperature;
+  for (auto* one : {&first, &second}) {
+    if (one->dissipates && one->at_fixed_temperature != fixed)
+      throw Error(
+          fmt::format("friction on ensemble '{}' is at a fixed temperature in one place and with internal "
+                      "energies in another; it can't be both",
+                      one->ensemble->name()));
+    if (!fixed && one->energy < 0)
+      throw Error(fmt::format("convention {} needs internal energies, and ensemble '{}' of class {} has none",
+                              to_string(dissipation.convention), one->ensemble->name(), one->ensemble->class_name()));
+    one->dissipates = true;
+    one->at_fixed_temperature = fixed;
+  }
+  auto const number = static_cast<std::uint32_t>(couplings_.size());
+  auto const add = [&](Member& on, Member& of, bool is_first) {
+    auto coupling = std::make_unique<Coupling>();
+    coupling->target = &on;
+    coupling->source = &of;
+    coupling->dissipation = dissipation;
+    coupling->list = scheme_.neighbourhood().add(*on.ensemble, *of.ensemble, dissipation.range);
+    coupling->number = number;
+    coupling->first = is_first;
+    couplings_.push_back(std::move(coupling));
+  };
+  add(first, second, true);
+  if (&first != &second) add(second, first, false);
+}
+
+std::vector<AnyEnsemble*> DissipativeFlow::ensembles() const {
+  std::vector<AnyEnsemble*> all;
+  for (auto const& member : members_)
+    if (member->dissipates) all.push_back(member->ensemble);
+  return all;
+}
+
+void DissipativeFlow::check() {
+  if (metropolis_ && method_ != FlowMethod::pair_splitting)
+    throw Error("the Metropolis correction accepts or refuses pairs one by one: it needs the method pair-splitting");
+  if (corrector_ && method_ != FlowMethod::order_free)
+    throw Error("the corrector belongs to the method order-free; pair-splitting needs none");
+  for (auto const& coupling : couplings_)
+    if (metropolis_ && (coupling->dissipation.convention == Convention::deterministic ||
+                        coupling->dissipation.convention == Convention::fixed_temperature))
+      throw Error(
+          fmt::format("the Metropolis correction is for friction with noise and internal energies, not for "
+                      "convention {}",
+                      to_string(coupling->dissipation.convention)));
+  for (auto const& member : members_) {
+    if (!member->dissipates) continue;
+    AnyEnsemble const& ensemble = *member->ensemble;
+    if (!member->at_fixed_temperature && !member->law)
+      throw Error(fmt::format("ensemble '{}' has internal energies but no state law: say what its heat capacity is",
+                              ensemble.name()));
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* row = ensemble.row(i);
+      if (!(row[member->mass] > 0))
+        throw Error(fmt::format("particle {} of '{}' has the mass {}: friction needs positive masses", i,
+                                ensemble.name(), row[member->mass]));
+      if (member->has_energy() && !(row[member->energy] > 0 && std::isfinite(row[member->energy])))
+        throw Error(fmt::format("particle {} of '{}' has the internal energy {}: it must be positive", i,
+                                ensemble.name(), row[member->energy]));
+    }
+  }
+}
+
+PairNoise DissipativeFlow::Coupling::noise(StepContext const& context, double k) const {
+  Dissipation const& d = dissipation;
+  PairNoise n;
+  n.convention = d.convention;
+  n.inverse_range = 1 / d.range;
+  n.range2 = d.range * d.range;
+  n.exponent = d.exponent;
+  double const twice = 2 * d.exponent;
+  n.twice_exponent = twice == std::floor(twice) && twice <= 16 ? static_cast<int>(twice) : -1;
+  n.friction = d.friction * context.dt;
+  n.noise2 = 2 * d.friction * k * context.dt * (d.convention == Convention::constant_friction ? 1 : d.temperature);
+  n.temperature = d.temperature;
+  n.boltzmann_constant = k;
+  n.conduction = d.conduction * context.dt;
+  n.conduction_noise = std::sqrt(2 * k * n.conduction);
+  n.same = same();
+  n.first = first;
+  n.step = context.step & 0xffffffffU;
+  n.tag = number | (context.step >> 32U) << 8U;
+  n.key = PhiloxKey(context.seed);
+  return n;
+}
+
+void DissipativeFlow::take_points() {
+  for (auto& member : members_) {
+    if (!member->dissipates) continue;
+    Member& m = *member;
+    Mirror const& mirror = *m.mirror;
+    int const dimension = m.dimension();
+    std::size_t const owned = mirror.owned(), total = mirror.total();
+    m.points.resize(m.stride() * (total + 1));
+    int const threads = worth_threads(owned, particles_worth_threads / 2, this->threads());
+    StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
+    for_ranges(owned, flow_chunk, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        std::uint32_t const i = mirror.order()[k];
+        double const* row = m.ensemble->row(i);
+        double* point = m.point(k);
+        // Not the row's own: that may have been wrapped since lists were built.
+        std::copy_n(mirror.rows() + row_block * k, dimension, point);
+        std::copy_n(row + m.velocity, dimension, point + m.velocity_at());
+        point[m.inverse_mass_at()] = 1 / row[m.mass];
+        double inverse = 1, curvature = 0;
+        if (law) {
+          double const t = law->temperature(row[m.energy]);
+          inverse = 1 / t;
+          curvature = inverse * inverse / law->heat_capacity(t);
+        }
+        double* heat = point + 2 * dimension + 1;
+        heat[0] = inverse;
+        heat[1] = curvature;
+        heat[2] = i;
+      }
+    });
+    double* sentinel = m.point(owned);
+    std::fill_n(sentinel, m.stride(), 1.0);
+    std::fill_n(sentinel, dimension, nowhere);
+    for_ranges(total - owned, flow_chunk, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = owned + 1 + begin; k < owned + 1 + end; ++k) {
+        double* point = m.point(k);
+        std::copy_n(m.point(mirror.owner(k)), m.stride(), point);
+        std::copy_n(mirror.rows() + row_block * k, dimension, point);
+      }
+    });
+  }
+}
+
+/// Of each chunk of targets every pair once, in the order of the neighbour lists; with particles of other chunks, and
+/// with images, from both sides.
+void DissipativeFlow::take_lists() {
+  Neighbourhood const& neighbourhood = scheme_.neighbourhood();
+  for (auto& coupling : couplings_) {
+    Coupling& c = *coupling;
+    if (!c.same() || (c.builds == neighbourhood.builds() && c.moves == neighbourhood.moves())) continue;
+    c.builds = neighbourhood.builds();
+    c.moves = neighbourhood.moves();
+    NeighbourList const& list = neighbourhood.list(c.list);
+    Member const& m = *c.target;
+    std::uint32_t const sentinel = item_of_row(m.mirror->sentinel());
+    c.entries.resize(m.chunks());
+    c.row.resize(m.owned());
+    for (auto& length : c.length) length.resize(m.owned());
+    for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
+               [&](std::size_t first, std::size_t last) {
+                 std::vector<std::size_t> start;
+                 for (std::size_t chunk = first; chunk < last; ++chunk) {
+                   auto& entries = c.entries[chunk];
+                   entries.clear();
+                   std::size_t const begin = chunk * flow_chunk, end = std::min(begin + flow_chunk, m.owned());
+                   std::uint32_t const low = item_of_row(begin), high = item_of_row(end);
+                   start.clear();
+                   for (std::size_t k = begin; k < end; ++k) {
+                     start.push_back(entries.size());
+                     std::uint32_t const* j = list.rows()[k];
+                     std::uint32_t const self = item_of_row(k);
+                     std::uint32_t read = 0;
+                     for (int ring = 0; ring < list_rings; ++ring) {
+                       for (std::uint32_t const length = list.lengths(ring)[k]; read < length; ++read) {
+                         bool const twice = j[read] >= low && j[read] <= self && j[read] < high;
+                         if (!twice && j[read] != sentinel) entries.push_back(j[read]);
+                       }
+                       c.length[ring][k] = static_cast<std::uint32_t>(entries.size() - start.back());
+                     }
+                     while ((entries.size() - start.back()) % list_padding != 0) entries.push_back(sentinel);
+                   }
+                   for (std::size_t k = begin; k < end; ++k) c.row[k] = entries.data() + start[k - begin];
+                 }
+               });
+  }
+}
+
+void DissipativeFlow::advance(StepContext const& context) {
+  if (!(context.dt > 0)) throw Error(fmt::format("friction and noise need a positive step, not {}", context.dt));
+  scheme_.neighbourhood().refresh(threads());
+  if (method_ == FlowMethod::order_free)
+    order_free(context);
+  else
+    pair_splitting(context);
+}
+
+void DissipativeFlow::complete() {
+  for (auto const& member : members_) {
+    if (!member->law || member->temperature < 0) continue;
+    for (std::size_t i = 0; i < member->ensemble->size(); ++i) {
+      double* row = member->ensemble->row(i);
+      row[member->temperature] = member->law->temperature(row[member->energy]);
+    }
+  }
+}
+
+double DissipativeFlow::internal_energy() const {
+  CompensatedSum sum;
+  for (auto const& member : members_)
+    if (member->law)
+      for (std::size_t i = 0; i < member->ensemble->size(); ++i) sum += member->ensemble->row(i)[member->energy];
+  return sum.value();
+}
+
+std::vector<std::string> DissipativeFlow::advice(double step_size) {
+  // How much of a relative velocity friction takes in a step: the mean over some particles.
+  double strongest = 0;
+  Neighbourhood& neighbourhood = scheme_.neighbourhood();
+  neighbourhood.refresh(threads());
+  take_points();
+  for (auto const& member : members_) {
+    double rate = 0;
+    std::size_t count = 0;
+    for (auto const& coupling : couplings_) {
+      if (coupling->target != member.get()) continue;
+      Member &m = *coupling->target, &source = *coupling->source;
+      Dissipation const& d = coupling->dissipation;
+      count = std::min(m.owned(), sampled);
+      for (std::size_t n = 0; n < count; ++n) {
+        std::size_t const k = n * m.owned() / count;
+        std::uint32_t const* j = neighbourhood.list(coupling->list).rows()[k];
+        for (std::uint32_t e = 0; e < neighbourhood.list(coupling->list).lengths(list_rings - 1)[k]; ++e) {
+          double const *p = m.point(k), *q = source.point(j[e] / 4);
+          double r2 = 0;
+          for (int a = 0; a < m.dimension(); ++a) r2 += (p[a] - q[a]) * (p[a] - q[a]);
+          double const x = 1 - std::sqrt(r2) / d.range;
+          if (!(x > 0)) continue;
+          double friction = d.friction * std::pow(x, 2 * d.exponent) / (d.projected ? m.dimension() : 1);
+          if (d.convention == Convention::constant_noise)
+            friction *= 0.5 * d.temperature * (p[2 * m.dimension() + 1] + q[2 * m.dimension() + 1]);
+          rate += friction * p[m.inverse_mass_at()] / static_cast<double>(count);
+        }
+      }
+    }
+    strongest = std::max(strongest, rate * std::abs(step_size));
+  }
+  std::vector<std::string> lines;
+  if (method_ == FlowMethod::order_free && !corrector_ && strongest > 2 * noticeable)
+    lines.push_back(
+        fmt::format("warning: friction takes {:.3g} of a velocity in a step: with the method order-free kinetic "
+                    "temperatures come out about {:.2g} % too high; take its corrector, pair-splitting or a step "
+                    "{:.2g} times as long",
+                    strongest, 50 * strongest, 2 * noticeable / strongest));
+  else if (method_ == FlowMethod::order_free && corrector_ && strongest * strongest > 4 * noticeable)
+    lines.push_back(
+        fmt::format("warning: friction takes {:.3g} of a velocity in a step: kinetic temperatures come out some {:.2g} "
+                    "% wrong, even with the corrector; take pair-splitting or a shorter step",
+                    strongest, 25 * strongest * strongest));
+  else if (method_ == FlowMethod::pair_splitting && strongest > 1)
+    lines.push_back(fmt::format("warning: friction takes more than all ({:.3g}) of a velocity in a step", strongest));
+  return lines;
+}
+
+std::string DissipativeFlow::report() const {
+  if (!metropolis_ || proposed_ == 0) return "";
+  return fmt::format("{} of {} pair moves refused ({:.2g} %)", refused_, proposed_,
+                     100 * static_cast<double>(refused_) / static_cast<double>(proposed_));
+}
+
+std::size_t DissipativeFlow::bytes() const {
+  std::size_t bytes = splitting_->bytes();
+  for (auto const& member : members_)
+    bytes += (member->points.capacity() + member->sums.capacity() + member->predicted.capacity() +
+              member->energies.capacity()) *
+             sizeof(double);
+  for (auto const& coupling : couplings_) {
+    bytes += coupling->row.capacity() * sizeof(std::uint32_t*);
+    for (auto const& length : coupling->length) bytes += length.capacity() * sizeof(std::uint32_t);
+    for (auto const& entries : coupling->entries) bytes += entries.capacity() * sizeof(std::uint32_t);
+  }
+  return bytes;
+}
+
+std::vector<double> DissipativeFlow::state() const {
+  return {heat_, static_cast<double>(proposed_), static_cast<double>(refused_)};
+}
+
+void DissipativeFlow::restore(std::span<double const> state) {
+  if (state.size() != 3) throw Error("the checkpoint's friction and noise do not fit this simulation");
+  heat_ = state[0];
+  proposed_ = static_cast<std::uint64_t>(state[1]);
+  refused_ = static_cast<std::uint64_t>(state[2]);
+}
+
+}  // namespace boltzmann

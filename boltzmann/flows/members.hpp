@@ -1,0 +1,62 @@
+// What a dissipative flow holds of its ensembles and of the pairs between them. Private to this room.
+#pragma once
+
+#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/flows/flow_kernels.hpp>
+#include <boltzmann/flows/flow_point.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// Rows of an ensemble are taken in chunks of so many: what is written for a chunk belongs to it alone.
+inline constexpr std::size_t flow_chunk = 2048;
+
+struct DissipativeFlow::Member {
+  AnyEnsemble* ensemble;
+  int mass, velocity, energy = -1, temperature = -1;  // where these fields are in a row; -1: not there
+  std::optional<StateLaw> law;
+  Mirror const* mirror = nullptr;
+  bool dissipates = false, at_fixed_temperature = false;
+  AlignedVector<double> points;           // of the rows of the mirror
+  AlignedVector<double> sums, predicted;  // 4 numbers a row, one row more for every chunk
+  std::vector<double> energies;           // pair splitting: of the owned rows
+  std::size_t first_chunk = 0;            // among those of all members
+
+  int dimension() const { return ensemble->dimension(); }
+  std::size_t stride() const { return flow_point_stride(dimension()); }
+  std::size_t owned() const { return mirror->owned(); }
+  std::size_t chunks() const { return (owned() + flow_chunk - 1) / flow_chunk; }
+  double* point(std::size_t row) { return points.data() + stride() * row; }
+  // Where numbers stand in a flow point.
+  int velocity_at() const { return dimension() + 1; }
+  int inverse_mass_at() const { return dimension(); }
+  /// The sums of row k.
+  double* sum(std::size_t k) { return sums.data() + 4 * (k + k / flow_chunk); }
+  bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
+  /// Of which particle somebody speaks.
+  std::string who(std::size_t row) const;
+};
+
+struct DissipativeFlow::Coupling {
+  Member *target, *source;
+  Dissipation dissipation;
+  std::size_t list;                                 // its number in the neighbourhood
+  std::uint32_t number;                             // for random streams; the same for both directions
+  bool first;                                       // whether targets are the first of the two ensembles
+  std::size_t builds = ~std::size_t{0}, moves = 0;  // of the neighbourhood, when pairs were taken from its lists
+  std::vector<std::vector<std::uint32_t>> entries;  // of each chunk: every pair of the chunk once
+  std::vector<std::uint32_t const*> row;
+  std::array<std::vector<std::uint32_t>, list_rings> length;
+
+  bool same() const { return target == source; }
+  PairNoise noise(StepContext const& context, double boltzmann_constant) const;
+};
+
+/// In the instruction set in use.
+FlowKernels const& flow_kernels_for(int dimension, bool projected);
+
+}  // namespace boltzmann
