@@ -1,14 +1,17 @@
 // Wrapping, reflecting and mirroring, where moving walls are, and the refusals of particles that can't be where they
 // are.
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace boltzmann {
 namespace {
@@ -90,7 +93,9 @@ Box::Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, s
       throw Error(
           fmt::format("box: on axis {} the low edge {} is not below the high edge {}", axis_name[a], low[a], high[a]));
     if (boundaries[a] != Boundary::open) all_open_ = false;
-    if (boundaries[a] == Boundary::mirror) any_wall_ = true, walled_[a] = {true, true};
+    bool const mirror = boundaries[a] == Boundary::mirror;
+    if (mirror) any_wall_ = true;
+    if (mirror || boundaries[a] == Boundary::bounded) walled_[a] = {true, true};
   }
 }
 
@@ -106,23 +111,23 @@ double Box::volume() const {
   return product;
 }
 
-void Box::check_mirror(int axis) const {
+void Box::check_has_walls(int axis) const {
   if (axis < 0 || axis >= dimension_)
     throw Error(fmt::format("wall: a box of {} dimensions has no axis number {}", dimension_, axis));
-  if (boundaries_[axis] != Boundary::mirror)
-    throw Error(fmt::format("wall: axis {} is {}; only a mirror axis has walls", axis_name[axis],
+  if (boundaries_[axis] != Boundary::mirror && boundaries_[axis] != Boundary::bounded)
+    throw Error(fmt::format("wall: axis {} is {}; only bounded and mirror axes have walls", axis_name[axis],
                             to_string(boundaries_[axis])));
 }
 
 Wall const& Box::wall(int axis, End end) const {
-  check_mirror(axis);
+  check_has_walls(axis);
   if (!walled(axis, end))
     throw Error(fmt::format("wall: the {} end of axis {} is open, there is no wall", word(end), axis_name[axis]));
   return walls_[axis][static_cast<int>(end)];
 }
 
 void Box::wall(int axis, End end, Wall const& wall) {
-  check_mirror(axis);
+  check_has_walls(axis);
   for (double const u : wall.velocity)
     if (!std::isfinite(u))
       throw Error(
@@ -130,13 +135,25 @@ void Box::wall(int axis, End end, Wall const& wall) {
   if (std::isinf(wall.temperature))
     throw Error(fmt::format("wall: the temperature of the {} wall of axis {} is not finite: {}", word(end),
                             axis_name[axis], wall.temperature));
+  if (boundaries_[axis] == Boundary::bounded) {
+    auto const refused = [&](char const* what) {
+      return Error(
+          fmt::format("wall: the {} wall of axis {} {}: on a bounded axis walls slip and are insulated; what "
+                      "drags or heats is the wall of a mirror axis",
+                      word(end), axis_name[axis], what));
+    };
+    if (!wall.slips) throw refused("does not slip");
+    if (!std::isnan(wall.temperature)) throw refused("has a temperature");
+    for (int a = 0; a < 3; ++a)
+      if (a != axis && wall.velocity[a] != 0) throw refused("moves along itself");
+  }
   walls_[axis][static_cast<int>(end)] = wall;
   walled_[axis][static_cast<int>(end)] = true;
   find_moving_walls();
 }
 
 void Box::open_end(int axis, End end) {
-  check_mirror(axis);
+  check_has_walls(axis);
   auto& walled = walled_[axis];
   if (!walled[end == End::low ? 1 : 0])
     throw Error(fmt::format("wall: no wall would be left on axis {}; make the axis open", axis_name[axis]));
@@ -152,7 +169,7 @@ void Box::find_moving_walls() {
 }
 
 void Box::move_walls(double time) {
-  if (!walls_move_) return;
+  if (!walls_move_ || held_) return;
   auto low = first_low_, high = first_high_;
   for (int a = 0; a < dimension_; ++a) {
     if (walled(a, End::low)) low[a] += walls_[a][0].velocity[a] * time;
@@ -164,14 +181,16 @@ void Box::move_walls(double time) {
   }
   low_ = low;
   high_ = high;
+  if (time != time_) backwards_ = time < time_;
+  time_ = time;
 }
 
 ImageMap Box::velocity_image(std::array<int, 3> const& side, int component) const {
   OddImages odd;
   for (int a = 0; a < dimension_; ++a) {
     if (side[a] == 0) continue;
-    Wall const& wall = walls_[a][side[a] < 0 ? 0 : 1];
-    if (a == component || !wall.slips) odd.beyond(wall.velocity[component]);
+    int const end = side[a] < 0 ? 0 : 1;
+    if (a == component || !walls_[a][end].slips) odd.beyond(wall_velocity(a, end, component));
   }
   return odd.map();
 }
@@ -212,13 +231,10 @@ void Box::check(AnyEnsemble const& particles) const {
             throw Error(fmt::format("{} has a {} that is not finite: {}", who(particles, i), field.name, x[k]));
         throw Error(fmt::format("{} has a field that is not finite: {}", who(particles, i), x[k]));
       }
-    for (int a = 0; a < dimension_; ++a) {
-      bool const bounded = boundary(a) == Boundary::bounded;
-      if (((bounded || walled(a, End::low)) && x[a] < low_[a]) ||
-          ((bounded || walled(a, End::high)) && x[a] > high_[a]))
+    for (int a = 0; a < dimension_; ++a)
+      if ((walled(a, End::low) && x[a] < low_[a]) || (walled(a, End::high) && x[a] > high_[a]))
         throw Error(fmt::format("{} is outside the box: {} = {}, the {} axis goes from {} to {}", who(particles, i),
                                 axis_name[a], x[a], to_string(boundary(a)), low_[a], high_[a]));
-    }
     for (auto const& region : regions_) {
       if (region.side == Region::Side::keep_out && strictly_inside(region, dimension_, x))
         throw Error(fmt::format("{} is inside a region that keeps particles out", who(particles, i)));
@@ -245,8 +261,8 @@ void Box::wrap(AnyEnsemble& particles) const {
   }
 }
 
-void Box::apply(AnyEnsemble& particles, int threads) const {
-  if (all_open_ && regions_.empty()) return;
+double Box::apply(AnyEnsemble& particles, int threads) const {
+  if (all_open_ && regions_.empty()) return 0;
   Field const* velocity = particles.find_field("velocity");
   if (velocity && velocity->components != dimension_) velocity = nullptr;  // a class' own, of another meaning
   auto const fail = [&](std::size_t i, int a, double x) {
@@ -255,10 +271,26 @@ void Box::apply(AnyEnsemble& particles, int threads) const {
         "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
         who(particles, i), axis_name[a], x, low_[a], high_[a]));
   };
+  Field const* mass = particles.find_field("mass");
+  if (mass && mass->components != 1) mass = nullptr;
+  // The work done on the particle; in the frame of the wall it is an elastic reflection.
+  auto const push_off = [&](std::size_t i, int a, int end) {
+    double const u = wall_velocity(a, end, a);
+    reflect(end == 0 ? low_[a] : high_[a], particles.row(i) + a, nullptr);
+    if (!velocity) return 0.0;
+    double& v = particles.row(i)[velocity->offset + a];
+    double const before = v;
+    if (u == 0)
+      v = -v;
+    else if (((end == 0) != backwards_) ? v < u : v > u)
+      v = 2 * u - v;
+    return u != 0 && mass ? 0.5 * particles.row(i)[mass->offset] * (v - before) * (v + before) : 0;
+  };
   auto const bring_back = [&](std::size_t i, int a, std::array<int, 3>& mirrored) {
     double const low = low_[a], high = high_[a], length = high - low;
     double* x = particles.row(i) + a;
     double const before = *x;
+    double work = 0;
     if (boundary(a) == Boundary::periodic) {
       // Within a rounding error of an edge the sum may land on or beyond the other edge: that is `low`.
       if (*x < low) {
@@ -274,28 +306,42 @@ void Box::apply(AnyEnsemble& particles, int threads) const {
         *x = 2 * (*x < low ? low : high) - *x;
       }
     } else if (*x != high) {
-      reflect(*x < low ? low : high, x, velocity ? particles.row(i) + velocity->offset + a : nullptr);
+      work = push_off(i, a, *x < low ? 0 : 1);
     }
     if (!(*x >= low && *x <= high)) fail(i, a, before);
+    return work;
   };
   std::array<double, 3> low = low_, high = high_;
   for (int a = 0; a < dimension_; ++a) {
-    bool const mirror = boundary(a) == Boundary::mirror, open = boundary(a) == Boundary::open;
-    if (open || (mirror && !walled(a, End::low))) low[a] = -infinity;
-    if (open || (mirror && !walled(a, End::high))) high[a] = infinity;
+    if (periodic(a)) continue;
+    if (!walled(a, End::low)) low[a] = -infinity;
+    if (!walled(a, End::high)) high[a] = infinity;
   }
+  auto const bring_all_back = [&](std::size_t begin, std::size_t end) {
+    double work = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      double const* x = particles.row(i);
+      std::array<int, 3> mirrored{};
+      for (int a = 0; a < dimension_; ++a)
+        if (!(x[a] >= low[a] && x[a] < high[a]) && boundary(a) != Boundary::open) work += bring_back(i, a, mirrored);
+      if (!any_wall_ || !velocity || mirrored == std::array<int, 3>{}) continue;
+      double* v = particles.row(i) + velocity->offset;
+      for (int c = 0; c < dimension_; ++c) v[c] = velocity_image(mirrored, c)(v[c]);
+    }
+    return work;
+  };
+  // Added up by grains, in their order, whichever threads have done them.
+  std::vector<double> works(walls_move_ && !held_ ? (particles.size() + grain - 1) / grain : 0);
   for_ranges(particles.size(), grain, particles.size() < worth_threads ? 1 : threads,
              [&](std::size_t begin, std::size_t end) {
-               for (std::size_t i = begin; i < end; ++i) {
-                 double const* x = particles.row(i);
-                 std::array<int, 3> mirrored{};
-                 for (int a = 0; a < dimension_; ++a)
-                   if (!(x[a] >= low[a] && x[a] < high[a]) && boundary(a) != Boundary::open) bring_back(i, a, mirrored);
-                 if (!any_wall_ || !velocity || mirrored == std::array<int, 3>{}) continue;
-                 double* v = particles.row(i) + velocity->offset;
-                 for (int c = 0; c < dimension_; ++c) v[c] = velocity_image(mirrored, c)(v[c]);
-               }
+               if (works.empty())
+                 bring_all_back(begin, end);
+               else
+                 for (std::size_t k = begin; k < end; k += grain)
+                   works[k / grain] = bring_all_back(k, std::min(k + grain, end));
              });
+  CompensatedSum work;
+  for (double const of_grain : works) work += of_grain;
   for (auto const& region : regions_)
     for (std::size_t i = 0; i < particles.size(); ++i) {
       double* x = particles.row(i);
@@ -321,9 +367,14 @@ void Box::apply(AnyEnsemble& particles, int threads) const {
         if (axis >= 0) reflect(wall, x + axis, v ? v + axis : nullptr);
       }
     }
+  return work.value();
 }
 
 void Box::on_grid(double quantum) {
+  if (walls_move_)
+    throw Error(
+        "walls that move are not on the grid of positions of the reversible leap-frog; use leap-frog, or let them "
+        "rest");
   auto const rounded = [&](double x) { return quantum * std::nearbyint(x / quantum); };
   for (int a = 0; a < dimension_; ++a) {
     for (double* edge : {&low_[a], &high_[a], &first_low_[a], &first_high_[a]}) *edge = rounded(*edge);

@@ -78,6 +78,7 @@ class Box {
 
   /// Whether there is a wall at this end: at both ends of a mirror or bounded axis, unless one was opened.
   bool walled(int axis, End end) const { return walled_[axis][static_cast<int>(end)]; }
+  /// Whether some wall has images behind it (that of a mirror axis).
   bool any_wall() const { return any_wall_; }
   /// The wall at this end. Error if there is none.
   Wall const& wall(int axis, End end) const;
@@ -91,9 +92,10 @@ class Box {
   /// Whether some wall moves along its normal.
   bool walls_move() const { return walls_move_; }
   /// Puts moving walls where they are at this time since the start of the run, edge + velocity * time; low(), high(),
-  /// length() and volume() follow. PhysicsFailure if a wall meets the other end of its axis.
+  /// length() and volume() follow. Nothing while walls are held. PhysicsFailure if a wall meets the other end of its
+  /// axis.
   void move_walls(double time);
-  /// While held, walls that move reflect as if they stood still (a body is brought to a temperature before its run).
+  /// While held, walls stand still where they are, and reflect so (a body is brought to a temperature before its run).
   void hold_walls(bool held) { held_ = held; }
 
   /// What a particle's velocity component (temperature) is in its image beyond the given ends: side[a] is -1 for the
@@ -121,13 +123,15 @@ class Box {
   void wrap(AnyEnsemble& particles) const;
 
   /// Brings every particle that has left back: periodic axes wrap, bounded axes and regions reflect position and
-  /// velocity, beyond a wall a particle is replaced by its image (position and velocity). PhysicsFailure if a particle
-  /// has moved so far that one reflection does not bring it back, or is not finite. Returns the work that moving walls
-  /// of bounded axes have done on the particles (zero for classes without mass), the same bits for any number of
-  /// threads.
+  /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a bounded
+  /// axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves away from
+  /// it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does not bring it
+  /// back, or is not finite. Returns the work that moving walls of bounded axes have done on the particles (zero for
+  /// classes without mass), the same bits for any number of threads.
   double apply(AnyEnsemble& particles, int threads = 1) const;
 
-  /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog.
+  /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog. Error if walls
+  /// move.
   void on_grid(double quantum);
 
   /// The shortest vector between periodic images, in place: `d` has dimension() components.
@@ -148,14 +152,20 @@ class Box {
   }
 
   void check_dimension(int of_region) const;
-  void check_mirror(int axis) const;
+  void check_has_walls(int axis) const;
   void find_moving_walls();
+  /// Component of the wall's velocity: none while walls are held.
+  double wall_velocity(int axis, int end, int component) const {
+    return held_ ? 0 : walls_[axis][end].velocity[component];
+  }
 
   int dimension_;
   std::array<double, 3> low_, high_;
   std::array<double, 3> first_low_, first_high_;  // at time 0
   std::array<Boundary, 3> boundaries_;
   bool all_open_, any_wall_ = false, walls_move_ = false, held_ = false;
+  double time_ = 0;                              // for which walls were moved last
+  bool backwards_ = false;                       // time went then
   std::array<std::array<bool, 2>, 3> walled_{};  // at the low and at the high end
   std::array<std::array<Wall, 2>, 3> walls_{};
   std::vector<Region> regions_;

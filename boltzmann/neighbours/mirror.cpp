@@ -82,7 +82,8 @@ void Mirror::build(double reach, std::span<double const> references, int threads
 
 void Mirror::build(double reach, std::span<double const> references, Edges const& edges, int threads) {
   for (int a = 0; a < box_->dimension(); ++a)
-    if (box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) && reach > edges[3 + a] - edges[a])
+    if (box_->boundary(a) == Boundary::mirror && box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) &&
+        reach > edges[3 + a] - edges[a])
       throw Error(fmt::format(
           "neighbours of '{}' are found up to a distance of {}, the walls of axis {} are {} apart: they must "
           "not be nearer to each other than that",
@@ -157,7 +158,7 @@ void Mirror::each_image(double const* x, Function const& function) const {
     if (box_->periodic(a)) {
       if (x[a] <= low || x[a] >= high) last[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
       first[a] = -last[a];
-    } else {
+    } else if (box_->boundary(a) == Boundary::mirror) {
       if (box_->walled(a, Box::End::low) && x[a] <= low) first[a] = -1;
       if (box_->walled(a, Box::End::high) && x[a] >= high) last[a] = 1;
     }

@@ -89,6 +89,7 @@ void NeighbourList::build(Mirror const& target, Mirror const& source, double cut
 }
 
 void NeighbourList::rebuild(Mirror const& target, Mirror const& source, std::span<std::uint32_t const> rows) {
+  rebuilt_.assign(rows.begin(), rows.end());
   NearTask const task = task_of(target, source, cutoff_, skin_);
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
   auto const padded = [](std::size_t n) { return (n + list_padding - 1) / list_padding * list_padding; };

@@ -29,6 +29,8 @@ class NeighbourList {
   std::uint32_t const* const* rows() const { return row_.data(); }
   /// Of each row, how many entries there are up to a ring (0 to list_rings - 1).
   std::uint32_t const* lengths(int ring) const { return length_.data() + static_cast<std::size_t>(ring) * size(); }
+  /// The rows of the last rebuild().
+  std::span<std::uint32_t const> rebuilt() const { return rebuilt_; }
   /// Entries of all rows at the last build, padding included.
   std::size_t entries() const { return entries_; }
   std::size_t bytes() const;
@@ -37,7 +39,7 @@ class NeighbourList {
   double cutoff_ = 0, skin_ = 0;
   std::size_t entries_ = 0;
   std::vector<std::uint32_t*> row_;
-  std::vector<std::uint32_t> length_;
+  std::vector<std::uint32_t> length_, rebuilt_;
   std::vector<std::vector<std::uint32_t>> chunks_;   // their size is room, not content
   std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place
 };

@@ -55,7 +55,7 @@ Base read_base(Section& units, std::string const& name) {
   return Base::si();
 }
 
-/// axis, end; open, or slips, velocity, temperature.
+/// axis, end; open, or velocity, and of mirror axes slips, temperature.
 void read_wall(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[box.walls]]", reading.context);
@@ -80,10 +80,24 @@ void read_wall(Item const& table, Reading& reading) {
   section.finish();
   if (!axis || !end || reading.context.mistakes.count() != before || !reading.box) return;
   int const a = (*axis)[0] - 'x';
-  if (reading.box->boundary(a) != Boundary::mirror)
-    return reading.mistake(axis_item->place,
-                           fmt::format("axis: {} is {}; walls stand at the ends of axes whose boundary is \"mirror\"",
-                                       *axis, to_string(reading.box->boundary(a))));
+  Boundary const boundary = reading.box->boundary(a);
+  if (boundary != Boundary::mirror && boundary != Boundary::bounded)
+    return reading.mistake(axis_item->place, fmt::format("axis: {} is {}; walls stand at the ends of axes whose "
+                                                         "boundary is \"mirror\" or \"bounded\"",
+                                                         *axis, to_string(boundary)));
+  if (boundary == Boundary::bounded) {
+    auto const refuse = [&](char const* key, char const* what) {
+      reading.mistake(section.place(key), fmt::format("{}: {} is bounded, where walls {}; what drags or heats is the "
+                                                      "wall of an axis whose boundary is \"mirror\"",
+                                                      key, *axis, what));
+    };
+    if (!wall.slips) refuse("slips", "always slip");
+    if (section.has("temperature")) refuse("temperature", "are insulated");
+    auto along = wall.velocity;
+    along[static_cast<std::size_t>(a)] = 0;
+    if (along != std::array<double, 3>{}) refuse("velocity", "move along it only");
+    if (reading.context.mistakes.count() != before) return;
+  }
   Box::End const which = *end == "low" ? Box::End::low : Box::End::high;
   guarded(reading, table.place, [&] { open ? reading.box->open_end(a, which) : reading.box->wall(a, which, wall); });
 }

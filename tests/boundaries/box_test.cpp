@@ -420,8 +420,8 @@ TEST(MirrorWalls, MoveFromWhereTheyWereAtTheStart) {
 }
 
 TEST(MirrorWalls, MistakesAreNamed) {
-  Box box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, {Boundary::mirror, Boundary::bounded, Boundary::periodic});
-  expect_parts(message<Error>([&] { box.wall(1, Box::End::low, {}); }), {"axis y is bounded", "mirror"});
+  Box box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, {Boundary::mirror, Boundary::open, Boundary::periodic});
+  expect_parts(message<Error>([&] { box.wall(1, Box::End::low, {}); }), {"axis y is open", "bounded and mirror"});
   expect_parts(message<Error>([&] { (void)box.wall(2, Box::End::low); }), {"axis z is periodic", "mirror"});
   expect_parts(message<Error>([&] { box.open_end(2, Box::End::high); }), {"axis z is periodic"});
   for (int const axis : {-1, 3})

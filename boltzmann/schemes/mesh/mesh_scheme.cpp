@@ -37,6 +37,14 @@ MeshGrid solver_grid(Box const& box, std::vector<std::size_t> const& cells, std:
   return grid;
 }
 
+void check_walls(Box const& box) {
+  if (box.walls_move()) throw Error("mesh: a wall moves; a mesh, and the ends of its field, stay where they are");
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.boundary(a) == Boundary::bounded && !(box.walled(a, Box::End::low) && box.walled(a, Box::End::high)))
+      throw Error(fmt::format("mesh: one end of the bounded axis {} is open; put a wall there, or open the axis",
+                              axis_name[a]));
+}
+
 }  // namespace
 
 MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const& law)
@@ -56,6 +64,7 @@ MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const
           fmt::format("mesh: axis {} is a mirror: particles on a mesh need a bounded, periodic or open axis there "
                       "(mirrors are for smooth particles)",
                       axis_name[a]));
+  check_walls(box);
   make_grid(this->box(), cells_);
   for (int a = 0; a < 3; ++a) {
     FieldBoundary const usual = a < box.dimension() && !box.periodic(a) ? FieldBoundary::open : FieldBoundary::periodic;
@@ -139,6 +148,7 @@ MeshScheme::Work& MeshScheme::work() {
     work_->solver.threads(threads());
     return *work_;
   }
+  check_walls(box());
   MeshGrid const grid = solver_grid(box(), cells_, ends_, order_);
   double nodes = 1;  // the number as a size may wrap around
   for (int a = 0; a < grid.dimension; ++a) nodes *= static_cast<double>(grid.nodes[a]);

@@ -127,7 +127,7 @@ bool within(std::array<double, 3> const& low, std::array<double, 3> const& high,
   return true;
 }
 
-/// Shortens the offset where a half would come too near to a reflecting end or a wall; false if there is no room to
+/// Shortens the offset where a half would come too near to a wall; false if there is no room to
 /// split.
 bool make_fit(Box const& box, double const* x, int dimension, Offset& offset) {
   double wanted = 0, left = 0;
@@ -135,7 +135,7 @@ bool make_fit(Box const& box, double const* x, int dimension, Offset& offset) {
     wanted += offset[k] * offset[k];
     double room = std::fabs(offset[k]);
     for (auto const end : {Box::End::low, Box::End::high})
-      if (box.boundary(k) == Boundary::bounded || box.walled(k, end))
+      if (box.walled(k, end))
         room = std::min(room, std::max(0.5 * (end == Box::End::low ? x[k] - box.low(k) : box.high(k) - x[k]), 0.0));
     offset[k] = std::clamp(offset[k], -room, room);
     left += offset[k] * offset[k];

@@ -58,7 +58,8 @@ std::string too_long(Box const& box, double range, double reach) {
       return fmt::format(
           "the range {:.6g} of smooth particles is longer than axis {} of the box, which allows at most {:.6g}", range,
           "xyz"[a], box.length(a));
-    if (box.walled(a, Box::End::low) && box.walled(a, Box::End::high) && reach > box.length(a))
+    if (box.boundary(a) == Boundary::mirror && box.walled(a, Box::End::low) && box.walled(a, Box::End::high) &&
+        reach > box.length(a))
       return fmt::format(
           "the walls of axis {} are {:.6g} apart, too near for smooth particles of range {:.6g}, whose lists of "
           "neighbours reach {:.6g}",
