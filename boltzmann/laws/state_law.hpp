@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,9 +43,21 @@ class StateLaw {
   double quantile(double u, double temperature, double boltzmann_constant) const;
 
  private:
+  friend class InvariantLaw;  // it integrates from point to point
+
+  void check_and_integrate();
+  std::size_t piece_of_energy(double energy) const;
+  std::size_t piece_of_temperature(double temperature) const;
+
   double heat_capacity_ = 0;  // if constant
   // At the points of a table: linear in between, so that energies are quadratic.
   std::vector<double> temperature_, capacity_, energy_, entropy_;
+  std::vector<double> slope_;  // of the heat capacity, from each point to the next
+  // Where to look for an energy: the first bits of its number, counted from those of the first point's, give the
+  // pieces.
+  std::vector<std::uint32_t> first_piece_;
+  std::uint64_t first_bits_ = 0;
+  int shift_ = 0;
 };
 
 }  // namespace boltzmann

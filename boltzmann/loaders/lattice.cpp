@@ -43,6 +43,11 @@ Cell cell_of(Lattice kind, int dimension) {
       double const a = 2 / std::numbers::sqrt3, h = a / 2;
       return {{a, a, a}, {{0, 0, 0}, {h, h, h}}};
     }
+    case Lattice::hcp: {  // every second layer lies in hollows of the first
+      if (dimension != 3) throw refuse("3D");
+      double const row = std::numbers::sqrt3 / 2, hollow = row / 3, layer = std::numbers::sqrt2 / std::numbers::sqrt3;
+      return {{1, 2 * row, 2 * layer}, {{0, 0, 0}, {0.5, row, 0}, {0.5, hollow, layer}, {0, row + hollow, layer}}};
+    }
   }
   return {{1, 1, 1}, {{0, 0, 0}}};
 }
@@ -55,7 +60,8 @@ void check(LatticeBlock const& block, int dimension) {
 }
 
 std::vector<std::string> lattice_names() {
-  return {to_string(Lattice::square), to_string(Lattice::triangular), to_string(Lattice::fcc), to_string(Lattice::bcc)};
+  return {to_string(Lattice::square), to_string(Lattice::triangular), to_string(Lattice::fcc), to_string(Lattice::bcc),
+          to_string(Lattice::hcp)};
 }
 
 }  // namespace
@@ -70,12 +76,14 @@ std::string to_string(Lattice kind) {
       return "fcc";
     case Lattice::bcc:
       return "bcc";
+    case Lattice::hcp:
+      return "hcp";
   }
   return "?";
 }
 
 Lattice lattice_named(std::string_view name) {
-  for (Lattice const kind : {Lattice::square, Lattice::triangular, Lattice::fcc, Lattice::bcc})
+  for (Lattice const kind : {Lattice::square, Lattice::triangular, Lattice::fcc, Lattice::bcc, Lattice::hcp})
     if (to_string(kind) == name) return kind;
   auto const names = lattice_names();
   throw Error(fmt::format("there is no lattice '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
@@ -142,7 +150,7 @@ namespace {
 
 /// How many cells there are along each axis.
 std::array<double, 3> cells_of(Filling const& filling, int dimension) {
-  if (filling.kind == Lattice::fcc || filling.kind == Lattice::bcc)
+  if (filling.kind != Lattice::square && filling.kind != Lattice::triangular)
     throw Error(
         fmt::format("lattice {} does not fill blocks of any size; square and triangular do", to_string(filling.kind)));
   check(LatticeBlock{filling.kind, filling.spacing, {1, 1, 1}, filling.low}, dimension);

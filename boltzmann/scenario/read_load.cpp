@@ -151,7 +151,7 @@ void Loader::load(AnyEnsemble& particles) {
 
 double Loader::read_block() {
   int const dimension = reading_.dimension;
-  auto const name = section_.word("lattice", {"square", "triangular", "fcc", "bcc"});
+  auto const name = section_.word("lattice", {"square", "triangular", "fcc", "bcc", "hcp"});
   if (name) block_.kind = lattice_named(*name);
   block_.spacing =
       section_.need_quantity("spacing", dimensions::length, "spacing = \"2.551 angstrom\"", positive).value_or(1);
@@ -182,7 +182,7 @@ double Loader::read_block() {
       }
     }
   }
-  if (block_.kind == Lattice::fcc) count *= 4;
+  if (block_.kind == Lattice::fcc || block_.kind == Lattice::hcp) count *= 4;
   if (block_.kind == Lattice::bcc) count *= 2;
   if (dimension > 0) {
     try {

@@ -9,6 +9,7 @@
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/rydberg.hpp>
+#include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/laws/tether.hpp>
 #include <boltzmann/laws/uniform.hpp>
@@ -72,8 +73,13 @@ struct RydbergCase : CaseBase<D, Newton> {
   static constexpr AtZero at_zero = AtZero::regular;
   static auto law() { return Rydberg{.depth = 1.7, .r0 = 1.2, .a = 4.5}; }
   static auto wrong_laws() {
-    return std::vector<Rydberg>{{-1, 1, 1}, {1, 0, 1}, {1, 1, 0}, {1, 1, -2}, {1, nan_value, 1}, {1, 1, infinity}};
+    return std::vector<Rydberg>{{-1, 1, 1},        {1, 0, 1},        {1, 1, 0},           {1, 1, -2},
+                                {1, nan_value, 1}, {1, 1, infinity}, {1, 1, 1, nan_value}};
   }
+};
+template <int D>
+struct CubicRydbergCase : RydbergCase<D> {
+  static auto law() { return Rydberg{.depth = 1.7, .r0 = 1.2, .a = 4.5, .alpha = 0.185}; }
 };
 template <int D>
 struct SpringCase : CaseBase<D, Newton> {
@@ -81,6 +87,13 @@ struct SpringCase : CaseBase<D, Newton> {
   static constexpr AtZero at_zero = AtZero::regular;
   static auto law() { return Spring{.stiffness = 3.1, .rest_length = 1.4}; }
   static auto wrong_laws() { return std::vector<Spring>{{-1, 1}, {1, -1}, {nan_value, 1}, {1, infinity}}; }
+};
+template <int D>
+struct SoftCase : CaseBase<D, Newton> {
+  static constexpr char const* name = "soft";
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return Soft{.repulsion = 25, .range = 3.5}; }
+  static auto wrong_laws() { return std::vector<Soft>{{-1, 1}, {1, 0}, {1, -1}, {nan_value, 1}, {1, infinity}}; }
 };
 template <int D>
 struct SlackSpringCase : SpringCase<D> {
@@ -115,8 +128,9 @@ struct SoftGravityCase : GravityCase<D> {
 
 template <template <int> class... Case>
 using InEveryDimension = testing::Types<Case<1>..., Case<2>..., Case<3>...>;
-using PairCases = InEveryDimension<LennardJonesCase, MorseCase, RydbergCase, SpringCase, SlackSpringCase, CoulombCase,
-                                   SoftCoulombCase, GravityCase, SoftGravityCase>;
+using PairCases =
+    InEveryDimension<LennardJonesCase, MorseCase, RydbergCase, CubicRydbergCase, SpringCase, SlackSpringCase, SoftCase,
+                     CoulombCase, SoftCoulombCase, GravityCase, SoftGravityCase>;
 
 class Randomness {
  public:
@@ -353,6 +367,26 @@ TEST(Rydberg, Values) {
   EXPECT_NEAR(energy_at<P>(law, 1.5), 0, 1e-14);  // x = -1
   double const h = 1e-4;                          // stiffness depth (a/r0)^2
   EXPECT_NEAR((attraction_at<P>(law, 2 + h) - attraction_at<P>(law, 2 - h)) / (2 * h), 12, 1e-5);
+
+  Rydberg const cubic{.depth = 3, .r0 = 2, .a = 4, .alpha = 0.2};  // the minimum and the stiffness are the same
+  EXPECT_DOUBLE_EQ(energy_at<P>(cubic, 2), -3);
+  EXPECT_DOUBLE_EQ(attraction_at<P>(cubic, 2), 0);
+  EXPECT_NEAR((attraction_at<P>(cubic, 2 + h) - attraction_at<P>(cubic, 2 - h)) / (2 * h), 12, 1e-4);
+  EXPECT_DOUBLE_EQ(energy_at<P>(cubic, 2.5), -6.6 / std::exp(1));     // x = 1: 1 + x + 0.2 x^3 = 2.2
+  EXPECT_DOUBLE_EQ(attraction_at<P>(cubic, 2.5), 3.6 / std::exp(1));  // 6 x (1 - 0.6 x + 0.2 x^2)
+  EXPECT_NEAR(energy_at<P>(cubic, 1.5), 0.6 * std::exp(1), 1e-14);    // x = -1: -3 (-0.2)
+  EXPECT_NEAR(attraction_at<P>(cubic, 1.5), -10.8 * std::exp(1), 1e-13);
+}
+
+TEST(Soft, Values) {
+  Soft const law{.repulsion = 25, .range = 2};
+  using P = Newton<3>;
+  EXPECT_DOUBLE_EQ(attraction_at<P>(law, 0.5), -25 * 0.75);  // Groot and Warren's a (1 - r / rc)
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 0), 25);                // a rc / 2
+  EXPECT_DOUBLE_EQ(energy_at<P>(law, 1), 25 * 0.25);
+  EXPECT_EQ(attraction_at<P>(law, 2), 0);
+  EXPECT_EQ(energy_at<P>(law, 2.5), 0);
+  EXPECT_EQ(attraction_at<P>(law, 2.5), 0);
 }
 
 TEST(Spring, Values) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -48,7 +49,8 @@ TEST(Lattice, EverySiteHasItsCoordinationNumberAtTheSpacing) {
   };
   for (auto const& [kind, dimension, neighbours] :
        {Case{Lattice::square, 1, 2}, Case{Lattice::square, 2, 4}, Case{Lattice::square, 3, 6},
-        Case{Lattice::triangular, 2, 6}, Case{Lattice::fcc, 3, 12}, Case{Lattice::bcc, 3, 8}}) {
+        Case{Lattice::triangular, 2, 6}, Case{Lattice::fcc, 3, 12}, Case{Lattice::bcc, 3, 8},
+        Case{Lattice::hcp, 3, 12}}) {
     LatticeBlock const block{kind, 2.551, {4, 4, 4}, {0.3, -7, 1}};
     Shell const shell = nearest_shell(block, dimension);
     EXPECT_NEAR(shell.distance, 2.551, 1e-12) << to_string(kind) << dimension;
@@ -58,7 +60,7 @@ TEST(Lattice, EverySiteHasItsCoordinationNumberAtTheSpacing) {
 }
 
 TEST(Lattice, DensitiesAreThoseOfCrystals) {
-  // Numbers of sites per spacing^D: square 1, triangular 2/sqrt(3), fcc sqrt(2), bcc 3 sqrt(3)/4.
+  // Numbers of sites per spacing^D: square 1, triangular 2/sqrt(3), fcc and hcp sqrt(2), bcc 3 sqrt(3)/4.
   struct Case {
     Lattice kind;
     int dimension;
@@ -66,7 +68,8 @@ TEST(Lattice, DensitiesAreThoseOfCrystals) {
   };
   for (auto const& [kind, dimension, density] :
        {Case{Lattice::square, 2, 1}, Case{Lattice::triangular, 2, 2 / std::sqrt(3.0)},
-        Case{Lattice::fcc, 3, std::sqrt(2.0)}, Case{Lattice::bcc, 3, 3 * std::sqrt(3.0) / 4}}) {
+        Case{Lattice::fcc, 3, std::sqrt(2.0)}, Case{Lattice::bcc, 3, 3 * std::sqrt(3.0) / 4},
+        Case{Lattice::hcp, 3, std::sqrt(2.0)}}) {
     LatticeBlock const block{kind, 1, {3, 5, 2}, {}};
     auto const lengths = repeat_lengths(block, dimension);
     double volume = 1;
@@ -75,6 +78,35 @@ TEST(Lattice, DensitiesAreThoseOfCrystals) {
     EXPECT_NEAR(spacing_for_density(kind, dimension, density), 1, 1e-12) << to_string(kind);
     EXPECT_NEAR(spacing_for_density(kind, dimension, density / std::pow(2.0, dimension)), 2, 1e-12);
   }
+}
+
+/// How many sites are at each square distance, in spacings, from a site in the middle of a block.
+std::map<long, int> shells(Lattice kind, double farthest) {
+  LatticeBlock const block{kind, 1, {6, 6, 6}, {}};
+  auto const lengths = repeat_lengths(block, 3);
+  auto const sites = lattice_sites(block, 3);
+  auto const square_distance = [](auto const& a, auto const& b) {
+    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+  };
+  std::array<double, 3> const middle{lengths[0] / 2, lengths[1] / 2, lengths[2] / 2};
+  auto const& centre = *std::min_element(sites.begin(), sites.end(), [&](auto const& a, auto const& b) {
+    return square_distance(a, middle) < square_distance(b, middle);
+  });
+  std::map<long, int> counts;  // of 3 r^2, which is whole in both close packings
+  for (auto const& site : sites)
+    if (double const r2 = square_distance(site, centre); r2 > 0 && r2 < farthest) {
+      EXPECT_NEAR(3 * r2, std::round(3 * r2), 1e-10);
+      ++counts[std::lround(3 * r2)];
+    }
+  return counts;
+}
+
+TEST(Lattice, ClosePackingsDifferInTheirFurtherShells) {
+  // Theta series of Conway and Sloane: fcc 12, 6, 24, 12, 24 sites at r^2 = 1, 2, 3, 4, 5; hcp has 2 at 8/3, straight
+  // above and below, and 18, 12, 6, 12 at 3, 11/3, 4, 5.
+  EXPECT_EQ(shells(Lattice::fcc, 5.1), (std::map<long, int>{{3, 12}, {6, 6}, {9, 24}, {12, 12}, {15, 24}}));
+  EXPECT_EQ(shells(Lattice::hcp, 5.1),
+            (std::map<long, int>{{3, 12}, {6, 6}, {8, 2}, {9, 18}, {11, 12}, {12, 6}, {15, 12}}));
 }
 
 TEST(Lattice, SitesRunAlongXFirst) {
@@ -143,7 +175,10 @@ TEST(Lattice, RefusesWhatDoesNotFit) {
   EXPECT_THROW(block_load(chain, Lattice::triangular, 1, {4, 1, 1}), Error);
   Ensemble<Newton<2>> none("none");
   EXPECT_EQ(block_load(none, Lattice::triangular, 1, {0, 5, 1}), 0U);
+  EXPECT_THROW(block_load(atoms, Lattice::hcp, 1, {3, 1, 1}), Error);
+  EXPECT_THROW(filling_count(Filling{Lattice::hcp, 0.1, {0, 0, 0}, {1, 1, 1}}, 3), Error);
   EXPECT_EQ(lattice_named("bcc"), Lattice::bcc);
+  EXPECT_EQ(lattice_named("hcp"), Lattice::hcp);
   EXPECT_THROW(lattice_named("hexagonal"), Error);
 }
 

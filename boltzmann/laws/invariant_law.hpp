@@ -1,0 +1,55 @@
+// The invariant law of internal energies: how they are distributed in equilibrium with a heat bath.
+#pragma once
+
+#include <boltzmann/laws/state_law.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace boltzmann {
+
+/// The distribution of StateLaw::draw, made once for many draws. Its density in eps, exp(s(eps) / k - eps / (k T)), is
+/// highest where the state law has the temperature T of the bath. It is integrated over temperatures, from point to
+/// point of the table by Gauss and Legendre; where the heat capacity is constant it is an incomplete gamma function.
+class InvariantLaw {
+ public:
+  /// Keeps a reference to the state law. Error if temperature or k is not positive.
+  InvariantLaw(StateLaw const& law, double temperature, double boltzmann_constant);
+
+  /// The fraction below an energy.
+  double distribution(double energy) const;
+  /// Its inverse, right to about 1e-13. Error if u is not in (0, 1).
+  double quantile(double u) const;
+
+ private:
+  /// A range of temperatures, in which the heat capacity is linear and the density smooth.
+  struct Panel {
+    double start, width;
+    double capacity, slope;  // of the heat capacity: at the start
+    double exponent;         // at the start, zero where it is highest
+    double mass = 0, below = 0, above = 0;
+  };
+  /// Everything below, or above, a temperature: the heat capacity is constant there.
+  struct End {
+    double temperature = 0, shape = 1;
+    double log_below = 0, log_above = 0;  // of the gamma distribution's fractions
+    double mass = 0, others = 0;          // of the law: here, and everywhere else
+  };
+
+  double scaled(double temperature, double shape) const;  // the variable of the gamma function
+  double exponent_in(Panel const& panel, double t) const;
+  double integral(Panel const& panel, double width) const;
+  void cover(double first, double last);
+  void add_panels(double from, double to, double exponent);
+  End end(double temperature, double capacity, double exponent, bool low) const;
+  std::size_t panel_at(double temperature) const;
+
+  StateLaw const& law_;
+  double bath_, k_;
+  double low_exponent_ = 0, high_exponent_ = 0;  // at the ends
+  End low_, high_;
+  std::vector<Panel> panels_;  // ascending
+  double total_ = 0;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,34 @@
+// The soft repulsion of dissipative particle dynamics (Groot and Warren 1997).
+#pragma once
+
+#include <boltzmann/laws/central.hpp>
+#include <boltzmann/laws/parameter.hpp>
+
+namespace boltzmann {
+
+/// A force repulsion (1 - r / range) up to the range, nothing beyond: phi(r) = repulsion range / 2 (1 - r / range)^2.
+/// Lumps of fluid, which may lie on top of each other (Eq 5 of Groot and Warren, J. Chem. Phys. 107, 4423; their a is
+/// the repulsion). Two particles at one place don't push each other: they have no direction.
+struct Soft {
+  static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+
+  double repulsion;
+  double range;
+
+  template <class P, class Q>
+  auto operator()(P const& p, Q const& q) const {
+    auto const [direction, distance] = separation(p, q);
+    using Real = std::remove_cvref_t<decltype(distance)>;
+    Real const part = 1.0 - distance * (1 / range);
+    Real const overlap = select(part > 0.0, part, Real(0.0));
+    return Interaction{direction * (-repulsion * overlap), 0.5 * repulsion * range * overlap * overlap};
+  }
+
+  double length_scale() const { return range; }
+  void check() const {
+    check_parameter("soft", "repulsion", repulsion, AllowedRange::non_negative);
+    check_parameter("soft", "range", range, AllowedRange::positive);
+  }
+};
+
+}  // namespace boltzmann
