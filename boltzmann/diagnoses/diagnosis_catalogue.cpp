@@ -2,15 +2,19 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/energy_balance.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/diagnoses/shock.hpp>
+#include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -265,6 +269,34 @@ std::unique_ptr<Diagnosis> make_heat_flux(DiagnosisParameters const& parameters)
   int const axis = parameters.axis.empty() ? dimension_of(parameters) - 1 : parameters.axis[0] - 'x';
   return std::make_unique<HeatFlux>(parameters.available,
                                     HeatFluxOptions{axis, parameters.conductivity, parameters.since});
+}
+
+/// The first axis where none is named.
+int axis_of(DiagnosisParameters const& parameters) { return parameters.axis.empty() ? 0 : parameters.axis[0] - 'x'; }
+
+std::unique_ptr<Diagnosis> make_slab(DiagnosisParameters const& parameters) {
+  for (auto const& name : parameters.ensembles) ensemble_named(parameters.available, name);
+  return std::make_unique<Slab>(
+      parameters.available,
+      SlabOptions{axis_of(parameters), parameters.from, parameters.to, std::max<std::size_t>(parameters.count, 1),
+                  parameters.ensembles, parameters.label.empty() ? "slab" : parameters.label});
+}
+
+std::unique_ptr<Diagnosis> make_shock(DiagnosisParameters const& parameters) {
+  for (auto const& name : parameters.ensembles) ensemble_named(parameters.available, name);
+  ShockOptions options;
+  options.axis = axis_of(parameters);
+  if (!parameters.end.empty() && parameters.end != "low" && parameters.end != "high")
+    throw Error(fmt::format("a shock comes from the end 'low' or 'high' of its axis, not '{}'", parameters.end));
+  if (!parameters.end.empty()) options.end = parameters.end == "low" ? Box::End::low : Box::End::high;
+  if (!parameters.quantity.empty()) options.quantity = parameters.quantity;
+  options.count = parameters.count;
+  options.since = parameters.since;
+  options.margin = parameters.margin;
+  options.near = parameters.near;
+  options.far = parameters.far;
+  options.ensembles = parameters.ensembles;
+  return std::make_unique<Shock>(parameters.available, std::move(options));
 }
 
 // ---- Of a group of particles ----
@@ -540,6 +572,14 @@ std::vector<Entry> const& table() {
           "heat conducted and carried by the flow between two walls, and Nusselt's number with its mean and spread",
           {"axis", "conductivity", "since"}},
          make_heat_flux},
+        {{"slab",
+          "temperatures, density, velocity and place of the particles that were between two places at the start",
+          {"ensembles", "label", "axis", "from", "to", "count"}},
+         make_slab},
+        {{"shock",
+          "place and velocity of a shock front, the matter behind and ahead of it, and whether the three jumps close",
+          {"ensembles", "axis", "end", "quantity", "count", "since", "margin", "near", "far"}},
+         make_shock},
         {{"drag", "mean velocity of a group of particles: its change is the drag", group}, make<Drag>},
         {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", group},
          make<VelocityDiffusion>},
@@ -557,6 +597,8 @@ std::vector<Entry> const& table() {
           {"quantity", "axis", "modes"},
           true},
          make_wave_spectrum},
+        {{"energy-balance", "energy, work of moving walls, heat of baths, and what is left: the first less these", {}},
+         [](DiagnosisParameters const&) -> std::unique_ptr<Diagnosis> { return std::make_unique<EnergyBalance>(); }},
     };
   }();
   return entries;
@@ -584,6 +626,13 @@ void refuse_unused(DiagnosisKind const& kind, DiagnosisParameters const& paramet
   check("gamma", parameters.gamma != 0);
   check("conductivity", parameters.conductivity != 0);
   check("since", parameters.since != 0);
+  check("from", !std::isnan(parameters.from));
+  check("to", !std::isnan(parameters.to));
+  check("count", parameters.count != 0);
+  check("end", !parameters.end.empty());
+  check("margin", parameters.margin != 0);
+  check("near", parameters.near != 0);
+  check("far", !std::isinf(parameters.far));
 }
 
 }  // namespace

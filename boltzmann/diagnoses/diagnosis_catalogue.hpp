@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,17 +31,25 @@ struct DiagnosisParameters {
   double tolerance = 0;               ///< ... within this distance of it
   bool subtract_drift = false;        ///< temperature: without the mean velocity, over N - 1
   bool about_centre_of_mass = false;  ///< angular momentum: else about the origin
-  std::string quantity = {};  ///< extremes: a name that quantity() knows; of a mesh: one that mesh_quantity() knows
+  std::string quantity = {};  ///< extremes: a name that quantity() knows; of a mesh: one that mesh_quantity() knows;
+                              ///< shock: "velocity" (empty) or "density"
   std::vector<MeshField const*> mesh_fields =
       {};                      ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
   std::vector<int> mode = {};  ///< field-mode: periods in the box along each axis
-  std::string axis = {};       ///< wave-spectrum, heat-flux: "x", "y" or "z"
+  std::string axis = {};       ///< wave-spectrum, heat-flux, slab, shock: "x", "y" or "z"
   std::size_t modes = 0;       ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
-  WeightShape weight = WeightShape::lucy;  ///< entropy: of the averages
-  double range = 0;                        ///< entropy: of the weight; 0: each particle's own
-  double gamma = 0;                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D
-  double conductivity = 0;                 ///< heat-flux: of the material
-  double since = 0;                        ///< heat-flux: the time from which means are taken
+  WeightShape weight = WeightShape::lucy;                  ///< entropy: of the averages
+  double range = 0;                                        ///< entropy: of the weight; 0: each particle's own
+  double gamma = 0;                                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D
+  double conductivity = 0;                                 ///< heat-flux: of the material
+  double since = 0;                                        ///< heat-flux, shock: the time from which means are taken
+  double from = std::numeric_limits<double>::quiet_NaN();  ///< slab: its ends at the start; NaN: those of the box
+  double to = std::numeric_limits<double>::quiet_NaN();
+  std::size_t count = 0;  ///< slab: so many side by side, 0: one; shock: bins of the profile, 0: as they fit
+  std::string end = {};   ///< shock: "low" or "high", from which it comes; empty: the wall that runs into the matter
+  double margin = 0;      ///< shock: what is left out beside the front and at both ends; 0: 5 % of the matter
+  double near = 0;        ///< shock: where the window behind the front begins; 0: two margins behind it
+  double far = std::numeric_limits<double>::infinity();  ///< shock: where it ends, or a margin before the driven end
 };
 
 /// One kind of diagnosis.
@@ -52,7 +61,7 @@ struct DiagnosisKind {
 };
 
 /// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, entropy, heat-flux,
-/// drag, velocity-diffusion, extremes; of a mesh field-energy, field-mode, wave-spectrum.
+/// slab, shock, drag, velocity-diffusion, extremes, energy-balance; of a mesh field-energy, field-mode, wave-spectrum.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
 
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or

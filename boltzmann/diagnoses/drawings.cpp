@@ -456,6 +456,15 @@ Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::str
   return canvas;
 }
 
+Canvas draw_profile(std::span<Series const> series, Axis x, Axis y, std::string title) {
+  Canvas canvas = draw_time_series(series, std::move(x), std::move(y), std::move(title));
+  constexpr std::size_t marked = 100;
+  for (std::size_t s = 0; s < series.size(); ++s)
+    for (std::size_t i = 0; i < series[s].x.size() && series[s].x.size() <= marked; ++i)
+      canvas.point(series[s].x[i], series[s].y[i], series[s].colour.value_or(species_colour(static_cast<int>(s))), 7);
+  return canvas;
+}
+
 namespace {
 
 // The axes of a mesh of so many cells, from low to high.

@@ -81,6 +81,10 @@ Canvas draw_spectrum(std::span<double const> frequency, std::span<double const> 
 /// A curve for each quantity over time; the time axis ends where the series end.
 Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::string title = "");
 
+/// A curve for each quantity along an axis of space, with a mark at each bin where there are few enough to tell them
+/// apart; bins without a value (NaN) are gaps.
+Canvas draw_profile(std::span<Series const> series, Axis x, Axis y, std::string title = "");
+
 /// What the ends of a colour bar stand for.
 struct ColourEnds {
   double low = std::numeric_limits<double>::quiet_NaN();  // NaN: the smallest and the largest finite value, or -a and a

@@ -511,7 +511,7 @@ class Drawer {
     std::size_t number = 0;
     for (auto const& source : bodies.sources()) number += source.ensemble->size();
     if (number == 0) return too_few("a profile needs particles with a mass and a velocity");
-    auto const bins = std::clamp<std::size_t>(number / 30, 1, static_cast<std::size_t>(picture_.cells));
+    auto const bins = std::clamp<std::size_t>(number / 50, 1, static_cast<std::size_t>(picture_.cells));
     auto const [low, high] = extent(bodies, box(), a);
     Profile const found = profile(bodies, box(), a, low, high, bins, k);
 

@@ -48,7 +48,7 @@ struct Picture {
   std::vector<double> levels = {};  ///< contours, bands: ascending; empty: level_count even ones
   int level_count = 0;              ///< 0: 8 for contours; the mean over the picture alone for bands
   int cells = 300;  ///< of the grid, along the longest side of the picture; profile: bins at most, fewer
-                    ///< if these had less than 30 particles in the mean
+                    ///< if these had less than 50 particles in the mean
 };
 
 /// "cartesian", "phase-space", "spectrum", "time-series", "profile", "mesh", "wave-spectrum"; of the smooth fields of

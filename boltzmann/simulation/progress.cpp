@@ -104,7 +104,7 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   std::int64_t const first = simulation.step();
   auto const print_advice = [&](std::vector<std::string> const& lines) {
     for (auto const& advice : lines)
-      if (!options.quiet || advice.starts_with("warning")) fmt::print(stderr, "{}\n", advice);
+      if (advice.starts_with("warning") ? options.warnings : !options.quiet) fmt::print(stderr, "{}\n", advice);
   };
   for (auto* scheme : simulation.schemes()) print_advice(scheme->advice(simulation.step_size()));
   for (auto* flow : simulation.flows()) print_advice(flow->advice(simulation.step_size()));
@@ -142,7 +142,8 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   report.steps = simulation.step() - first;
   report.particle_steps = counted->value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
   counted->reset();
-  report.interrupted = interrupt.seen() && report.steps < static_cast<std::int64_t>(steps);
+  report.signalled = interrupt.seen();
+  report.interrupted = report.signalled && report.steps < static_cast<std::int64_t>(steps);
   return report;
 }
 

@@ -10,6 +10,7 @@ namespace boltzmann {
 struct ProgressOptions {
   bool quiet = false;        ///< no progress line
   std::int64_t planned = 0;  ///< the step number that counts as 100 %; 0: where this run ends
+  bool warnings = true;      ///< false: the caller tells those of schemes and flows
 };
 
 /// How a run went.
@@ -18,7 +19,8 @@ struct RunReport {
   std::int64_t particles = 0;  ///< of all ensembles, at the start
   double particle_steps = 0;   ///< the sum of the numbers of particles over all steps
   double seconds = 0;          ///< of the loop, with all observers
-  bool interrupted = false;    ///< by Ctrl-C or SIGTERM
+  bool interrupted = false;    ///< by Ctrl-C or SIGTERM, before its last step
+  bool signalled = false;      ///< one of them has come, perhaps after the last step
 };
 
 /// Says what schemes and flows advise (Scheme::advice, Flow::advice; if quiet, their warnings only), and runs with a progress line, both on

@@ -524,6 +524,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   }
   double const recorded = recording.seconds() - before;
   recording.finish();
+  report.signalled = interrupt.seen();
   if (!options.quiet) print_summary(recording, report, *start, recorded);
   if (report.interrupted)
     fmt::print(stderr, "stopped by a signal after step {}; its checkpoint is written: {}/checkpoint.h5\n",

@@ -10,7 +10,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr double far_above = 4;  // the longest step that makes sense
+constexpr double far_above = 4;                   // the longest step that makes sense
+constexpr std::uint32_t first_preparation = 128;  // its number as a flow
 
 /// Takes off the velocity of the centre of mass, and returns it.
 std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
@@ -48,6 +49,7 @@ void Simulation::add(Scheme& scheme) {
 }
 
 void Simulation::add(Flow& flow) {
+  flow.number(static_cast<std::uint32_t>(flows_.size()));
   flows_.push_back(&flow);
   checked_ = false;
 }
@@ -98,6 +100,7 @@ std::vector<Adaptation const*> Simulation::adaptations() const {
 }
 
 void Simulation::prepare(std::shared_ptr<Flow> flow, std::uint64_t steps) {
+  flow->number(first_preparation + static_cast<std::uint32_t>(preparations_.size()));
   preparations_.push_back({std::move(flow), steps});
   checked_ = false;
 }
@@ -217,7 +220,8 @@ FixedPoint Simulation::choose_grid() const {
     for (int a = 0; a < scheme->box().dimension(); ++a) {
       Box const& box = scheme->box();
       extent = std::max({extent, std::abs(box.low(a)), std::abs(box.high(a)), box.length(a)});
-      open = open || box.boundary(a) == Boundary::open;
+      bool const walled = box.walled(a, Box::End::low) && box.walled(a, Box::End::high);
+      open = open || !(walled || box.periodic(a));
     }
   for (auto const& part : parts_)
     if (Field const* field = part.ensemble->find_field("mass"))

@@ -180,8 +180,9 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "entropy, heat-flux, drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum; did you mean "
-      "'energies'?");
+      "entropy, heat-flux, slab, shock, drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum, "
+      "energy-balance; "
+      "did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
   EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
@@ -211,7 +212,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 14U);
+  EXPECT_EQ(diagnosis_kinds().size(), 17U);
   Ensemble<Smooth<2>> gas("gas");
   for (auto const& kind : diagnosis_kinds()) {
     auto any = parameters();
@@ -223,7 +224,9 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
     if (kind.name == "entropy" || kind.name == "heat-flux") any.available = {&gas};
     if (kind.name == "heat-flux") any.conductivity = 1;
     EXPECT_NO_THROW(make_diagnosis(kind.name, any)) << kind.name;
-    EXPECT_EQ(make_diagnosis(kind.name, any)->needs_energies(), kind.name == "energies" || kind.name == "pressure");
+    EXPECT_EQ(make_diagnosis(kind.name, any)->needs_energies(), kind.name == "energies" || kind.name == "pressure" ||
+                                                                    kind.name == "shock" ||
+                                                                    kind.name == "energy-balance");
   }
 }
 
@@ -248,7 +251,8 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
   Measures const measures;
   Ensemble<Smooth<3>> gas("gas");
   for (auto const& kind : diagnosis_kinds()) {
-    if (kind.of_mesh || kind.name == "heat-flux") continue;  // these need a mesh, and walls of two temperatures
+    if (kind.of_mesh || kind.name == "heat-flux") continue;     // these need a mesh, and walls of two temperatures
+    if (kind.name == "slab" || kind.name == "shock") continue;  // and these, matter (see their own tests)
     // An entropy belongs to matter that has an internal energy.
     AnyEnsemble* const of = kind.name == "entropy" ? static_cast<AnyEnsemble*>(&gas) : &space;
     std::vector<AnyEnsemble*> const ensembles{of};

@@ -1,0 +1,20 @@
+// The energy balance: what the particles have, what moving walls and heat baths have given, and what is left.
+#pragma once
+
+#include <boltzmann/diagnoses/diagnosis.hpp>
+
+#include <vector>
+
+namespace boltzmann {
+
+/// Columns: the energy of all particles (kinetic, potential, external and internal), the work of moving walls and the
+/// heat of baths since the start of the run, and the balance, the first less the others, which a run conserves. Where a
+/// law gives no energy (Measures::unknown), the first and the last are NaN.
+class EnergyBalance final : public Diagnosis {
+ public:
+  std::vector<Column> columns() const override;
+  void measure(Sample const& sample, std::vector<double>& values) override;
+  bool needs_energies() const override { return true; }
+};
+
+}  // namespace boltzmann

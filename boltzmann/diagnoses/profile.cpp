@@ -1,0 +1,283 @@
+// Profiles: sums over the particles of each bin.
+#include <boltzmann/diagnoses/profile.hpp>
+
+#include <boltzmann/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
+  Field const* field = ensemble.find_field(name);
+  return field != nullptr && field->components == 1 ? field->offset : -1;
+}
+
+}  // namespace
+
+// ---- Sums ----
+
+void MatterSum::add(Body const& body, int dimension) {
+  double const m = body.mass;
+  number_ += 1;
+  mass_ += m;
+  std::array<double, 3> before{};
+  for (int a = 0; a < dimension; ++a) {
+    before[a] = body.velocity[a] - mean_[a];
+    if (mass_ > 0) mean_[a] += before[a] * (m / mass_);
+  }
+  for (int a = 0; a < dimension; ++a)
+    for (int b = 0; b < dimension; ++b) squares_[a][b] += m * before[a] * (body.velocity[b] - mean_[b]);
+  internal_ += body.internal_energy;
+  potential_ += body.potential;
+  if (!std::isnan(body.temperature)) {
+    with_temperature_ += 1;
+    inverse_temperature_ += body.temperature > 0 ? 1 / body.temperature : nan;
+  }
+  double const* virial = body.virial;
+  for (auto& row : virial_)
+    for (double& sum : row) sum += virial != nullptr ? *virial++ : nan;
+}
+
+MatterState MatterSum::matter(int dimension, double boltzmann_constant) const {
+  MatterState matter;
+  matter.number = number();
+  matter.volume = volume_;
+  matter.mass = mass_;
+  matter.density = volume_ > 0 ? mass_ / volume_ : nan;
+  for (auto& row : matter.pressure) row.fill(0);
+  double thermal = 0, sum = 0;
+  for (int a = 0; a < dimension; ++a) {
+    matter.velocity[a] = number_ > 0 ? mean_[a] : nan;
+    matter.kinetic_temperature[a] = number_ > 1 ? squares_[a][a] / ((number_ - 1) * boltzmann_constant) : nan;
+    sum += matter.kinetic_temperature[a];
+    thermal += 0.5 * squares_[a][a];
+    for (int b = 0; b < dimension; ++b)  // the two ways of writing m v'_a v'_b differ in rounding only
+      matter.pressure[a][b] =
+          number_ > 0 && volume_ > 0 ? (0.5 * (squares_[a][b] + squares_[b][a]) + virial_[a][b]) / volume_ : nan;
+  }
+  matter.mean_kinetic_temperature = sum / dimension;
+  matter.internal_temperature = with_temperature_ > 0 ? with_temperature_ / inverse_temperature_ : nan;
+  auto const per_mass = [&](double energy) { return number_ > 0 && mass_ > 0 ? energy / mass_ : nan; };
+  matter.internal_energy = per_mass(internal_);
+  matter.potential_energy = per_mass(potential_);
+  matter.specific_energy = per_mass(thermal + internal_ + potential_);
+  return matter;
+}
+
+std::vector<double> MatterSum::state() const {
+  std::vector<double> state{number_, mass_, volume_};
+  state.insert(state.end(), mean_.begin(), mean_.end());
+  for (auto const* tensor : {&squares_, &virial_})
+    for (auto const& row : *tensor) state.insert(state.end(), row.begin(), row.end());
+  state.insert(state.end(), {internal_, potential_, with_temperature_, inverse_temperature_});
+  return state;
+}
+
+void MatterSum::restore(std::span<double const> state) {
+  if (state.size() != state_size) throw Error("the checkpoint does not fit this diagnosis: its sums are others");
+  double const* from = state.data();
+  number_ = *from++;
+  mass_ = *from++;
+  volume_ = *from++;
+  for (double& x : mean_) x = *from++;
+  for (auto* tensor : {&squares_, &virial_})
+    for (auto& row : *tensor)
+      for (double& x : row) x = *from++;
+  internal_ = *from++;
+  potential_ = *from++;
+  with_temperature_ = *from++;
+  inverse_temperature_ = *from;
+}
+
+// ---- Particles ----
+
+Bodies::Bodies(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
+               std::vector<std::string> const& chosen) {
+  for (std::size_t e = 0; e < ensembles.size(); ++e) {
+    AnyEnsemble const& ensemble = *ensembles[e];
+    bool const wanted = chosen.empty() || std::find(chosen.begin(), chosen.end(), ensemble.name()) != chosen.end();
+    if (!wanted || !carries_momentum(ensemble)) continue;
+    auto const has = [&](std::vector<std::vector<double>> const& all, std::size_t each) {
+      return e < all.size() && all[e].size() == each * ensemble.size();
+    };
+    Source source{&ensemble,
+                  offset_of_field(ensemble, "mass"),
+                  ensemble.field("velocity").offset,
+                  offset_of_field(ensemble, "temperature"),
+                  offset_of_field(ensemble, "internal_energy"),
+                  offset_of_field(ensemble, "specific_energy"),
+                  nullptr,
+                  nullptr};
+    if (measures != nullptr && measures->unknown.empty() && has(measures->per_particle, 1))
+      source.potential = measures->per_particle[e].data();
+    if (measures != nullptr && has(measures->virial_per_particle, 9))
+      source.virial = measures->virial_per_particle[e].data();
+    sources_.push_back(source);
+  }
+}
+
+MatterSum::Body Bodies::body(Source const& source, std::size_t i) {
+  double const* row = source.ensemble->row(i);
+  double const mass = row[source.mass];
+  return {mass,
+          row + source.velocity,
+          source.internal_energy >= 0   ? row[source.internal_energy]
+          : source.specific_energy >= 0 ? mass * row[source.specific_energy]
+                                        : 0,
+          source.potential != nullptr ? source.potential[i] : nan,
+          source.temperature >= 0 ? row[source.temperature] : nan,
+          source.virial != nullptr ? source.virial + 9 * i : nullptr};
+}
+
+double cross_section(Box const& box, int axis) {
+  double area = 1;
+  for (int a = 0; a < box.dimension(); ++a)
+    if (a != axis) area *= box.length(a);
+  return area;
+}
+
+Extent extent(Bodies const& bodies, Box const& box, int axis) {
+  Extent extent{box.low(axis), box.high(axis)};
+  if (box.boundary(axis) == Boundary::open)
+    bodies.for_each([&](double const* position, MatterSum::Body const&) {
+      double const x = position[axis];
+      if (!std::isfinite(x)) return;
+      extent.low = std::min(extent.low, x);
+      extent.high = std::max(extent.high, x);
+    });
+  return extent;
+}
+
+namespace {
+
+/// Of what is between two places and inside the box.
+double volume_between(Box const& box, int axis, double low, double high) {
+  if (box.boundary(axis) != Boundary::open) {
+    low = std::max(low, box.low(axis));
+    high = std::min(high, box.high(axis));
+  }
+  return std::max(0.0, high - low) * cross_section(box, axis);
+}
+
+}  // namespace
+
+MatterState matter_between(Bodies const& bodies, Box const& box, int axis, double low, double high,
+                           double boltzmann_constant) {
+  MatterSum sum;
+  sum.add_volume(volume_between(box, axis, low, high));
+  bodies.for_each([&](double const* position, MatterSum::Body const& body) {
+    if (position[axis] >= low && position[axis] < high) sum.add(body, box.dimension());
+  });
+  return sum.matter(box.dimension(), boltzmann_constant);
+}
+
+Profile profile(Bodies const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
+                double boltzmann_constant) {
+  int const dimension = box.dimension();
+  if (axis < 0 || axis >= dimension)
+    throw Error(
+        fmt::format("a profile along axis {}: the space has {} ax{}", axis, dimension, dimension == 1 ? "is" : "es"));
+  if (count == 0) throw Error("a profile needs at least one bin");
+  if (!(low < high) || !std::isfinite(high - low))
+    throw Error(fmt::format("a profile goes from a lower to a higher place, not from {} to {}", low, high));
+  double const width = (high - low) / static_cast<double>(count);
+  std::vector<MatterSum> sums(count);
+  bodies.for_each([&](double const* position, MatterSum::Body const& body) {
+    double const x = position[axis];
+    if (!(x >= low && x <= high)) return;
+    auto const bin = static_cast<std::size_t>((x - low) / width);  // a particle at the high end is in the last one
+    sums[std::min(bin, count - 1)].add(body, dimension);
+  });
+  Profile result{dimension, axis, {}, {}};
+  for (std::size_t b = 0; b < count; ++b) {
+    double const left = low + width * static_cast<double>(b), right = b + 1 == count ? high : left + width;
+    sums[b].add_volume(volume_between(box, axis, left, right));
+    result.position.push_back(left + width / 2);
+    result.matter.push_back(sums[b].matter(dimension, boltzmann_constant));
+  }
+  return result;
+}
+
+// ---- By name ----
+
+namespace {
+
+struct Entry {
+  ProfileQuantity meaning;
+  double (*value)(MatterState const&, int, int);
+  int a, b;
+};
+
+std::vector<Entry> entries(int dimension) {
+  Dimension const volume = pow(dimensions::length, dimension), energy = dimensions::velocity * dimensions::velocity;
+  std::vector<Entry> all;
+  auto const add = [&](std::string const& name, Dimension unit, double (*value)(MatterState const&, int, int),
+                       int a = -1, int b = -1) {
+    std::string axes = a < 0 ? "" : std::string(1, "xyz"[a]);
+    if (b >= 0) axes += "xyz"[b];
+    std::string label = name;
+    std::replace(label.begin(), label.end(), '-', ' ');
+    all.push_back({{axes.empty() ? name : name + "." + axes, axes.empty() ? label : label + " " + axes, unit},
+                   value,
+                   std::max(a, 0),
+                   std::max(b, 0)});
+  };
+  add("number", dimensions::none, [](MatterState const& m, int, int) { return static_cast<double>(m.number); });
+  add("density", dimensions::mass / volume, [](MatterState const& m, int, int) { return m.density; });
+  for (int a = 0; a < dimension; ++a)
+    add(
+        "velocity", dimensions::velocity, [](MatterState const& m, int i, int) { return m.velocity[i]; }, a);
+  add("kinetic-temperature", dimensions::temperature,
+      [](MatterState const& m, int, int) { return m.mean_kinetic_temperature; });
+  for (int a = 0; a < dimension; ++a)
+    add(
+        "kinetic-temperature", dimensions::temperature,
+        [](MatterState const& m, int i, int) { return m.kinetic_temperature[i]; }, a);
+  add("internal-temperature", dimensions::temperature,
+      [](MatterState const& m, int, int) { return m.internal_temperature; });
+  for (int a = 0; a < dimension; ++a)
+    for (int b = a; b < dimension; ++b)
+      add(
+          "pressure", dimensions::energy / volume, [](MatterState const& m, int i, int j) { return m.pressure[i][j]; },
+          a, b);
+  add("internal-energy", energy, [](MatterState const& m, int, int) { return m.internal_energy; });
+  add("potential-energy", energy, [](MatterState const& m, int, int) { return m.potential_energy; });
+  add("specific-energy", energy, [](MatterState const& m, int, int) { return m.specific_energy; });
+  return all;
+}
+
+Entry entry(int dimension, std::string_view name) {
+  std::vector<std::string> names;
+  for (auto& one : entries(dimension)) {
+    if (one.meaning.name == name) return one;
+    names.push_back(one.meaning.name);
+  }
+  throw Error(fmt::format("a profile has no quantity '{}'; it has {}{}", name, join(names), did_you_mean(name, names)));
+}
+
+}  // namespace
+
+std::vector<ProfileQuantity> profile_quantities(int dimension) {
+  std::vector<ProfileQuantity> all;
+  for (auto& one : entries(dimension)) all.push_back(one.meaning);
+  return all;
+}
+
+ProfileQuantity profile_quantity(int dimension, std::string_view name) { return entry(dimension, name).meaning; }
+
+std::vector<double> Profile::values(std::string_view quantity) const {
+  Entry const found = entry(dimension, quantity);
+  std::vector<double> all;
+  all.reserve(matter.size());
+  for (auto const& one : matter) all.push_back(found.value(one, found.a, found.b));
+  return all;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,129 @@
+// Profiles: what matter is like (density, velocity, temperatures, pressure, energies) in a part of space, and along an
+// axis.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// Matter as one piece. "Volume" is an area in 2D and a length in 1D. Numbers that can't be had are NaN.
+struct MatterState {
+  std::size_t number = 0;
+  double volume = 0, mass = 0;
+  double density = 0;                   ///< mass / volume
+  Triple velocity{};                    ///< of the centre of mass
+  Triple kinetic_temperature{};         ///< T_a = sum m (v_a - <v_a>)^2 / ((N - 1) k) along each axis
+  double mean_kinetic_temperature = 0;  ///< their mean over the axes
+  double internal_temperature = 0;      ///< harmonic mean of the field "temperature", of classes that have it
+  Tensor3 pressure{};                   ///< (sum m v' v' + virial) / volume, v' = v - <v>: the negative of the stress
+  double internal_energy = 0;           ///< per mass: of what is inside the particles
+  double potential_energy = 0;          ///< per mass: of the influences between particles
+  double specific_energy = 0;           ///< per mass: both, and the kinetic energy of v'
+};
+
+/// Sums over particles that become a MatterState: one pass, exact for any mean velocity (Welford's).
+class MatterSum {
+ public:
+  struct Body {
+    double mass;
+    double const* velocity;             ///< dimension components
+    double internal_energy, potential;  ///< NaN: unknown
+    double temperature;                 ///< NaN: its class has none
+    double const* virial;               ///< nine numbers (Measures::virial_per_particle); null: unknown
+  };
+  void add(Body const& body, int dimension);
+  void add_volume(double volume) { volume_ += volume; }
+
+  std::size_t number() const { return static_cast<std::size_t>(number_); }
+  MatterState matter(int dimension, double boltzmann_constant) const;
+
+  /// The sums themselves, for checkpoints.
+  static constexpr std::size_t state_size = 28;
+  std::vector<double> state() const;
+  /// Takes state_size numbers.
+  void restore(std::span<double const> state);
+
+ private:
+  double number_ = 0, mass_ = 0, volume_ = 0;
+  std::array<double, 3> mean_{};
+  Tensor3 squares_{}, virial_{};
+  double internal_ = 0, potential_ = 0, with_temperature_ = 0, inverse_temperature_ = 0;
+};
+
+/// The particles of several ensembles as MatterSum wants them. Ensembles without mass or velocity are passed over. It
+/// looks at rows and measures, which must outlive it.
+class Bodies {
+ public:
+  /// `measures` may be null: then energies and pressures are unknown. `chosen` names the ensembles that count; empty:
+  /// all.
+  Bodies(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
+         std::vector<std::string> const& chosen = {});
+
+  struct Source {
+    AnyEnsemble const* ensemble;
+    int mass, velocity, temperature, internal_energy, specific_energy;  // offsets; -1: the class has none
+    double const* potential;
+    double const* virial;
+  };
+  std::vector<Source> const& sources() const { return sources_; }
+  static MatterSum::Body body(Source const& source, std::size_t i);
+  /// Calls f(position, body) for every particle.
+  template <class Function>
+  void for_each(Function const& f) const {
+    for (auto const& source : sources_)
+      for (std::size_t i = 0; i < source.ensemble->size(); ++i) f(source.ensemble->row(i), body(source, i));
+  }
+
+ private:
+  std::vector<Source> sources_;
+};
+
+/// The product of the box's lengths along all other axes: 1 in 1D.
+double cross_section(Box const& box, int axis);
+
+/// The part of an axis that particles can be in: the box (as its walls stand now), and on open axes also where some
+/// particle is.
+struct Extent {
+  double low, high;
+};
+Extent extent(Bodies const& bodies, Box const& box, int axis);
+
+/// What is between two places along an axis.
+MatterState matter_between(Bodies const& bodies, Box const& box, int axis, double low, double high,
+                           double boltzmann_constant);
+
+/// Equal bins along an axis.
+struct Profile {
+  int dimension, axis;
+  std::vector<double> position;     ///< of the middle of each bin
+  std::vector<MatterState> matter;  ///< in each bin; of an empty one number, mass and density are 0, the rest NaN
+
+  /// One quantity in each bin, by a name of profile_quantities(); Error for others.
+  std::vector<double> values(std::string_view quantity) const;
+};
+
+/// `count` bins from `low` to `high`. Of a bin that reaches beyond the box (where the axis is not open) only what is
+/// inside counts as its volume. Error if there is no such axis, no bin, or low is not below high.
+Profile profile(Bodies const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
+                double boltzmann_constant);
+
+/// What a profile has: "number", "density", "velocity.x", "kinetic-temperature", "kinetic-temperature.x",
+/// "internal-temperature", "pressure.xx", "pressure.xy", ..., "internal-energy", "potential-energy", "specific-energy".
+struct ProfileQuantity {
+  std::string name;
+  std::string label;  ///< "velocity x"
+  Dimension dimension;
+};
+std::vector<ProfileQuantity> profile_quantities(int dimension);
+/// Error with the names there are, and the nearest.
+ProfileQuantity profile_quantity(int dimension, std::string_view name);
+
+}  // namespace boltzmann
