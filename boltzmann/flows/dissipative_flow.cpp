@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <numeric>
 
 namespace boltzmann {
 namespace {
@@ -156,7 +158,7 @@ void DissipativeFlow::check() {
   }
 }
 
-PairNoise DissipativeFlow::Coupling::noise(StepContext const& context, double k) const {
+PairNoise DissipativeFlow::Coupling::noise(StepContext const& context, double k, std::uint32_t flow) const {
   Dissipation const& d = dissipation;
   PairNoise n;
   n.convention = d.convention;
@@ -174,18 +176,26 @@ PairNoise DissipativeFlow::Coupling::noise(StepContext const& context, double k)
   n.same = same();
   n.first = first;
   n.step = context.step & 0xffffffffU;
-  n.tag = number | (context.step >> 32U) << 8U;
+  n.tag = number | flow << 8U | (context.step >> 32U) << 16U;
   n.key = PhiloxKey(context.seed);
   return n;
 }
 
-void DissipativeFlow::take_points() {
+/// False if lists and mirrors are not those of the positions of now.
+bool DissipativeFlow::take_points() {
+  Box const& box = scheme_.box();
+  std::atomic<bool> current = scheme_.neighbourhood().builds() > 0;
   for (auto& member : members_) {
     if (!member->dissipates) continue;
     Member& m = *member;
     Mirror const& mirror = *m.mirror;
     int const dimension = m.dimension();
     std::size_t const owned = mirror.owned(), total = mirror.total();
+    if (owned != m.ensemble->size()) current = false;
+    if (!current) return false;
+    std::array<double, 3> half{nowhere, nowhere, nowhere};  // further off than that, it has been wrapped
+    for (int a = 0; a < dimension; ++a)
+      if (box.periodic(a)) half[a] = 0.5 * box.length(a);
     m.points.resize(m.stride() * (total + 1));
     int const threads = worth_threads(owned, particles_worth_threads / 2, this->threads());
     StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
@@ -194,8 +204,10 @@ void DissipativeFlow::take_points() {
         std::uint32_t const i = mirror.order()[k];
         double const* row = m.ensemble->row(i);
         double* point = m.point(k);
-        // Not the row's own: that may have been wrapped since lists were built.
-        std::copy_n(mirror.rows() + row_block * k, dimension, point);
+        for (int a = 0; a < dimension; ++a) {
+          point[a] = mirror.rows()[row_block * k + a];
+          if (point[a] != row[a] && !(std::abs(point[a] - row[a]) > half[a])) current = false;
+        }
         std::copy_n(row + m.velocity, dimension, point + m.velocity_at());
         point[m.inverse_mass_at()] = 1 / row[m.mass];
         double inverse = 1, curvature = 0;
@@ -207,7 +219,6 @@ void DissipativeFlow::take_points() {
         double* heat = point + 2 * dimension + 1;
         heat[0] = inverse;
         heat[1] = curvature;
-        heat[2] = i;
       }
     });
     double* sentinel = m.point(owned);
@@ -221,55 +232,78 @@ void DissipativeFlow::take_points() {
       }
     });
   }
+  return current;
 }
 
-/// Of each chunk of targets every pair once, in the order of the neighbour lists; with particles of other chunks, and
-/// with images, from both sides.
+/// Of the chunk every pair once, in the order of the neighbour lists; with particles of other chunks, other ensembles
+/// and images, from both sides.
+void DissipativeFlow::Coupling::take_chunk(std::size_t chunk, NeighbourList const& neighbours) {
+  Mirror const& of = *source->mirror;
+  std::uint32_t const sentinel = item_of_row(of.sentinel());
+  std::size_t const begin = chunk * flow_chunk, end = std::min(begin + flow_chunk, target->owned());
+  std::uint32_t const low = item_of_row(begin);
+  auto& groups = entries[chunk];
+  groups.clear();
+  std::vector<std::size_t> start;
+  for (std::size_t k = begin; k < end; ++k) {
+    start.push_back(groups.size());
+    std::uint32_t const* j = neighbours.rows()[k];
+    std::uint32_t const self = item_of_row(k);
+    std::uint32_t read = 0, taken = 0;
+    auto const take = [&](std::uint32_t entry, std::uint32_t number) {
+      if (taken % list_padding == 0) groups.resize(groups.size() + 2 * list_padding);
+      std::uint32_t* group = groups.data() + groups.size() - 2 * list_padding;
+      group[taken % list_padding] = entry;
+      group[list_padding + taken % list_padding] = number;
+      ++taken;
+    };
+    for (int ring = 0; ring < list_rings; ++ring) {
+      for (std::uint32_t const stop = neighbours.lengths(ring)[k]; read < stop; ++read) {
+        bool const twice = same() && j[read] >= low && j[read] <= self;
+        if (!twice && j[read] != sentinel) take(j[read], of.order()[of.owner(j[read] / 4)]);
+      }
+      length[ring][k] = taken;
+    }
+    while (taken % list_padding != 0) take(sentinel, 0);
+  }
+  for (std::size_t k = begin; k < end; ++k) row[k] = groups.data() + start[k - begin];
+}
+
 void DissipativeFlow::take_lists() {
   Neighbourhood const& neighbourhood = scheme_.neighbourhood();
   for (auto& coupling : couplings_) {
     Coupling& c = *coupling;
-    if (!c.same() || (c.builds == neighbourhood.builds() && c.moves == neighbourhood.moves())) continue;
+    Member const& m = *c.target;
+    if (c.builds == neighbourhood.builds() && c.moves == neighbourhood.moves()) continue;
+    NeighbourList const& list = neighbourhood.list(c.list);
+    std::vector<std::size_t> chunks;
+    if (c.builds == neighbourhood.builds() && c.moves + 1 == neighbourhood.moves()) {
+      for (std::uint32_t const row : list.rebuilt()) {  // ascending
+        std::size_t const chunk = row / flow_chunk;
+        if (chunks.empty() || chunks.back() != chunk) chunks.push_back(chunk);
+      }
+    } else {
+      c.entries.resize(m.chunks());
+      c.row.resize(m.owned());
+      for (auto& length : c.length) length.resize(m.owned());
+      chunks.resize(m.chunks());
+      std::iota(chunks.begin(), chunks.end(), std::size_t{0});
+    }
     c.builds = neighbourhood.builds();
     c.moves = neighbourhood.moves();
-    NeighbourList const& list = neighbourhood.list(c.list);
-    Member const& m = *c.target;
-    std::uint32_t const sentinel = item_of_row(m.mirror->sentinel());
-    c.entries.resize(m.chunks());
-    c.row.resize(m.owned());
-    for (auto& length : c.length) length.resize(m.owned());
-    for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
+    for_ranges(chunks.size(), 1, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
                [&](std::size_t first, std::size_t last) {
-                 std::vector<std::size_t> start;
-                 for (std::size_t chunk = first; chunk < last; ++chunk) {
-                   auto& entries = c.entries[chunk];
-                   entries.clear();
-                   std::size_t const begin = chunk * flow_chunk, end = std::min(begin + flow_chunk, m.owned());
-                   std::uint32_t const low = item_of_row(begin), high = item_of_row(end);
-                   start.clear();
-                   for (std::size_t k = begin; k < end; ++k) {
-                     start.push_back(entries.size());
-                     std::uint32_t const* j = list.rows()[k];
-                     std::uint32_t const self = item_of_row(k);
-                     std::uint32_t read = 0;
-                     for (int ring = 0; ring < list_rings; ++ring) {
-                       for (std::uint32_t const length = list.lengths(ring)[k]; read < length; ++read) {
-                         bool const twice = j[read] >= low && j[read] <= self && j[read] < high;
-                         if (!twice && j[read] != sentinel) entries.push_back(j[read]);
-                       }
-                       c.length[ring][k] = static_cast<std::uint32_t>(entries.size() - start.back());
-                     }
-                     while ((entries.size() - start.back()) % list_padding != 0) entries.push_back(sentinel);
-                   }
-                   for (std::size_t k = begin; k < end; ++k) c.row[k] = entries.data() + start[k - begin];
-                 }
+                 for (std::size_t n = first; n < last; ++n) c.take_chunk(chunks[n], list);
                });
   }
 }
 
 void DissipativeFlow::advance(StepContext const& context) {
   if (!(context.dt > 0)) throw Error(fmt::format("friction and noise need a positive step, not {}", context.dt));
-  scheme_.neighbourhood().refresh(threads());
+  if (!take_points()) {
+    scheme_.neighbourhood().refresh(threads());
+    take_points();
+  }
   if (method_ == FlowMethod::order_free)
     order_free(context);
   else
@@ -352,9 +386,7 @@ std::string DissipativeFlow::report() const {
 std::size_t DissipativeFlow::bytes() const {
   std::size_t bytes = splitting_->bytes();
   for (auto const& member : members_)
-    bytes += (member->points.capacity() + member->sums.capacity() + member->predicted.capacity() +
-              member->energies.capacity()) *
-             sizeof(double);
+    bytes += (member->points.capacity() + member->predicted.capacity() + member->energies.capacity()) * sizeof(double);
   for (auto const& coupling : couplings_) {
     bytes += coupling->row.capacity() * sizeof(std::uint32_t*);
     for (auto const& length : coupling->length) bytes += length.capacity() * sizeof(std::uint32_t);

@@ -69,8 +69,9 @@ class DissipativeFlow final : public Flow {
 
   Member& member(AnyEnsemble& ensemble);
   void couple(AnyEnsemble& target, AnyEnsemble& source, Dissipation const& dissipation);
-  void take_points();
+  bool take_points();
   void take_lists();
+  void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& lost);
   void order_free(StepContext const& context);
   void pair_splitting(StepContext const& context);
 

@@ -5,6 +5,7 @@
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,9 +48,13 @@ class Flow {
 
   void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
   int threads() const { return threads_; }
+  /// Its place among the flows of a simulation, which gives it: two flows never share noise.
+  void number(std::uint32_t number) { number_ = number; }
+  std::uint32_t number() const { return number_; }
 
  private:
   int threads_ = default_threads();
+  std::uint32_t number_ = 0;
 };
 
 }  // namespace boltzmann

@@ -33,8 +33,10 @@ struct PairNoise {
 /// in the row of the first, and both get their shares; sums have one row more, for those that are not of the range.
 struct FlowTask {
   double const *target = nullptr, *source = nullptr;  ///< flow points
-  std::uint32_t const* const* row = nullptr;          ///< entries are 4 times a source row, padded to whole packs
-  std::uint32_t const* length = nullptr;
+  std::uint32_t const* number = nullptr;              ///< which particle each target row is
+  std::uint32_t const* const* row = nullptr;  ///< of each target, groups of 8 entries, 4 times a source row, each with
+                                              ///< the 8 numbers of these particles behind it
+  std::uint32_t const* length = nullptr;      ///< entries
   std::size_t begin = 0, end = 0;
   double* sums = nullptr;  ///< of row `begin`
   bool scatter = false;
@@ -51,7 +53,8 @@ struct FlowPair {
 /// Pair splitting: of `count` pairs chi (zero out of range), the direction from second to first (unit vector;
 /// unprojected: not), and normals: one (projected) or as many as dimensions, and one more where heat is conducted.
 struct GeometryTask {
-  double const *first = nullptr, *second = nullptr;  ///< flow points
+  double const *first = nullptr, *second = nullptr;                       ///< flow points
+  std::uint32_t const *first_number = nullptr, *second_number = nullptr;  ///< which particle each (owned) row is
   FlowPair const* pairs = nullptr;
   std::size_t count = 0;      ///< at most geometry_block
   double* columns = nullptr;  ///< chi, then 3 of the direction, then 4 normals: geometry_block each

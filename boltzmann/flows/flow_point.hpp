@@ -16,7 +16,6 @@ struct FlowPoint {
   Vector<D, Real> velocity;
   Real inverse_temperature;
   Real curvature;  ///< 1 / (T^2 C), by which 1 / T falls when the energy grows
-  Real number;     ///< of the particle in its ensemble, for random streams
 };
 
 /// Doubles from one point to the next.

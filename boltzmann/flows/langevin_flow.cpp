@@ -59,8 +59,8 @@ void LangevinFlow::advance(StepContext const& context) {
                    double* row = ensemble.row(i);
                    double const m = row[mass];
                    double const noise = std::sqrt((1 - keep * keep) * boltzmann_constant_ * temperature_ / m);
-                   Stream stream(context.seed, context.step, i,
-                                 static_cast<std::uint32_t>(Purpose::thermostat) | static_cast<std::uint32_t>(e) << 8U);
+                   Stream stream(context.seed, context.step, i | static_cast<std::uint64_t>(e) << 40U,
+                                 static_cast<std::uint32_t>(Purpose::thermostat) | number() << 8U);
                    double gained = 0;
                    for (int a = 0; a < dimension; ++a) {
                      double& v = row[velocity + a];

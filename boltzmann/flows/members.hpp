@@ -13,7 +13,7 @@
 namespace boltzmann {
 
 /// Rows of an ensemble are taken in chunks of so many: what is written for a chunk belongs to it alone.
-inline constexpr std::size_t flow_chunk = 2048;
+inline constexpr std::size_t flow_chunk = 8192;
 
 struct DissipativeFlow::Member {
   AnyEnsemble* ensemble;
@@ -21,10 +21,10 @@ struct DissipativeFlow::Member {
   std::optional<StateLaw> law;
   Mirror const* mirror = nullptr;
   bool dissipates = false, at_fixed_temperature = false;
-  AlignedVector<double> points;           // of the rows of the mirror
-  AlignedVector<double> sums, predicted;  // 4 numbers a row, one row more for every chunk
-  std::vector<double> energies;           // pair splitting: of the owned rows
-  std::size_t first_chunk = 0;            // among those of all members
+  AlignedVector<double> points;     // of the rows of the mirror
+  AlignedVector<double> predicted;  // the corrector's first try: 4 numbers an owned row (see FlowTask)
+  std::vector<double> energies;     // pair splitting: of the owned rows
+  std::size_t first_chunk = 0;      // among those of all members
 
   int dimension() const { return ensemble->dimension(); }
   std::size_t stride() const { return flow_point_stride(dimension()); }
@@ -34,8 +34,6 @@ struct DissipativeFlow::Member {
   // Where numbers stand in a flow point.
   int velocity_at() const { return dimension() + 1; }
   int inverse_mass_at() const { return dimension(); }
-  /// The sums of row k.
-  double* sum(std::size_t k) { return sums.data() + 4 * (k + k / flow_chunk); }
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
   /// Of which particle somebody speaks.
   std::string who(std::size_t row) const;
@@ -48,12 +46,14 @@ struct DissipativeFlow::Coupling {
   std::uint32_t number;                             // for random streams; the same for both directions
   bool first;                                       // whether targets are the first of the two ensembles
   std::size_t builds = ~std::size_t{0}, moves = 0;  // of the neighbourhood, when pairs were taken from its lists
-  std::vector<std::vector<std::uint32_t>> entries;  // of each chunk: every pair of the chunk once
+  std::vector<std::vector<std::uint32_t>> entries;  // of each chunk of targets (see FlowTask)
   std::vector<std::uint32_t const*> row;
   std::array<std::vector<std::uint32_t>, list_rings> length;
 
   bool same() const { return target == source; }
-  PairNoise noise(StepContext const& context, double boltzmann_constant) const;
+  /// Brings row, length and entries of a chunk up to date.
+  void take_chunk(std::size_t chunk, NeighbourList const& neighbours);
+  PairNoise noise(StepContext const& context, double boltzmann_constant, std::uint32_t flow) const;
 };
 
 /// In the instruction set in use.

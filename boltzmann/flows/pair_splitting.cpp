@@ -77,8 +77,11 @@ class PairSteps {
       for (int a = 0; a < D; ++a) v[a] = i.velocity[a] - j.velocity[a];
     }
     for (int a = 0; a <= directions; ++a) normal[a] = columns[static_cast<std::size_t>(4 + a) * geometry_block + k];
-    Stream chance = noise_.same || noise_.first ? Stream::pair(context_.seed, context_.step, number_i, number_j)
-                                                : Stream::pair(context_.seed, context_.step, number_j, number_i);
+    // Of its own for every coupling, and for (a1, b2) and (a2, b1): one between two ensembles has two numbers.
+    std::uint64_t const kind = (noise_.tag & 0xffU) + (!noise_.same && number_i > number_j ? 1 : 0);
+    Stream chance = Stream::pair(
+        context_.seed, context_.step | (noise_.tag >> 8U & 0xffU) << 48U, number_i, number_j,
+        static_cast<Purpose>(static_cast<std::uint32_t>(Purpose::pair_noise) | static_cast<std::uint32_t>(kind) << 8U));
     return exchange_momentum(chi, v, normal, i, j, columns, k, chance) &&
            (noise_.conduction == 0 || conduct(chi, normal[directions], i, j, chance));
   }
@@ -194,7 +197,6 @@ class PairSteps {
 }  // namespace
 
 void DissipativeFlow::pair_splitting(StepContext const& context) {
-  take_points();
   for (auto& member : members_) {
     Member& m = *member;
     if (!m.dissipates || !m.has_energy()) continue;
@@ -207,7 +209,7 @@ void DissipativeFlow::pair_splitting(StepContext const& context) {
   auto const run_part = [&](Splitting::Edge& edge, Splitting::Part const& part) {
     Coupling const& c = *part.coupling;
     Member &first = *c.target, &second = *c.source;
-    PairNoise const noise = c.noise(context, boltzmann_constant_);
+    PairNoise const noise = c.noise(context, boltzmann_constant_, number());
     auto const& kernels = flow_kernels_for(first.dimension(), c.dissipation.projected);
     alignas(64) double columns[geometry_columns * geometry_block];
     auto const end = [](Member& m, std::uint32_t row) {
@@ -222,6 +224,8 @@ void DissipativeFlow::pair_splitting(StepContext const& context) {
         GeometryTask task;
         task.first = first.points.data();
         task.second = second.points.data();
+        task.first_number = first.mirror->order();
+        task.second_number = second.mirror->order();
         task.pairs = part.pairs.data() + start;
         task.count = std::min(geometry_block, part.pairs.size() - start);
         task.columns = columns;
