@@ -9,6 +9,9 @@
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/diagnoses/profile.hpp>
+#include <boltzmann/diagnoses/shock.hpp>
+#include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/flows/dissipative_flow.hpp>
 #include <boltzmann/flows/langevin_flow.hpp>
@@ -30,6 +33,7 @@
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/pendulum.hpp>
 #include <boltzmann/laws/rydberg.hpp>
+#include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/laws/state_law.hpp>
 #include <boltzmann/laws/table.hpp>

@@ -15,7 +15,9 @@ struct RunOptions {
   std::optional<std::int64_t> steps;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
-  std::string out;  ///< empty: results/<name>
+  std::vector<std::string> vary;      ///< "key=[values]": a sweep over these
+  std::optional<std::int64_t> seeds;  ///< a sweep over so many seeds
+  std::string out;                    ///< empty: results/<name>
   bool quiet = false, force = false;
 };
 int run(RunOptions const& options);

@@ -92,13 +92,20 @@ int command_line(int argc, char** argv) {
   sub->add_option("--steps", run_options.steps, "number of steps")->check(CLI::NonNegativeNumber);
   sub->add_option("--seed", run_options.seed, "seed of all random numbers");
   sub->add_option("--threads", run_options.threads, "number of threads")->check(CLI::Range(1, 4096));
+  sub->add_option("--vary", run_options.vary,
+                  "one run for each value of a key; given again, another key goes along with it")
+      ->type_name("KEY=[VALUES]")
+      ->allow_extra_args(false);
+  sub->add_option("--seeds", run_options.seeds, "one run for each of so many seeds, and means with their errors")
+      ->check(CLI::Range(1, 10000));
   sub->add_option("--out", run_options.out, "folder for the results [results/<name>]")->type_name("DIR");
   sub->add_flag("--quiet", run_options.quiet, "no progress line and no table");
   sub->add_flag("--force", run_options.force, "replace a run that is in the folder");
 
   ResumeOptions resume_options;
-  sub = command("resume", "go on with a run from its checkpoint", [&] { return resume(resume_options); });
-  sub->add_option("folder", resume_options.folder, "the folder of the run")->required();
+  sub = command("resume", "go on with a run or a sweep from where it was stopped",
+                [&] { return resume(resume_options); });
+  sub->add_option("folder", resume_options.folder, "the folder of the run or sweep")->required();
   sub->add_option("--steps", resume_options.steps, "so many steps from the checkpoint on [to the planned end]")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--threads", resume_options.threads, "number of threads")->check(CLI::Range(1, 4096));
@@ -112,7 +119,7 @@ int command_line(int argc, char** argv) {
       ->required();
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
   sub->add_option("--drawing", render_options.drawing,
-                  "cartesian, phase-space, spectrum, time-series, map, contours, bands or mesh");
+                  "cartesian, phase-space, spectrum, time-series, profile, map, contours, bands or mesh");
   sub->add_option("--x", render_options.x,
                   "what is to the right: a field (phase-space), position.x or time (spectrum)");
   sub->add_option("--y", render_options.y,

@@ -2,6 +2,7 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/bzm/scenario_recording.hpp>
+#include <boltzmann/bzm/sweep.hpp>
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/files/trajectory.hpp>
@@ -158,6 +159,8 @@ class Frames {
 int render(RenderOptions const& options) {
   Output const kind = output_of(options.out);
   if (!fs::is_directory(options.folder)) throw Error("there is no folder '" + options.folder + "' with a run to draw");
+  if (holds_sweep(options.folder))
+    throw Error("'" + options.folder + "' holds a sweep; draw one of its runs, whose folders begin with their numbers");
   std::string const stored = options.folder + "/scenario.toml";
   if (!fs::exists(stored))
     throw Error("'" + options.folder + "' has no scenario.toml: only runs of `bzm run` can be drawn again");

@@ -1,6 +1,7 @@
 // bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/scenario_recording.hpp>
+#include <boltzmann/bzm/sweep.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 
 #include <fmt/format.h>
@@ -20,11 +21,18 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
 
 int run(RunOptions const& options) {
   std::string const path = find_scenario(options.scenario);
-  auto const scenario = load_scenario(path, {options.set, options.steps, options.seed, options.threads});
+  Overrides const overrides{options.set, options.steps, options.seed, options.threads, options.vary, options.seeds, {}};
+  auto scenario = load_scenario(path, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
+  if (holds_sweep(folder) && !options.force)
+    throw Error("'" + folder +
+                "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
+                "it with --force");
+  if (scenario->sweep) return run_sweep({path, overrides, folder, options.quiet, options.force}, std::move(scenario));
   auto const recording = make_recording(*scenario, folder, options.force);
   scenario->simulation->check();
   recording->check();
+  if (holds_sweep(folder)) remove_sweep(folder);
   if (!options.quiet) print_heading(*scenario, folder);
   return run_recording(*recording, scenario->steps, scenario->steps, options.quiet);
 }
@@ -33,6 +41,13 @@ int resume(ResumeOptions const& options) {
   std::string const path = options.folder + "/checkpoint.h5";
   if (!std::filesystem::is_directory(options.folder))
     throw Error("there is no folder '" + options.folder + "' with a run to resume");
+  if (holds_sweep(options.folder)) {
+    if (options.steps)
+      throw Error("'" + options.folder +
+                  "' holds a sweep, whose runs go to their planned ends; --steps N is for one of "
+                  "its folders");
+    return resume_sweep(options.folder, options.threads, options.quiet);
+  }
   auto const checkpoint = read_checkpoint(path);
   if (checkpoint.scenario.empty())
     throw Error("'" + path + "' was written by a C++ program, which goes on with Recording::resume()");
@@ -67,8 +82,13 @@ int check(std::string const& name) {
   auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
   scenario->simulation->check();
   recording->check();
-  fmt::print("ok: {} particle{} ({:.3g} MB), {} step{}\n", particles, particles == 1 ? "" : "s",
-             static_cast<double>(bytes) / 1e6, scenario->steps, scenario->steps == 1 ? "" : "s");
+  std::string each;
+  if (scenario->sweep) {
+    check_sweep(path, {}, *scenario->sweep);
+    each = fmt::format(" in each of {} runs", scenario->sweep->runs());
+  }
+  fmt::print("ok: {} particle{} ({:.3g} MB), {} step{}{}\n", particles, particles == 1 ? "" : "s",
+             static_cast<double>(bytes) / 1e6, scenario->steps, scenario->steps == 1 ? "" : "s", each);
   return 0;
 }
 

@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/flows/dissipative_flow.hpp>
 #include <boltzmann/laws/catalogue.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
@@ -43,6 +44,31 @@ constexpr IntegratorDoc integrator_docs[] = {
 std::string integrator_doc(std::string const& name) {
   for (auto const& entry : integrator_docs)
     if (to_string(entry.method) == name) return entry.doc;
+  return "";
+}
+
+struct FlowDoc {
+  char const *kind, *doc;
+};
+
+constexpr FlowDoc flow_docs[] = {
+    {"dissipative",
+     "friction and noise between near particles, which keep the momentum; with internal energies also the energy (DPD, "
+     "DPDE)"},
+    {"langevin", "friction and noise from a heat bath on each particle"},
+};
+
+char const* convention_doc(Convention convention) {
+  switch (convention) {
+    case Convention::fixed_temperature:
+      return "a heat bath of this temperature; the energy is not conserved (DPD)";
+    case Convention::constant_noise:
+      return "the noise that the friction has at a reference temperature, everywhere";
+    case Convention::constant_friction:
+      return "one friction; noise from the temperatures of the two particles";
+    case Convention::deterministic:
+      return "no noise: friction in proportion to the difference of kinetic and internal temperature";
+  }
   return "";
 }
 
@@ -87,6 +113,11 @@ std::vector<Named> integrators() {
   for (auto const& name : method_names()) all.push_back({name, integrator_doc(name)});
   return all;
 }
+std::vector<Named> flows() {
+  std::vector<Named> all;
+  for (auto const& flow : flow_docs) all.push_back({flow.kind, flow.doc});
+  return all;
+}
 std::vector<Named> diagnoses() {
   std::vector<Named> all;
   for (auto const& kind : diagnosis_kinds()) all.push_back({kind.name, kind.doc});
@@ -109,8 +140,8 @@ struct Section {
   std::vector<Named> (*entries)();
 };
 constexpr Section sections[] = {{"scenarios", scenarios}, {"classes", classes},         {"laws", laws},
-                                {"materials", materials}, {"integrators", integrators}, {"diagnoses", diagnoses},
-                                {"units", unit_list}};
+                                {"materials", materials}, {"integrators", integrators}, {"flows", flows},
+                                {"diagnoses", diagnoses}, {"units", unit_list}};
 
 void show_scenario(std::string const& name) {
   std::string const path = find_scenario(name);
@@ -135,6 +166,13 @@ void show_scenario(std::string const& name) {
       cells.push_back(std::to_string(std::lround(box.length(a) / scenario->mesh->grid().spacing[a])));
     bool const near = dynamic_cast<P3MScheme const*>(scenario->mesh) != nullptr;
     fmt::print("  mesh        {} cells{}\n", join(cells, " x "), near ? ", and near pairs (P3M)" : "");
+  }
+  for (auto const& flow : scenario->flows) {
+    std::vector<std::string> names;
+    for (auto const* ensemble : flow->ensembles()) names.push_back(ensemble->name());
+    auto const* pairs = dynamic_cast<DissipativeFlow const*>(flow.get());
+    fmt::print("  flow        {} on {}\n", pairs ? "dissipative, " + to_string(pairs->method()) : "langevin",
+               join(names));
   }
   if (scenario->smooth) fmt::print("  smooth      the weight is {}\n", to_string(scenario->smooth->shape()));
   fmt::print("\nbzm run {}\n", name);
@@ -231,6 +269,23 @@ void show_material(MaterialInfo const& material) {
   fmt::print("  in C++: #include <{}>, {}\n", material.header, material.type);
 }
 
+void show_flow(FlowDoc const& flow) {
+  fmt::print("flow {}: {}\n", flow.kind, flow.doc);
+  if (std::string(flow.kind) == "langevin") {
+    fmt::print("\n  in [[flows]]: on, temperature, rate\n");
+    return;
+  }
+  fmt::print(
+      "\n  dp = -friction chi^2 v dt + noise chi dW, chi = (1 - r / range)^exponent\n"
+      "\n  in [[flows]]: on or between, convention, friction, temperature, range, exponent, projected, conduction;\n"
+      "                in the first of them method, corrector, metropolis\n\n  conventions\n");
+  for (auto const& name : convention_names())
+    fmt::print("    {:<18} {}\n", name, convention_doc(convention_named(name)));
+  fmt::print("\n  methods\n    {:<18} all pairs act at once; each particle gets back as heat what its motion loses\n",
+             to_string(FlowMethod::order_free));
+  fmt::print("    {:<18} one pair after the other (Shardlow)\n", to_string(FlowMethod::pair_splitting));
+}
+
 void show_diagnosis(DiagnosisKind const& kind) {
   fmt::print("diagnosis {}: {}\n", kind.name, kind.doc);
   if (!kind.options.empty()) fmt::print("\n  options  {}\n", join(kind.options));
@@ -296,6 +351,11 @@ int show(std::string const& name) {
     show_material(*material);
     return 0;
   }
+  for (auto const& flow : flow_docs)
+    if (flow.kind == name) {
+      show_flow(flow);
+      return 0;
+    }
   for (auto const& kind : diagnosis_kinds())
     if (kind.name == name) {
       show_diagnosis(kind);

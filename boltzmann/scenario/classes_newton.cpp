@@ -1,5 +1,6 @@
 // Classes that forces move.
 #include <boltzmann/core/pack_math.hpp>
+#include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/particles/tethered.hpp>
 #include <boltzmann/scenario/class_variant.hpp>
@@ -12,6 +13,11 @@ std::vector<ParticleClass> newton_classes() {
            Method::leap_frog,
            true,
            {variant_of<Newton<1>>(), variant_of<Newton<2>>(), variant_of<Newton<3>>()}},
+          {"Meso",
+           "a molecule or a lump of matter: a classical particle with an internal energy",
+           Method::leap_frog,
+           true,
+           {variant_of<Meso<1>>(), variant_of<Meso<2>>(), variant_of<Meso<3>>()}},
           {"Tethered",
            "a classical particle that may be tethered to an anchor of its own",
            Method::leap_frog,

@@ -241,6 +241,19 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
+/// The element of an array that a step of a path means: a number, or the name of one of its tables.
+Item* element_of(Item& array, std::string const& step) {
+  std::size_t index = 0;
+  auto const [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
+  if (error == std::errc() && end == step.data() + step.size())
+    return index < array.elements.size() ? &array.elements[index] : nullptr;
+  for (auto& element : array.elements)
+    if (Entry const* name = element.find("name"); name && name->item.text == step) return &element;
+  return nullptr;
+}
+
+}  // namespace
+
 Item value_of(std::string const& text, Place const& place) {
   Item value;
   try {
@@ -256,19 +269,6 @@ Item value_of(std::string const& text, Place const& place) {
   return value;
 }
 
-/// The element of an array that a step of a path means: a number, or the name of one of its tables.
-Item* element_of(Item& array, std::string const& step) {
-  std::size_t index = 0;
-  auto const [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
-  if (error == std::errc() && end == step.data() + step.size())
-    return index < array.elements.size() ? &array.elements[index] : nullptr;
-  for (auto& element : array.elements)
-    if (Entry const* name = element.find("name"); name && name->item.text == step) return &element;
-  return nullptr;
-}
-
-}  // namespace
-
 void apply_override(Item& document, std::string const& assignment, std::string const& option, Mistakes& mistakes) {
   Place place;
   place.override_number =
@@ -277,7 +277,11 @@ void apply_override(Item& document, std::string const& assignment, std::string c
   auto const equals = assignment.find('=');
   if (equals == std::string::npos || trimmed(assignment.substr(0, equals)).empty())
     return mistakes.add(place, "key=value is needed, e.g. run.step=0.1");
-  std::string const path = trimmed(assignment.substr(0, equals));
+  Item value = value_of(trimmed(assignment.substr(equals + 1)), place);
+  assign(document, trimmed(assignment.substr(0, equals)), std::move(value), place, mistakes);
+}
+
+void assign(Item& document, std::string const& path, Item value, Place const& place, Mistakes& mistakes) {
   std::vector<std::string> steps{""};
   for (char const c : path) {
     if (c == '.')
@@ -319,7 +323,7 @@ void apply_override(Item& document, std::string const& assignment, std::string c
     so_far += (k > 0 ? "." : "") + step;
     at = next;
   }
-  *at = value_of(trimmed(assignment.substr(equals + 1)), place);
+  *at = std::move(value);
 }
 
 void set_default(Item& document, std::string const& table, std::string const& key, Item value) {

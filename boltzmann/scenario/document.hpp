@@ -80,6 +80,13 @@ Item parse_document(std::string const& text, Mistakes& mistakes);
 /// messages: "--set"). The value is TOML; what is no TOML is a text, so that quotes may be left out.
 void apply_override(Item& document, std::string const& assignment, std::string const& option, Mistakes& mistakes);
 
+/// Sets what stands at "run.step" or "ensembles.atoms.mass" to `value`, which keeps its own place; `place` is that of
+/// the path in messages, and of keys that were not there.
+void assign(Item& document, std::string const& path, Item value, Place const& place, Mistakes& mistakes);
+
+/// A value as TOML has it; what is no TOML is a text.
+Item value_of(std::string const& text, Place const& place);
+
 /// Sets a value if the key is missing.
 void set_default(Item& document, std::string const& table, std::string const& key, Item value);
 

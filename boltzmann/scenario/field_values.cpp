@@ -55,6 +55,7 @@ std::vector<Field> fields_of(ParticleClass const& kind, int dimension) {
 }
 
 bool is_found(ParticleClass const& kind, std::string_view field) {
+  if (field == "temperature" && has_internal_energy(kind)) return true;
   return kind.matter != Matter::none && (field == "pressure" || field == "temperature" || field == "sound_speed");
 }
 

@@ -26,7 +26,7 @@ struct FieldValue {
 std::vector<Field> fields_of(ParticleClass const& kind, int dimension);
 /// The fields that a scenario can give: all but those that is_found().
 std::vector<Field> given_fields(ParticleClass const& kind, int dimension);
-/// Fields of smooth particles that follow from others.
+/// Fields that follow from others: of smooth particles, and the temperature of an internal energy.
 bool is_found(ParticleClass const& kind, std::string_view field);
 
 /// Reads the fields that stand in a table, for `count` particles (0: not known). The position is not one of them in an

@@ -6,6 +6,7 @@
 #include <boltzmann/laws/morse.hpp>
 #include <boltzmann/laws/pendulum.hpp>
 #include <boltzmann/laws/rydberg.hpp>
+#include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/laws/tether.hpp>
 #include <boltzmann/laws/uniform.hpp>
@@ -50,11 +51,15 @@ std::vector<LawBinder> const& law_binders() {
        }},
       {"rydberg",
        [](Values v) {
-         return between_newton(Rydberg{v("depth"), v("r0"), v("a")});
+         return between_newton(Rydberg{v("depth"), v("r0"), v("a"), v("alpha")});
        }},
       {"spring",
        [](Values v) {
          return between_newton(Spring{v("stiffness"), v("rest_length")});
+       }},
+      {"soft",
+       [](Values v) {
+         return between_newton(Soft{v("repulsion"), v("range")});
        }},
       {"coulomb", [](Values v) { return bind_law<CoulombRows>(coulomb(v("k"), v("softening"))); }},
       {"gravity", [](Values v) { return bind_law<KeplerRows>(gravity(v("G"), v("softening"))); }},

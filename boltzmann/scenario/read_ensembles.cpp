@@ -1,6 +1,7 @@
 // Reads [[ensembles]]: which particles there are, and in what state.
 #include <boltzmann/diagnoses/colour.hpp>
 #include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ripple_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
@@ -94,19 +95,27 @@ void read_ensemble(Item const& table, Reading& reading) {
 
   std::vector<FieldValue> fields;
   std::vector<FieldFormula> formulas;
+  std::optional<double> internal_temperature;
   if (kind) {
+    ensemble.state = read_state_law(section, *kind, reading);
+    internal_temperature = read_internal_temperature(section, *kind, reading);
     if (section.has("position"))
       reading.mistake(table.find("position")->place,
                       "positions are loaded: load = { kind = \"positions\", positions = [...] }");
     refuse_found(section, *kind, reading);
-    auto const given = given_fields(*kind, reading.dimension);
+    auto given = given_fields(*kind, reading.dimension);
+    if (Item const* item = section.item("internal_energy"); item && item->is(Item::Kind::table))
+      std::erase_if(given, [](Field const& field) { return field.name == "internal_energy"; });
     fields = read_fields(section, given, false, count, reading);
     formulas =
         read_formulas(section, fields_of(*kind, reading.dimension), false, unknown_fields(section, *kind), reading);
     for (auto const& formula : formulas)
       if (is_found(*kind, formula.field.name))
-        reading.mistake(formula.place,
-                        fmt::format("{}: the material finds it from density and specific_energy", formula.field.name));
+        reading.mistake(
+            formula.place,
+            kind->matter != Matter::none
+                ? fmt::format("{}: the material finds it from density and specific_energy", formula.field.name)
+                : fmt::format("{}: it follows from internal_energy and heat_capacity", formula.field.name));
     section.know("position");
     check_positive(section, fields, *kind, reading);
   }
@@ -160,6 +169,11 @@ void read_ensemble(Item const& table, Reading& reading) {
     for (auto const& value : fields) apply(value, *particles, all);
     if (smooth && volume && reading.smooth.variable && !gives(section, "range"))
       set_ranges(*particles, *volume, reading.smooth.variable->spacings);
+    if (internal_temperature && ensemble.state && good)
+      good = guarded(reading, section.place("internal_energy"), [&] {
+        internal_energy_load(*particles, *ensemble.state, *internal_temperature, reading.boltzmann_constant(),
+                             reading.run.seed);
+      });
     // The density goes before: from it follow masses, and other formulas may use both.
     for (bool const density : {true, false}) {
       for (auto const& formula : formulas)
@@ -229,6 +243,7 @@ void read_ensemble(Item const& table, Reading& reading) {
       for (auto const i : frozen) std::fill_n(particles->row(i) + velocity->offset, velocity->components, 0.0);
     ensemble.integrator = std::make_unique<Frozen>(*particles, frozen, std::move(ensemble.integrator));
   }
+  if (particles && ensemble.state) find_temperatures(*particles, *ensemble.state);
   if (particles) guarded(reading, ensemble.load_place, [&] { reading.box->check(*particles); });
   ensemble.particles = reading.context.mistakes.count() == before ? particles : nullptr;
   if (loader && !loader->file().empty()) {

@@ -3,6 +3,9 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
+#include <boltzmann/diagnoses/profile.hpp>
+#include <boltzmann/diagnoses/shock.hpp>
+#include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/simulation/picture.hpp>
 
@@ -113,9 +116,17 @@ void read_diagnosis(Item const& table, Reading& reading) {
     parameters.gamma =
         section.quantity("gamma", dimensions::none, {1, std::numeric_limits<double>::infinity(), true}).value_or(0);
   if (has("since")) parameters.since = section.quantity("since", dimensions::time).value_or(0);
+  if (has("from")) parameters.from = section.quantity("from", dimensions::length).value_or(parameters.from);
+  if (has("to")) parameters.to = section.quantity("to", dimensions::length).value_or(parameters.to);
+  if (has("count")) parameters.count = static_cast<std::size_t>(section.integer("count", 1, 100'000).value_or(0));
+  if (has("end")) parameters.end = section.word("end", {"low", "high"}).value_or("");
+  if (has("margin")) parameters.margin = section.quantity("margin", dimensions::length, positive).value_or(0);
+  if (has("near")) parameters.near = section.quantity("near", dimensions::length, positive).value_or(0);
+  if (has("far")) parameters.far = section.quantity("far", dimensions::length, positive).value_or(parameters.far);
   if (has("modes")) parameters.modes = static_cast<std::size_t>(section.integer("modes", 1).value_or(0));
   if (has("quantity") && kind.of_mesh) parameters.quantity = section.text("quantity").value_or("");
-  if (has("quantity") && !kind.of_mesh) {
+  if (*name == "shock") parameters.quantity = section.word("quantity", {"velocity", "density"}).value_or("");
+  if (*name == "extremes") {
     Item const* item = section.need("quantity", "quantity = \"speed\"");
     parameters.quantity = item ? read_text(*item, "quantity", reading.context).value_or("") : "";
   }
@@ -138,6 +149,10 @@ void read_diagnosis(Item const& table, Reading& reading) {
     auto diagnosis = make_diagnosis(*name, parameters);
     if (*name == "heat-flux" && reading.box)
       temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
+    if (auto const* slab = dynamic_cast<Slab const*>(diagnosis.get()); slab && reading.box)
+      slab_members(parameters.available, *reading.box, slab->options());
+    if (*name == "shock" && reading.box)
+      check_shock_axis(*reading.box, parameters.axis.empty() ? 0 : parameters.axis[0] - 'x');
     auto const taken = column_names(reading);
     for (auto const& column : diagnosis->columns())
       if (std::find(taken.begin(), taken.end(), column.name) != taken.end())
@@ -264,6 +279,17 @@ void read_smooth_field(Section& section, PicturePlan& plan, Reading& reading) {
   if (auto const cells = section.integer("cells", 2, 4000)) plan.cells = static_cast<int>(*cells);
 }
 
+/// Bins along an axis.
+void read_profile(Section& section, PicturePlan& plan, Reading& reading) {
+  plan.logarithmic = section.boolean("logarithmic");
+  if (auto const cells = section.integer("cells", 1, 100'000)) plan.cells = static_cast<int>(*cells);
+  Dimension dimension = dimensions::none;
+  auto const first = plan.y.substr(0, plan.y.find(','));
+  for (auto const& quantity : profile_quantities(std::max(reading.dimension, 1)))
+    if (quantity.name == (first.empty() ? "density" : first)) dimension = quantity.dimension;
+  read_ends(section, plan, dimension);
+}
+
 void read_picture(Item const& table, Reading& reading, Recorded recorded) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[output.pictures]]", reading.context);
@@ -280,7 +306,8 @@ void read_picture(Item const& table, Reading& reading, Recorded recorded) {
   bool const on_mesh = plan.drawing == "mesh" || plan.drawing == "wave-spectrum" || of_particles;
   if (!on_mesh) plan.x = section.text("x").value_or("");
   plan.y = section.text("y").value_or("");
-  if (!on_mesh && plan.drawing != "time-series") read_particle_style(section, plan, reading, recorded);
+  if (!on_mesh && plan.drawing != "time-series" && plan.drawing != "profile")
+    read_particle_style(section, plan, reading, recorded);
   if (auto const file = section.text("file")) plan.file = *file;
   if (plan.drawing == "mesh") {
     read_slice(section, plan, reading);
@@ -293,6 +320,7 @@ void read_picture(Item const& table, Reading& reading, Recorded recorded) {
   }
   if (of_particles) read_smooth_field(section, plan, reading);
   if (plan.drawing == "wave-spectrum") read_curves(section, plan, reading);
+  if (plan.drawing == "profile") read_profile(section, plan, reading);
   if (plan.drawing == "time-series") plan.logarithmic = section.boolean("logarithmic");
   bool const of_diagnoses = plan.drawing == "time-series" || plan.drawing == "wave-spectrum" ||
                             (plan.drawing == "spectrum" && plan.x == "time");
@@ -326,7 +354,8 @@ void read_picture(Item const& table, Reading& reading, Recorded recorded) {
         (plan.drawing != "mesh" || find_mesh_fields(reading, section.place("drawing"), "a picture of the mesh"));
     picture.drawing = plan.drawing;
     picture.x = plan.x;
-    if (plan.drawing == "phase-space" || (plan.drawing == "spectrum" && plan.x != "time")) check_as("x", picture);
+    if (plan.drawing == "phase-space" || plan.drawing == "profile" || (plan.drawing == "spectrum" && plan.x != "time"))
+      check_as("x", picture);
     if (reading.context.mistakes.count() == before && known) {
       picture.y = plan.y;
       guarded(reading, section.has("y") ? section.place("y") : table.place, [&] {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/flows/flow.hpp>
+#include <boltzmann/laws/state_law.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/materials.hpp>
@@ -25,6 +27,7 @@ struct ReadEnsemble {
   AnyEnsemble* particles = nullptr;
   std::unique_ptr<Integrator> integrator;
   std::optional<BoundMaterial> material;  ///< of smooth particles
+  std::optional<StateLaw> state;          ///< of internal energies
 };
 
 struct ReadRun {
@@ -61,6 +64,12 @@ struct ReadSmooth {
   std::vector<ReadRezone> rezones;
 };
 
+/// What brings the particles to a temperature before the run.
+struct ReadPreparation {
+  std::shared_ptr<Flow> flow;  ///< null: nothing does
+  std::uint64_t steps = 0;
+};
+
 /// Everything that has been read so far. What could not be read is empty, and has left a mistake.
 struct Reading {
   ReadContext context;
@@ -72,6 +81,7 @@ struct Reading {
   ReadMesh mesh;
   ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
+  ReadPreparation preparation = {};
   bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
@@ -117,6 +127,14 @@ void read_ensembles(Section& document, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
 /// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
+/// Whether particles of this class have an internal energy of their own (the field "internal_energy").
+bool has_internal_energy(ParticleClass const& kind);
+/// heat_capacity: which temperature an internal energy stands for. Nothing if it is missing, or wrong.
+std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& kind, Reading& reading);
+/// internal_energy = { temperature = "300 K" }. Nothing if the energies are given in another way, or it is wrong.
+std::optional<double> read_internal_temperature(Section& ensemble, ParticleClass const& kind, Reading& reading);
+/// Sets the field "temperature" to that of the internal energies.
+void find_temperatures(AnyEnsemble& particles, StateLaw const& law);
 /// Loads ensembles into the scheme.
 void load_scheme(Section& document, Reading& reading);
 void load_smooth(Reading& reading);
@@ -128,6 +146,9 @@ void add_rezoners(Reading const& reading);
 /// calculated, with one mistake for all that ask.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);
 void read_influences(Section& document, Reading& reading);
+/// Reads [[flows]], friction and noise, and [prepare]; lets the simulation have them.
+void read_flows(Section& document, Reading& reading);
+void add_flows(Reading const& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.
 void read_output(Section& document, Item& resolved, Reading& reading);

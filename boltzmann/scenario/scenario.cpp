@@ -1,6 +1,7 @@
 // From the text of a scenario to a simulation: the tables in order, every mistake in one go.
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/scenario/sweep_values.hpp>
 
 #include <fmt/format.h>
 
@@ -34,8 +35,10 @@ void build(Item& document, Reading& reading) {
   load_rezone(reading);
   read_influences(top, reading);
   settle_run(document, reading);
+  read_flows(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
+  read_sweep(top, reading);
   top.finish();
   if (!reading.context.mistakes.none()) return;
 
@@ -47,6 +50,7 @@ void build(Item& document, Reading& reading) {
   if (!result.simulation) return;
   for (auto& ensemble : reading.ensembles)
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
+  add_flows(reading);
   add_rezoners(reading);
   try {
     result.simulation->check();
@@ -73,11 +77,25 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   }
   if (overrides.threads)
     apply_override(document, fmt::format("run.threads={}", *overrides.threads), "--threads", mistakes);
+  if (overrides.seeds) apply_override(document, fmt::format("sweep.seeds={}", *overrides.seeds), "--seeds", mistakes);
+  override_vary(document, overrides.vary, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
     set_default(document, "run", "seed", Item::of_integer(1));
+  std::string const sweep = document.find("sweep") ? sweep_text(document, folder) : "";
+  std::string const files = sweep.empty() ? "" : folder_of_sweep(document);
+  if (overrides.sweep_run) choose_run(document, *overrides.sweep_run, mistakes);
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
 
-  Reading reading{{mistakes, Base::si(), folder}, std::make_unique<ScenarioSimulation>(), true, 0, {}, {}, {}, {}, {}};
+  Reading reading{{mistakes, Base::si(), files.empty() ? folder : files},
+                  std::make_unique<ScenarioSimulation>(),
+                  true,
+                  0,
+                  {},
+                  {},
+                  {},
+                  {},
+                  {}};
   reading.result->name = name;
   try {
     build(document, reading);
@@ -85,6 +103,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
     throw Error(fmt::format("{}: the scenario needs more memory than this machine has", file));
   }
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  if (reading.result->sweep) reading.result->sweep->text = sweep;
   reading.result->resolved = write_document(document);
   return std::move(reading.result);
 }

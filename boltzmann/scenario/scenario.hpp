@@ -5,6 +5,8 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/flows/flow.hpp>
+#include <boltzmann/scenario/sweep.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
@@ -34,6 +36,9 @@ struct Overrides {
   std::optional<std::int64_t> steps;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
+  std::vector<std::string> vary = {};         ///< "key.path=[values]": instead of what [sweep] varies
+  std::optional<std::int64_t> seeds = {};     ///< of each value
+  std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
 };
 
 /// A picture that a scenario asks for.
@@ -71,13 +76,15 @@ struct ScenarioSimulation {
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
   std::unique_ptr<Scheme> scheme;
-  PairScheme* pairs = nullptr;     ///< the scheme itself, or what acts beside its mesh; null with [smooth]
-  MeshScheme* mesh = nullptr;      ///< the scheme itself, if the scenario has a [mesh]
-  SmoothScheme* smooth = nullptr;  ///< the scheme itself, if the scenario has a [smooth]
+  PairScheme* pairs = nullptr;               ///< the scheme itself, or what acts beside its mesh; null with [smooth]
+  MeshScheme* mesh = nullptr;                ///< the scheme itself, if the scenario has a [mesh]
+  SmoothScheme* smooth = nullptr;            ///< the scheme itself, if the scenario has a [smooth]
+  std::vector<std::unique_ptr<Flow>> flows;  ///< friction and noise
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;
   OutputPlan output;
+  std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
   std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
 };
 

@@ -337,7 +337,8 @@ TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {
   GasFolder folder;
   auto const outcome = folder.run({"--set", "run.step=10 ps", "--out", "out", "--quiet"});
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_EQ(lines_in(outcome.err), 2U) << outcome.err;
+  EXPECT_EQ(lines_in(outcome.err), 3U) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "warning: particles of 'atoms' meet")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "step 1: particle ")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "of 'atoms' moved")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "last good checkpoint: out/checkpoint.h5 (step 0)")) << outcome.err;
@@ -363,7 +364,7 @@ TEST(Physics, AFailureInTheMiddleKeepsWhatWasGood) {
   EXPECT_EQ(outcome.status, 3) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "of 'atoms'")) << outcome.err;
   auto const steps = read_csv((folder / "out/diagnoses.csv").string()).column("step");
-  long const failed = std::stol(outcome.err.substr(outcome.err.find("step ") + 5));
+  long const failed = std::stol(outcome.err.substr(outcome.err.find("\nstep ") + 6));
   EXPECT_GT(failed, 10);
   EXPECT_EQ(steps.back(), failed - 1) << "every step before the failure is recorded";
   EXPECT_TRUE(has(outcome.err, "(step " + std::to_string((failed - 1) / 5 * 5) + ")")) << outcome.err;
@@ -462,7 +463,7 @@ TEST(Completion, IsABashScriptThatKnowsTheCommands) {
                                          "COMP_WORDS=(bzm run --s); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n");
   auto const bash = Process({"/bin/bash", "complete.sh"}, folder.string()).wait();
   EXPECT_EQ(bash.status, 0);
-  EXPECT_EQ(bash.out, "resume render\n--set --steps --seed\n") << bash.err;
+  EXPECT_EQ(bash.out, "resume render\n--set --steps --seed --seeds\n") << bash.err;
   expect_one_line(bzm({"completion", "fish"}, folder.string()), 2, {"fish"});
 }
 

@@ -190,8 +190,8 @@ TEST(Scenario, TemperatureIsThatOfTheFile) {
 // Two masses on a spring, of two ensembles whose rows have different lengths (class Tethered is longer in 3D), over
 // every way to say it: the frequency is sqrt(k / reduced mass).
 TEST(Scenario, LawsRunBetweenClassesOfDifferentRows) {
-  for (std::string const first : {"Newton", "Tethered", "Coulomb"})
-    for (std::string const second : {"Newton", "Tethered", "Kepler"})
+  for (std::string const first : {"Newton", "Tethered", "Coulomb", "Meso"})
+    for (std::string const second : {"Newton", "Tethered", "Kepler", "Meso"})
       for (int dimension = 1; dimension <= 3; ++dimension) {
         std::string const zeros = dimension == 1 ? "" : dimension == 2 ? ", 0" : ", 0, 0";
         auto const scenario = parse_scenario(

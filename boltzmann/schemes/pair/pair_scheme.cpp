@@ -2,6 +2,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/schemes/pair/meeting_speed.hpp>
 
 #include <fmt/format.h>
 
@@ -392,6 +393,28 @@ std::size_t PairScheme::bytes() const {
     bytes += connected->list.index.capacity() * sizeof(std::uint32_t) +
              connected->list.start.capacity() * sizeof(std::size_t);
   return bytes;
+}
+
+std::vector<std::string> PairScheme::advice(double step_size) {
+  constexpr double most = 0.25;  // of the law's length in one step
+  std::vector<std::string> lines;
+  for (auto const& near : near_) {
+    double const length = near->traits.length_scale;
+    bool const said = std::any_of(near_.begin(), near_.end(), [&](std::unique_ptr<Near> const& other) {
+      return &other < &near && other->target == near->source && other->source == near->target;
+    });
+    if (said) continue;  // the other way round
+    double const speed = std::isfinite(length) ? meeting_speed(box(), *near->target, *near->source) : 0;
+    double const move = speed * std::abs(step_size);
+    if (!(move > most * length)) continue;
+    double const longest = most * length / speed, digit = std::pow(10.0, std::floor(std::log10(longest)) - 1);
+    lines.push_back(fmt::format(
+        "warning: particles of '{}'{} meet at speeds up to {:.3g} and come {:.3g} closer in a step of {:.3g}, but the "
+        "law between them changes over {:.3g}: collisions are not followed; take a step of at most {:.2g}",
+        near->target->name(), near->target == near->source ? "" : fmt::format(" and '{}'", near->source->name()), speed,
+        move, std::abs(step_size), length, std::floor(longest / digit) * digit));
+  }
+  return lines;
 }
 
 std::string PairScheme::report() const {

@@ -106,6 +106,9 @@ class PairScheme final : public Scheme {
   void add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
+  /// Warns of steps in which particles that meet move further than a quarter of the length over which the law between
+  /// them changes: collisions would not be followed.
+  std::vector<std::string> advice(double step_size) override;
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

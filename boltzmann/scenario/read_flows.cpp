@@ -1,0 +1,365 @@
+// Reads [[flows]], friction and noise, and [prepare], which brings particles to a temperature before the run.
+#include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/flows/langevin_flow.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+/// Dissipation times temperature: what moves between two particles is kappa (1/Ti - 1/Tj).
+constexpr Dimension conduction_dimension = dimensions::energy * dimensions::temperature / dimensions::time;
+/// A preparation longer than this is a slip of the pen.
+constexpr double most_steps = 9e15;
+
+/// Two ensembles (or one, twice) with a flow of some kind, and where it says so.
+struct Taken {
+  ReadEnsemble const *a, *b;
+  Place place;
+};
+
+/// How all dissipative flows of a scenario act together.
+struct HowToFlow {
+  FlowMethod method = FlowMethod::order_free;
+  bool corrector = false, metropolis = false;
+};
+
+/// What the readers of single flows share.
+struct Flows {
+  Reading& reading;
+  DissipativeFlow* dissipative = nullptr;  // all of them together
+  std::optional<Place> first_dissipative;
+  HowToFlow how;
+  std::vector<Taken> dissipations, baths;
+};
+
+/// Whether friction and noise can act on an ensemble; a mistake if not.
+bool suits(ReadEnsemble const& ensemble, Place const& place, std::string_view key, Reading& reading) {
+  AnyEnsemble const* particles = ensemble.particles;
+  if (!particles || !ensemble.integrator) return false;
+  auto const refuse = [&](std::string const& why) {
+    reading.mistake(place, fmt::format("{}: friction and noise can't act on '{}': {}", key, ensemble.name, why));
+    return false;
+  };
+  if (!carries_momentum(*particles))
+    return refuse(fmt::format("particles of class {} have no mass and velocity", ensemble.kind->name));
+  if (ensemble.integrator->method() != Method::leap_frog)
+    return refuse(
+        fmt::format("they need integrator = \"leap-frog\", not \"{}\"", to_string(ensemble.integrator->method())));
+  if (!ensemble.integrator->same_for_all())
+    return refuse("some of its particles are frozen; put these into an ensemble of their own");
+  return true;
+}
+
+/// Two flows of a kind on the same particles would have the same noise.
+bool taken(std::vector<Taken>& list, ReadEnsemble const* a, ReadEnsemble const* b, Place const& place,
+           std::string_view what, Reading& reading) {
+  for (auto const& other : list)
+    if ((other.a == a && other.b == b) || (other.a == b && other.b == a)) {
+      reading.mistake(place, fmt::format("there is a {} flow {} already, in line {}", what,
+                                         a == b ? fmt::format("of '{}'", a->name)
+                                                : fmt::format("between '{}' and '{}'", a->name, b->name),
+                                         other.place.line));
+      return true;
+    }
+  list.push_back({a, b, place});
+  return false;
+}
+
+/// `on` one ensemble or `between` two; nothing, and a mistake, if there is neither.
+std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& reading) {
+  Item const *on = section.find("on"), *between = section.find("between");
+  if ((on == nullptr) == (between == nullptr)) {
+    reading.mistake(between ? between->place : section.place(),
+                    between ? "between: 'on' says on whom, too; leave one out"
+                            : "[[flows]] does not say on whom: add on = \"atoms\" or between = [\"a\", \"b\"]");
+    return {};
+  }
+  if (on) {
+    ReadEnsemble* one = reading.ensemble(*on, "on");
+    return {one, one};
+  }
+  if (!between->is(Item::Kind::array) || between->elements.size() != 2) {
+    reading.mistake(
+        between->place,
+        fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", found(*between),
+                    between->is(Item::Kind::array) ? fmt::format(" of {}", between->elements.size()) : ""));
+    return {};
+  }
+  ReadEnsemble *a = reading.ensemble(between->elements[0], "between"),
+               *b = reading.ensemble(between->elements[1], "between");
+  if (a && a == b) {
+    reading.mistake(between->elements[1].place, fmt::format("between: '{}' twice; within one ensemble write on = "
+                                                            "\"{}\"",
+                                                            a->name, a->name));
+    return {};
+  }
+  return {a, b};
+}
+
+/// method, corrector and metropolis, in the first of the dissipative flows.
+HowToFlow read_method(Section& section, Flows& flows) {
+  HowToFlow how;
+  if (auto const word =
+          section.word("method", {to_string(FlowMethod::order_free), to_string(FlowMethod::pair_splitting)}))
+    how.method = flow_method_named(*word);
+  how.corrector = section.boolean("corrector");
+  how.metropolis = section.boolean("metropolis");
+  Reading& reading = flows.reading;
+  if (flows.first_dissipative) {
+    for (char const* key : {"method", "corrector", "metropolis"})
+      if (section.has(key))
+        reading.mistake(section.place(key),
+                        fmt::format("{}: dissipative flows act together, in one way for all, which the first of them "
+                                    "says (line {})",
+                                    key, flows.first_dissipative->line));
+    return how;
+  }
+  bool const splitting = how.method == FlowMethod::pair_splitting;
+  if (how.corrector && splitting)
+    reading.mistake(section.place("corrector"), "corrector: it belongs to method = \"order-free\"");
+  if (how.metropolis && !splitting)
+    reading.mistake(section.place("metropolis"), "metropolis: it belongs to method = \"pair-splitting\"");
+  return how;
+}
+
+/// convention, friction, temperature, range, exponent, projected, conduction.
+Dissipation read_dissipation(Section& section, Reading& reading) {
+  Dissipation dissipation;
+  using enum Convention;
+  Item const* word = section.need("convention", "convention = \"constant-friction\"");
+  auto const name = word ? read_word(*word, "convention", convention_names(), reading.context) : std::nullopt;
+  if (name) dissipation.convention = convention_named(*name);
+  bool const reduced = reading.context.base.is_reduced();
+  dissipation.friction = section
+                             .need_quantity("friction", dimensions::friction,
+                                            reduced ? "friction = 4.5" : "friction = \"1e-14 kg/s\"", not_negative)
+                             .value_or(0);
+  dissipation.range =
+      section.need_quantity("range", dimensions::length, reduced ? "range = 1" : "range = \"15 angstrom\"", positive)
+          .value_or(1);
+  dissipation.exponent = section.quantity("exponent", dimensions::none, not_negative).value_or(dissipation.exponent);
+  dissipation.projected = section.boolean("projected", dissipation.projected);
+  dissipation.conduction = section.quantity("conduction", conduction_dimension, not_negative).value_or(0);
+  section.allow("temperature");
+  if (!name) return dissipation;
+  if (dissipation.convention == constant_friction) {
+    if (section.has("temperature"))
+      reading.mistake(section.place("temperature"), fmt::format("temperature: convention \"{}\" uses none but the "
+                                                                "particles' own; leave it out",
+                                                                *name));
+  } else {
+    dissipation.temperature = section
+                                  .need_quantity("temperature", dimensions::temperature,
+                                                 reduced ? "temperature = 1" : "temperature = \"300 K\"", positive)
+                                  .value_or(1);
+  }
+  if (dissipation.convention == fixed_temperature && dissipation.conduction > 0)
+    reading.mistake(section.place("conduction"),
+                    "conduction: with convention \"fixed-temperature\" particles have no temperatures of their own "
+                    "between which heat could flow; another convention has");
+  return dissipation;
+}
+
+/// Whether a temperature belongs to the internal energy of each particle; a mistake if not.
+bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::string_view convention, Reading& reading) {
+  if (!has_internal_energy(*ensemble.kind)) {
+    reading.mistake(place, fmt::format("convention: \"{}\" turns motion into internal energy; particles of class {} "
+                                       "('{}') have none, those of class Meso have, and \"fixed-temperature\" does "
+                                       "without",
+                                       convention, ensemble.kind->name, ensemble.name));
+    return false;
+  }
+  bool const reduced = reading.context.base.is_reduced();
+  if (!ensemble.state) {
+    reading.mistake(place, fmt::format("convention: \"{}\" needs the temperatures of internal energies; give '{}' a "
+                                       "heat_capacity, e.g. heat_capacity = {}",
+                                       convention, ensemble.name, reduced ? "16" : "\"16 kB\""));
+    return false;
+  }
+  AnyEnsemble const& particles = *ensemble.particles;
+  int const energy = particles.field("internal_energy").offset;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (double const own = particles.row(i)[energy]; !(own > 0)) {
+      reading.mistake(ensemble.place,
+                      fmt::format("the internal energy of particle {} of '{}' is {}; it must be positive to have a "
+                                  "temperature: add e.g. internal_energy = {{ temperature = {} }}",
+                                  i, ensemble.name, own, reduced ? "1" : "\"300 K\""));
+      return false;
+    }
+  return true;
+}
+
+void read_dissipative(Section& section, Item const& table, Flows& flows) {
+  Reading& reading = flows.reading;
+  std::size_t const before = reading.context.mistakes.count();
+  auto const [a, b] = read_pair(section, reading);
+  Dissipation const dissipation = read_dissipation(section, reading);
+  HowToFlow const how = read_method(section, flows);
+  section.finish();
+  if (!flows.first_dissipative) {
+    flows.first_dissipative = table.place;
+    flows.how = how;
+  }
+  if (flows.how.metropolis &&
+      (dissipation.convention == Convention::fixed_temperature || dissipation.convention == Convention::deterministic))
+    reading.mistake(section.place("convention"),
+                    fmt::format("convention: 'metropolis' is for friction with noise and internal energies, not for "
+                                "\"{}\"",
+                                to_string(dissipation.convention)));
+  if (reading.result->mesh)
+    return reading.mistake(table.place,
+                           "a dissipative flow acts between near particles, which a scenario with a [mesh] does not "
+                           "look for");
+  if (reading.context.mistakes.count() != before || !a || !b || !reading.result->pairs) return;
+  Place const whom = section.place(section.has("on") ? "on" : "between");
+  char const* key = section.has("on") ? "on" : "between";
+  if (!suits(*a, whom, key, reading) || (a != b && !suits(*b, whom, key, reading))) return;
+  if (taken(flows.dissipations, a, b, whom, "dissipative", reading)) return;
+  for (int axis = 0; axis < reading.dimension; ++axis)
+    if (double const most = 0.5 * reading.box->length(axis); reading.box->periodic(axis) && dissipation.range > most)
+      return reading.mistake(section.place("range"),
+                             fmt::format("range: {} is longer than half of the periodic axis {}, {}: a particle would "
+                                         "meet another one twice",
+                                         dissipation.range, "xyz"[axis], most));
+  if (dissipation.convention != Convention::fixed_temperature)
+    for (ReadEnsemble const* one : {a, b})
+      if (!has_temperatures(*one, section.place("convention"), section.item("convention")->text, reading)) return;
+  if (!flows.dissipative)
+    guarded(reading, table.place, [&] {
+      auto flow = std::make_unique<DissipativeFlow>(*reading.result->pairs, reading.boltzmann_constant());
+      flow->method(flows.how.method);
+      flow->corrector(flows.how.corrector);
+      flow->metropolis(flows.how.metropolis);
+      flows.dissipative = flow.get();
+      reading.result->flows.push_back(std::move(flow));
+    });
+  if (!flows.dissipative) return;
+  guarded(reading, table.place, [&] {
+    for (ReadEnsemble const* one : {a, b})
+      if (one->state && (one == a || a != b)) flows.dissipative->state(*one->particles, *one->state);
+    if (a == b)
+      flows.dissipative->internal(*a->particles, dissipation);
+    else
+      flows.dissipative->between(*a->particles, *b->particles, dissipation);
+  });
+}
+
+/// A heat bath for every particle, from `temperature` and `rate`.
+std::unique_ptr<LangevinFlow> read_bath(Section& section, Reading& reading) {
+  bool const reduced = reading.context.base.is_reduced();
+  auto const temperature = section.need_quantity("temperature", dimensions::temperature,
+                                                 reduced ? "temperature = 1" : "temperature = \"300 K\"", not_negative);
+  auto const rate =
+      section.need_quantity("rate", dimensions::frequency, reduced ? "rate = 1" : "rate = \"5 1/ps\"", positive);
+  if (!temperature || !rate || !reading.base_known) return nullptr;
+  return std::make_unique<LangevinFlow>(*temperature, *rate, reading.boltzmann_constant());
+}
+
+void read_langevin(Section& section, Flows& flows) {
+  Reading& reading = flows.reading;
+  std::size_t const before = reading.context.mistakes.count();
+  Item const* on = section.need("on", "on = \"atoms\"");
+  ReadEnsemble const* ensemble = on ? reading.ensemble(*on, "on") : nullptr;
+  auto bath = read_bath(section, reading);
+  section.finish();
+  if (reading.context.mistakes.count() != before || !ensemble || !bath) return;
+  if (!suits(*ensemble, on->place, "on", reading)) return;
+  if (taken(flows.baths, ensemble, ensemble, on->place, "langevin", reading)) return;
+  guarded(reading, on->place, [&] {
+    bath->on(*ensemble->particles);
+    reading.result->flows.push_back(std::move(bath));
+  });
+}
+
+bool refused_with_smooth(Item const& table, std::string_view what, Reading& reading) {
+  if (!reading.smooth.wanted) return false;
+  reading.mistake(table.place, fmt::format("{}: smooth particles have the viscosity and the conductivity of their "
+                                           "material, and no other friction or noise",
+                                           what));
+  return true;
+}
+
+void read_flow(Item const& table, Flows& flows) {
+  Reading& reading = flows.reading;
+  if (refused_with_smooth(table, "[[flows]]", reading)) return;
+  Section section(table, "[[flows]]", reading.context);
+  Item const* word = section.need("kind", "kind = \"dissipative\"");
+  auto const kind = word ? read_word(*word, "flow", {"dissipative", "langevin"}, reading.context) : std::nullopt;
+  if (!kind) return;
+  section.rename(fmt::format("[[flows]] '{}'", *kind));
+  if (*kind == "dissipative")
+    read_dissipative(section, table, flows);
+  else
+    read_langevin(section, flows);
+}
+
+/// Without `on` those that forces move by leap-frog are prepared.
+std::vector<ReadEnsemble const*> to_be_prepared(Item const* on, Reading& reading) {
+  std::vector<ReadEnsemble const*> chosen;
+  if (!on) {
+    for (auto const& ensemble : reading.ensembles)
+      if (ensemble.particles && ensemble.integrator && carries_momentum(*ensemble.particles) &&
+          ensemble.integrator->method() == Method::leap_frog && ensemble.integrator->same_for_all())
+        chosen.push_back(&ensemble);
+    return chosen;
+  }
+  std::vector<Item> const one{*on};
+  if (read_texts(*on, "on", reading.context).empty()) return {};
+  for (Item const& word : on->is(Item::Kind::array) ? on->elements : one)
+    if (ReadEnsemble const* ensemble = reading.ensemble(word, "on"))
+      if (suits(*ensemble, word.place, "on", reading) &&
+          std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
+        chosen.push_back(ensemble);
+  return chosen;
+}
+
+void read_preparation(Item const& table, Reading& reading) {
+  if (refused_with_smooth(table, "[prepare]", reading)) return;
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[prepare]", reading.context);
+  Item const* on = section.find("on");
+  auto bath = read_bath(section, reading);
+  auto const time = section.need_quantity(
+      "time", dimensions::time, reading.context.base.is_reduced() ? "time = 10" : "time = \"2 ps\"", not_negative);
+  section.finish();
+  auto const chosen = to_be_prepared(on, reading);
+  if (reading.context.mistakes.count() != before || !bath || !time || !reading.run.step) return;
+  // A time of so many steps, but for rounding, is that many.
+  double const steps = std::ceil(*time / *reading.run.step * (1 - 1e-12));
+  if (steps > most_steps)
+    return reading.mistake(section.place("time"), fmt::format("time: it would need {:.3g} steps", steps));
+  bool const loaded = std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
+                                  [](ReadEnsemble const& ensemble) { return ensemble.particles != nullptr; });
+  if (!loaded) return;
+  if (chosen.empty())
+    return reading.mistake(table.place,
+                           "[prepare]: there is no ensemble of particles with mass and velocity whose "
+                           "integrator is \"leap-frog\"");
+  guarded(reading, table.place, [&] {
+    for (ReadEnsemble const* ensemble : chosen) bath->on(*ensemble->particles);
+    reading.preparation = {std::move(bath), static_cast<std::uint64_t>(steps)};
+  });
+}
+
+}  // namespace
+
+void read_flows(Section& document, Reading& reading) {
+  Flows flows{reading, nullptr, {}, {}, {}, {}};
+  for (Item const* table : find_tables(document, "flows")) read_flow(*table, flows);
+  if (Item const* table = find_table(document, "prepare")) read_preparation(*table, reading);
+}
+
+void add_flows(Reading const& reading) {
+  Simulation& simulation = *reading.result->simulation;
+  for (auto const& flow : reading.result->flows) simulation.add(*flow);
+  if (reading.preparation.flow) simulation.prepare(reading.preparation.flow, reading.preparation.steps);
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,135 @@
+// Reads what an internal energy stands for: the heat capacity of mesoparticles, and the temperature of their inside.
+#include <boltzmann/laws/two_columns.hpp>
+#include <boltzmann/scenario/field_values.hpp>
+#include <boltzmann/scenario/formula.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace boltzmann {
+namespace {
+
+constexpr char const* capacity_key = "heat_capacity";
+constexpr char const* energy_key = "internal_energy";
+
+std::vector<std::string> classes_with_internal_energy() {
+  std::vector<std::string> names;
+  for (auto const& kind : particle_classes())
+    if (has_internal_energy(kind)) names.push_back(kind.name);
+  return names;
+}
+
+/// file, and what a one in its two columns stands for.
+std::optional<StateLaw> read_file(Section& section, Item const& file, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  double const degree = section.quantity("temperature", dimensions::temperature, positive).value_or(1);
+  double const unit = section.quantity(capacity_key, dimensions::heat_capacity, positive).value_or(1);
+  auto const path = read_text(file, "file", reading.context);
+  section.finish();
+  if (!path || reading.context.mistakes.count() != before) return std::nullopt;
+  std::filesystem::path full = *path;
+  if (full.is_relative() && !reading.context.folder.empty())
+    full = std::filesystem::path(reading.context.folder) / full;
+  std::string const name = std::filesystem::absolute(full).lexically_normal().string();
+  std::optional<StateLaw> law;
+  guarded(reading, file.place, [&] {
+    std::vector<double> temperatures, capacities;
+    for (auto const& [temperature, capacity] : read_two_columns(name, "a temperature", "a heat capacity", true)) {
+      temperatures.push_back(temperature * degree);
+      capacities.push_back(capacity * unit);
+    }
+    law.emplace(std::move(temperatures), std::move(capacities));
+    const_cast<Item&>(file).text = name;  // the stored scenario must find the file from any folder
+  });
+  return law;
+}
+
+/// formula, from, to.
+std::optional<StateLaw> read_curve(Section& section, Item const& text, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  auto const from = section.need_quantity("from", dimensions::temperature, "from = \"50 K\"", positive);
+  auto const to = section.need_quantity("to", dimensions::temperature, "to = \"3000 K\"", positive);
+  section.finish();
+  if (from && to && !(*from < *to))
+    reading.mistake(section.place("to"), fmt::format("to: {} must be above from = {}", *to, *from));
+  auto const formula = read_text(text, "formula", reading.context);
+  if (!formula || reading.context.mistakes.count() != before || !from || !to) return std::nullopt;
+  std::optional<StateLaw> law;
+  try {
+    std::array<std::string, 2> const names{"T", "kB"};
+    Formula const capacity(*formula, names);
+    guarded(reading, text.place, [&] {
+      law.emplace(
+          [&capacity, k = reading.boltzmann_constant()](double temperature) {
+            return capacity(std::array<double, 2>{temperature, k});
+          },
+          *from, *to);
+    });
+  } catch (FormulaError const& error) {
+    reading.mistake(text.place, fmt::format("formula: {} (at '{}')", error.what(), formula->substr(error.offset)));
+  }
+  return law;
+}
+
+}  // namespace
+
+bool has_internal_energy(ParticleClass const& kind) {
+  auto const& fields = kind.variants.front().fields;
+  return std::any_of(fields.begin(), fields.end(), [](Field const& field) { return field.name == energy_key; });
+}
+
+std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& kind, Reading& reading) {
+  if (!has_internal_energy(kind)) {
+    if (ensemble.has(capacity_key))
+      reading.mistake(ensemble.place(capacity_key),
+                      fmt::format("heat_capacity: particles of class {} have no internal energy; classes with one: {}",
+                                  kind.name, join(classes_with_internal_energy())));
+    ensemble.know(capacity_key);
+    return std::nullopt;
+  }
+  Item const* item = ensemble.find(capacity_key);
+  if (!item) return std::nullopt;
+  std::optional<StateLaw> law;
+  if (!item->is(Item::Kind::table)) {
+    if (auto const capacity = read_quantity(*item, capacity_key, dimensions::heat_capacity, reading.context, positive))
+      guarded(reading, item->place, [&] { law.emplace(*capacity); });
+    return law;
+  }
+  Section section(*item, capacity_key, reading.context);
+  Item const *file = section.find("file"), *formula = section.find("formula");
+  if ((file == nullptr) == (formula == nullptr)) {
+    reading.mistake(formula ? formula->place : item->place,
+                    "heat_capacity: a number, or a table with 'file' or 'formula' is needed, e.g. { formula = \"16*kB "
+                    "+ 0.01*kB*T\", from = \"50 K\", to = \"3000 K\" }");
+    return std::nullopt;
+  }
+  return file ? read_file(section, *file, reading) : read_curve(section, *formula, reading);
+}
+
+std::optional<double> read_internal_temperature(Section& ensemble, ParticleClass const& kind, Reading& reading) {
+  Item const* item = ensemble.item(energy_key);
+  if (!has_internal_energy(kind) || !item || !item->is(Item::Kind::table)) return std::nullopt;
+  ensemble.allow(energy_key);
+  Section section(*item, energy_key, reading.context);
+  auto const temperature =
+      section.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive);
+  section.finish();
+  if (!ensemble.has(capacity_key))
+    reading.mistake(item->place,
+                    fmt::format("internal_energy: which energy belongs to a temperature is known from 'heat_capacity'; "
+                                "add e.g. heat_capacity = {}",
+                                reading.context.base.is_reduced() ? "16" : "\"16 kB\""));
+  return temperature;
+}
+
+void find_temperatures(AnyEnsemble& particles, StateLaw const& law) {
+  int const energy = particles.field(energy_key).offset, temperature = particles.field("temperature").offset;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    particles.row(i)[temperature] = law.temperature(particles.row(i)[energy]);
+}
+
+}  // namespace boltzmann
