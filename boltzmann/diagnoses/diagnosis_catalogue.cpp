@@ -2,6 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/diffusion.hpp>
 #include <boltzmann/diagnoses/energy_balance.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
@@ -583,6 +584,12 @@ std::vector<Entry> const& table() {
         {{"drag", "mean velocity of a group of particles: its change is the drag", group}, make<Drag>},
         {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", group},
          make<VelocityDiffusion>},
+        {{"diffusion",
+          "mean square displacement of particles, and the diffusion coefficient that it shows",
+          {"ensembles", "since"}},
+         [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
+           return std::make_unique<Diffusion>(parameters.available, parameters.ensembles, parameters.since);
+         }},
         {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", group_and_quantity},
          make<ExtremesDiagnosis>},
         {{"field-energy", "(1/2) integral of density times potential: the energy of a mesh's field", {}, true},

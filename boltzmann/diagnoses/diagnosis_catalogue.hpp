@@ -38,11 +38,11 @@ struct DiagnosisParameters {
   std::vector<int> mode = {};  ///< field-mode: periods in the box along each axis
   std::string axis = {};       ///< wave-spectrum, heat-flux, slab, shock: "x", "y" or "z"
   std::size_t modes = 0;       ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
-  WeightShape weight = WeightShape::lucy;                  ///< entropy: of the averages
-  double range = 0;                                        ///< entropy: of the weight; 0: each particle's own
-  double gamma = 0;                                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D
-  double conductivity = 0;                                 ///< heat-flux: of the material
-  double since = 0;                                        ///< heat-flux, shock: the time from which means are taken
+  WeightShape weight = WeightShape::lucy;  ///< entropy: of the averages
+  double range = 0;                        ///< entropy: of the weight; 0: each particle's own
+  double gamma = 0;                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D
+  double conductivity = 0;                 ///< heat-flux: of the material
+  double since = 0;                        ///< heat-flux, shock, diffusion: the time from which means are taken
   double from = std::numeric_limits<double>::quiet_NaN();  ///< slab: its ends at the start; NaN: those of the box
   double to = std::numeric_limits<double>::quiet_NaN();
   std::size_t count = 0;  ///< slab: so many side by side, 0: one; shock: bins of the profile, 0: as they fit
@@ -61,7 +61,8 @@ struct DiagnosisKind {
 };
 
 /// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, entropy, heat-flux,
-/// slab, shock, drag, velocity-diffusion, extremes, energy-balance; of a mesh field-energy, field-mode, wave-spectrum.
+/// slab, shock, drag, velocity-diffusion, diffusion, extremes, energy-balance; of a mesh field-energy, field-mode,
+/// wave-spectrum.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
 
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or

@@ -180,7 +180,8 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "entropy, heat-flux, slab, shock, drag, velocity-diffusion, extremes, field-energy, field-mode, wave-spectrum, "
+      "entropy, heat-flux, slab, shock, drag, velocity-diffusion, diffusion, extremes, field-energy, field-mode, "
+      "wave-spectrum, "
       "energy-balance; "
       "did you mean 'energies'?");
   auto with = parameters();
@@ -212,7 +213,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 17U);
+  EXPECT_EQ(diagnosis_kinds().size(), 18U);
   Ensemble<Smooth<2>> gas("gas");
   for (auto const& kind : diagnosis_kinds()) {
     auto any = parameters();
@@ -263,7 +264,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     diagnosis->measure({ensembles, box, &measures, 1, 0, 0}, values);
     EXPECT_EQ(values.size(), diagnosis->columns().size());
     bool const is_mean = kind.name == "temperature" || kind.name == "drag" || kind.name == "velocity-diffusion" ||
-                         kind.name == "extremes" || kind.name == "entropy";
+                         kind.name == "diffusion" || kind.name == "extremes" || kind.name == "entropy";
     for (double const value : values) EXPECT_EQ(std::isnan(value), is_mean) << kind.name;
   }
 }

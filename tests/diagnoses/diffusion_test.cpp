@@ -1,0 +1,73 @@
+// Diffusion: random walks of known coefficient, through periodic axes, and straight flight.
+#include <boltzmann/core/random.hpp>
+#include <boltzmann/diagnoses/diffusion.hpp>
+#include <boltzmann/particles/newton.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+std::vector<double> look(Diffusion& diffusion, std::vector<AnyEnsemble*> const& ensembles, Box const& box,
+                         double time) {
+  std::vector<double> values;
+  diffusion.measure({ensembles, box, nullptr, 1, time, 0}, values);
+  return values;
+}
+
+TEST(Diffusion, OfARandomWalkIsItsCoefficient) {
+  Box const box(Vector{0.0, 0.0}, Vector{3.0, 5.0}, {Boundary::periodic, Boundary::open});
+  Ensemble<Newton<2>> walkers("walkers", 4000);
+  for (std::size_t i = 0; i < walkers.size(); ++i) walkers[i].position = {1.5, 2.5};
+  std::vector<AnyEnsemble*> const all{&walkers};
+  Diffusion diffusion({&walkers}, {}, 1);
+  EXPECT_EQ(diffusion.columns()[1].name, "diffusion coefficient");
+  double const coefficient = 0.7, dt = 0.01;
+  std::vector<double> values;
+  for (int step = 0; step <= 500; ++step) {
+    values = look(diffusion, all, box, step * dt);
+    if (step < 100) {
+      EXPECT_TRUE(std::isnan(values[0]));
+    }
+    if (step == 300) {  // a restart in between changes nothing
+      auto const state = diffusion.state();
+      Diffusion again({&walkers}, {}, 1);
+      again.restore(state);
+      EXPECT_EQ(again.state(), state);
+      EXPECT_THROW(again.restore(std::span(state).first(100)), Error);
+    }
+    for (std::size_t i = 0; i < walkers.size(); ++i) {
+      Stream stream(1, step, i, Purpose::random_walk);
+      for (int a = 0; a < 2; ++a)
+        walkers[i].position[a] += std::sqrt(2 * coefficient * dt) * stream.normal() + (a == 0 ? 0.02 : 0);  // and drift
+    }
+    box.wrap(walkers);
+  }
+  // <r^2> = 4 D t after 4 time units; its relative error is 1 / sqrt(N).
+  EXPECT_NEAR(values[0], 4 * coefficient * 4, 4 * 4 * coefficient * 4 / std::sqrt(4000.0));
+  EXPECT_NEAR(values[1], coefficient, 0.05 * coefficient);
+}
+
+TEST(Diffusion, OfFlightIsQuadraticAndOfNothingUnknown) {
+  Box const box(Vector{0.0}, Vector{10.0}, Boundary::periodic);
+  Ensemble<Newton<1>> pair("pair", 2), nobody("nobody");
+  std::vector<AnyEnsemble*> const all{&pair, &nobody};
+  Diffusion diffusion({&pair, &nobody}, {}, 0);
+  EXPECT_EQ(diffusion.columns()[2].name, "nobody mean square displacement");
+  for (int n = 0; n < 20; ++n) {  // one to the right, one to the left, around the box and on
+    pair[0].position = {box.wrapped(1.0 * n, 0)};
+    pair[1].position = {box.wrapped(-1.0 * n, 0)};
+    auto const values = look(diffusion, all, box, n);
+    EXPECT_DOUBLE_EQ(values[0], 1.0 * n * n);
+    EXPECT_TRUE(std::isnan(values[2]) && std::isnan(values[3]));
+  }
+  pair.resize(3);
+  EXPECT_THROW(look(diffusion, all, box, 20), Error);
+  EXPECT_THROW(Diffusion({&pair}, {"pear"}, 0), Error);
+}
+
+}  // namespace
+}  // namespace boltzmann
