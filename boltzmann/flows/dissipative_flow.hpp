@@ -43,8 +43,9 @@ class DissipativeFlow final : public Flow {
 
   void method(FlowMethod method) { method_ = method; }
   FlowMethod method() const { return method_; }
-  /// order_free: a second pass over the pairs, with the mean of the velocities before and after the first. Kinetic
-  /// temperatures are then right to second order in friction times step, not to first.
+  /// order_free: a second pass over the pairs (a third where there are internal energies), with the mean of the
+  /// velocities before and after the one before. Kinetic temperatures, and the shares of the heat where masses differ,
+  /// are then right to second order in friction times step, not to first.
   void corrector(bool wanted) { corrector_ = wanted; }
   /// pair_splitting: every pair's new velocities are accepted or refused (Metropolis), so that each keeps the invariant
   /// law exactly, and internal energies can't become negative.

@@ -22,7 +22,7 @@ struct DissipativeFlow::Member {
   Mirror const* mirror = nullptr;
   bool dissipates = false, at_fixed_temperature = false;
   AlignedVector<double> points;     // of the rows of the mirror
-  AlignedVector<double> predicted;  // the corrector's first try: 4 numbers an owned row (see FlowTask)
+  AlignedVector<double> predicted;  // the corrector's last try: 4 numbers an owned row (see FlowTask)
   std::vector<double> energies;     // pair splitting: of the owned rows
   std::size_t first_chunk = 0;      // among those of all members
 
@@ -35,6 +35,7 @@ struct DissipativeFlow::Member {
   int velocity_at() const { return dimension() + 1; }
   int inverse_mass_at() const { return dimension(); }
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
+  void take_mean_velocities();
   /// Of which particle somebody speaks.
   std::string who(std::size_t row) const;
 };

@@ -9,10 +9,10 @@
 
 namespace boltzmann {
 
-/// With dp_ij of all pairs from velocities u (those of now, or with the corrector the mean of now and of a first try)
+/// With dp_ij of all pairs from velocities u (those of now, or with the corrector the mean of now and of a try before)
 /// the motion gains sum over i of dP_i.(v_i + dP_i / 2m_i), dP_i = sum over j of dp_ij. It is paid by i and j as
 ///   eps_i -= sum over j of dp_ij.u_ij / 2 + dP_i.(dP_i - dP'_i) / 2m_i + |dp_ij|^2 (1/mj - 1/mi) / 4,
-/// dP' being that of the first try (without one, zero). The total is exact whatever the masses; the last term (not with
+/// dP' being that of the last try (without one, zero). The total is exact whatever the masses; the last term (not with
 /// the corrector) gives both the same share of what noise adds, as Eq 3 of the source asks.
 void DissipativeFlow::order_free(StepContext const& context) {
   take_lists();
@@ -54,25 +54,18 @@ void DissipativeFlow::order_free(StepContext const& context) {
                  });
     }
   };
-  if (corrector_) {
+  // Where particles share the heat the remainder must be small, too: one pass more.
+  bool const shares = std::any_of(members_.begin(), members_.end(), [](auto const& m) { return m->has_energy(); });
+  int const tries = !corrector_ ? 0 : shares ? 2 : 1;
+  for (int n = 0; n < tries; ++n) {
     for (auto& member : members_)
       if (member->dissipates) member->predicted.resize(4 * member->owned());
     each_chunk(0, [](Member& m, std::size_t chunk, double const* sums) {
       std::size_t const begin = chunk * flow_chunk, end = std::min(begin + flow_chunk, m.owned());
       std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
     });
-    for (auto& member : members_) {
-      Member& m = *member;
-      if (!m.dissipates) continue;
-      int const velocity = m.velocity_at();
-      for (std::size_t k = 0; k < m.owned(); ++k) {
-        double* point = m.point(k);
-        for (int a = 0; a < m.dimension(); ++a)
-          point[velocity + a] += 0.5 * m.predicted[4 * k + a] * point[m.inverse_mass_at()];
-      }
-      for (std::size_t k = m.owned() + 1; k <= m.mirror->total(); ++k)
-        std::copy_n(m.point(m.mirror->owner(k)) + velocity, m.dimension(), m.point(k) + velocity);
-    }
+    for (auto& member : members_)
+      if (member->dissipates) member->take_mean_velocities();
   }
   std::vector<std::vector<double>> lost;
   for (auto const& member : members_) lost.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
@@ -83,6 +76,18 @@ void DissipativeFlow::order_free(StepContext const& context) {
   });
   for (auto const& of_member : lost)
     for (double const gain : of_member) heat_ += gain;
+}
+
+/// The points' velocities become the means of now and of the last try.
+void DissipativeFlow::Member::take_mean_velocities() {
+  int const at = velocity_at();
+  for (std::size_t k = 0; k < owned(); ++k) {
+    double const* row = ensemble->row(mirror->order()[k]);
+    for (int a = 0; a < dimension(); ++a)
+      point(k)[at + a] = row[velocity + a] + 0.5 * predicted[4 * k + a] * point(k)[inverse_mass_at()];
+  }
+  for (std::size_t k = owned() + 1; k <= mirror->total(); ++k)
+    std::copy_n(point(mirror->owner(k)) + at, dimension(), point(k) + at);
 }
 
 /// Gives momenta and energies to the particles of a chunk; what no internal energy pays for is lost.

@@ -97,12 +97,18 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));
   auto const part = [](double change, double scale) { return scale > 0 ? change / scale : change; };
   if (start.energy && end.energy) {
+    // A shock's piston, or a heat bath, may do more than there was.
+    double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
     bool const near_zero = std::abs(*start.energy) < 1e-3 * start.energy_scale;
-    double const scale = near_zero ? start.energy_scale : std::abs(*start.energy);
+    double const own = near_zero ? start.energy_scale : std::abs(*start.energy);
+    bool const driven = given > own;
+    double const scale = driven ? given : own;
     auto const unit = base.display(dimensions::energy);
     lines.push_back(row(with_unit(name_of_energy(start, end), unit.unit), *start.energy * unit.factor,
                         *end.energy * unit.factor, part(*end.energy - *start.energy, scale),
-                        near_zero ? "of kinetic + |potential|" : "of itself"));
+                        driven      ? "of what was given"
+                        : near_zero ? "of kinetic + |potential|"
+                                    : "of itself"));
   } else if (!start.no_energy.empty()) {
     lines.push_back(fmt::format("  {:<34} not defined: {}", "energy", start.no_energy));
   }

@@ -35,8 +35,8 @@ Conserved conserved(Simulation const& simulation);
 std::string quantity_text(double number, Dimension dimension, Base const& base, int digits = 4);
 
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
-/// work and heat" where there was some): relative to its own start (to its scale if it starts near zero); momenta:
-/// relative to their scales, since totals are often zero.
+/// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to
+/// what was given if that is more); momenta: relative to their scales, since totals are often zero.
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base);
 
 }  // namespace boltzmann

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -359,6 +360,55 @@ TEST(Examples, GasesPrintWhatTheoryHas) {
   Example const vortex("gresho");
   EXPECT_GT(printed_after(vortex.out(), "order ", vortex.out().find("96 x  96")), 0.5);
   EXPECT_NEAR(printed_after(vortex.out(), "96 particles: mean error of the velocity "), 0.033, 0.005);
+}
+
+TEST(Examples, FluidsOfLumpsHaveThePublishedPressureAndDiffusion) {
+  Example const example("dpd_fluid", {"checkpoint.h5", "picture.png"});
+  if (!example.built()) GTEST_SKIP() << "examples/dpd_fluid is not built";
+  ASSERT_TRUE(example.good());
+  EXPECT_NEAR(printed_after(example.out(), "temperature "), 1, 0.02);
+  EXPECT_NEAR(printed_after(example.out(), "pressure "), 23.65, 0.02 * 23.65);
+  EXPECT_NEAR(printed_after(example.out(), "diffusion coefficient "), 0.29, 0.05 * 0.29);
+}
+
+TEST(Examples, MesoparticlesHaveOneTemperature) {
+  Example const example("dpde_equilibrium");
+  if (!example.built()) GTEST_SKIP() << "examples/dpde_equilibrium is not built";
+  ASSERT_TRUE(example.good());
+  double const inside = printed_after(example.out(), "harmonic mean of internal ");
+  EXPECT_NEAR(printed_after(example.out(), "temperature of motion "), inside, 0.02 * inside);
+  EXPECT_NEAR(printed_after(example.out(), "higher by a factor "), 1.0625, 0.003);
+  auto const table = example.diagnoses();
+  EXPECT_LT(table.drift("total energy"), 3e-4 * table["total energy"].front());
+}
+
+TEST(Examples, ShocksInPolymersHeatTheMotionFirst) {
+  Example const example("pvdf_shock", {"coupled/picture.png", "coupled/profile.png", "uncoupled/trajectory.h5"});
+  if (!example.built()) GTEST_SKIP() << "examples/pvdf_shock is not built";
+  ASSERT_TRUE(example.good());
+  Table const coupled(test::text_of(example.path("coupled/diagnoses.csv")));
+  Table const uncoupled(test::text_of(example.path("uncoupled/diagnoses.csv")));
+  auto const& motion = coupled["slab kinetic temperature x"];
+  auto const& inside = coupled["slab internal temperature"];
+  // Overshoots and falls, the insides rise to meet it; several times below the run without friction.
+  EXPECT_GT(*std::max_element(motion.begin(), motion.end()), 4 * motion.back());
+  EXPECT_GT(inside.back(), 1500);
+  EXPECT_LT(motion.back(), 2 * inside.back());
+  EXPECT_GT(uncoupled["slab kinetic temperature x"].back(), 3 * motion.back());
+  EXPECT_LT(coupled.drift("energy balance"), 5e-4 * coupled["work of walls"].back());
+}
+
+TEST(Examples, HugoniotsAreLines) {
+  Example const example("hugoniot", {"2000/picture.png"});
+  if (!example.built()) GTEST_SKIP() << "examples/hugoniot is not built";
+  ASSERT_TRUE(example.good());
+  EXPECT_NEAR(printed_after(example.out(), "     2000 "), 7063, 0.04 * 7063);
+  EXPECT_NEAR(printed_after(example.out(), "m/s + "), 1.88, 0.15);
+  Example const space("pvdf_shock_3d", {"picture.png", "profile.png"});
+  ASSERT_TRUE(space.good());
+  auto const table = space.diagnoses();
+  EXPECT_LT(std::abs(table["mass jump residual"].back()), 0.03);
+  EXPECT_LT(std::abs(table["momentum jump residual"].back()), 0.04);
 }
 
 TEST(Examples, LatticesHaveTheDensitiesOfTheTable) {
