@@ -243,9 +243,11 @@ template <int W, int D, bool projected, bool conducts>
       Reals<W> columns[4] = {zero, zero, zero, zero};
       for (int a = 0; a < D; ++a) columns[a] = -pair.momentum[a];
       columns[D] = pair.loss - pair.transfer;
-      alignas(4 * W) std::uint32_t place[W];
-      Narrow<W> const row = (*reinterpret_cast<Narrow<W> const*>(j) >> 2) - begin;
-      *reinterpret_cast<Narrow<W>*>(place) = row < rows ? row : Narrow<W>{} + rows;
+      std::uint32_t place[W];
+      for (int lane = 0; lane < W; ++lane) {
+        std::uint32_t const row = j[lane] / 4 - begin;
+        place[lane] = row < rows ? row : rows;
+      }
       scatter<W>([&](int lane) { return task.sums + 4 * std::size_t{place[lane]}; }, columns);
     }
   Reals<W> columns[4] = {zero, zero, zero, zero};

