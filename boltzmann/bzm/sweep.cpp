@@ -113,6 +113,37 @@ void read_states(std::string const& folder, std::vector<Run>& runs) {
     }
 }
 
+/// A scenario as it is stored, but for the number of threads, which changes nothing.
+std::string without_threads(std::string const& text) {
+  std::istringstream lines(text);
+  std::string result, line;
+  while (std::getline(lines, line))
+    if (!line.starts_with("threads = ")) result += line + "\n";
+  return result;
+}
+
+/// Error if what a run's folder holds is not the run that sweep.toml describes.
+void check_scenario(std::string const& folder, Run const& run, std::size_t number, std::string const& stored,
+                    std::string const& what) {
+  Overrides chosen;
+  chosen.sweep_run = number;
+  if (without_threads(stored) == without_threads(load_scenario(folder + "/sweep.toml", chosen)->resolved)) return;
+  throw Error(
+      fmt::format("'{0}/{1}/{2}' is of another scenario than run {3} of '{0}/sweep.toml'; take the folder {1} "
+                  "away, and the run is done anew",
+                  folder, run.folder, what, number + 1));
+}
+
+/// Runs that are done must not be taken for those of a sweep.toml that has been edited since.
+void check_runs_before(std::string const& folder, std::vector<Run> const& runs) {
+  auto const edited = fs::last_write_time(folder + "/sweep.toml");
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    std::string const path = folder + "/" + runs[r].folder + "/scenario.toml";
+    if (runs[r].state != State::waiting && fs::exists(path) && fs::last_write_time(path) < edited)
+      check_scenario(folder, runs[r], r, read_text(path), "scenario.toml");
+  }
+}
+
 std::string duration_text(double seconds) {
   if (!(seconds < 1e8)) return "long";
   auto const whole = static_cast<long>(std::ceil(seconds));
@@ -205,6 +236,7 @@ RunReport do_run(std::string const& folder, Run const& run, std::size_t number, 
   std::int64_t first = 0;
   if (fs::exists(stored)) {
     auto const checkpoint = read_checkpoint(stored);
+    check_scenario(folder, run, number, checkpoint.scenario, "checkpoint.h5");
     scenario = parse_scenario(checkpoint.scenario, stored, {{}, {}, {}, threads});
     recording = make_recording(*scenario, place, true);
     recording->resume();
@@ -230,6 +262,7 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
             bool quiet) {
   auto runs = runs_of(plan);
   read_states(folder, runs);
+  check_runs_before(folder, runs);
   write_runs(folder, plan, runs);
   auto const finished = static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](Run const& run) { return run.state != State::waiting; }));

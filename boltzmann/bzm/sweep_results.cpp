@@ -44,8 +44,17 @@ class Results {
     for (auto const& folder : folders) {
       runs_.emplace_back();
       if (folder.empty()) continue;
-      auto const table = read_csv(folder + "/diagnoses.csv");
-      for (auto const& column : plan.columns) runs_.back().push_back(table.column(column.title()));
+      std::string const path = folder + "/diagnoses.csv";
+      auto const table = read_csv(path);
+      for (auto const& column : plan.columns) {
+        auto const& names = table.header;
+        if (std::find(names.begin(), names.end(), column.title()) == names.end())
+          throw Error(
+              fmt::format("{}: there is no column '{}' of this sweep; take the folder of the run away, and it is "
+                          "done anew",
+                          path, column.title()));
+        runs_.back().push_back(table.column(column.title()));
+      }
     }
   }
 

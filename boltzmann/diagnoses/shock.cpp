@@ -14,6 +14,8 @@ namespace boltzmann {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t fewest_bins = 5;  // of which the value behind a front is the mean
+constexpr double certain = 5;           // standard errors that a velocity must have to be no noise
 
 }  // namespace
 
@@ -110,6 +112,9 @@ Shock::Shock(std::vector<AnyEnsemble const*> const& ensembles, ShockOptions opti
   if (!(options_.near < options_.far))
     throw Error(fmt::format("behind a shock the window's near end, {}, must be nearer than its far end, {}",
                             options_.near, options_.far));
+  if (options_.count > 0 && options_.count < fewest_bins)
+    throw Error(fmt::format("a shock does not show in {} bin{}; at least {} are needed", options_.count,
+                            options_.count == 1 ? "" : "s", fewest_bins));
   auto const& names = options_.ensembles;
   if (!std::any_of(ensembles.begin(), ensembles.end(), [&](AnyEnsemble const* e) {
         return carries_momentum(*e) &&
@@ -139,9 +144,9 @@ std::vector<Column> Shock::columns() const {
   return columns;
 }
 
-void Shock::begin(Sample const& sample, Bodies const& bodies) {
+void Shock::begin(Box const& box, Bodies const& bodies, double boltzmann_constant) {
   int const axis = options_.axis;
-  check_shock_axis(sample.box, axis);
+  check_shock_axis(box, axis);
   MatterSum sum;
   std::vector<double> position, mass;
   bodies.for_each([&](double const* x, MatterSum::Body const& body) {
@@ -150,18 +155,27 @@ void Shock::begin(Sample const& sample, Bodies const& bodies) {
     mass.push_back(body.mass);
   });
   if (position.size() < 2) throw Error("a shock needs particles to run through; there are none in its ensembles");
-  double const width = layer_of(position, mass, sample.box, axis).width;
-  sum.add_volume(width * cross_section(sample.box, axis));
-  MatterState const first = sum.matter(dimension_, sample.boltzmann_constant);
+  double const width = layer_of(position, mass, box, axis).width;
+  sum.add_volume(width * cross_section(box, axis));
+  MatterState const first = sum.matter(dimension_, boltzmann_constant);
   first_velocity_ = first.velocity[axis];
   first_density_ = first.density;
   margin_ = options_.margin > 0 ? options_.margin : 0.05 * width;
+  // From the driven end to the far one: a margin, the window behind, its distance from the front, two margins.
+  double const needed = 3 * margin_ + near() + std::min(margin_, options_.far - near());
+  if (!(needed <= width))
+    throw Error(
+        fmt::format("the windows of a shock need {:.4g} along {} with the margin {:.4g} and the distance {:.4g} "
+                    "behind the front, but the matter is {:.4g} long",
+                    needed, "xyz"[axis], margin_, near(), width));
   if (options_.end) {
     end_ = *options_.end;
   } else {
-    double const from_low = wall_velocity(sample.box, axis, Box::End::low) - first_velocity_,
-                 from_high = first_velocity_ - wall_velocity(sample.box, axis, Box::End::high);
-    bool const low = from_low > 0, high = from_high > 0;  // false without a wall
+    double const from_low = wall_velocity(box, axis, Box::End::low) - first_velocity_,
+                 from_high = first_velocity_ - wall_velocity(box, axis, Box::End::high);
+    // Of particles at rest, too, the mean velocity is not quite zero.
+    double const noise = certain * std::sqrt(boltzmann_constant * first.kinetic_temperature[axis] / first.mass);
+    bool const low = from_low > noise, high = from_high > noise;  // false without a wall
     if (!low && !high)
       throw Error(
           fmt::format("no wall at an end of {} runs into the matter: say from which end the shock comes, low "
@@ -171,6 +185,12 @@ void Shock::begin(Sample const& sample, Bodies const& bodies) {
   }
   begun_ = true;
 }
+
+void Shock::check(std::span<AnyEnsemble const* const> ensembles, Box const& box, double boltzmann_constant) const {
+  Shock(*this).begin(box, Bodies(ensembles, nullptr, options_.ensembles), boltzmann_constant);
+}
+
+double Shock::near() const { return options_.near > 0 ? options_.near : std::min(2 * margin_, options_.far / 2); }
 
 void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
   int const axis = options_.axis;
@@ -210,14 +230,13 @@ void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
   front = front_position(fine.position, values, ahead, behind, undisturbed);
 
   if (ended_ || sample.time < options_.since) return;
-  double const near = options_.near > 0 ? options_.near : std::min(2 * margin_, options_.far / 2);
   double const run = direction * (front - driven), left = direction * (far_end - front);
   if (!std::isfinite(front) || left < 2 * margin_) {
     ended_ = line_.count() > 0;
     return;
   }
   double const deep = std::min(options_.far, run - margin_);
-  if (deep - near < std::min(margin_, options_.far - near)) return;
+  if (deep - near() < std::min(margin_, options_.far - near())) return;
   line_.add(sample.time, front);
   auto const add = [&](MatterSum& sum, double from, double to) {
     auto const [a, b] = std::minmax(from, to);
@@ -226,13 +245,13 @@ void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
       if (x[axis] >= a && x[axis] < b) sum.add(body, dimension_);
     });
   };
-  add(behind_, front - direction * deep, front - direction * near);
+  add(behind_, front - direction * deep, front - direction * near());
   add(ahead_, front + direction * margin_, far_end - direction * margin_);
 }
 
 void Shock::measure(Sample const& sample, std::vector<double>& values) {
   Bodies const bodies(sample.ensembles, sample.measures, options_.ensembles);
-  if (!begun_) begin(sample, bodies);
+  if (!begun_) begin(sample.box, bodies, sample.boltzmann_constant);
   double front = nan;
   look(sample, bodies, front);
   LineFit const fit = line_.fit();

@@ -50,7 +50,8 @@ struct ShockOptions {
   std::optional<Box::End> end =
       {};  ///< from which the shock comes; unless told the one whose wall runs into the matter
   std::string quantity = "velocity";  ///< whose profile shows the front: "velocity" or "density"
-  std::size_t count = 0;              ///< bins of that profile; 0: with about 30 particles in each (density: 300)
+  std::size_t count = 0;              ///< bins of that profile, 5 or more; 0: with about 30 particles in each (density:
+                                      ///< 300)
   double since = 0;                   ///< the time from which positions are fitted and states averaged
   double margin = 0;  ///< what is left out beside the front and at the ends of the matter; 0: 5 % of its first length
   double near = 0;    ///< behind: the window's distance from the front; 0: two margins, or half of far
@@ -72,9 +73,14 @@ class Shock final : public Diagnosis {
   /// Error if the options fit no ensemble or contradict each other.
   Shock(std::vector<AnyEnsemble const*> const& ensembles, ShockOptions options);
 
+  /// The errors of the first look, before a run.
+  void check(std::span<AnyEnsemble const* const> ensembles, Box const& box, double boltzmann_constant) const;
+
   bool needs_energies() const override { return true; }
   std::vector<Column> columns() const override;
-  /// Error at the first look if there are no particles, the axis is periodic, or it can't be told which end drives.
+  /// Error at the first look if there are no particles, the axis is periodic, the matter is too short for the windows,
+  /// or it can't be told which end drives: no wall runs into the matter by more than five standard errors of its mean
+  /// velocity.
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
@@ -84,8 +90,9 @@ class Shock final : public Diagnosis {
   std::size_t looks() const { return line_.count(); }
 
  private:
-  void begin(Sample const& sample, Bodies const& bodies);
+  void begin(Box const& box, Bodies const& bodies, double boltzmann_constant);
   void look(Sample const& sample, Bodies const& bodies, double& front);
+  double near() const;
 
   ShockOptions options_;
   int dimension_;

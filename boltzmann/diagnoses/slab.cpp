@@ -99,6 +99,8 @@ Slab::Slab(std::vector<AnyEnsemble const*> const& ensembles, SlabOptions options
     throw Error(fmt::format("a slab along axis {}: the space has {} ax{}", "xyz"[std::clamp(options_.axis, 0, 2)],
                             dimension_, dimension_ == 1 ? "is" : "es"));
   if (options_.count == 0) throw Error("a slab diagnosis needs at least one slab");
+  if (std::any_of(options_.label.begin(), options_.label.end(), [](unsigned char c) { return c < ' ' || c == 127; }))
+    throw Error("a slab's label is a part of the names of columns: it has no line breaks or other control characters");
   if (!std::isnan(options_.from) && !std::isnan(options_.to) && !(options_.from < options_.to))
     throw Error(fmt::format("{}: its begin must be below its end", described(options_, options_.from, options_.to)));
   bool any = false;

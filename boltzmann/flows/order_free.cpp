@@ -106,6 +106,7 @@ void DissipativeFlow::finish_chunk(Member& m, std::size_t chunk, double const* s
     }
     if (has_energy) {
       double const left = row[m.energy] - loss;
+      if (!std::isfinite(left)) throw PhysicsFailure(fmt::format("friction on {} is not finite", m.who(k)));
       if (!(left > 0))
         throw PhysicsFailure(
             fmt::format("the internal energy of {} would become {:.4g} (from {:.4g}): friction and noise take more "

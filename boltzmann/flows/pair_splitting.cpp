@@ -45,6 +45,13 @@ Heat heat_of(PairNoise const& n, End const& i, End const& j, double energy_i, do
   }
 }
 
+/// What the entropy gains: of small changes without a difference of large numbers.
+double entropy_gain(StateLaw const& law, double from, double to) {
+  double const gained = to - from;
+  return std::abs(gained) < 1e-4 * from ? gained / law.temperature(from + 0.5 * gained)
+                                        : law.entropy(to) - law.entropy(from);
+}
+
 /// log of the probability density of a normal of mean 0 in so many directions, but for a constant.
 double log_normal(double square, double deviation, int directions) {
   return -0.5 * square / (deviation * deviation) - directions * std::log(deviation);
@@ -147,8 +154,7 @@ class PairSteps {
       there += (now - keep * v[a]) * (now - keep * v[a]);
       back += (v[a] - keep_back * now) * (v[a] - keep_back * now);
     }
-    double const entropy =
-        i.law->entropy(left_i) - i.law->entropy(*i.energy) + j.law->entropy(left_j) - j.law->entropy(*j.energy);
+    double const entropy = entropy_gain(*i.law, *i.energy, left_i) + entropy_gain(*j.law, *j.energy, left_j);
     double const log_ratio = entropy / noise_.boltzmann_constant + log_normal(back, kick_back, directions) -
                              log_normal(there, kick, directions);
     return std::log(u) < log_ratio;
@@ -170,8 +176,7 @@ class PairSteps {
       bool accept = positive;
       if (positive) {
         double const back = drift(then_i, then_j);
-        double const entropy =
-            i.law->entropy(then_i) - i.law->entropy(ei) + j.law->entropy(then_j) - j.law->entropy(ej);
+        double const entropy = entropy_gain(*i.law, ei, then_i) + entropy_gain(*j.law, ej, then_j);
         double const log_ratio = entropy / noise_.boltzmann_constant -
                                  0.5 * (-gained - back) * (-gained - back) / (deviation * deviation) +
                                  0.5 * (gained - there) * (gained - there) / (deviation * deviation);

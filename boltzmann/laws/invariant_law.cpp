@@ -1,6 +1,7 @@
 // The invariant law of internal energies, panel by panel.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/incomplete_gamma.hpp>
+#include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/invariant_law.hpp>
 
 #include <fmt/format.h>
@@ -15,6 +16,9 @@ namespace boltzmann {
 namespace {
 
 constexpr double negligible = -750;  // exp of it is zero
+constexpr double most_terms = 1e7;   // heat capacities over k above which gamma functions take too long
+constexpr double sharpest = 1e16;    // and above which deviations of energies are lost in their rounding
+constexpr double far = 12;           // standard deviations, beyond which there is 1e-32 of a law
 
 /// The points and weights of Gauss and Legendre on (-1, 1): exact for polynomials of degree 2 N - 1.
 template <int N>
@@ -55,12 +59,20 @@ InvariantLaw::InvariantLaw(StateLaw const& law, double temperature, double boltz
   if (!(boltzmann_constant > 0) || !std::isfinite(boltzmann_constant))
     throw Error(
         fmt::format("internal energies: the Boltzmann constant must be positive, it is {}", boltzmann_constant));
-  if (law.constant()) {
+  double const at_bath = law.heat_capacity(bath_) / k_;
+  if (at_bath > sharpest) {
+    sharp_ = std::min(std::sqrt(at_bath), 1e150);
+  } else if (law.constant()) {
     // Sharp laws by panels around the middle, as the gamma functions need more terms the sharper they are.
-    double const alpha = law.heat_capacity_ / k_, half = alpha > 200 ? 12 / std::sqrt(alpha) : 0;
+    double const alpha = at_bath, half = alpha > 200 ? far / std::sqrt(alpha) : 0;
     cover(bath_ * (1 - half), bath_ * (1 + half));
   } else {
-    cover(law.temperature_.front(), law.temperature_.back());
+    double first = law.temperature_.front(), last = law.temperature_.back();
+    if (double const alpha = law.capacity_.front() / k_; alpha > most_terms)
+      first = std::min(first, bath_ * (1 - far / std::sqrt(alpha)));
+    if (double const alpha = law.capacity_.back() / k_; alpha > most_terms)
+      last = std::max(last, bath_ * (1 + far / std::sqrt(alpha)));
+    cover(first, last);
   }
 }
 
@@ -105,9 +117,9 @@ void InvariantLaw::add_panels(double from, double to, double exponent) {
     double edge = to;
     if (!law_.constant()) {
       if (up)
-        edge = *std::upper_bound(points.begin(), points.end() - 1, t);
+        edge = t < points.back() ? *std::upper_bound(points.begin(), points.end() - 1, t) : to;
       else
-        edge = *(std::lower_bound(points.begin() + 1, points.end(), t) - 1);
+        edge = t > points.front() ? *(std::lower_bound(points.begin() + 1, points.end(), t) - 1) : to;
     }
     double const lowest = up ? t : std::max(edge, 0.8 * t), highest = up ? std::min(edge, 1.25 * t) : t;
     double const alpha = std::max(law_.heat_capacity(lowest), law_.heat_capacity(highest)) / k_;
@@ -147,15 +159,16 @@ double InvariantLaw::integral(Panel const& panel, double width) const {
   return 0.5 * width * sum / (k_ * bath_);
 }
 
-double InvariantLaw::scaled(double temperature, double shape) const { return (shape - 1) * temperature / bath_; }
+double InvariantLaw::scaled(double temperature, End const& end) const { return end.alpha * temperature / bath_; }
 
 /// With y = alpha T / T0 the density is y^alpha e^-y.
 InvariantLaw::End InvariantLaw::end(double temperature, double capacity, double exponent, bool low) const {
   double const alpha = capacity / k_;
-  End result{temperature, alpha + 1};
-  double const y = scaled(temperature, result.shape);
-  result.log_below = log_lower_gamma(result.shape, y);
-  result.log_above = log_upper_gamma(result.shape, y);
+  End result{temperature, alpha};
+  if (alpha > most_terms) return result;  // far from the bath: nothing
+  double const y = scaled(temperature, result);
+  result.log_below = log_lower_gamma(alpha + 1, y);
+  result.log_above = log_upper_gamma(alpha + 1, y);
   result.mass = std::exp(exponent - exponent_of(alpha, temperature, bath_) +
                          (low ? result.log_below : result.log_above) - log_poisson(alpha, alpha));
   return result;
@@ -171,15 +184,18 @@ double InvariantLaw::distribution(double energy) const {
   if (std::isnan(energy)) return energy;
   if (!(energy > 0)) return 0;
   double const temperature = law_.temperature(energy);
+  if (sharp_ > 0) return 0.5 * std::erfc(-(temperature - bath_) / bath_ * sharp_ / std::numbers::sqrt2);
   if (temperature <= low_.temperature) {
-    double const log_part = log_lower_gamma(low_.shape, scaled(temperature, low_.shape)) - low_.log_below;
+    if (low_.mass == 0) return 0;
+    double const log_part = log_lower_gamma(low_.alpha + 1, scaled(temperature, low_)) - low_.log_below;
     return std::exp(log_part) * low_.mass / total_;
   }
   if (temperature >= high_.temperature) {
-    double const y = scaled(temperature, high_.shape);
+    if (high_.mass == 0) return 1;
+    double const y = scaled(temperature, high_);
     if (temperature >= bath_)
-      return 1 - std::exp(log_upper_gamma(high_.shape, y) - high_.log_above) * high_.mass / total_;
-    double const between = std::exp(log_lower_gamma(high_.shape, y)) - std::exp(high_.log_below);
+      return 1 - std::exp(log_upper_gamma(high_.alpha + 1, y) - high_.log_above) * high_.mass / total_;
+    double const between = std::exp(log_lower_gamma(high_.alpha + 1, y)) - std::exp(high_.log_below);
     return (high_.others + between * std::exp(-high_.log_above) * high_.mass) / total_;
   }
   Panel const& panel = panels_[panel_at(temperature)];
@@ -189,26 +205,27 @@ double InvariantLaw::distribution(double energy) const {
 
 double InvariantLaw::quantile(double u) const {
   if (!(u > 0 && u < 1)) throw Error(fmt::format("internal energies: there is no quantile of {} outside (0, 1)", u));
+  if (sharp_ > 0) return law_.energy(bath_ + Normal(0, 1).quantile(u) / sharp_ * bath_);
   double const below = u * total_, above = (1 - u) * total_;
   if (below < low_.mass) {
     double y = 0;  // from the nearer side
     if (u < 0.5) {
-      y = lower_gamma_quantile(low_.shape, low_.log_below + std::log(below / low_.mass));
+      y = lower_gamma_quantile(low_.alpha + 1, low_.log_below + std::log(below / low_.mass));
     } else {
       double const rest = std::exp(low_.log_below) * std::max(0.0, above - low_.others) / low_.mass;
-      y = upper_gamma_quantile(low_.shape, std::log(std::exp(low_.log_above) + rest));
+      y = upper_gamma_quantile(low_.alpha + 1, std::log(std::exp(low_.log_above) + rest));
     }
-    return law_.energy(y * bath_ / (low_.shape - 1));
+    return law_.energy(y / low_.alpha * bath_);
   }
   if (above < high_.mass || panels_.empty()) {
     double y = 0;
     if (u < 0.5) {
       double const rest = std::exp(high_.log_above) * std::max(0.0, below - high_.others) / high_.mass;
-      y = lower_gamma_quantile(high_.shape, std::log(std::exp(high_.log_below) + rest));
+      y = lower_gamma_quantile(high_.alpha + 1, std::log(std::exp(high_.log_below) + rest));
     } else {
-      y = upper_gamma_quantile(high_.shape, high_.log_above + std::log(above / high_.mass));
+      y = upper_gamma_quantile(high_.alpha + 1, high_.log_above + std::log(above / high_.mass));
     }
-    return law_.energy(y * bath_ / (high_.shape - 1));
+    return law_.energy(y / high_.alpha * bath_);
   }
   auto panel = u < 0.5 ? std::upper_bound(panels_.begin() + 1, panels_.end(), below,
                                           [](double mass, Panel const& p) { return mass < p.below; }) -

@@ -10,7 +10,8 @@ namespace boltzmann {
 
 /// The distribution of StateLaw::draw, made once for many draws. Its density in eps, exp(s(eps) / k - eps / (k T)), is
 /// highest where the state law has the temperature T of the bath. It is integrated over temperatures, from point to
-/// point of the table by Gauss and Legendre; where the heat capacity is constant it is an incomplete gamma function.
+/// point of the table by Gauss and Legendre; where the heat capacity is constant it is an incomplete gamma function. Of
+/// lumps with more than 1e16 k only the mean and the variance can be told in double precision: a normal distribution.
 class InvariantLaw {
  public:
   /// Keeps a reference to the state law. Error if temperature or k is not positive.
@@ -31,12 +32,12 @@ class InvariantLaw {
   };
   /// Everything below, or above, a temperature: the heat capacity is constant there.
   struct End {
-    double temperature = 0, shape = 1;
+    double temperature = 0, alpha = 0;    // the heat capacity is alpha k
     double log_below = 0, log_above = 0;  // of the gamma distribution's fractions
     double mass = 0, others = 0;          // of the law: here, and everywhere else
   };
 
-  double scaled(double temperature, double shape) const;  // the variable of the gamma function
+  double scaled(double temperature, End const& end) const;  // the variable of the gamma function
   double exponent_in(Panel const& panel, double t) const;
   double integral(Panel const& panel, double width) const;
   void cover(double first, double last);
@@ -46,6 +47,7 @@ class InvariantLaw {
 
   StateLaw const& law_;
   double bath_, k_;
+  double sharp_ = 0;  // temperature over its standard deviation, where the law is sharper than what follows can resolve
   double low_exponent_ = 0, high_exponent_ = 0;  // at the ends
   End low_, high_;
   std::vector<Panel> panels_;  // ascending

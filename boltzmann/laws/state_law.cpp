@@ -21,7 +21,7 @@ double checked_capacity(std::function<double(double)> const& heat_capacity, doub
   double const value = heat_capacity(temperature);
   if (!positive(value))
     throw Error(fmt::format("state law: the heat capacity must be positive and finite, at the temperature {} it is {}",
-                            temperature, value));
+                            temperature, std::isnan(value) ? std::abs(value) : value));  // no sign of what is none
   return value;
 }
 
@@ -61,9 +61,11 @@ StateLaw::StateLaw(std::vector<double> temperatures, std::vector<double> heat_ca
 }
 
 StateLaw::StateLaw(std::function<double(double)> const& heat_capacity, double lowest, double highest) {
-  if (!positive(lowest) || !(highest > lowest) || !std::isfinite(highest))
-    throw Error(
-        fmt::format("state law: the temperatures must ascend from above zero, not from {} to {}", lowest, highest));
+  if (!positive(lowest) || !(highest > lowest) || !std::isfinite(highest / lowest))
+    throw Error(fmt::format(
+        "state law: the temperatures must ascend from above zero, by a factor that is a number, not from {} "
+        "to {}",
+        lowest, highest));
   constexpr int pieces =
       32;  // to begin with: of equal ratio, so that none of them misses what happens at low temperature
   std::vector<double> points(pieces + 1), values(pieces + 1);

@@ -153,6 +153,8 @@ void read_diagnosis(Item const& table, Reading& reading) {
       slab_members(parameters.available, *reading.box, slab->options());
     if (*name == "shock" && reading.box)
       check_shock_axis(*reading.box, parameters.axis.empty() ? 0 : parameters.axis[0] - 'x');
+    if (auto const* shock = dynamic_cast<Shock const*>(diagnosis.get()); shock && reading.box)
+      shock->check(parameters.available, *reading.box, reading.boltzmann_constant());
     auto const taken = column_names(reading);
     for (auto const& column : diagnosis->columns())
       if (std::find(taken.begin(), taken.end(), column.name) != taken.end())

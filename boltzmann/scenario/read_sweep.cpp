@@ -75,16 +75,19 @@ std::optional<Number> number_of(Item const& item, Base const& base) {
   }
 }
 
-/// The numbers of these values; nothing if one of them has none, or another unit.
+/// The numbers of these values; nothing if one of them has none, or another unit. Zero has any.
 bool find_numbers(std::vector<Item const*> const& values, Base const& base, SweepKey& key) {
   std::vector<double> numbers;
-  std::string unit;
+  std::optional<std::string> known;
   for (auto const* value : values) {
     auto const number = number_of(*value, base);
-    if (!number || (!numbers.empty() && number->unit != unit)) return false;
-    unit = number->unit;
+    if (!number) return false;
     numbers.push_back(number->value);
+    if (number->value == 0 && number->unit.empty()) continue;
+    if (known && number->unit != *known) return false;
+    known = number->unit;
   }
+  std::string const unit = known.value_or("");
   key.numbers = std::move(numbers);
   key.unit = unit;
   return true;
@@ -122,6 +125,10 @@ void read_key(std::string const& path, Item const& item, Place const& place, Swe
                                                 item.is(Item::Kind::array) ? "an empty one" : found(item)));
   if (path == "sweep" || path.starts_with("sweep."))
     return mistakes.add(place, fmt::format("{}: a sweep can't vary what is in [sweep]", path));
+  for (auto const& other : result.keys)
+    if (other.path == path)
+      return mistakes.add(place,
+                          fmt::format("{}: it varies twice (the first time in line {})", path, other.place.line));
   if (path == "run.seed" && result.seeds > 1)
     return mistakes.add(place, "run.seed: seeds of [sweep] counts it up already; leave one of them out");
   if (!result.keys.empty() && result.keys.front().values.size() != item.elements.size())
@@ -222,6 +229,8 @@ void read_sweep_picture(Item const& table, SweepPlan& plan, Reading& reading) {
   Place const place = section.place("file");
   if (extension != ".png" && extension != ".svg" && extension != ".pdf")
     reading.mistake(place, fmt::format("file: '{}' ends in none of .png, .svg, .pdf", picture.file));
+  else if (dot == 0)
+    reading.mistake(place, fmt::format("file: '{}' has no name before its ending", picture.file));
   if (picture.file.find('/') != std::string::npos)
     reading.mistake(place, fmt::format("file: '{}' is a name in the folder of the sweep, without '/'", picture.file));
   for (auto const& other : plan.pictures)

@@ -415,7 +415,8 @@ void Simulation::prepare_now() {
     flow->threads(schemes_.front()->threads());
     std::vector<std::array<double, 3>> drifts;
     for (auto* ensemble : flow->ensembles()) drifts.push_back(come_to_rest(*ensemble));
-    for (std::uint64_t n = 0; n < steps && !stop_; ++n) {
+    // A stop waits until the end: nothing could go on with half a preparation.
+    for (std::uint64_t n = 0; n < steps; ++n) {
       try {
         advance(step_size_, {flow.get()});
       } catch (PhysicsFailure const& failure) {
@@ -443,7 +444,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
   if (direction < 0 && !flows_.empty()) throw Error("a run with friction and noise can't go backwards");
   if (!observed_) {
-    if (steps > 0) prepare_now();
+    prepare_now();  // also for no steps: what is stored of them is where another run goes on
     observed_ = true;
     observe_now();
   }

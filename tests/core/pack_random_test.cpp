@@ -14,8 +14,14 @@ namespace {
 constexpr int W = native_width<double>;
 using Words = detail::Words<W>;
 
+Words widened(std::array<std::uint32_t, W> const& numbers) {
+  Words words{};
+  for (int lane = 0; lane < W; ++lane) words[lane] = numbers[lane];
+  return words;
+}
+
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::uint64_t seed, int lane) {
-  RandomWords<W> words{};
+  RandomWords<W> words = {{Words{}, Words{}, Words{}, Words{}}};
   for (int k = 0; k < 4; ++k) {
     words.word[k] = Words{} + 0xdeadbeef12345678U;  // other lanes, and high halves, must not matter
     words.word[k][lane] = counter[k] | 0xabcdef0100000000U;
@@ -65,8 +71,9 @@ TEST(PackRandom, normals_are_normal) {
   std::vector<double> x;
   PhiloxKey const key(42);
   for (std::uint32_t n = 0; x.size() < 2000000; ++n) {
-    RandomWords<W> counter{};
-    for (int lane = 0; lane < W; ++lane) counter.word[0][lane] = n * W + lane;
+    std::array<std::uint32_t, W> numbers;
+    for (int lane = 0; lane < W; ++lane) numbers[lane] = n * W + lane;
+    RandomWords<W> const counter = {{widened(numbers), Words{}, Words{}, Words{}}};
     auto const words = philox4x32<W>(counter, key);
     for (int half = 0; half < 2; ++half) {
       auto const pair = normals<W>(words.word[2 * half], words.word[2 * half + 1]);

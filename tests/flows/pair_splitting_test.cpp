@@ -409,5 +409,30 @@ TEST(PairSplitting, MetropolisGoesOnWhereThePlainFormFails) {
   EXPECT_LT(2 * refused, proposed);
 }
 
+TEST(PairSplitting, MetropolisIsRightForGrainsOfManyAtoms) {
+  // The insides are a heat bath: what a pair's move changes of their entropy is the last digits of it.
+  Box const box = cube<2>(8);
+  Ensemble<Meso<2>> grains("grains");
+  scatter(grains, box, 300, Masses::equal, 1, 3);
+  double const capacity = 1e16;
+  for (auto& grain : grains) grain.internal_energy = capacity;
+  PairScheme scheme(box, 1.5);
+  DissipativeFlow flow(scheme, 1);
+  flow.state(grains, StateLaw(capacity));
+  flow.internal(grains, friction_of(Convention::constant_friction, 1.5));
+  flow.method(FlowMethod::pair_splitting);
+  flow.metropolis(true);
+  Simulation simulation(scheme, 0.02);
+  simulation.add(flow);
+  simulation.integrate(grains, Method::leap_frog);
+  simulation.run(300);
+  double mean = 0;
+  for (int look = 0; look < 60; ++look) {
+    simulation.run(10);
+    mean += kinetic_of({&grains}) / 300 / 60;
+  }
+  EXPECT_NEAR(mean, 1, 0.06);
+}
+
 }  // namespace
 }  // namespace boltzmann
