@@ -45,11 +45,10 @@ Heat heat_of(PairNoise const& n, End const& i, End const& j, double energy_i, do
   }
 }
 
-/// What the entropy gains: of small changes without a difference of large numbers.
-double entropy_gain(StateLaw const& law, double from, double to) {
-  double const gained = to - from;
-  return std::abs(gained) < 1e-4 * from ? gained / law.temperature(from + 0.5 * gained)
-                                        : law.entropy(to) - law.entropy(from);
+/// What the entropy gains with some energy: of small changes without a difference of large numbers.
+double entropy_gain(StateLaw const& law, double energy, double gained) {
+  return std::abs(gained) < 1e-4 * energy ? gained / law.temperature(energy + 0.5 * gained)
+                                          : law.entropy(energy + gained) - law.entropy(energy);
 }
 
 /// log of the probability density of a normal of mean 0 in so many directions, but for a constant.
@@ -117,7 +116,7 @@ class PairSteps {
       double const left_i = ei - moved, left_j = ej - moved;
       if (metropolis_) {
         ++proposed;
-        if (!accepted(chi, v, gained, keep, kick, after, i, j, left_i, left_j, chance)) {
+        if (!accepted(chi, v, gained, keep, kick, after, i, j, moved, chance)) {
           ++refused;
           return true;
         }
@@ -141,8 +140,9 @@ class PairSteps {
 
   /// Metropolis and Hastings: with energy and momentum given, the density of v is exp((s_i + s_j) / k).
   bool accepted(double chi, double const* v, double const* gained, double keep, double kick, double after, End const& i,
-                End const& j, double left_i, double left_j, Stream& chance) const {
+                End const& j, double moved, Stream& chance) const {
     double const u = chance.uniform();
+    double const left_i = *i.energy - moved, left_j = *j.energy - moved;
     if (!(left_i > 0 && left_j > 0)) return false;
     double const reduced = 1 / (i.inverse_mass + j.inverse_mass);
     Heat const then = heat_of(noise_, i, j, left_i, left_j, after, reduced, directions);
@@ -154,7 +154,7 @@ class PairSteps {
       there += (now - keep * v[a]) * (now - keep * v[a]);
       back += (v[a] - keep_back * now) * (v[a] - keep_back * now);
     }
-    double const entropy = entropy_gain(*i.law, *i.energy, left_i) + entropy_gain(*j.law, *j.energy, left_j);
+    double const entropy = entropy_gain(*i.law, *i.energy, -moved) + entropy_gain(*j.law, *j.energy, -moved);
     double const log_ratio = entropy / noise_.boltzmann_constant + log_normal(back, kick_back, directions) -
                              log_normal(there, kick, directions);
     return std::log(u) < log_ratio;
@@ -176,7 +176,7 @@ class PairSteps {
       bool accept = positive;
       if (positive) {
         double const back = drift(then_i, then_j);
-        double const entropy = entropy_gain(*i.law, ei, then_i) + entropy_gain(*j.law, ej, then_j);
+        double const entropy = entropy_gain(*i.law, ei, gained) + entropy_gain(*j.law, ej, -gained);
         double const log_ratio = entropy / noise_.boltzmann_constant -
                                  0.5 * (-gained - back) * (-gained - back) / (deviation * deviation) +
                                  0.5 * (gained - there) * (gained - there) / (deviation * deviation);
