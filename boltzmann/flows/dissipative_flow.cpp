@@ -168,7 +168,8 @@ PairNoise DissipativeFlow::Coupling::noise(StepContext const& context, double k,
   double const twice = 2 * d.exponent;
   n.twice_exponent = twice == std::floor(twice) && twice <= 16 ? static_cast<int>(twice) : -1;
   n.friction = d.friction * context.dt;
-  n.noise2 = 2 * d.friction * k * context.dt * (d.convention == Convention::constant_friction ? 1 : d.temperature);
+  n.amplitude =
+      std::sqrt(2 * d.friction * k * context.dt * (d.convention == Convention::constant_friction ? 1 : d.temperature));
   n.temperature = d.temperature;
   n.boltzmann_constant = k;
   n.conduction = d.conduction * context.dt;

@@ -89,18 +89,18 @@ struct Strength {
     switch (n.convention) {
       case Convention::fixed_temperature:
         friction = n.friction;
-        noise = std::sqrt(n.noise2);
+        noise = n.amplitude;
         break;
       case Convention::constant_friction: {
         Reals<W> const mean = 0.5 * inverse_temperatures;  // k beta
         Reals<W> const root = rsqrt(mean), inverse = root * root;
         friction = n.friction * (1.0 + 0.25 * n.boltzmann_constant * curvatures * (inverse * inverse));
-        noise = std::sqrt(n.noise2) * root;
+        noise = n.amplitude * root;
         break;
       }
       case Convention::constant_noise:
         friction = (0.5 * n.friction * n.temperature) * inverse_temperatures;
-        noise = std::sqrt(n.noise2);
+        noise = n.amplitude;
         break;
       case Convention::deterministic: {
         // The pair's kinetic temperature, so weighted that the exchange is in balance for Maxwell's velocities.

@@ -17,7 +17,7 @@ struct PairNoise {
   double exponent = 0;      ///< of chi
   int twice_exponent = -1;  ///< the same where it is a small multiple of 1/2, else -1
   double friction = 0;      ///< gamma dt
-  double noise2 = 0;        ///< 2 gamma k dt; constant_noise: times T_ref
+  double amplitude = 0;     ///< of noise: the root of 2 gamma k dt, times T_ref where the convention has it
   double temperature = 0;   ///< T_ref
   double boltzmann_constant = 0;
   double conduction = 0;        ///< kappa dt

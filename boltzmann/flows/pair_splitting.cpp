@@ -28,19 +28,20 @@ struct End {
 
 Heat heat_of(PairNoise const& n, End const& i, End const& j, double energy_i, double energy_j, double square,
              double reduced_mass, int directions) {
-  if (n.convention == Convention::fixed_temperature) return {n.friction, std::sqrt(n.noise2)};
+  if (n.convention == Convention::fixed_temperature) return {n.friction, n.amplitude};
   double const ti = i.law->temperature(energy_i), tj = j.law->temperature(energy_j);
   double const mean = 0.5 * (1 / ti + 1 / tj);  // k beta
   switch (n.convention) {
     case Convention::constant_noise:
-      return {n.friction * n.temperature * mean, std::sqrt(n.noise2)};
+      return {n.friction * n.temperature * mean, n.amplitude};
     case Convention::deterministic: {
       double const outside = reduced_mass * square / (n.boltzmann_constant * (directions + 2));
       return {n.friction / n.temperature * (outside - 0.5 * (ti + tj)), 0};
     }
     default: {
       double const curvatures = 1 / (ti * ti * i.law->heat_capacity(ti)) + 1 / (tj * tj * j.law->heat_capacity(tj));
-      return {n.friction * (1 + 0.25 * n.boltzmann_constant * curvatures / (mean * mean)), std::sqrt(n.noise2 / mean)};
+      return {n.friction * (1 + 0.25 * n.boltzmann_constant * curvatures / (mean * mean)),
+              n.amplitude / std::sqrt(mean)};
     }
   }
 }
