@@ -23,9 +23,9 @@ struct RunReport {
   bool signalled = false;      ///< one of them has come, perhaps after the last step
 };
 
-/// Says what schemes and flows advise (Scheme::advice, Flow::advice; if quiet, their warnings only), and runs with a progress line, both on
-/// standard error: on a terminal one that is rewritten five times a second, elsewhere one
-/// line for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
+/// Says what schemes and flows advise (Scheme::advice, Flow::advice; if quiet, their warnings only), and runs with a
+/// progress line, both on standard error: on a terminal one that is rewritten five times a second, elsewhere one line
+/// for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
 RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});
 
 }  // namespace boltzmann
