@@ -134,9 +134,10 @@ int command_line(int argc, char** argv) {
 
   std::string kind;
   bool names_only = false;
-  sub = command("list", "list scenarios, particle classes, laws, materials, integrators, diagnoses",
+  sub = command("list", "list scenarios, particle classes, laws, materials, flows, integrators, diagnoses",
                 [&] { return list(kind, names_only); });
-  sub->add_option("kind", kind, "scenarios, classes, laws, materials, integrators, diagnoses or units [all but units]");
+  sub->add_option("kind", kind,
+                  "scenarios, classes, laws, materials, flows, integrators, diagnoses or units [all but units]");
   sub->add_flag("--names", names_only, "only the names, one a line");
 
   std::string name;
