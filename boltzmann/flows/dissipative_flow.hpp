@@ -72,7 +72,7 @@ class DissipativeFlow final : public Flow {
   void couple(AnyEnsemble& target, AnyEnsemble& source, Dissipation const& dissipation);
   bool take_points();
   void take_lists();
-  void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& lost);
+  void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& by_bath);
   void order_free(StepContext const& context);
   void pair_splitting(StepContext const& context);
 

@@ -2,11 +2,11 @@
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/flows/flow_kernels.hpp>
 #include <boltzmann/flows/flow_point.hpp>
+#include <boltzmann/flows/strength.hpp>
 #include <boltzmann/neighbours/near_task.hpp>
 #include <boltzmann/particles/rows.hpp>
 
 #include <array>
-#include <cmath>
 
 namespace boltzmann {
 namespace detail {
@@ -78,39 +78,20 @@ struct Exchange {
   Reals<W> loss, transfer;
 };
 
-/// Friction gamma_ij dt and noise sigma_ij sqrt(dt) of a pair: Eq 4 of the source as VERIFICATION puts it right.
-template <int W>
-struct Strength {
-  Reals<W> friction, noise;
+/// How two particles stand to each other: from the second to the first, one over the distance, and chi: zero out of
+/// range, and for projected friction at one place, where there is no line of centres.
+template <int W, int D, bool projected>
+struct Separation {
+  Vector<D, Reals<W>> line;
+  Reals<W> inverse, chi;
 
-  /// `square`: of the relative velocity; `directions`: in how many directions that is.
-  [[gnu::always_inline]] Strength(PairNoise const& n, Reals<W> inverse_temperatures, Reals<W> curvatures,
-                                  Reals<W> inverse_masses, Reals<W> product, Reals<W> square, double directions) {
-    switch (n.convention) {
-      case Convention::fixed_temperature:
-        friction = n.friction;
-        noise = n.amplitude;
-        break;
-      case Convention::constant_friction: {
-        Reals<W> const mean = 0.5 * inverse_temperatures;  // k beta
-        Reals<W> const root = rsqrt(mean), inverse = root * root;
-        friction = n.friction * (1.0 + 0.25 * n.boltzmann_constant * curvatures * (inverse * inverse));
-        noise = n.amplitude * root;
-        break;
-      }
-      case Convention::constant_noise:
-        friction = (0.5 * n.friction * n.temperature) * inverse_temperatures;
-        noise = n.amplitude;
-        break;
-      case Convention::deterministic: {
-        // The pair's kinetic temperature, so weighted that the exchange is in balance for Maxwell's velocities.
-        Reals<W> const outside = square / (inverse_masses * (n.boltzmann_constant * (directions + 2)));
-        Reals<W> const inside = 0.5 * inverse_temperatures / product;
-        friction = (n.friction / n.temperature) * (outside - inside);
-        noise = 0.0;
-        break;
-      }
-    }
+  [[gnu::always_inline]] Separation(FlowPoint<D, Reals<W>> const& p, FlowPoint<D, Reals<W>> const& q,
+                                    PairNoise const& noise)
+      : line(p.position - q.position) {
+    Reals<W> const zero = 0.0, r2 = norm2(line), safe = max(r2, Reals<W>(1e-300));
+    inverse = rsqrt(safe);
+    chi = select(r2 < noise.range2, weight_of<W>(max(1.0 - safe * inverse * noise.inverse_range, zero), noise), zero);
+    if constexpr (projected) chi = select(r2 > zero, chi, zero);
   }
 };
 
@@ -119,28 +100,27 @@ template <int W, int D, bool projected, bool conducts>
                                                       Reals<W> const* normal, Reals<W> sign, PairNoise const& noise,
                                                       double asymmetry) {
   constexpr int directions = projected ? 1 : D;
-  Vector<D, Reals<W>> const d = p.position - q.position;
-  Reals<W> const r2 = norm2(d);
-  Reals<W> const safe = max(r2, Reals<W>(1e-300));
-  Reals<W> const inverse = rsqrt(safe);
-  auto const near = r2 < noise.range2;
-  Reals<W> const x = max(1.0 - safe * inverse * noise.inverse_range, Reals<W>(0.0));
-  Reals<W> const chi = select(near, weight_of<W>(x, noise), Reals<W>(0.0)), chi2 = chi * chi;
+  Separation<W, D, projected> const apart(p, q, noise);
+  Reals<W> const chi = apart.chi, chi2 = chi * chi;
   Vector<D, Reals<W>> const v = p.velocity - q.velocity;
   Exchange<W, D> result;
   Reals<W> const inverse_masses = p.inverse_mass + q.inverse_mass;
   Reals<W> const inverse_temperatures = p.inverse_temperature + q.inverse_temperature;
   Reals<W> const product = p.inverse_temperature * q.inverse_temperature;
+  auto const strength = [&](Reals<W> square) {
+    return Strength<Reals<W>>(noise, inverse_temperatures, product, p.curvature + q.curvature, inverse_masses, square,
+                              directions);
+  };
   if constexpr (projected) {
-    Vector<D, Reals<W>> const e = d * inverse;
+    Vector<D, Reals<W>> const e = apart.line * apart.inverse;
     Reals<W> const u = dot(v, e);
-    Strength<W> const s(noise, inverse_temperatures, p.curvature + q.curvature, inverse_masses, product, u * u, 1);
+    auto const s = strength(u * u);
     Reals<W> const push = s.noise * chi * normal[0] - s.friction * chi2 * u;
     result.momentum = e * push;
     result.loss = 0.5 * push * u;
     result.transfer = asymmetry * push * push * (q.inverse_mass - p.inverse_mass);
   } else {
-    Strength<W> const s(noise, inverse_temperatures, p.curvature + q.curvature, inverse_masses, product, norm2(v), D);
+    auto const s = strength(norm2(v));
     Reals<W> const amplitude = s.noise * chi * sign, drag = s.friction * chi2;
     for (int a = 0; a < D; ++a) result.momentum[a] = amplitude * normal[a] - drag * v[a];
     result.loss = 0.5 * dot(result.momentum, v);
@@ -239,7 +219,7 @@ template <int W, int D, bool projected, bool conducts>
       auto const pair = exchange<W, D, projected, conducts>(p, q, normal, sign, task.noise, task.asymmetry);
       momentum += pair.momentum;
       loss += pair.loss + pair.transfer;
-      if (!task.scatter) continue;
+      if (!task.noise.same) continue;
       Reals<W> columns[4] = {zero, zero, zero, zero};
       for (int a = 0; a < D; ++a) columns[a] = -pair.momentum[a];
       columns[D] = pair.loss - pair.transfer;
@@ -301,14 +281,10 @@ template <int W, int D, bool projected>
     auto const pair = [&](int lane) { return task.pairs[k + lane < task.count ? k + lane : task.count - 1]; };
     auto const p = load_rows<FlowPoint<D>, W>([&](int lane) { return task.first + stride * pair(lane).first; });
     auto const q = load_rows<FlowPoint<D>, W>([&](int lane) { return task.second + stride * pair(lane).seen; });
-    Vector<D, Reals<W>> const d = p.position - q.position;
-    Reals<W> const r2 = norm2(d), safe = max(r2, Reals<W>(1e-300)), inverse = rsqrt(safe);
-    Reals<W> const x = max(1.0 - safe * inverse * task.noise.inverse_range, Reals<W>(0.0));
-    Reals<W> const chi = select(r2 < task.noise.range2, weight_of<W>(x, task.noise), Reals<W>(0.0));
-    // At one place there is no line of centres.
-    store(0, k, projected ? select(r2 > Reals<W>(0.0), chi, Reals<W>(0.0)) : chi);
+    Separation<W, D, projected> const apart(p, q, task.noise);
+    store(0, k, apart.chi);
     if constexpr (projected)
-      for (int a = 0; a < D; ++a) store(1 + a, k, d[a] * inverse);
+      for (int a = 0; a < D; ++a) store(1 + a, k, apart.line[a] * apart.inverse);
     Words<W> first{}, second{};
     for (int lane = 0; lane < W; ++lane) {
       first[lane] = task.first_number[pair(lane).first];

@@ -29,8 +29,9 @@ struct PairNoise {
 };
 
 /// Order-free: for target rows [begin, end), the sums over their neighbours. Four numbers a row: the momentum it gets
-/// (dimension numbers), then the energy that it loses. Where `scatter`, each pair of rows of the range is listed once,
-/// in the row of the first, and both get their shares; sums have one row more, for those that are not of the range.
+/// (dimension numbers), then the energy that it loses. Among one ensemble (noise.same) each pair of rows of the range
+/// is listed once, in the row of the first, and both get their shares; sums have one row more, for those that are not
+/// of the range.
 struct FlowTask {
   double const *target = nullptr, *source = nullptr;  ///< flow points
   std::uint32_t const* number = nullptr;              ///< which particle each target row is
@@ -39,8 +40,7 @@ struct FlowTask {
   std::uint32_t const* length = nullptr;      ///< entries
   std::size_t begin = 0, end = 0;
   double* sums = nullptr;  ///< of row `begin`
-  bool scatter = false;
-  double asymmetry = 0;  ///< 1/4: |dp|^2 (1/mj - 1/mi) is paid by i; 0: not
+  double asymmetry = 0;    ///< 1/4: |dp|^2 (1/mj - 1/mi) is paid by i; 0: not
   PairNoise noise;
 };
 

@@ -35,7 +35,7 @@ struct DissipativeFlow::Member {
   int velocity_at() const { return dimension() + 1; }
   int inverse_mass_at() const { return dimension(); }
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
-  void take_mean_velocities();
+  void take_mean_velocities(int threads);
   /// Of which particle somebody speaks.
   std::string who(std::size_t row) const;
 };

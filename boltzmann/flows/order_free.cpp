@@ -32,7 +32,6 @@ void DissipativeFlow::order_free(StepContext const& context) {
         task.number = m.mirror->order();
         task.row = c.row.data();
         task.length = c.length[ring].data();
-        task.scatter = c.same();
         task.asymmetry = asymmetry;
         task.noise = c.noise(context, boltzmann_constant_, number());
         tasks.emplace_back(task, &flow_kernels_for(m.dimension(), c.dissipation.projected));
@@ -65,33 +64,36 @@ void DissipativeFlow::order_free(StepContext const& context) {
       std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
     });
     for (auto& member : members_)
-      if (member->dissipates) member->take_mean_velocities();
+      if (member->dissipates)
+        member->take_mean_velocities(worth_threads(member->owned(), particles_worth_threads / 2, threads()));
   }
-  std::vector<std::vector<double>> lost;
-  for (auto const& member : members_) lost.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
+  std::vector<std::vector<double>> paid;  // by the bath, for each chunk
+  for (auto const& member : members_) paid.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
   each_chunk(corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
     std::size_t number = 0;
     while (members_[number].get() != &m) ++number;
-    finish_chunk(m, chunk, sums, lost[number][chunk]);
+    finish_chunk(m, chunk, sums, paid[number][chunk]);
   });
-  for (auto const& of_member : lost)
-    for (double const gain : of_member) heat_ += gain;
+  for (auto const& of_member : paid)
+    for (double const heat : of_member) heat_ += heat;
 }
 
 /// The points' velocities become the means of now and of the last try.
-void DissipativeFlow::Member::take_mean_velocities() {
+void DissipativeFlow::Member::take_mean_velocities(int threads) {
   int const at = velocity_at();
-  for (std::size_t k = 0; k < owned(); ++k) {
-    double const* row = ensemble->row(mirror->order()[k]);
-    for (int a = 0; a < dimension(); ++a)
-      point(k)[at + a] = row[velocity + a] + 0.5 * predicted[4 * k + a] * point(k)[inverse_mass_at()];
-  }
+  for_ranges(owned(), flow_chunk, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      double const* row = ensemble->row(mirror->order()[k]);
+      for (int a = 0; a < dimension(); ++a)
+        point(k)[at + a] = row[velocity + a] + 0.5 * predicted[4 * k + a] * point(k)[inverse_mass_at()];
+    }
+  });
   for (std::size_t k = owned() + 1; k <= mirror->total(); ++k)
     std::copy_n(point(mirror->owner(k)) + at, dimension(), point(k) + at);
 }
 
-/// Gives momenta and energies to the particles of a chunk; what no internal energy pays for is lost.
-void DissipativeFlow::finish_chunk(Member& m, std::size_t chunk, double const* sums, double& lost) {
+/// Gives momenta and energies to the particles of a chunk; what no internal energy pays for the bath does.
+void DissipativeFlow::finish_chunk(Member& m, std::size_t chunk, double const* sums, double& by_bath) {
   bool const has_energy = m.has_energy();
   int const dimension = m.dimension();
   std::size_t const begin = chunk * flow_chunk, end = std::min(begin + flow_chunk, m.owned());
@@ -115,7 +117,7 @@ void DissipativeFlow::finish_chunk(Member& m, std::size_t chunk, double const* s
       row[m.energy] = left;
     } else {
       if (!std::isfinite(loss)) throw PhysicsFailure(fmt::format("friction on {} is not finite", m.who(k)));
-      lost += loss;
+      by_bath += loss;
     }
   }
 }

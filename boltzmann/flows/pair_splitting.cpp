@@ -2,6 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/flows/splitting.hpp>
+#include <boltzmann/flows/strength.hpp>
 
 #include <fmt/format.h>
 
@@ -12,12 +13,6 @@
 namespace boltzmann {
 namespace {
 
-/// What a pair's internal energies say of its friction and noise.
-struct Heat {
-  double friction;  // gamma_ij dt
-  double noise;     // sigma_ij sqrt(dt)
-};
-
 /// One end of a pair.
 struct End {
   double* velocity;
@@ -26,24 +21,15 @@ struct End {
   StateLaw const* law;  // null likewise
 };
 
-Heat heat_of(PairNoise const& n, End const& i, End const& j, double energy_i, double energy_j, double square,
-             double reduced_mass, int directions) {
-  if (n.convention == Convention::fixed_temperature) return {n.friction, n.amplitude};
+Strength<double> strength_of(PairNoise const& n, End const& i, End const& j, double energy_i, double energy_j,
+                             double square, int directions) {
+  double const inverse_masses = i.inverse_mass + j.inverse_mass;
+  if (!i.law) return {n, 0, 0, 0, inverse_masses, square, 1.0 * directions};
   double const ti = i.law->temperature(energy_i), tj = j.law->temperature(energy_j);
-  double const mean = 0.5 * (1 / ti + 1 / tj);  // k beta
-  switch (n.convention) {
-    case Convention::constant_noise:
-      return {n.friction * n.temperature * mean, n.amplitude};
-    case Convention::deterministic: {
-      double const outside = reduced_mass * square / (n.boltzmann_constant * (directions + 2));
-      return {n.friction / n.temperature * (outside - 0.5 * (ti + tj)), 0};
-    }
-    default: {
-      double const curvatures = 1 / (ti * ti * i.law->heat_capacity(ti)) + 1 / (tj * tj * j.law->heat_capacity(tj));
-      return {n.friction * (1 + 0.25 * n.boltzmann_constant * curvatures / (mean * mean)),
-              n.amplitude / std::sqrt(mean)};
-    }
-  }
+  double const curvatures = n.convention == Convention::constant_friction
+                                ? 1 / (ti * ti * i.law->heat_capacity(ti)) + 1 / (tj * tj * j.law->heat_capacity(tj))
+                                : 0;
+  return {n, 1 / ti + 1 / tj, 1 / (ti * tj), curvatures, inverse_masses, square, 1.0 * directions};
 }
 
 /// What the entropy gains with some energy: of small changes without a difference of large numbers.
@@ -100,15 +86,15 @@ class PairSteps {
     double const ei = i.energy ? *i.energy : 0, ej = j.energy ? *j.energy : 0;
     double before = 0;
     for (int a = 0; a < directions; ++a) before += v[a] * v[a];
-    Heat const heat_now = heat_of(noise_, i, j, ei, ej, before, reduced, directions);
+    auto const now = strength_of(noise_, i, j, ei, ej, before, directions);
     // v' = ((1 - c) v + (s / mu) U) / (1 + c), c = a / 2mu
-    double const c = 0.5 * heat_now.friction * chi * chi / reduced, s = heat_now.noise * chi / reduced;
+    double const c = 0.5 * now.friction * chi * chi / reduced, s = now.noise * chi / reduced;
     double const keep = (1 - c) / (1 + c), kick = s / (1 + c);
     double gained[directions], after = 0;
     for (int a = 0; a < directions; ++a) {
-      double const now = keep * v[a] + kick * normal[a];
-      gained[a] = now - v[a];
-      after += now * now;
+      double const then = keep * v[a] + kick * normal[a];
+      gained[a] = then - v[a];
+      after += then * then;
     }
     double moved = 0;  // half of what the motion gains: (v' - v).(v' + v) mu / 4
     for (int a = 0; a < directions; ++a) moved += gained[a] * (2 * v[a] + gained[a]);
@@ -146,7 +132,7 @@ class PairSteps {
     double const left_i = *i.energy - moved, left_j = *j.energy - moved;
     if (!(left_i > 0 && left_j > 0)) return false;
     double const reduced = 1 / (i.inverse_mass + j.inverse_mass);
-    Heat const then = heat_of(noise_, i, j, left_i, left_j, after, reduced, directions);
+    auto const then = strength_of(noise_, i, j, left_i, left_j, after, directions);
     double const c = 0.5 * then.friction * chi * chi / reduced, s = then.noise * chi / reduced;
     double const keep_back = (1 - c) / (1 + c), kick_back = s / (1 + c);
     double there = 0, back = 0;
@@ -207,7 +193,11 @@ void DissipativeFlow::pair_splitting(StepContext const& context) {
     Member& m = *member;
     if (!m.dissipates || !m.has_energy()) continue;
     m.energies.resize(m.owned());
-    for (std::size_t k = 0; k < m.owned(); ++k) m.energies[k] = m.ensemble->row(m.mirror->order()[k])[m.energy];
+    for_ranges(m.owned(), flow_chunk, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k)
+                   m.energies[k] = m.ensemble->row(m.mirror->order()[k])[m.energy];
+               });
   }
   Splitting& splitting = *splitting_;
   splitting.take_pairs(scheme_.neighbourhood(), members_, couplings_, threads());

@@ -151,8 +151,6 @@ void read_diagnosis(Item const& table, Reading& reading) {
       temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
     if (auto const* slab = dynamic_cast<Slab const*>(diagnosis.get()); slab && reading.box)
       slab_members(parameters.available, *reading.box, slab->options());
-    if (*name == "shock" && reading.box)
-      check_shock_axis(*reading.box, parameters.axis.empty() ? 0 : parameters.axis[0] - 'x');
     if (auto const* shock = dynamic_cast<Shock const*>(diagnosis.get()); shock && reading.box)
       shock->check(parameters.available, *reading.box, reading.boltzmann_constant());
     auto const taken = column_names(reading);
