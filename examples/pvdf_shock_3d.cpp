@@ -45,6 +45,7 @@ int main(int argc, char** argv) try {
   auto instrument = std::make_unique<Shock>(matter, ShockOptions{.since = 0.8});
   Shock const& measured = *instrument;
   recording.diagnoses(20, std::move(instrument));
+  recording.diagnoses(20, {"energy-balance"});
   recording.trajectory(300);
   recording.picture({.colour = "temperature"});
   recording.picture({.drawing = "profile", .y = "kinetic-temperature.x, internal-temperature", .file = "profile.png"});

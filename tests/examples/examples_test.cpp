@@ -409,6 +409,7 @@ TEST(Examples, HugoniotsAreLines) {
   auto const table = space.diagnoses();
   EXPECT_LT(std::abs(table["mass jump residual"].back()), 0.03);
   EXPECT_LT(std::abs(table["momentum jump residual"].back()), 0.12);  // 2.4 ps only
+  EXPECT_LT(table.drift("energy balance"), 5e-4 * table["work of walls"].back());
 }
 
 TEST(Examples, LatticesHaveTheDensitiesOfTheTable) {
