@@ -60,3 +60,4 @@
 #include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <boltzmann/window/window.hpp>

@@ -9,6 +9,13 @@
 
 namespace boltzmann::bzm {
 
+/// How a run is looked at.
+struct WindowRun {
+  bool open = false;       ///< in a window
+  std::uint16_t port = 0;  ///< 0: a free one
+  bool play = false;       ///< begins at once, and ends by itself
+};
+
 struct RunOptions {
   std::string scenario;
   std::vector<std::string> set;
@@ -19,6 +26,7 @@ struct RunOptions {
   std::optional<std::int64_t> seeds;  ///< a sweep over so many seeds
   std::string out;                    ///< empty: results/<name>
   bool quiet = false, force = false;
+  WindowRun window;
 };
 int run(RunOptions const& options);
 
@@ -27,6 +35,7 @@ struct ResumeOptions {
   std::optional<std::int64_t> steps;
   std::optional<int> threads;
   bool quiet = false;
+  WindowRun window;
 };
 int resume(ResumeOptions const& options);
 
@@ -39,6 +48,12 @@ struct RenderOptions {
   double scale = 1;
 };
 int render(RenderOptions const& options);
+
+struct WindowCommand {
+  std::string folder;  ///< of a stored run; empty: the gallery
+  std::uint16_t port = 0;
+};
+int window(WindowCommand const& command);
 
 /// `kind` empty: all kinds of names; or "scenarios", "classes", "laws", "integrators", "diagnoses", "units".
 int list(std::string const& kind, bool names_only);

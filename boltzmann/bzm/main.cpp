@@ -83,6 +83,11 @@ int command_line(int argc, char** argv) {
     return sub;
   };
 
+  auto const window_options = [](CLI::App* sub, WindowRun& window) {
+    sub->add_flag("--window", window.open, "in a window: prints the address of a page to watch and steer it");
+    sub->add_option("--port", window.port, "of the window's page [a free one]")->check(CLI::Range(0, 65535));
+    sub->add_flag("--play", window.play, "with --window: begin at once, and end with the last step if nobody looks");
+  };
   RunOptions run_options;
   auto* sub = command("run", "run a scenario; results go into a folder", [&] { return run(run_options); });
   sub->add_option("scenario", run_options.scenario, "a file, or the name of a shipped scenario (bzm list)")->required();
@@ -101,6 +106,7 @@ int command_line(int argc, char** argv) {
   sub->add_option("--out", run_options.out, "folder for the results [results/<name>]")->type_name("DIR");
   sub->add_flag("--quiet", run_options.quiet, "no progress line and no table");
   sub->add_flag("--force", run_options.force, "replace a run that is in the folder");
+  window_options(sub, run_options.window);
 
   ResumeOptions resume_options;
   sub = command("resume", "go on with a run or a sweep from where it was stopped",
@@ -110,6 +116,13 @@ int command_line(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--threads", resume_options.threads, "number of threads")->check(CLI::Range(1, 4096));
   sub->add_flag("--quiet", resume_options.quiet, "no progress line and no table");
+  window_options(sub, resume_options.window);
+
+  WindowCommand window_command;
+  sub = command("window", "watch a stored run on a page; without a folder: choose a scenario, change it and run it",
+                [&] { return window(window_command); });
+  sub->add_option("folder", window_command.folder, "the folder of a run [none: the gallery of scenarios]");
+  sub->add_option("--port", window_command.port, "of the page [a free one]")->check(CLI::Range(0, 65535));
 
   RenderOptions render_options;
   sub = command("render", "draw a picture or a movie of a run", [&] { return render(render_options); });

@@ -28,13 +28,19 @@ int run(RunOptions const& options) {
     throw Error("'" + folder +
                 "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
                 "it with --force");
+  if (scenario->sweep && options.window.open) {
+    if (!options.quiet) fmt::print("this scenario is a sweep; the window shows the first of its runs\n");
+    Overrides first = overrides;
+    first.sweep_run = 0;
+    scenario = load_scenario(path, first);
+  }
   if (scenario->sweep) return run_sweep({path, overrides, folder, options.quiet, options.force}, std::move(scenario));
   auto const recording = make_recording(*scenario, folder, options.force);
   scenario->simulation->check();
   recording->check();
   if (holds_sweep(folder)) remove_sweep(folder);
   if (!options.quiet) print_heading(*scenario, folder);
-  return run_recording(*recording, scenario->steps, scenario->steps, options.quiet);
+  return run_recording(*scenario, *recording, scenario->steps, scenario->steps, options.quiet, options.window);
 }
 
 int resume(ResumeOptions const& options) {
@@ -68,7 +74,7 @@ int resume(ResumeOptions const& options) {
       fmt::print("is already at its last step, {}; --steps N goes on from there\n", checkpoint.step);
     std::fflush(stdout);
   }
-  return run_recording(*recording, steps, planned, options.quiet);
+  return run_recording(*scenario, *recording, steps, planned, options.quiet, options.window);
 }
 
 int check(std::string const& name) {

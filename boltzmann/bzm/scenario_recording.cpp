@@ -42,9 +42,12 @@ std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::str
   return recording;
 }
 
-int run_recording(Recording& recording, std::int64_t steps, std::int64_t planned, bool quiet) {
-  auto const report =
-      run_with_progress(recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)), {quiet, planned});
+int run_recording(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps, std::int64_t planned,
+                  bool quiet, WindowRun const& window) {
+  auto const report = window.open
+                          ? run_in_window(scenario, recording, steps, window, quiet)
+                          : run_with_progress(recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
+                                              {quiet, planned});
   return report.interrupted ? 130 : 0;
 }
 

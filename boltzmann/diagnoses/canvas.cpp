@@ -33,7 +33,7 @@ void Canvas::circle(double x, double y, double radius, Colour colour, bool fille
 }
 
 void Canvas::circle(Circle const& circle) {
-  if (!finite({circle.x, circle.y, circle.radius})) {
+  if (!finite({circle.x, circle.y, circle.z, circle.radius})) {
     ++not_finite_;
     return;
   }
@@ -42,22 +42,28 @@ void Canvas::circle(Circle const& circle) {
   circles_.back().radius = std::abs(circle.radius);
 }
 
-void Canvas::point(double x, double y, Colour colour, float size) {
-  if (!finite({x, y})) {
+void Canvas::point(double x, double y, Colour colour, float size) { point(Point{x, y, size, colour}); }
+
+void Canvas::point(Point const& point) {
+  if (!finite({point.x, point.y, point.z})) {
     ++not_finite_;
     return;
   }
   record(Kind::point, points_.size());
-  points_.push_back({x, y, size, colour});
+  points_.push_back(point);
 }
 
 void Canvas::line(double x0, double y0, double x1, double y1, Colour colour, float width) {
-  if (!finite({x0, y0, x1, y1})) {
+  line(Line{x0, y0, x1, y1, width, colour});
+}
+
+void Canvas::line(Line const& line) {
+  if (!finite({line.x0, line.y0, line.z0, line.x1, line.y1, line.z1})) {
     ++not_finite_;
     return;
   }
   record(Kind::line, lines_.size());
-  lines_.push_back({x0, y0, x1, y1, width, colour});
+  lines_.push_back(line);
 }
 
 void Canvas::rectangle(double x0, double y0, double x1, double y1, Colour colour, float width) {
@@ -68,32 +74,48 @@ void Canvas::rectangle(double x0, double y0, double x1, double y1, Colour colour
 }
 
 void Canvas::arrow(double x0, double y0, double x1, double y1, Colour colour, float width) {
-  if (!finite({x0, y0, x1, y1})) {
+  arrow(Arrow{x0, y0, x1, y1, width, colour});
+}
+
+void Canvas::arrow(Arrow const& arrow) {
+  if (!finite({arrow.x0, arrow.y0, arrow.z0, arrow.x1, arrow.y1, arrow.z1})) {
     ++not_finite_;
     return;
   }
   record(Kind::arrow, arrows_.size());
-  arrows_.push_back({x0, y0, x1, y1, width, colour});
+  arrows_.push_back(arrow);
 }
 
 void Canvas::curve(std::span<double const> x, std::span<double const> y, Colour colour, std::string label, float width,
                    bool dashed) {
-  if (x.size() != y.size())
-    throw Error("a curve needs as many y as x, found " + std::to_string(x.size()) + " x and " +
-                std::to_string(y.size()) + " y" + (label.empty() ? "" : " in '" + label + "'"));
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!finite({x[i], y[i]})) ++not_finite_;
+  curve(Curve{{x.begin(), x.end()}, {y.begin(), y.end()}, width, colour, std::move(label), dashed});
+}
+
+void Canvas::curve(Curve curve) {
+  auto const in = [&] { return curve.label.empty() ? "" : " in '" + curve.label + "'"; };
+  if (curve.x.size() != curve.y.size())
+    throw Error("a curve needs as many y as x, found " + std::to_string(curve.x.size()) + " x and " +
+                std::to_string(curve.y.size()) + " y" + in());
+  if (!curve.z.empty() && curve.z.size() != curve.x.size())
+    throw Error("a curve needs as many z as x, found " + std::to_string(curve.x.size()) + " x and " +
+                std::to_string(curve.z.size()) + " z" + in());
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (!finite({curve.x[i], curve.y[i], curve.z.empty() ? 0 : curve.z[i]})) ++not_finite_;
   record(Kind::curve, curves_.size());
-  curves_.push_back({{x.begin(), x.end()}, {y.begin(), y.end()}, width, colour, std::move(label), dashed});
+  curves_.push_back(std::move(curve));
 }
 
 void Canvas::text(double x, double y, std::string text, Colour colour, float size, double align) {
-  if (!finite({x, y})) {
+  this->text(Text{x, y, std::move(text), size, colour, align});
+}
+
+void Canvas::text(Text text) {
+  if (!finite({text.x, text.y, text.z})) {
     ++not_finite_;
     return;
   }
   record(Kind::text, texts_.size());
-  texts_.push_back({x, y, std::move(text), size, colour, align});
+  texts_.push_back(std::move(text));
 }
 
 void Canvas::image(double x0, double y0, double x1, double y1, int columns, int rows, std::span<double const> values,
@@ -112,9 +134,44 @@ void Canvas::image(double x0, double y0, double x1, double y1, int columns, int 
   images_.push_back(std::move(image));
 }
 
+void Canvas::cloud(Cloud cloud, std::optional<std::size_t> not_finite) {
+  if (cloud.dimension != 2 && cloud.dimension != 3)
+    throw Error("a cloud has 2 or 3 numbers for each particle, not " + std::to_string(cloud.dimension));
+  if (cloud.position.size() % static_cast<std::size_t>(cloud.dimension) != 0)
+    throw Error("a cloud needs " + std::to_string(cloud.dimension) + " numbers for each particle, found " +
+                std::to_string(cloud.position.size()));
+  auto const fits = [&](std::size_t found, char const* what) {
+    if (found != 0 && found != cloud.count())
+      throw Error("a cloud of " + std::to_string(cloud.count()) + " particles can't use " + std::to_string(found) +
+                  " numbers for " + what);
+  };
+  fits(cloud.value.size(), "the value");
+  fits(cloud.diameter.size(), "the diameter");
+  fits(cloud.number.size(), "the number");
+  if (!not_finite) {
+    not_finite = 0;
+    auto const dimension = static_cast<std::size_t>(cloud.dimension);
+    for (std::size_t i = 0; i < cloud.position.size(); i += dimension) {
+      bool whole = true;
+      for (std::size_t a = 0; a < dimension; ++a) whole = whole && std::isfinite(cloud.position[i + a]);
+      *not_finite += !whole;
+    }
+  }
+  not_finite_ += *not_finite;
+  record(Kind::cloud, clouds_.size());
+  clouds_.push_back(std::move(cloud));
+}
+
 void Canvas::axes(Axis x, Axis y) {
   x_axis_ = std::move(x);
   y_axis_ = std::move(y);
+  projection_.reset();
+}
+
+void Canvas::axes(Axis x, Axis y, Axis z, Projection const& projection) {
+  axes(std::move(x), std::move(y));
+  z_axis_ = std::move(z);
+  projection_ = projection;
 }
 
 void Canvas::colour_bar(std::string label, std::string unit, double low, double high, ColourMap map, double factor) {

@@ -14,18 +14,6 @@
 
 namespace boltzmann {
 
-/// From where one looks at three dimensions, in degrees: azimuth around the z axis (0 = along x), elevation above the
-/// xy plane (90 = from above). Parallel rays, z is up.
-struct Projection {
-  double azimuth = 35, elevation = 22;
-
-  struct Place {
-    double right, up, near;
-  };
-  /// Where a position falls on the picture, and how near it is to the eye.
-  Place operator()(double x, double y, double z) const;
-};
-
 /// What draw_cartesian shows besides positions. Arrays hold one element per particle or are empty; they are only read
 /// while drawing.
 struct CartesianStyle {
@@ -56,11 +44,11 @@ struct CartesianStyle {
   std::string velocity_unit;
 };
 
-/// Particles of two dimensions where they are, one unit as long on x as on y.
+/// Particles of two dimensions where they are, one unit as long on x as on y; a cloud for each species.
 /// Throws Error if arrays differ in length or a connection names a particle that doesn't exist.
 Canvas draw_cartesian(std::span<double const> x, std::span<double const> y, CartesianStyle const& style = {});
 
-/// Particles of three dimensions, seen through a projection; far ones are behind near ones and a little paler.
+/// Particles of three dimensions: a space, with the box for its axes (around the particles, if the style has none).
 Canvas draw_cartesian(std::span<double const> x, std::span<double const> y, std::span<double const> z,
                       CartesianStyle const& style = {}, Projection const& projection = {});
 
@@ -73,6 +61,9 @@ struct Series {
 
 /// A point for each particle, a colour for each species (velocity over position, for example).
 Canvas draw_phase_space(std::span<Series const> species, Axis x, Axis y, std::string title = "");
+/// The same of clouds, whose names make a legend if there are several without values; they get points of a fitting
+/// size.
+Canvas draw_phase_space(std::vector<Canvas::Cloud> clouds, Axis x, Axis y, std::string title = "");
 
 /// Density over frequency (or wave number); y is logarithmic if log_density, whatever the axis says.
 Canvas draw_spectrum(std::span<double const> frequency, std::span<double const> density, Axis x, Axis y,
@@ -84,6 +75,25 @@ Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::str
 /// A curve for each quantity along an axis of space, with a mark at each bin where there are few enough to tell them
 /// apart; bins without a value (NaN) are gaps.
 Canvas draw_profile(std::span<Series const> series, Axis x, Axis y, std::string title = "");
+
+/// How often values occur.
+struct Histogram {
+  double low = 0, width = 1;    ///< of the first bin: it holds low <= value < low + width, the last one its end as well
+  std::vector<double> density;  ///< of each bin: the part of all finite values in it, over its width
+  std::size_t count = 0;        ///< finite values, inside low..high or not
+  std::size_t outside = 0;
+};
+/// Bins between low and high (NaN: the smallest and the largest value of all samples together); as many as asked for,
+/// or with 0 bins of width 2 (interquartile range) / N^{1/3} of the sample that asks for the most (D. Freedman and
+/// P. Diaconis 1981), between 10 and 200 of them. Nothing if no value is finite.
+std::vector<Histogram> histograms(std::span<std::span<double const> const> samples, std::size_t bins = 0,
+                                  double low = std::numeric_limits<double>::quiet_NaN(),
+                                  double high = std::numeric_limits<double>::quiet_NaN());
+
+/// Stairs for each histogram, named by `labels`; the axis of x shows the bins. On a logarithmic y axis empty bins fall
+/// below the picture.
+Canvas draw_histogram(std::span<Histogram const> histograms, std::span<std::string const> labels,
+                      std::span<Colour const> colours, Axis x, Axis y, std::string title = "");
 
 /// What the ends of a colour bar stand for.
 struct ColourEnds {

@@ -1,7 +1,9 @@
-// Figures: a canvas as a picture for a paper or a page, PNG, SVG or PDF.
+// Figures: a canvas as a picture for a paper or a page, PNG, SVG or PDF. A space is shown as it is seen through its
+// projection.
 #pragma once
 
 #include <boltzmann/diagnoses/canvas.hpp>
+#include <boltzmann/diagnoses/figure_layout.hpp>
 
 #include <string>
 
@@ -25,5 +27,17 @@ void write_pdf(Canvas const& canvas, std::string const& path, PictureOptions con
 
 /// By the extension of the path: .png, .svg or .pdf; throws Error on any other.
 void write_picture(Canvas const& canvas, std::string const& path, PictureOptions const& options = {});
+
+/// The same picture in memory: the bytes of a file. `format` is "png", "svg" or "pdf"; Error on any other, and as
+/// above.
+std::string picture_bytes(Canvas const& canvas, std::string const& format, PictureOptions const& options = {});
+
+/// Where the frame (or, without a frame, what it would enclose) stands in a PNG, in pixels from the upper left corner,
+/// and which part of the axes it shows; for a space those of the flat canvas made of it.
+struct PictureLayout {
+  double left, top, width, height;
+  AxisRange x, y;
+};
+PictureLayout layout_of(Canvas const& canvas, PictureOptions const& options = {});
 
 }  // namespace boltzmann

@@ -30,9 +30,49 @@ struct Extent {
   bool empty() const { return low > high; }
 };
 
-// Calls with (x, y, radius) for every place that the canvas draws at.
+// Whether a value of a cloud's particle is one to draw.
+bool is_drawn(double x, double y) { return std::isfinite(x) && std::isfinite(y); }
+
+// Calls with (x, y, radius) for every particle of a cloud.
+template <class Visit>
+void each_place(Canvas::Cloud const& cloud, Visit visit) {
+  auto const dimension = static_cast<std::size_t>(cloud.dimension);
+  for (std::size_t i = 0; i < cloud.count(); ++i) {
+    double const x = cloud.origin[0] + cloud.scale[0] * static_cast<double>(cloud.position[i * dimension]);
+    double const y = cloud.origin[1] + cloud.scale[1] * static_cast<double>(cloud.position[i * dimension + 1]);
+    double const diameter = cloud.diameter.empty() ? cloud.common_diameter : static_cast<double>(cloud.diameter[i]);
+    if (is_drawn(x, y)) visit(x, y, std::isfinite(diameter) ? std::abs(diameter) / 2 : 0.0);
+  }
+}
+
+// The corners of a cloud whose particles have one size: far quicker than one by one, and the same.
+template <class Visit>
+void corners(Canvas::Cloud const& cloud, Visit visit) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  auto const dimension = static_cast<std::size_t>(cloud.dimension);
+  std::array<float, 2> low{infinity, infinity}, high{-infinity, -infinity};
+  for (std::size_t i = 0; i < cloud.position.size(); i += dimension) {
+    float const x = cloud.position[i], y = cloud.position[i + 1];
+    bool const whole = x - x == 0 && y - y == 0;
+    low = {whole && x < low[0] ? x : low[0], whole && y < low[1] ? y : low[1]};
+    high = {whole && x > high[0] ? x : high[0], whole && y > high[1] ? y : high[1]};
+  }
+  if (low[0] > high[0]) return;
+  for (auto const& corner : {low, high})
+    visit(cloud.origin[0] + cloud.scale[0] * static_cast<double>(corner[0]),
+          cloud.origin[1] + cloud.scale[1] * static_cast<double>(corner[1]), std::abs(cloud.common_diameter) / 2);
+}
+
+// Calls with (x, y, radius) for every place that the canvas draws at; of clouds for their corners where that will do.
 template <class Visit>
 void each_place(Canvas const& canvas, Visit visit) {
+  bool const logarithmic = canvas.x_axis().logarithmic || canvas.y_axis().logarithmic;
+  for (auto const& cloud : canvas.clouds()) {
+    if (logarithmic || !cloud.diameter.empty())
+      each_place(cloud, visit);
+    else
+      corners(cloud, visit);
+  }
   for (auto const& c : canvas.circles()) visit(c.x, c.y, c.radius);
   for (auto const& p : canvas.points()) visit(p.x, p.y, 0.0);
   for (auto const& l : canvas.lines()) visit(l.x0, l.y0, 0.0), visit(l.x1, l.y1, 0.0);
@@ -94,6 +134,9 @@ double AxisRange::place(double value) const {
 
 std::array<AxisRange, 2> axis_ranges(Canvas const& canvas, double width_to_height) {
   bool const x_log = canvas.x_axis().logarithmic, y_log = canvas.y_axis().logarithmic;
+  auto const given = [](Axis const& axis) { return std::isfinite(axis.low) && std::isfinite(axis.high); };
+  if (!x_log && !y_log && given(canvas.x_axis()) && given(canvas.y_axis()))
+    return {linear_range(canvas.x_axis(), {}), linear_range(canvas.y_axis(), {})};
   Extent x{.positive_only = x_log}, y{.positive_only = y_log};
   each_place(canvas, [&](double px, double py, double radius) {
     if ((x_log && px <= 0) || (y_log && py <= 0)) return;
@@ -101,11 +144,17 @@ std::array<AxisRange, 2> axis_ranges(Canvas const& canvas, double width_to_heigh
     y.add_between(py, canvas.equal_aspect() ? radius : 0);
   });
   AxisRange const x_range = x_log ? logarithmic_range(canvas.x_axis(), x) : linear_range(canvas.x_axis(), x);
-  if (!canvas.equal_aspect() && !x_log && !y_log && !canvas.circles().empty()) {
+  bool const with_discs =
+      !canvas.circles().empty() || std::any_of(canvas.clouds().begin(), canvas.clouds().end(), [](auto const& cloud) {
+        return cloud.common_diameter != 0 || !cloud.diameter.empty();
+      });
+  if (!canvas.equal_aspect() && !x_log && !y_log && with_discs) {
     double const per_x = (y.high - y.low) / (x_range.high - x_range.low) * width_to_height;
     if (std::isfinite(per_x)) {
       Extent with_circles = y;
       for (auto const& c : canvas.circles()) with_circles.add_between(c.y, c.radius * per_x);
+      for (auto const& cloud : canvas.clouds())
+        each_place(cloud, [&](double, double at, double radius) { with_circles.add_between(at, radius * per_x); });
       y = with_circles;
     }
   }
@@ -135,6 +184,8 @@ std::size_t not_positive(Canvas const& canvas) {
   for (auto const& a : canvas.arrows()) count += hidden(a.x0, a.y0) || hidden(a.x1, a.y1);
   for (auto const& t : canvas.texts()) count += hidden(t.x, t.y);
   for (auto const& i : canvas.images()) count += hidden(i.x0, i.y0) || hidden(i.x1, i.y1);
+  for (auto const& cloud : canvas.clouds())
+    each_place(cloud, [&](double x, double y, double) { count += hidden(x, y); });
   for (auto const& c : canvas.curves())
     for (std::size_t i = 0; i < c.x.size(); ++i)
       count += std::isfinite(c.x[i]) && std::isfinite(c.y[i]) && hidden(c.x[i], c.y[i]);

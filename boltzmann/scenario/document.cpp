@@ -101,13 +101,15 @@ namespace {
 
 // ---- Reading ----
 
-Place place_of(toml::source_region const& region) {
-  return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), -1};
+Place place_of(toml::source_position const& position) {
+  return {static_cast<int>(position.line), static_cast<int>(position.column), -1};
 }
+Place place_of(toml::source_region const& region) { return place_of(region.begin); }
 
 Item item_of(toml::node const& node) {
   Item item;
   item.place = place_of(node.source());
+  item.end = place_of(node.source().end);
   switch (node.type()) {
     case toml::node_type::table:
       item.inlined = node.as_table()->is_inline();
@@ -228,11 +230,23 @@ namespace {
 
 void move_to(Item& item, Place const& place) {
   item.place = place;
+  item.end = {0, 0, -1};
   for (auto& entry : item.entries) {
     entry.place = place;
     move_to(entry.item, place);
   }
   for (auto& element : item.elements) move_to(element, place);
+}
+
+std::vector<std::string> steps_of(std::string const& path) {
+  std::vector<std::string> steps{""};
+  for (char const c : path) {
+    if (c == '.')
+      steps.emplace_back();
+    else
+      steps.back() += c;
+  }
+  return steps;
 }
 
 std::string trimmed(std::string_view text) {
@@ -282,13 +296,7 @@ void apply_override(Item& document, std::string const& assignment, std::string c
 }
 
 void assign(Item& document, std::string const& path, Item value, Place const& place, Mistakes& mistakes) {
-  std::vector<std::string> steps{""};
-  for (char const c : path) {
-    if (c == '.')
-      steps.emplace_back();
-    else
-      steps.back() += c;
-  }
+  auto const steps = steps_of(path);
   Item* at = &document;
   std::string so_far;
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -326,6 +334,20 @@ void assign(Item& document, std::string const& path, Item value, Place const& pl
   *at = std::move(value);
 }
 
+Item const* item_at(Item const& document, std::string const& path) {
+  Item const* at = &document;
+  for (auto const& step : steps_of(path)) {
+    if (at->is(Item::Kind::array)) {
+      at = element_of(const_cast<Item&>(*at), step);
+    } else {
+      Entry const* entry = at->find(step);
+      at = entry ? &entry->item : nullptr;
+    }
+    if (!at) return nullptr;
+  }
+  return at;
+}
+
 void set_default(Item& document, std::string const& table, std::string const& key, Item value) {
   Entry* entry = document.find(table);
   if (!entry) {
@@ -354,24 +376,26 @@ std::string quoted(std::string const& text, bool long_text = false) {
   return result + (long_text ? "\"\"\"" : "\"");
 }
 
-std::string key_text(std::string const& key) {
+}  // namespace
+
+std::string write_key(std::string const& key) {
   bool const bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-';
   });
   return bare ? key : quoted(key);
 }
 
-std::string value_text(Item const& item) {
+std::string write_value(Item const& item) {
   switch (item.kind) {
     case Item::Kind::table: {
       std::string text = "{";
       for (auto const& entry : item.entries)
-        text += (text.size() > 1 ? ", " : " ") + key_text(entry.key) + " = " + value_text(entry.item);
+        text += (text.size() > 1 ? ", " : " ") + write_key(entry.key) + " = " + write_value(entry.item);
       return text + " }";
     }
     case Item::Kind::array: {
       std::string text = "[";
-      for (auto const& element : item.elements) text += (text.size() > 1 ? ", " : "") + value_text(element);
+      for (auto const& element : item.elements) text += (text.size() > 1 ? ", " : "") + write_value(element);
       return text + "]";
     }
     case Item::Kind::text:
@@ -392,6 +416,8 @@ std::string value_text(Item const& item) {
   return "";
 }
 
+namespace {
+
 bool is_table_list(Item const& item) {
   return item.is(Item::Kind::array) && !item.elements.empty() &&
          std::all_of(item.elements.begin(), item.elements.end(),
@@ -403,10 +429,10 @@ void write_table(Item const& table, std::string const& path, std::string& text) 
     return is_table_list(item) || (item.is(Item::Kind::table) && !item.inlined);
   };
   for (auto const& entry : table.entries)
-    if (!has_header(entry.item)) text += key_text(entry.key) + " = " + value_text(entry.item) + "\n";
+    if (!has_header(entry.item)) text += write_key(entry.key) + " = " + write_value(entry.item) + "\n";
   for (auto const& entry : table.entries) {
     if (!has_header(entry.item)) continue;
-    std::string const name = path + (path.empty() ? "" : ".") + key_text(entry.key);
+    std::string const name = path + (path.empty() ? "" : ".") + write_key(entry.key);
     if (entry.item.is(Item::Kind::table)) {
       text += "\n[" + name + "]\n";
       write_table(entry.item, name, text);
@@ -426,5 +452,24 @@ std::string write_document(Item const& document) {
   write_table(document, "", text);
   return text;
 }
+
+// ---- Lines ----
+
+Lines::Lines(std::string const& text) : text_(text), begins_{0} {
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n') begins_.push_back(i + 1);
+}
+
+std::size_t Lines::offset(Place const& place) const {
+  auto const line = static_cast<std::size_t>(std::max(place.line, 1)) - 1;
+  if (line >= begins_.size()) return text_.size();
+  std::size_t at = begins_[line];
+  for (int column = 1; column < place.column && at < text_.size() && text_[at] != '\n'; ++column) do
+      ++at;  // columns are characters, not bytes
+    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0) == 0x80);
+  return at;
+}
+
+std::size_t Lines::end_of_line(std::size_t offset) const { return std::min(text_.find('\n', offset), text_.size()); }
 
 }  // namespace boltzmann

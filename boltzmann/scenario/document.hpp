@@ -47,7 +47,9 @@ struct Item {
 
   Kind kind = Kind::table;
   Place place;
-  std::string text;  ///< of a text; a date as it was written
+  Place end{0, 0, -1};  ///< behind its last character; line 0: it is not a value of the file's text
+  int written = -1;     ///< which of Recorder's values it belongs to; -1: none
+  std::string text;     ///< of a text; a date as it was written
   std::int64_t integer = 0;
   double number = 0;  ///< of a number, and of an integer
   bool boolean = false;
@@ -87,11 +89,32 @@ void assign(Item& document, std::string const& path, Item value, Place const& pl
 /// A value as TOML has it; what is no TOML is a text.
 Item value_of(std::string const& text, Place const& place);
 
+/// The value at "run.step" or "ensembles.atoms.mass", or nullptr.
+Item const* item_at(Item const& document, std::string const& path);
+
 /// Sets a value if the key is missing.
 void set_default(Item& document, std::string const& table, std::string const& key, Item value);
 
 /// The tree as TOML. It reads back to the same values, bit for bit.
 std::string write_document(Item const& document);
+/// A value as TOML, tables in braces; a key, in quotation marks if it needs them.
+std::string write_value(Item const& item);
+std::string write_key(std::string const& key);
+
+/// The lines of a text: where its places are.
+class Lines {
+ public:
+  /// Keeps a reference to the text.
+  explicit Lines(std::string const& text);
+  /// The byte at a place of the file.
+  std::size_t offset(Place const& place) const;
+  /// The byte of the end of the line in which a byte is: that of its '\n', or the end of the text.
+  std::size_t end_of_line(std::size_t offset) const;
+
+ private:
+  std::string const& text_;
+  std::vector<std::size_t> begins_;
+};
 
 /// "a text", "an array", ...: what was found.
 std::string found(Item const& item);

@@ -68,6 +68,7 @@ double FormulaNames::evaluate(Formula const& formula, double const* row) {
 
 std::optional<Formula> read_formula(Item const& item, std::string_view key, FormulaNames const& names,
                                     std::vector<std::string> const& unknown, Reading& reading) {
+  if (reading.context.recorder) reading.context.recorder->plain(item, item.is_number() ? "number" : "text");
   if (item.is_number()) return Formula(fmt::format("({})", item.number), names.names());
   if (!item.is(Item::Kind::text)) {
     reading.mistake(item.place,

@@ -81,13 +81,16 @@ void check_positive(Section const& section, std::vector<FieldValue> const& value
                     Reading& reading) {
   for (auto const& value : values)
     for (char const* key : {"mass", "density", "range"})
-      if (value.field.name == key && (value.field.name == "mass" || kind.matter != Matter::none))
+      if (value.field.name == key && (value.field.name == "mass" || kind.matter != Matter::none)) {
+        if (Item const* item = section.item(key); item && reading.context.recorder)
+          reading.context.recorder->narrow(*item, positive);
         for (double const number : value.values)
           if (!(number > 0)) {
             reading.mistake(section.place(key),
                             fmt::format("{}: {} is out of range; it must be positive", key, number));
             break;
           }
+      }
 }
 
 bool gives(Section const& section, std::string_view field) {

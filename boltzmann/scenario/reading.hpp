@@ -64,6 +64,11 @@ struct ReadSmooth {
   std::vector<ReadRezone> rezones;
 };
 
+/// What a run records for pictures to show.
+struct Recorded {
+  bool trajectory = false, diagnoses = true;
+};
+
 /// What brings the particles to a temperature before the run.
 struct ReadPreparation {
   std::shared_ptr<Flow> flow;  ///< null: nothing does
@@ -83,6 +88,7 @@ struct Reading {
   std::vector<ReadEnsemble> ensembles;
   ReadPreparation preparation = {};
   bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
+  Recorded recorded = {};
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
   std::vector<std::string> ensemble_names() const;
@@ -152,5 +158,14 @@ void add_flows(Reading const& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.
 void read_output(Section& document, Item& resolved, Reading& reading);
+/// The columns that diagnoses.csv will have; the axes that the box has (all three if it is not known).
+std::vector<std::string> column_names(Reading const& reading);
+std::vector<std::string> axis_names(Reading const& reading);
+bool all_loaded(Reading const& reading);
+/// How far the particles of a field are spread; 0: not told. A mistake if they have more images between walls than one.
+double read_range_of_weight(Section& section, Reading& reading);
+void read_picture(Item const& table, Reading& reading);
+/// Reads [[views]], the diagnoses for the window.
+void read_views(Section& document, Reading& reading);
 
 }  // namespace boltzmann

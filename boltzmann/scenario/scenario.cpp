@@ -38,6 +38,7 @@ void build(Item& document, Reading& reading) {
   read_flows(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
+  read_views(top, reading);
   read_sweep(top, reading);
   top.finish();
   if (!reading.context.mistakes.none()) return;
@@ -87,7 +88,8 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (overrides.sweep_run) choose_run(document, *overrides.sweep_run, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
 
-  Reading reading{{mistakes, Base::si(), files.empty() ? folder : files},
+  Recorder recorder(document, text);
+  Reading reading{{mistakes, Base::si(), files.empty() ? folder : files, &recorder},
                   std::make_unique<ScenarioSimulation>(),
                   true,
                   0,
@@ -105,6 +107,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   if (reading.result->sweep) reading.result->sweep->text = sweep;
   reading.result->resolved = write_document(document);
+  reading.result->parameters = recorder.parameters();
   return std::move(reading.result);
 }
 

@@ -6,6 +6,7 @@
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/flows/flow.hpp>
+#include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/sweep.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
@@ -41,13 +42,15 @@ struct Overrides {
   std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
 };
 
-/// A picture that a scenario asks for.
+/// A picture that a scenario asks for, or a diagnosis for the window.
 struct PicturePlan {
+  std::string name;     ///< of a diagnosis for the window
   std::string drawing;  ///< one of drawing_names()
   std::string x, y;     ///< fields ("position.x", "velocity.y") of phase space; the columns of a time series in y,
-                        ///< separated by commas
+                        ///< separated by commas; the quantity of a histogram in x
   std::string colour;   ///< a field, "speed", "kinetic-energy", "potential-energy" or empty: by ensemble
   std::string size;     ///< the same for the diameter; empty: the ensemble's
+  std::string vectors;  ///< cartesian: arrows of this field; empty: none
   std::string file = "picture.png";
   double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours, in the base;
   double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN: those of the state
@@ -60,7 +63,8 @@ struct PicturePlan {
   double range = 0;                                        ///< of that weight; 0: chosen by the drawing
   std::vector<double> levels;                              ///< contours, bands; empty: level_count even ones
   int level_count = 0;                                     ///< 0: chosen by the drawing
-  int cells = 300;                                         ///< of its grid, along the longest side
+  int cells = 300;                                         ///< of its grid, along the longest side; histogram, profile:
+                                                           ///< bins
 };
 
 /// How often what is written.
@@ -84,8 +88,10 @@ struct ScenarioSimulation {
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;
   OutputPlan output;
+  std::vector<PicturePlan> views;  ///< diagnoses for the window, by name
   std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
   std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
+  std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
 };
 
 /// Reads a scenario file. Throws ScenarioErrors with all its mistakes, or Error if the file can't be read.

@@ -56,6 +56,7 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
     context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, shown, range.text()));
     return std::nullopt;
   }
+  if (context.recorder) context.recorder->number(item, dimension, range, context.base);
   return value;
 }
 
@@ -95,11 +96,15 @@ std::optional<std::int64_t> read_integer(Item const& item, std::string_view name
     context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, value, allowed));
     return std::nullopt;
   }
+  if (context.recorder) context.recorder->integer(item, low, high);
   return value;
 }
 
 std::optional<std::string> read_text(Item const& item, std::string_view name, ReadContext& context) {
-  if (item.is(Item::Kind::text)) return item.text;
+  if (item.is(Item::Kind::text)) {
+    if (context.recorder) context.recorder->plain(item, "text");
+    return item.text;
+  }
   context.mistakes.add(item.place, fmt::format("{}: a text is needed, not {}", name, found(item)));
   return std::nullopt;
 }
@@ -108,6 +113,7 @@ std::optional<std::string> read_word(Item const& item, std::string_view name, st
                                      ReadContext& context) {
   auto text = read_text(item, name, context);
   if (!text) return std::nullopt;
+  if (context.recorder) context.recorder->word(item, words);
   if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
   context.mistakes.add(item.place,
                        fmt::format("unknown {} '{}'; there {} {}{}", name, *text, words.size() == 1 ? "is" : "are",
@@ -117,7 +123,7 @@ std::optional<std::string> read_word(Item const& item, std::string_view name, st
 
 std::vector<std::string> read_texts(Item const& item, std::string_view name, ReadContext& context) {
   std::vector<std::string> texts;
-  if (item.is(Item::Kind::text)) return {item.text};
+  if (item.is(Item::Kind::text)) return {*read_text(item, name, context)};
   if (!item.is(Item::Kind::array)) {
     context.mistakes.add(item.place,
                          fmt::format("{}: a text or an array of texts is needed, not {}", name, found(item)));
@@ -174,7 +180,10 @@ std::optional<std::string> Section::word(std::string_view key, std::vector<std::
 bool Section::boolean(std::string_view key, bool otherwise) {
   Item const* item = find(key);
   if (!item) return otherwise;
-  if (item->is(Item::Kind::boolean)) return item->boolean;
+  if (item->is(Item::Kind::boolean)) {
+    if (context_.recorder) context_.recorder->plain(*item, "boolean");
+    return item->boolean;
+  }
   mistake(item->place, fmt::format("{}: true or false is needed, not {}", key, found(*item)));
   return otherwise;
 }

@@ -6,6 +6,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/scenario/document.hpp>
+#include <boltzmann/scenario/recorder.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -19,8 +20,9 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  Base base;           ///< of the numbers to come
-  std::string folder;  ///< of the scenario file: where its other files are
+  Base base;                     ///< of the numbers to come
+  std::string folder;            ///< of the scenario file: where its other files are
+  Recorder* recorder = nullptr;  ///< notes what has been read; null: nobody does
 };
 
 /// What a number must be.

@@ -1,6 +1,6 @@
-// Pictures of a simulation: particles in space, phase space, a spectrum, a time series, profiles along an axis, smooth
-// fields of the particles, what a mesh has on its nodes or the waves on it, drawn from the present state and from the
-// files of the run.
+// Pictures of a simulation: particles in space, phase space, a histogram, a spectrum, a time series, profiles along an
+// axis, smooth fields of the particles, what a mesh has on its nodes or the waves on it, drawn from the present state
+// and from the files of the run.
 #pragma once
 
 #include <boltzmann/core/unit_base.hpp>
@@ -9,6 +9,7 @@
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,8 +25,9 @@ struct Dispersion {
 /// What a picture shows. `recording.picture({.colour = "speed"})` is the particles in space, coloured by speed.
 struct Picture {
   std::string drawing = "cartesian";  ///< one of drawing_names()
-  std::string x = {};  ///< phase-space: a field, "position.x". spectrum: "position.x" (across space) or "time".
-                       ///< profile: "position.x" (also if empty), "position.y" or "position.z"
+  std::string x =
+      {};  ///< phase-space: a field, "position.x". histogram: any quantity; empty: "speed". spectrum: "position.x"
+           ///< (across space) or "time". profile: "position.x" (also if empty), "position.y" or "position.z"
   std::string y = {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over
                        ///< time. time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's
                        ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential.
@@ -33,6 +35,7 @@ struct Picture {
                        ///< wave-spectrum: which of those recorded, by its quantity; empty: the first
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
+  std::string vectors = {};          ///< cartesian: arrows of one of vector_names() at the particles, 2000 at most
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
   bool trace = false;                ///< also the tracks through all frames of trajectory.h5 (cartesian, phase-space)
   double low = std::numeric_limits<double>::quiet_NaN();  ///< the values at the ends of the colours (contours: also of
@@ -42,22 +45,29 @@ struct Picture {
   std::string slice = "z";                               ///< fields in 3D: the axis that the slice is normal to
   double at = std::numeric_limits<double>::quiet_NaN();  ///< where on it; NaN: in the middle
   std::vector<Dispersion> curves = {};                   ///< wave-spectrum: drawn over it
-  bool logarithmic = false;  ///< time-series, profile: the values on a logarithmic axis, 12 decades at most
+  bool logarithmic = false;  ///< time-series, profile, histogram: the values on a logarithmic axis; time-series:
+                             ///< 12 decades at most
   // map, contours, bands
   Smoothing smoothing = {};         ///< range 0: each particle's own; if a class has none, fitting_range()
   std::vector<double> levels = {};  ///< contours, bands: ascending; empty: level_count even ones
   int level_count = 0;              ///< 0: 8 for contours; the mean over the picture alone for bands
+  Projection projection = {};       ///< cartesian in 3D: from where
+  std::size_t most = 0;  ///< cartesian, phase-space: every n-th particle, so that so many or fewer are drawn; 0: all
+  std::vector<std::array<double, 2>> region = {};  ///< cartesian, phase-space: only particles with low <= x <= high,
+                                                   ///< for each axis; empty: all
+  std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()
   int cells = 300;  ///< of the grid, along the longest side of the picture; profile: bins at most, fewer
-                    ///< if these had less than 50 particles in the mean
+                    ///< if these had less than 50 particles in the mean; histogram: bins, but with 300 (not
+                    ///< chosen) 10 to 200 of a width that fits (see histograms())
 };
 
-/// "cartesian", "phase-space", "spectrum", "time-series", "profile", "mesh", "wave-spectrum"; of the smooth fields of
-/// particles "map" (colours), "contours" (lines) and "bands" (shades between levels).
+/// "cartesian", "phase-space", "histogram", "spectrum", "time-series", "profile", "mesh", "wave-spectrum"; of the
+/// smooth fields of particles "map" (colours), "contours" (lines) and "bands" (shades between levels).
 std::vector<std::string> const& drawing_names();
 
 /// The state that a picture shows and what is written about it.
 struct PictureContext {
-  Simulation& simulation;  ///< only read, but for the energies that its schemes calculate
+  Simulation& simulation;  ///< goes on as if nobody had looked
   Base const& base;
   std::string title;
   std::int64_t step;
@@ -66,8 +76,12 @@ struct PictureContext {
   std::vector<Diagnosis const*> diagnoses = {};  ///< of the run, for wave spectra
 };
 
-/// Draws. Error for an unknown drawing, field or column (with the allowed ones and the nearest).
+/// Draws. Error for an unknown drawing, field or column (with the allowed ones and the nearest), and for a histogram of
+/// no particles.
 Canvas draw(Picture const& picture, PictureContext const& context);
+
+/// What arrows can be drawn of: "velocity", "influence" and fields with as many components as space has axes.
+std::vector<std::string> vector_names(std::vector<AnyEnsemble*> const& ensembles);
 
 /// Error if particles can't be followed from frame to frame by their numbers, since adaptations change those.
 void check_tracks(Simulation const& simulation);

@@ -131,7 +131,10 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
     line->reset();
   };
   try {
-    simulation.run(steps);
+    if (options.drive)
+      options.drive(steps);
+    else
+      simulation.run(steps);
   } catch (...) {
     end_line();
     counted->reset();

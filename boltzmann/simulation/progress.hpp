@@ -4,6 +4,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cstdint>
+#include <functional>
 
 namespace boltzmann {
 
@@ -11,6 +12,8 @@ struct ProgressOptions {
   bool quiet = false;        ///< no progress line
   std::int64_t planned = 0;  ///< the step number that counts as 100 %; 0: where this run ends
   bool warnings = true;      ///< false: the caller tells those of schemes and flows
+  /// Does the steps, in place of Simulation::run: a window, where somebody may pause, go back, or go on.
+  std::function<void(std::uint64_t steps)> drive = {};
 };
 
 /// How a run went.

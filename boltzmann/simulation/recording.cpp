@@ -63,6 +63,7 @@ struct Recording::State {
   std::int64_t every_diagnoses = 0, every_trajectory = 0, every_mesh = 0, every_checkpoint = 0;  // 0: never
   std::vector<std::unique_ptr<Diagnosis>> list;
   std::vector<Picture> pictures;
+  std::vector<std::function<void(std::int64_t, std::span<double const>)>> on_row;
 
   bool open = false, finished = false;
   std::int64_t next = 0;  // the next step at which something is written
@@ -297,6 +298,7 @@ struct Recording::State {
     if (column_factors.empty()) column_factors = factors();
     for (std::size_t c = 0; c < values.size(); ++c) values[c] *= column_factors[c];
     csv->write(simulation.step(), values);
+    for (auto const& function : on_row) function(simulation.step(), values);
   }
 
   void write_frame() {
@@ -451,9 +453,24 @@ void Recording::check() { state_->check(); }
 void Recording::resume() { state_->resume(); }
 void Recording::finish() { state_->finish(); }
 void Recording::give_up() { state_->give_up(); }
+std::string Recording::save_checkpoint() {
+  if (!state_->open || state_->finished)
+    throw Error(state_->finished ? "the run has ended; its checkpoint is written" : "the run has not begun yet");
+  state_->write_checkpoint();
+  return state_->path("checkpoint.h5");
+}
+void Recording::on_row(std::function<void(std::int64_t, std::span<double const>)> function) {
+  state_->on_row.push_back(std::move(function));
+}
 Simulation& Recording::simulation() const { return state_->simulation; }
 Base const& Recording::base() const { return state_->base; }
 std::string const& Recording::folder() const { return state_->folder; }
+std::string const& Recording::title() const { return state_->title; }
+std::vector<std::string> Recording::header() const {
+  return state_->every_diagnoses > 0 ? state_->header() : std::vector<std::string>{};
+}
+std::vector<Picture> const& Recording::pictures() const { return state_->pictures; }
+std::vector<Diagnosis const*> Recording::instruments() const { return state_->instruments(); }
 std::int64_t Recording::checkpoint_step() const { return state_->checkpoint_step; }
 double Recording::seconds() const { return state_->seconds; }
 

@@ -15,8 +15,10 @@
 
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -84,9 +86,20 @@ class Recording {
   /// it was.
   void give_up();
 
+  /// Writes checkpoint.h5 now, between two steps of a run that has begun; returns its path. Error if it has not, or the
+  /// file can't be written.
+  std::string save_checkpoint();
+  /// Called with the step and the numbers of each row that goes to diagnoses.csv (time first, in the units of header()).
+  void on_row(std::function<void(std::int64_t step, std::span<double const> values)> function);
+
   Simulation& simulation() const;
   Base const& base() const;
   std::string const& folder() const;
+  std::string const& title() const;
+  /// The header of diagnoses.csv: "step", "time (ps)", "total energy (eV)", ...; empty if there are no diagnoses.
+  std::vector<std::string> header() const;
+  std::vector<Picture> const& pictures() const;
+  std::vector<Diagnosis const*> instruments() const;
   /// The step of checkpoint.h5; -1 before there is one.
   std::int64_t checkpoint_step() const;
   /// Seconds spent in measuring and writing so far.

@@ -439,6 +439,7 @@ void Simulation::run(std::uint64_t steps) { run(steps, 1); }
 void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
 
 void Simulation::run(std::uint64_t steps, int direction) {
+  pause_ = false;
   check();
   if (direction < 0 && !changes_.empty())
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
@@ -458,7 +459,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
   double const dt = direction * step_size_;
   std::unique_ptr<WholeSteps> const whole = steps > 0 ? whole_steps(dt) : nullptr;
-  for (std::uint64_t n = 0; n < steps && !stop_; ++n) {
+  for (std::uint64_t n = 0; n < steps && !stop_ && !pause_; ++n) {
     try {
       if (whole)
         whole->step(time());

@@ -71,6 +71,8 @@ class Simulation {
   void rewind(std::uint64_t steps);
   void stop() { stop_ = true; }
   bool stopped() const { return stop_; }
+  /// The same for this run() alone: the next one goes on.
+  void pause() { pause_ = true; }
 
   std::int64_t step() const { return step_; }
   double time() const { return base_time_ + static_cast<double>(step_ - base_step_) * step_size_; }
@@ -154,6 +156,7 @@ class Simulation {
   bool kept_ = false;              // influences, for rows of this checksum
   std::uint64_t kept_checksum_ = 0;
   volatile bool stop_ = false;
+  bool pause_ = false;
 };
 
 }  // namespace boltzmann

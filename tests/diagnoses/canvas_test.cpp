@@ -8,6 +8,7 @@
 #include <boltzmann/diagnoses/drawings.hpp>
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/figure_layout.hpp>
+#include <boltzmann/diagnoses/projection.hpp>
 
 #include <algorithm>
 #include <array>
@@ -793,11 +794,15 @@ TEST(DrawingRecords, OfParticlesInThePlane) {
   style.connections = connections;
   style.velocity = {vx, vy};
   Canvas const canvas = draw_cartesian(x, y, style);
-  ASSERT_EQ(canvas.circles().size(), 3U);
-  EXPECT_EQ(canvas.circles()[0].colour, map_colour(ColourMap::viridis, 0));
-  EXPECT_EQ(canvas.circles()[1].colour, map_colour(ColourMap::viridis, 1));
-  EXPECT_EQ(canvas.circles()[2].colour, map_colour(ColourMap::viridis, 0.5));
-  EXPECT_EQ(canvas.circles()[0].radius, 0.5);
+  ASSERT_EQ(canvas.clouds().size(), 1U);
+  auto const& cloud = canvas.clouds()[0];
+  EXPECT_EQ(cloud.value, (std::vector<float>{0, 1, 0.5F}));
+  EXPECT_EQ(cloud.map, ColourMap::viridis);
+  EXPECT_EQ(cloud.common_diameter, 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(cloud.origin[0] + cloud.scale[0] * cloud.position[2 * i], x[i], 1e-6);
+    EXPECT_NEAR(cloud.origin[1] + cloud.scale[1] * cloud.position[2 * i + 1], y[i], 1e-6);
+  }
   ASSERT_EQ(canvas.colour_bars().size(), 1U);
   EXPECT_EQ(canvas.colour_bars()[0].high, 20);
   // 4 sides of the box, two halves of 0-1 through the wall (distance 1, not 9), one whole 0-2.
@@ -850,7 +855,11 @@ TEST_F(Drawings, OfThreeDimensionsShowTheNearestParticle) {
   style.species = species;
   style.common_diameter = 1;
   style.box = {{-3, 3}, {-3, 3}, {-3, 3}};
-  Canvas const canvas = draw_cartesian(x, y, z, style, project);
+  Canvas const space = draw_cartesian(x, y, z, style, project);
+  EXPECT_EQ(space.clouds().size(), 3U);
+  EXPECT_EQ(space.z_axis().high, 3);
+  Canvas const canvas = flattened(space);
+  EXPECT_FALSE(canvas.projection());
   ASSERT_EQ(canvas.circles().size(), 3U);
   EXPECT_EQ(canvas.circles()[0].colour, species_colour(2));
   EXPECT_EQ(canvas.circles()[1].colour, species_colour(0));
@@ -859,7 +868,7 @@ TEST_F(Drawings, OfThreeDimensionsShowTheNearestParticle) {
   EXPECT_NEAR(canvas.circles()[1].depth, 0.5, 1e-6);
   EXPECT_EQ(canvas.circles()[2].depth, 0);
   EXPECT_EQ(canvas.lines().size(), 12U + 3 * 3U) << "the edges of the box, and ticks at -2, 0, 2 of each axis";
-  write_png(canvas, in_folder("a.png"));
+  write_png(space, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   EXPECT_GT(spot_of(picture, species_colour(1), 0.03).pixels, 100);
   EXPECT_EQ(spot_of(picture, species_colour(0), 0.001).pixels, 0);
@@ -869,15 +878,20 @@ TEST(DrawingRecords, OfPhaseSpaceSpectraAndSeries) {
   std::vector<double> const t = {0, 1, 2}, v = {5, 6, 7}, w = {1, 1, 1}, none;
   std::vector<Series> const series = {{"electrons", t, v}, {"ions", t, w}};
   Canvas const phase = draw_phase_space(series, {"x", "cm"}, {"v", "cm s^{\u22121}"});
-  ASSERT_EQ(phase.points().size(), 6U);
-  EXPECT_EQ(phase.points()[0].y, 5);
-  EXPECT_EQ(phase.points()[1].y, 1) << "species turn by turn";
+  std::size_t total = 0;
+  for (auto const& cloud : phase.clouds()) total += cloud.count();
+  EXPECT_EQ(total, 6U);
+  ASSERT_GE(phase.clouds().size(), 4U) << "species turn by turn";
+  EXPECT_EQ(phase.clouds()[0].ensemble, "electrons");
+  EXPECT_EQ(phase.clouds()[1].ensemble, "ions");
+  EXPECT_EQ(phase.clouds()[2].ensemble, "electrons");
+  EXPECT_EQ(phase.clouds()[2].number[0], 1U);
   ASSERT_EQ(phase.legend_entries().size(), 2U);
   EXPECT_EQ(phase.legend_entries()[1].label, "ions");
   EXPECT_EQ(phase.legend_entries()[1].colour, species_colour(1));
   std::vector<Series> const coloured = {{"electrons", t, v, colour_named("navy")}, {"ions", t, w}};
   EXPECT_EQ(draw_phase_space(coloured, {}, {}).legend_entries()[0].colour, colour_named("navy"));
-  EXPECT_EQ(with_alpha(draw_phase_space(coloured, {}, {}).points()[0].colour, 1), colour_named("navy"));
+  EXPECT_EQ(with_alpha(draw_phase_space(coloured, {}, {}).clouds()[0].colour, 1), colour_named("navy"));
   EXPECT_EQ(draw_time_series(coloured, {}, {}).curves()[0].colour, colour_named("navy"));
   Canvas const energies = draw_time_series(series, {"t", "s"}, {"E", "erg"});
   ASSERT_EQ(energies.curves().size(), 2U);

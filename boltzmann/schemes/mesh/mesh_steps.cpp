@@ -442,7 +442,9 @@ class MeshSteps final : public WholeSteps {
                    StepResult ignored;
                    kernels_.finish(mine, ignored, begin, end);
                  }
+                 constexpr std::size_t ahead = 32;  // rows stand in the user's order: each is a miss
                  for (std::size_t i = begin; i < end; ++i) {
+                   __builtin_prefetch(ensemble.row(columns.order[std::min(i + ahead, end - 1)]), 1);
                    double* row = ensemble.row(columns.order[i]);
                    for (int a = 0; a < dimension_; ++a) {
                      row[a] = position(columns, a, i);

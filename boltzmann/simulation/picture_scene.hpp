@@ -1,0 +1,114 @@
+// What all pictures of a simulation are drawn from: its particles by name, units, colours and the part of space that
+// they show. Private to the picture sources, one for each kind of drawing.
+#pragma once
+
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/particle_clouds.hpp>
+#include <boltzmann/simulation/picture.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace boltzmann::pictures {
+
+using Values = std::vector<double>;
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+class Scene {
+ public:
+  Scene(Picture const& picture, PictureContext const& context);
+  /// Puts influences back that had to be found anew.
+  ~Scene();
+  Scene(Scene const&) = delete;
+  Scene& operator=(Scene const&) = delete;
+
+  Picture const& picture;
+  PictureContext const& context;
+  std::vector<AnyEnsemble*> const ensembles;
+
+  Box const& box() const;
+  int threads() const;
+
+  // How things are written.
+  Base::Display shown_in(Dimension dimension) const;
+  Axis axis(std::string label, Dimension dimension) const;
+  std::string title(bool with_time = true) const;
+  /// The colour that an ensemble was given, or the next of the palette.
+  Colour colour(std::size_t ensemble) const;
+  /// Few particles get a colour each, many that of their ensemble.
+  Colour track_colour(std::size_t ensemble, std::size_t particle) const;
+  /// Blue and red for values of both signs. Ends that are given decide for all frames of a movie.
+  ColourMap fitting_map(Values const& shown) const;
+  /// A run that was stopped early is no reason to fail: the picture says why it is empty.
+  Canvas too_few(std::string const& why) const;
+
+  // Quantities by name; Error for a name that no ensemble knows.
+  /// The quantity of each ensemble that has it; NaN for the particles of the others.
+  std::vector<Values> values(std::string const& name);
+  /// The same where it stands; for the ensembles without it a column without values.
+  std::vector<ParticleColumn> columns(std::string const& name);
+  /// Finds influences for the state as it stands, if the quantity is, or follows from, one.
+  void need(std::string const& name);
+  /// The particles have been replaced: what is needed must be found again.
+  void forget() { fresh_ = false; }
+  /// To be called before particles are replaced by others for a while: what schemes remember of them comes back, too.
+  void keep_schemes();
+
+  /// The part of space that is shown: the box, and on open axes also what has left it, up to half a box away. `reach`
+  /// is where particles are.
+  std::vector<std::array<double, 2>> shown_box(std::array<std::array<double, 2>, 3> const& reach) const;
+  /// Where all particles are, on open axes (nobody asks for the others).
+  std::array<std::array<double, 2>, 3> open_reach() const;
+
+ private:
+  void keep();
+
+  bool fresh_ = false, kept_ = false;
+  std::vector<Values> influences_;
+  std::vector<Values> schemes_;
+};
+
+/// What particle_clouds() needs to know: the picture's limits, from `origin` on.
+CloudOptions cloud_options(Scene const& scene);
+/// "1 of 5 particles shown", "120 of 4000 particles are in this region", values that are missing.
+void note_shown(Canvas& canvas, ParticleClouds const& clouds, bool region);
+/// The colour bar for the values of clouds.
+void explain_values(Canvas& canvas, Scene const& scene, ParticleClouds const& clouds);
+
+/// The words of a list "a, b".
+std::vector<std::string> split(std::string const& text);
+/// "kinetic energy (eV)" -> {"kinetic energy", "eV"}.
+struct Heading {
+  std::string name, unit;
+};
+Heading heading(std::string const& text);
+
+bool has_quantity(AnyEnsemble const& ensemble, std::string const& name);
+/// The meaning of a name that at least one of the ensembles knows; Error if none does.
+QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name);
+Values joined(std::vector<Values> const& parts);
+
+// The drawings.
+Canvas draw_particles(Scene& scene);
+Canvas draw_phase_space(Scene& scene, std::string x, std::string y);
+Canvas draw_histogram(Scene& scene);
+Canvas draw_spectrum_in_space(Scene& scene);
+Canvas draw_spectrum_in_time(Scene const& scene);
+Canvas draw_wave_spectrum(Scene const& scene);
+Canvas draw_time_series(Scene const& scene);
+Canvas draw_profiles(Scene const& scene);
+Canvas draw_mesh(Scene const& scene);
+Canvas draw_smooth_field(Scene& scene);
+
+// What their names stand for, and what is wrong with them (Error).
+std::string histogram_quantity(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
+void check_spectrum_axis(std::string const& x);
+void check_waves(Picture const& picture, std::vector<Diagnosis const*> const& diagnoses);
+void check_profile(Picture const& picture, int dimension);
+std::string mesh_name(Picture const& picture);
+bool of_smooth_field(Picture const& picture);
+void check_smooth_field(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
+void check_vectors(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
+
+}  // namespace boltzmann::pictures

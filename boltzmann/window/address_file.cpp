@@ -1,0 +1,68 @@
+// Written whole and with mode 600, since who knows the token may steer the run.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <boltzmann/window/address_file.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace boltzmann {
+namespace {
+
+std::string path_in(std::string const& folder) { return folder + "/window.txt"; }
+
+// The port of "http://127.0.0.1:40123/?token=...", or 0.
+int port_of(std::string const& address) {
+  std::string const start = "http://127.0.0.1:";
+  return address.starts_with(start) ? std::atoi(address.c_str() + start.size()) : 0;
+}
+
+bool listens(int port) {
+  int const socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (socket < 0) return false;
+  sockaddr_in there{};
+  there.sin_family = AF_INET;
+  there.sin_port = htons(static_cast<std::uint16_t>(port));
+  there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  bool const answered = connect(socket, reinterpret_cast<sockaddr const*>(&there), sizeof there) == 0;
+  ::close(socket);
+  return answered;
+}
+
+}  // namespace
+
+AddressFile::AddressFile(std::string folder, std::string address)
+    : path_(path_in(folder)), address_(std::move(address)) {
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  std::filesystem::remove(path_, ignored);
+  int const file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return;  // the run itself will say what is wrong with the folder
+  std::string const line = address_ + "\n";
+  if (write(file, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    std::filesystem::remove(path_, ignored);
+  ::close(file);
+}
+
+AddressFile::~AddressFile() {
+  std::ifstream file(path_);
+  std::string line;
+  std::error_code ignored;
+  if (std::getline(file, line) && line == address_) std::filesystem::remove(path_, ignored);
+}
+
+std::optional<std::string> living_window(std::string const& folder) {
+  std::ifstream file(path_in(folder));
+  std::string line;
+  if (!std::getline(file, line)) return std::nullopt;
+  int const port = port_of(line);
+  if (port <= 0 || port > 65535 || !listens(port)) return std::nullopt;
+  return line;
+}
+
+}  // namespace boltzmann

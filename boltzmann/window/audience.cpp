@@ -1,0 +1,383 @@
+// Who looks at what, and the messages to and fro. Browsers speak on the server's thread, which only notes it down.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/page.hpp>
+#include <boltzmann/window/wire.hpp>
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+namespace boltzmann {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_views = 8;
+constexpr std::size_t most_requests = 256;  // of one browser, not yet answered
+constexpr std::uint64_t never_drawn = ~std::uint64_t{0};
+constexpr double watching_seconds = 10;  // a slow page may take some for one picture
+
+struct Wanted {
+  int id;
+  json view;
+  std::string key;  // the same for views that show the same
+  std::uint64_t drawn = never_drawn;
+};
+
+struct Browser {
+  // Written by the server's thread.
+  bool ready = false;
+  std::int64_t rows = 0, table = -1;
+  Clock::time_point last_ready{};
+  std::size_t requests = 0;
+  // Of the simulation's thread.
+  std::vector<Wanted> views;
+  std::uint64_t scene = never_drawn, notice = never_drawn, crowd = never_drawn;
+  std::optional<std::pair<std::string, std::size_t>> selected;
+  bool selection_changed = false;
+};
+
+struct Said {
+  std::uint64_t browser;
+  json request;  // null: it has just come
+};
+
+// A view, with the numbers that JSON has no other word for taken out.
+json view_of(json const& given) {
+  if (!given.is_object()) throw Error("a view is an object, {\"id\":1,\"diagnosis\":\"Particles\"}");
+  if (!given.contains("diagnosis") || !given["diagnosis"].is_string()) throw Error("a view names its \"diagnosis\"");
+  json view = given;
+  view.erase("id");
+  return view;
+}
+
+}  // namespace
+
+struct Audience::State {
+  std::mutex mutex;
+  std::condition_variable stirred;
+  std::map<std::uint64_t, Browser> browsers;
+  std::deque<Said> said;
+  std::atomic<bool> calls{false}, ready{false};
+  std::uint64_t crowd = 0;                   // changes with the number of browsers
+  std::uint64_t stirrings = 0, noticed = 0;  // what has happened, and how much of it when it was last attended to
+  Show* show = nullptr;
+  std::unique_ptr<WebServer> server;
+
+  void joined(std::uint64_t id) {
+    std::scoped_lock const lock(mutex);
+    browsers[id] = {};
+    ++crowd;
+    said.push_back({id, nullptr});
+    call();
+  }
+
+  void left(std::uint64_t id) {
+    std::scoped_lock const lock(mutex);
+    browsers.erase(id);
+    ++crowd;
+    stir();
+  }
+
+  void call() {
+    calls.store(true, std::memory_order_relaxed);
+    stir();
+  }
+
+  void stir() {
+    ++stirrings;
+    stirred.notify_all();
+  }
+
+  void heard(std::uint64_t id, std::string_view text) {
+    json request = json::parse(text, nullptr, false);
+    if (!request.is_object() || !request.contains("do") || !request["do"].is_string()) {
+      reply(id, nullptr, {{"error", "what was said is no request: {\"do\": \"play\"}"}});
+      return;
+    }
+    std::unique_lock lock(mutex);
+    auto const found = browsers.find(id);
+    if (found == browsers.end()) return;
+    if (request["do"] == "next") {
+      auto& browser = found->second;
+      browser.ready = true;
+      browser.last_ready = Clock::now();
+      browser.rows = request.value("rows", json()).is_number_integer() ? request["rows"].get<std::int64_t>() : 0;
+      browser.table = request.value("table", json()).is_number_integer() ? request["table"].get<std::int64_t>() : -1;
+      ready.store(true, std::memory_order_relaxed);
+      stir();
+      return;
+    }
+    if (found->second.requests >= most_requests) {
+      lock.unlock();
+      server->dismiss(id, "too many requests at a time");
+      return;
+    }
+    ++found->second.requests;
+    said.push_back({id, std::move(request)});
+    call();
+  }
+
+  void reply(std::uint64_t id, json const& number, json fields) {
+    fields["type"] = "reply";
+    fields["id"] = number;
+    if (!fields.contains("error")) fields["ok"] = true;
+    server->send(id, WebMessage::of_text(fields.dump(-1, ' ', false, json::error_handler_t::replace)));
+  }
+
+  void greet(std::uint64_t id) {
+    if (show) server->send(id, WebMessage::of_text(show->hello().dump(-1, ' ', false, json::error_handler_t::replace)));
+  }
+
+  Browser* find(std::uint64_t id) {
+    auto const found = browsers.find(id);
+    return found == browsers.end() ? nullptr : &found->second;
+  }
+
+  // What concerns this browser alone; nothing else is touched if the request is wrong.
+  bool of_browser(std::uint64_t id, json const& request) {
+    std::string const what = request["do"];
+    if (what == "views") {
+      auto const& list = request.value("views", json());
+      if (!list.is_array() || list.empty() || list.size() > most_views)
+        throw Error(fmt::format("\"views\" is a list of 1 to {} views", most_views));
+      std::vector<Wanted> views;
+      for (auto const& given : list) {
+        json const view = view_of(given);
+        if (!given.contains("id") || !given["id"].is_number_integer()) throw Error("a view has a number, its \"id\"");
+        views.push_back({given["id"].get<int>(), view, view.dump(-1, ' ', false, json::error_handler_t::replace)});
+      }
+      std::scoped_lock const lock(mutex);
+      if (Browser* browser = find(id)) {
+        for (auto& view : views)
+          for (auto const& old : browser->views)
+            if (old.id == view.id && old.key == view.key) view.drawn = old.drawn;
+        browser->views = std::move(views);
+      }
+      return true;
+    }
+    if (what == "select") {
+      std::optional<std::pair<std::string, std::size_t>> selected;
+      if (request.contains("ensemble")) {
+        if (!request["ensemble"].is_string() || !request.value("particle", json()).is_number_unsigned())
+          throw Error("select needs the name of an \"ensemble\" and the number of a \"particle\"");
+        selected = {request["ensemble"].get<std::string>(), request["particle"].get<std::size_t>()};
+        if (show->particle(selected->first, selected->second).is_null())
+          throw Error(fmt::format("there is no particle {} of '{}'", selected->second, selected->first));
+      }
+      std::scoped_lock const lock(mutex);
+      if (Browser* browser = find(id)) {
+        browser->selected = selected;
+        browser->selection_changed = true;
+      }
+      return true;
+    }
+    return false;
+  }
+
+  void answer(Said const& said) {
+    json const number = said.request.value("id", json());
+    try {
+      if (!show) throw Error("nothing is shown at the moment");
+      if (of_browser(said.browser, said.request)) return reply(said.browser, number, json::object());
+      if (said.request["do"] == "picture") {
+        PictureFile const file = show->picture(said.request);
+        BinaryMessage message;
+        std::vector<unsigned char> bytes(file.content.begin(), file.content.end());
+        json head{{"type", "reply"},   {"id", number},      {"ok", true},
+                  {"name", file.name}, {"mime", file.type}, {"file", message.array(std::move(bytes))}};
+        if (!file.frame.empty()) head["box"] = file.frame;
+        return server->send(said.browser, message.finish(head));
+      }
+      reply(said.browser, number, show->perform(said.request));
+    } catch (json::exception const&) {
+      reply(said.browser, number, {{"error", "a field of the request is of the wrong kind"}});
+    } catch (std::exception const& error) {
+      reply(said.browser, number, {{"error", error.what()}});
+    }
+  }
+};
+
+Audience::Audience(std::uint16_t port, std::function<std::optional<WebFile>(std::string_view)> file, std::string token)
+    : state_(std::make_shared<State>()), calls_(state_->calls), ready_(state_->ready) {
+  State* const state = state_.get();
+  WebEvents events;
+  events.joined = [state](std::uint64_t id) { state->joined(id); };
+  events.left = [state](std::uint64_t id) { state->left(id); };
+  events.said = [state](std::uint64_t id, std::string_view text) { state->heard(id, text); };
+  events.file = [file = std::move(file)](std::string_view path) -> std::optional<WebFile> {
+    if (path == "/") return WebFile{"text/html; charset=utf-8", std::make_shared<std::string const>(page_html())};
+    return file ? file(path) : std::nullopt;
+  };
+  // No browser can have come before the server is known here: it needs the token.
+  state_->server = std::make_unique<WebServer>(std::move(events), port, std::move(token));
+}
+
+Audience::~Audience() { state_->server.reset(); }
+
+std::string Audience::address() const { return state_->server->address(); }
+std::uint16_t Audience::port() const { return state_->server->port(); }
+
+void Audience::open(Show& show) {
+  state_->show = &show;
+  std::vector<std::uint64_t> all;
+  {
+    std::scoped_lock const lock(state_->mutex);
+    for (auto& [id, browser] : state_->browsers) {
+      browser.views.clear();
+      browser.selected.reset();
+      browser.scene = browser.notice = browser.crowd = never_drawn;
+      all.push_back(id);
+    }
+  }
+  for (auto const id : all) state_->greet(id);
+}
+
+void Audience::close() { state_->show = nullptr; }
+
+void Audience::bye(std::string const& message) {
+  std::vector<std::uint64_t> all;
+  {
+    std::scoped_lock const lock(state_->mutex);
+    for (auto& [id, browser] : state_->browsers) all.push_back(id);
+  }
+  for (auto const id : all) {
+    state_->server->send(id, WebMessage::of_text(json{{"type", "bye"}, {"message", message}}.dump()));
+    state_->server->dismiss(id, "the window is closed");
+  }
+}
+
+int Audience::viewers() const {
+  std::scoped_lock const lock(state_->mutex);
+  return static_cast<int>(state_->browsers.size());
+}
+
+bool Audience::watched() const {
+  auto const since = Clock::now() - std::chrono::duration<double>(watching_seconds);
+  std::scoped_lock const lock(state_->mutex);
+  for (auto const& [id, browser] : state_->browsers)
+    if (browser.ready || browser.last_ready > since) return true;
+  return false;
+}
+
+bool Audience::attend() {
+  std::deque<Said> said;
+  {
+    std::scoped_lock const lock(state_->mutex);
+    said.swap(state_->said);
+    state_->noticed = state_->stirrings;
+    state_->calls.store(false, std::memory_order_relaxed);
+    for (auto const& each : said)
+      if (Browser* browser = state_->find(each.browser); browser && !each.request.is_null()) --browser->requests;
+  }
+  for (auto const& each : said) {
+    if (each.request.is_null())
+      state_->greet(each.browser);
+    else
+      state_->answer(each);
+  }
+  return !said.empty();
+}
+
+bool Audience::present() {
+  Show* const show = state_->show;
+  if (!show) return false;
+  std::uint64_t const scene = show->scene(), notice = show->notice();
+  ShownTable const* const table = show->table();
+
+  // Who is ready and has something to see; each of their views is marked as drawn.
+  struct Turn {
+    std::uint64_t id;
+    std::vector<Wanted> views;
+    std::int64_t rows, table;
+    std::optional<std::pair<std::string, std::size_t>> selected;
+  };
+  std::vector<Turn> turns;
+  std::size_t viewers = 0;
+  {
+    std::scoped_lock const lock(state_->mutex);
+    viewers = state_->browsers.size();
+    bool waiting = false;
+    for (auto& [id, browser] : state_->browsers) {
+      if (!browser.ready) continue;
+      bool news = browser.scene != scene || browser.notice != notice || browser.crowd != state_->crowd ||
+                  browser.selection_changed;
+      if (table) {
+        if (browser.table != table->number) browser.rows = 0;
+        news = news || static_cast<std::size_t>(browser.rows) < table->rows();
+      }
+      Turn turn{id, {}, browser.rows, browser.table, browser.selected};
+      for (auto& view : browser.views)
+        if (view.drawn != scene) {
+          turn.views.push_back(view);
+          view.drawn = scene;
+        }
+      if (!news && turn.views.empty()) {
+        waiting = true;
+        continue;
+      }
+      browser.ready = false;
+      browser.selection_changed = false;
+      browser.scene = scene;
+      browser.notice = notice;
+      browser.crowd = state_->crowd;
+      turns.push_back(std::move(turn));
+    }
+    state_->ready.store(waiting, std::memory_order_relaxed);
+  }
+
+  struct Drawn {
+    std::shared_ptr<Canvas const> canvas;
+    std::string error;
+  };
+  std::map<std::string, Drawn> drawn;  // browsers that look at the same share the drawing
+  json const status = turns.empty() ? json() : show->status();
+  for (auto& turn : turns) {
+    BinaryMessage message;
+    json head = status;
+    head["type"] = "update";
+    head["viewers"] = viewers;
+    head["selected"] = turn.selected ? show->particle(turn.selected->first, turn.selected->second) : json();
+    if (table && table->rows() > static_cast<std::size_t>(std::max<std::int64_t>(turn.rows, 0))) {
+      auto const from = static_cast<std::size_t>(std::max<std::int64_t>(turn.rows, 0));
+      std::vector<double> rows(table->values.begin() + static_cast<std::ptrdiff_t>(from * table->columns),
+                               table->values.end());
+      head["table"] = {{"number", table->number},
+                       {"from", from},
+                       {"rows", table->rows() - from},
+                       {"values", message.array(std::move(rows))}};
+    }
+    json& views = head["views"] = json::array();
+    for (auto const& view : turn.views) {
+      auto [found, fresh] = drawn.try_emplace(view.key);
+      if (fresh) try {
+          found->second.canvas = show->draw(view.view);
+        } catch (json::exception const&) {
+          found->second.error = "a field of the view is of the wrong kind";
+        } catch (std::exception const& error) {
+          found->second.error = error.what();
+        }
+      if (found->second.canvas)
+        views.push_back({{"id", view.id}, {"canvas", canvas_json(found->second.canvas, message)}});
+      else if (!found->second.error.empty())
+        views.push_back({{"id", view.id}, {"error", found->second.error}});
+    }
+    state_->server->send(turn.id, message.finish(head));
+  }
+  return !turns.empty();
+}
+
+void Audience::wait(double seconds) {
+  std::unique_lock lock(state_->mutex);
+  state_->stirred.wait_for(lock, std::chrono::duration<double>(seconds),
+                           [&] { return state_->stirrings != state_->noticed; });
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,318 @@
+// The gallery's answers.
+#include <boltzmann/window/gallery.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t most_bytes = 4 << 20;      // of a scenario in the folder
+constexpr std::size_t most_values = 10'000;      // of `set`
+constexpr std::size_t most_letters = 1'000'000;  // of one value
+
+/// A scenario of the gallery and its file.
+struct Choice {
+  std::string name, path;
+  bool own = false;
+};
+
+bool is_shipped(std::vector<std::string> const& shipped, std::string const& name) {
+  return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
+}
+
+std::string shipped_path(std::string const& name) { return (fs::path(scenario_folder()) / (name + ".toml")).string(); }
+
+std::string text_of(std::string const& path) {
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(fmt::format("can't read '{}': {}", path, std::strerror(errno == 0 ? EIO : errno)));
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Only that can be told in JSON.
+bool is_utf8(std::string const& text) {
+  try {
+    return !json(text).dump().empty();
+  } catch (json::exception const&) {
+    return false;
+  }
+}
+
+/// All files that may be scenarios; whether an own one is, is not known yet.
+std::vector<Choice> choices(std::string const& folder) {
+  auto const shipped = shipped_scenarios();
+  std::vector<Choice> all;
+  for (auto const& name : shipped) all.push_back({name, shipped_path(name), false});
+  std::error_code failure;
+  if (fs::equivalent(folder, scenario_folder(), failure)) return all;
+  std::vector<Choice> own;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
+    std::error_code ignored;
+    auto const& path = entry->path();
+    if (path.extension() != ".toml" || !entry->is_regular_file(ignored) || entry->file_size(ignored) > most_bytes ||
+        ignored)
+      continue;
+    std::string const stem = path.stem().string();
+    if (!is_utf8(stem)) continue;
+    own.push_back({is_shipped(shipped, stem) ? stem + ".toml" : stem, path.string(), true});
+  }
+  std::sort(own.begin(), own.end(), [](Choice const& a, Choice const& b) { return a.name < b.name; });
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+Choice choice(std::string const& name, std::string const& folder) {
+  auto const all = choices(folder);
+  std::vector<std::string> names;
+  for (auto const& one : all) {
+    if (one.name == name) return one;
+    names.push_back(one.name);
+  }
+  throw Error(fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, names)));
+}
+
+/// Paths and values; names come last, so that paths go by the old ones.
+ScenarioValues values_of(json const& set) {
+  if (set.is_null()) return {};
+  if (!set.is_object()) throw Error("'set' must be an object of paths and values");
+  if (set.size() > most_values) throw Error("'set' has too many values");
+  ScenarioValues values;
+  for (auto const& [path, value] : set.items()) {
+    if (!value.is_string()) throw Error(fmt::format("the value of '{}' must be a text of TOML", path));
+    auto const text = value.get<std::string>();
+    if (text.size() > most_letters) throw Error(fmt::format("the value of '{}' is too long", path));
+    if (path.empty() || path.find_first_of("= \t\r\n") == 0 || path.find('=') != std::string::npos)
+      throw Error(fmt::format("'{}' is no path of a value", path));
+    values.emplace_back(path, text);
+  }
+  std::stable_partition(values.begin(), values.end(),
+                        [](auto const& value) { return !value.first.ends_with(".name"); });
+  return values;
+}
+
+Overrides overrides_of(ScenarioValues const& values) {
+  Overrides overrides;
+  for (auto const& [path, value] : values) overrides.set.push_back(path + "=" + value);
+  return overrides;
+}
+
+/// One line of a ScenarioErrors: what is set where it is wrong, or null.
+json error_of(std::string const& line, ScenarioValues const& values) {
+  for (auto const& [path, value] : values) {
+    std::string prefix = "--set " + path + "=" + value + ": ";
+    std::replace(prefix.begin(), prefix.end(), '\n', ' ');
+    if (line.starts_with(prefix)) return {{"path", path}, {"message", line.substr(prefix.size())}};
+  }
+  return {{"path", nullptr}, {"message", line}};
+}
+
+json refusal(std::string const& error) { return {{"error", error}}; }
+
+json refusal(ScenarioErrors const& errors, ScenarioValues const& values) {
+  json list = json::array();
+  for (auto const& line : errors.lines) list.push_back(error_of(line, values));
+  std::string first = list.empty() ? errors.what() : list[0]["message"].get<std::string>();
+  if (list.size() > 1) first += fmt::format(" (and {} more)", list.size() - 1);
+  return {{"error", first}, {"errors", list}};
+}
+
+/// The answer of function(), or why there is none.
+template <class Function>
+json answer(ScenarioValues const& values, Function const& function) {
+  try {
+    return function();
+  } catch (ScenarioErrors const& errors) {
+    return refusal(errors, values);
+  } catch (std::exception const& error) {
+    return refusal(error.what());
+  }
+}
+
+json limit(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json json_of(ScenarioParameter const& parameter) {
+  return {{"path", parameter.path},        {"group", parameter.group},
+          {"name", parameter.name},        {"kind", parameter.kind},
+          {"value", parameter.value},      {"unit", parameter.unit},
+          {"units", parameter.units},      {"low", limit(parameter.low)},
+          {"high", limit(parameter.high)}, {"low_excluded", parameter.low_excluded},
+          {"words", parameter.words},      {"comment", parameter.comment}};
+}
+
+/// A name of a file, nothing that leads elsewhere.
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && name.size() <= 100 && name.front() != '.' && name.front() != '-' &&
+         name.find("..") == std::string_view::npos && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+           return c >= 0x80 || std::isalnum(c) || c == '-' || c == '_' || c == '.' || c == ' ' || c == '+' || c == ',';
+         });
+}
+
+json picture_of(std::string const& name) {
+  std::error_code failure;
+  if (!fs::is_regular_file(fs::path(gallery_folder()) / (name + ".png"), failure)) return nullptr;
+  return "/gallery/" + name + ".png";
+}
+
+/// Writes a file whole or not at all, after it has been looked at.
+template <class Check>
+void write_checked(std::string const& path, std::string const& text, bool replace, Check const& check) {
+  std::string const part = fmt::format("{}.{}.part", path, getpid());
+  struct Remove {
+    std::string const& file;
+    ~Remove() {
+      std::error_code ignored;
+      fs::remove(file, ignored);
+    }
+  } const remove{part};
+  errno = 0;
+  {
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw Error(fmt::format("can't write '{}': {}", part, std::strerror(errno == 0 ? EIO : errno)));
+  }
+  check(part);
+  // A link fails if there is a file of that name, even if it has come since we looked.
+  int const failed = replace ? std::rename(part.c_str(), path.c_str()) : link(part.c_str(), path.c_str());
+  if (failed == 0) return;
+  if (errno == EEXIST) throw Error(fmt::format("there is a file '{}' already", path));
+  throw Error(fmt::format("can't write '{}': {}", path, std::strerror(errno)));
+}
+
+}  // namespace
+
+std::string gallery_folder() {
+  fs::path root = fs::path(scenario_folder()).lexically_normal();
+  if (!root.has_filename()) root = root.parent_path();  // of "scenarios/"
+  root = root.parent_path();
+  std::error_code failure;
+  for (auto const& folder : {root / "docs" / "gallery", root / "gallery"})
+    if (fs::is_directory(folder, failure)) return folder.string();
+  return (root / "gallery").string();
+}
+
+Gallery::Gallery(std::string folder) : folder_(folder.empty() ? "." : std::move(folder)) {}
+
+json Gallery::scenarios() const {
+  json list = json::array();
+  for (auto const& one : choices(folder_)) {
+    ScenarioOutline outline;
+    try {
+      outline = outline_scenario(text_of(one.path), one.path);
+    } catch (std::exception const&) {
+      continue;  // another program's file, or not to be read
+    }
+    list.push_back({{"name", one.name},
+                    {"title", outline.title.empty() ? one.name : outline.title},
+                    {"description", outline.description},
+                    {"particles", outline.particles ? json(*outline.particles) : json(nullptr)},
+                    {"steps", outline.steps ? json(*outline.steps) : json(nullptr)},
+                    {"dimension", outline.dimension},
+                    {"picture", one.own ? json(nullptr) : picture_of(one.name)},
+                    {"own", one.own}});
+  }
+  return {{"ok", true}, {"scenarios", std::move(list)}};
+}
+
+json Gallery::scenario(std::string const& name) const {
+  return answer({}, [&]() -> json {
+    Choice const one = choice(name, folder_);
+    std::string const text = text_of(one.path);
+    auto const outline = outline_scenario(text, one.path);
+    json reply = {{"ok", true},
+                  {"name", one.name},
+                  {"title", outline.title.empty() ? one.name : outline.title},
+                  {"description", outline.description},
+                  {"text", text},
+                  {"parameters", json::array()},
+                  {"picture", one.own ? json(nullptr) : picture_of(one.name)},
+                  {"own", one.own}};
+    try {
+      auto const scenario = load_scenario(one.path);
+      for (auto const& parameter : scenario->parameters) reply["parameters"].push_back(json_of(parameter));
+    } catch (ScenarioErrors const& errors) {
+      reply["errors"] = refusal(errors, {})["errors"];
+    }
+    return reply;
+  });
+}
+
+json Gallery::check(std::string const& name, json const& set) const {
+  ScenarioValues values;
+  try {
+    values = values_of(set);
+  } catch (Error const& error) {
+    return refusal(error.what());
+  }
+  return answer(values, [&]() -> json {
+    load_scenario(choice(name, folder_).path, overrides_of(values));
+    return {{"ok", true}};
+  });
+}
+
+json Gallery::save(std::string const& name, json const& set, std::string const& as, bool replace) const {
+  json const checked = check(name, set);
+  if (!checked.contains("ok")) return checked;
+  return answer({}, [&]() -> json {
+    if (!is_plain_name(as))
+      throw Error(
+          fmt::format("'{}' is no name for a scenario; letters, digits, blanks and - _ + , . are allowed, and no "
+                      "folder",
+                      as));
+    std::string const file = as.ends_with(".toml") ? as : as + ".toml";
+    if (is_shipped(shipped_scenarios(), file.substr(0, file.size() - 5)))
+      throw Error(fmt::format("'{}' is the name of a shipped scenario; choose another one", as));
+    std::string const path = (fs::path(folder_) / file).lexically_normal().string();
+    std::error_code failure;
+    if (!replace && fs::exists(fs::symlink_status(path, failure)))
+      throw Error(fmt::format("there is a file '{}' already", path));
+    std::string const text = with_values(text_of(choice(name, folder_).path), values_of(set));
+    // Once more where it will be: it may name other files.
+    write_checked(path, text, replace, [&](std::string const& part) {
+      try {
+        load_scenario(part);
+      } catch (ScenarioErrors const& errors) {
+        std::string line = errors.lines.front();
+        if (line.starts_with(part)) line.replace(0, part.size(), path);
+        throw Error(line);
+      }
+    });
+    return {{"ok", true}, {"path", fs::absolute(path).lexically_normal().string()}};
+  });
+}
+
+std::unique_ptr<ScenarioSimulation> Gallery::load(std::string const& name, json const& set) const {
+  return load_scenario(choice(name, folder_).path, overrides_of(values_of(set)));
+}
+
+std::optional<WebFile> Gallery::picture(std::string_view path) const {
+  constexpr std::string_view prefix = "/gallery/", ending = ".png";
+  if (!path.starts_with(prefix) || !path.ends_with(ending)) return std::nullopt;
+  std::string_view const file = path.substr(prefix.size());
+  if (!is_plain_name(file) || file.size() == ending.size()) return std::nullopt;
+  std::ifstream in(fs::path(gallery_folder()) / file, std::ios::binary);
+  if (!in) return std::nullopt;
+  auto content = std::make_shared<std::string>(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  if (in.bad()) return std::nullopt;
+  return WebFile{"image/png", std::move(content)};
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,492 @@
+// The run's own thread does everything here: it steps, and between two steps it looks whether anybody wants something.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/window/address_file.hpp>
+#include <boltzmann/window/live_run.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace boltzmann {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr double frames_per_second = 60;
+constexpr double share_of_time = 0.04;     // that drawing may take from a run at full speed
+constexpr double shortest_show = 10;       // seconds that a run takes at least, unless told otherwise
+constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept for REWD
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+enum class Wish { pause, play, rewind };
+
+}  // namespace
+
+struct LiveRun::State {
+  State(Stage& the_stage, Audience& the_audience, Recording* the_recording, LiveOptions the_options)
+      : stage(the_stage),
+        audience(the_audience),
+        recording(the_recording),
+        simulation(the_stage.simulation()),
+        options(std::move(the_options)) {}
+
+  Stage& stage;
+  Audience& audience;
+  Recording* recording;
+  Simulation& simulation;
+  LiveOptions options;
+  Show* show = nullptr;
+
+  bool here = true;     // the LiveRun still is
+  bool inside = false;  // within run() or rewind() of the simulation
+  Wish wish = Wish::pause;
+  bool quit = false;
+  std::int64_t steps_left = 0;  // of STEP, backwards if negative
+  std::int64_t first = 0, target = 0, planned = 0;
+  std::int64_t steps_per_frame = 0;
+  std::optional<double> new_step_size;
+
+  std::uint64_t scene = 1, notice = 1;
+  std::string message;
+  std::exception_ptr failure;
+  json missed;
+  ShownTable table;
+
+  // The pace.
+  std::int64_t judged = std::numeric_limits<std::int64_t>::min();  // the step that `due` is about
+  bool due = false;
+  std::int64_t since_frame = 0;                  // steps
+  std::int64_t unlooked = 0, between_looks = 1;  // steps without a look at the clock
+  Clock::time_point next_frame{}, next_affordable{}, begun_frame{}, last_look{};
+  // The speed.
+  Clock::time_point counted_since{};
+  std::int64_t counted_from = 0;
+  double steps_per_second = 0;
+  // The start.
+  std::vector<Checkpoint::Rows> start;
+  bool start_kept = false;
+
+  // Called after every step, often more than once; what it says of a step holds until the next one.
+  bool look(std::int64_t step) {
+    if (!here || !inside) return false;
+    if (step == judged) return due;
+    judged = step;
+    due = decide(step);
+    if (due) begun_frame = Clock::now();
+    return due;
+  }
+
+  bool decide(std::int64_t step) {
+    if (!start_kept && step == first) return true;
+    ++since_frame;
+    if (audience.calls()) return true;
+    if (paced()) return since_frame >= steps_per_frame;
+    if (!audience.ready()) return false;
+    // The clock is read some thousand times a second, not after every step.
+    if (++unlooked < between_looks) return false;
+    auto const now = Clock::now();
+    double const took = seconds_between(last_look, now);
+    between_looks =
+        took > 1e-3 ? std::max<std::int64_t>(between_looks / 2, 1) : std::min<std::int64_t>(2 * between_looks, 1 << 20);
+    last_look = now;
+    unlooked = 0;
+    return now >= next_frame;
+  }
+
+  // A finished step that somebody looks at.
+  void observe() {
+    keep_start();
+    ++scene;
+    count();
+    audience.attend();
+    if (paced())
+      keep_pace();
+    else if (audience.present())
+      next_frame = std::max(afford(), begun_frame + period());
+    if (turned()) simulation.pause();
+  }
+
+  // STEP goes as fast as it can.
+  bool paced() const { return steps_per_frame > 0 && steps_left == 0 && audience.watched(); }
+
+  // The pace that was asked for, whether or not a browser keeps up with it. Where steps alone take longer than that,
+  // drawing is held to its share of the time.
+  void keep_pace() {
+    bool const late = begun_frame > next_frame + period();
+    if (!late || begun_frame >= next_affordable)
+      if (audience.present()) afford();
+    if (since_frame < steps_per_frame) return;
+    since_frame = 0;
+    for (auto now = Clock::now(); now < next_frame && !turned() && !simulation.stopped(); now = Clock::now()) {
+      audience.wait(std::min(seconds_between(now, next_frame), 0.1));
+      audience.attend();
+      audience.present();
+    }
+    next_frame = std::max(next_frame, Clock::now() - period()) + period();
+  }
+
+  // When the next drawing fits into its share of the time, after one that has just been done.
+  Clock::time_point afford() {
+    auto const now = Clock::now();
+    double const cost = seconds_between(begun_frame, now) * (1 / share_of_time - 1);
+    next_affordable = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(cost));
+    return next_affordable;
+  }
+
+  static Clock::duration period() {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / frames_per_second));
+  }
+
+  Wish doing = Wish::pause;  // what the present run() of the simulation does
+  bool turned() const { return quit || wish != doing || new_step_size.has_value(); }
+
+  void count() {
+    auto const now = Clock::now();
+    double const passed = seconds_between(counted_since, now);
+    if (passed < 0.5) return;
+    steps_per_second = static_cast<double>(std::abs(simulation.step() - counted_from)) / passed;
+    counted_since = now;
+    counted_from = simulation.step();
+  }
+
+  void keep_start() {
+    if (start_kept || simulation.step() != first) return;
+    start_kept = true;
+    std::size_t number = 0;
+    for (auto const* ensemble : simulation.ensembles()) number += ensemble->size();
+    if (!no_rewind().empty() || number > too_many) return;
+    for (auto const* ensemble : simulation.ensembles()) start.push_back(copy_rows(*ensemble));
+  }
+
+  std::string no_rewind() const {
+    if (!simulation.flows().empty()) return "friction and noise can't be run backwards";
+    if (!simulation.adaptations().empty()) return "particles come and go between steps, which can't be run backwards";
+    return "";
+  }
+
+  // REWD has come back to where the run began.
+  void compare_with_start() {
+    if (start.empty()) return;
+    double position = 0, velocity = 0;
+    for (std::size_t e = 0; e < start.size(); ++e) {
+      AnyEnsemble const& ensemble = *simulation.ensembles()[e];
+      Field const* const field = ensemble.find_field("velocity");
+      Box const& box = simulation.schemes().front()->box();
+      if (ensemble.size() != start[e].size) return;
+      for (std::size_t i = 0; i < ensemble.size(); ++i) {
+        double const* const now = ensemble.row(i);
+        double const* const then = start[e].rows.data() + i * start[e].stride;
+        double way2 = 0, change2 = 0;
+        for (int a = 0; a < ensemble.dimension(); ++a) {
+          double way = now[a] - then[a];
+          if (a < box.dimension() && box.periodic(a)) way -= box.length(a) * std::round(way / box.length(a));
+          way2 += way * way;
+          if (field) change2 += std::pow(now[field->offset + a] - then[field->offset + a], 2);
+        }
+        position = std::max(position, std::sqrt(way2));
+        velocity = std::max(velocity, std::sqrt(change2));
+      }
+    }
+    bool const exact = position == 0 && velocity == 0;
+    missed = {
+        {"position", position},
+        {"velocity", velocity},
+        {"text", exact ? std::string("back at the start, exactly")
+                       : fmt::format("back at the start, which is missed by up to {} in position and {} in velocity",
+                                     stage.quantity(position, dimensions::length),
+                                     stage.quantity(velocity, dimensions::velocity))}};
+    ++notice;
+  }
+
+  void tell(std::string text) {
+    message = std::move(text);
+    ++notice;
+  }
+
+  void want(Wish what) {
+    if (wish != what) ++notice;
+    wish = what;
+  }
+
+  // Runs the simulation until something else is wanted, or the end of this is reached.
+  void go(Wish what, std::uint64_t steps) {
+    doing = wish;
+    counted_since = last_look = next_frame = Clock::now();
+    counted_from = simulation.step();
+    judged = std::numeric_limits<std::int64_t>::min();
+    since_frame = 0;
+    inside = true;
+    struct Outside {
+      bool& inside;
+      ~Outside() { inside = false; }
+    } const outside{inside};
+    std::int64_t const before = simulation.step();
+    if (what == Wish::rewind)
+      simulation.rewind(steps);
+    else
+      simulation.run(steps);
+    std::int64_t const done = simulation.step() - before;
+    if (steps_left != 0) steps_left -= done;
+    ++scene;
+  }
+
+  bool over() const { return simulation.stopped() || quit; }
+
+  // One turn of the run: what is wanted now, as far as it goes.
+  void turn() {
+    if (new_step_size) {
+      double const size = *new_step_size;
+      new_step_size.reset();
+      simulation.step_size(size);
+    }
+    std::int64_t const step = simulation.step();
+    if (steps_left != 0) {
+      missed = nullptr;
+      go(steps_left < 0 ? Wish::rewind : Wish::play, static_cast<std::uint64_t>(std::abs(steps_left)));
+      arrive();
+      return;
+    }
+    if (wish == Wish::play) {
+      missed = nullptr;
+      if (step >= target) target = step + std::max<std::int64_t>(planned, 1);
+      go(Wish::play, static_cast<std::uint64_t>(target - step));
+      if (simulation.step() >= target && wish == Wish::play) want(Wish::pause);
+      return;
+    }
+    if (step > first) go(Wish::rewind, static_cast<std::uint64_t>(step - first));
+    arrive();
+    if (simulation.step() <= first && wish == Wish::rewind) want(Wish::pause);
+  }
+
+  void arrive() {
+    if (simulation.step() == first && start_kept) compare_with_start();
+  }
+
+  std::string state_word() const {
+    if (quit) return "ended";
+    if (failure) return "failed";
+    if (wish == Wish::play) return "playing";
+    if (wish == Wish::rewind) return "rewinding";
+    return simulation.step() >= target && simulation.step() > first ? "done" : "paused";
+  }
+
+  void set(json const& request) {
+    if (request.contains("step_size")) {
+      auto const& given = request["step_size"];
+      double size = 0;
+      if (given.is_number())
+        size = given.get<double>();
+      else if (given.is_string())
+        size = in_base(given.get<std::string>(), dimensions::time, stage.base());
+      else
+        throw Error("the step size is a number or a time with its unit, \"2 fs\"");
+      if (!std::isfinite(size) || !(size > 0)) throw Error(fmt::format("the step size is above 0, not {}", size));
+      for (auto* scheme : simulation.schemes())
+        if (size > 4 * scheme->longest_step())
+          throw Error(fmt::format("a step of {} is far above the longest that makes sense, {}",
+                                  stage.quantity(size, dimensions::time),
+                                  stage.quantity(scheme->longest_step(), dimensions::time)));
+      new_step_size = size;
+    }
+    if (request.contains("steps_per_frame")) {
+      double const steps = number_or(request, "steps_per_frame", 0);
+      if (!(steps >= 0) || steps > 1e9 || steps != std::floor(steps))
+        throw Error("steps_per_frame is a whole number from 0 (full speed) on");
+      steps_per_frame = static_cast<std::int64_t>(steps);
+    }
+    if (!request.contains("step_size") && !request.contains("steps_per_frame"))
+      throw Error("what can be set is step_size and steps_per_frame");
+    ++notice;
+  }
+};
+
+LiveRun::LiveRun(Stage& stage, Audience& audience, Recording* recording, LiveOptions const& options)
+    : state_(std::make_shared<State>(stage, audience, recording, options)) {
+  state_->show = this;
+  if (recording)
+    recording->on_row([weak = std::weak_ptr<State>(state_)](std::int64_t step, std::span<double const> values) {
+      auto const state = weak.lock();
+      if (!state) return;
+      std::vector<double> row{static_cast<double>(step)};
+      row.insert(row.end(), values.begin(), values.end());
+      state->table.add(row);
+    });
+  stage.simulation().observe_when([state = state_](std::int64_t step) { return state->look(step); },
+                                  [state = state_](Simulation const&) { state->observe(); });
+}
+
+LiveRun::~LiveRun() {
+  state_->here = false;
+  state_->audience.close();
+}
+
+void LiveRun::run(std::uint64_t steps) {
+  State& state = *state_;
+  state.simulation.check();
+  state.first = state.simulation.step();
+  state.planned = static_cast<std::int64_t>(steps);
+  state.target = state.first + state.planned;
+  state.steps_per_frame =
+      state.options.steps_per_frame >= 0 ? state.options.steps_per_frame
+      : state.options.play
+          ? 0
+          : std::max<std::int64_t>(
+                1, static_cast<std::int64_t>(static_cast<double>(steps) / (shortest_show * frames_per_second)));
+  if (state.options.play) state.wish = Wish::play;
+  state.audience.open(*this);
+  while (!state.over()) {
+    state.audience.attend();
+    if (state.over()) break;
+    bool const busy = !state.failure && (state.wish != Wish::pause || state.steps_left != 0 || state.new_step_size);
+    if (!busy) {
+      state.audience.present();
+      bool const finished = state.failure || state.simulation.step() >= state.target;
+      if (state.options.play && finished && state.audience.viewers() == 0) break;
+      state.audience.wait(0.1);
+      continue;
+    }
+    if (state.new_step_size && state.wish == Wish::pause && state.steps_left == 0) {
+      state.simulation.step_size(*state.new_step_size);
+      state.new_step_size.reset();
+      ++state.notice;
+      continue;
+    }
+    try {
+      state.turn();
+    } catch (PhysicsFailure const& failure) {
+      state.failure = std::current_exception();
+      state.tell(failure.what());
+      state.wish = Wish::pause;
+      state.steps_left = 0;
+      ++state.scene;
+    } catch (Error const& error) {
+      state.tell(error.what());
+      state.wish = Wish::pause;
+      state.steps_left = 0;
+    }
+  }
+  state.quit = true;
+  ++state.notice;
+  state.audience.present();
+  if (state.failure) std::rethrow_exception(state.failure);
+}
+
+json LiveRun::hello() const {
+  State const& state = *state_;
+  json result = state.stage.describe();
+  result["type"] = "hello";
+  result["kind"] = "live";
+  result["name"] = state.options.name;
+  result["description"] = state.options.description;
+  result["planned"] = state.target;
+  result["steps_per_frame"] = state.steps_per_frame;
+  result["can"] = {
+      {"rewind", state.no_rewind()},
+      {"step_size", ""},
+      {"checkpoint", state.recording ? "" : "this run is not recorded, so it has no folder for a checkpoint"},
+      {"seek", "a run that goes on has no frames to go to; bzm window DIR replays a stored one"},
+      {"quit", ""}};
+  return result;
+}
+
+json LiveRun::status() const {
+  State const& state = *state_;
+  bool const moving = state.wish != Wish::pause || state.steps_left != 0;
+  return {{"state", state.state_word()},
+          {"step", state.simulation.step()},
+          {"time", state.stage.quantity(state.simulation.time(), dimensions::time)},
+          {"time_number", state.simulation.time()},
+          {"planned", state.target},
+          {"steps_per_second", moving ? state.steps_per_second : 0.0},
+          {"steps_per_frame", state.steps_per_frame},
+          {"step_size_number", state.simulation.step_size()},
+          {"step_size", state.stage.quantity(state.simulation.step_size(), dimensions::time)},
+          {"message", state.message},
+          {"missed", state.missed}};
+}
+
+std::uint64_t LiveRun::scene() const { return state_->scene; }
+std::uint64_t LiveRun::notice() const { return state_->notice; }
+ShownTable const* LiveRun::table() const { return &state_->table; }
+
+json LiveRun::perform(json const& request) {
+  State& state = *state_;
+  std::string const what = request["do"];
+  if (what == "quit") {
+    state.quit = true;
+    ++state.notice;
+    return json::object();
+  }
+  if (what == "stop") {
+    state.steps_left = 0;
+    state.want(Wish::pause);
+    return json::object();
+  }
+  bool const moves = what == "play" || what == "step" || what == "rewind";
+  if (moves && state.failure) throw Error("the run has failed: " + state.message);
+  double const count = what == "step" ? number_or(request, "steps", 1) : 0;
+  if (what == "step" && (count == 0 || count != std::floor(count) || std::abs(count) > 1e9))
+    throw Error("step does a whole number of steps other than 0");
+  bool const back = what == "rewind" || count < 0;
+  if (back && !state.no_rewind().empty()) throw Error(state.no_rewind());
+  if (back && state.simulation.step() <= state.first) throw Error("this is where the run began");
+  if (moves && !state.message.empty()) state.tell("");
+  if (what == "play") {
+    state.steps_left = 0;
+    state.want(Wish::play);
+  } else if (what == "rewind") {
+    state.steps_left = 0;
+    state.want(Wish::rewind);
+  } else if (what == "step") {
+    state.want(Wish::pause);
+    state.steps_left = std::max(static_cast<std::int64_t>(count), state.first - state.simulation.step());
+  } else if (what == "set") {
+    state.set(request);
+  } else if (what == "checkpoint") {
+    if (!state.recording) throw Error("this run is not recorded, so it has no folder for a checkpoint");
+    return {{"path", state.recording->save_checkpoint()}};
+  } else {
+    throw Error("a live run can't '" + what +
+                "'; it takes play, step, rewind, stop, quit, set, select, views, picture "
+                "and checkpoint");
+  }
+  return json::object();
+}
+
+std::shared_ptr<Canvas const> LiveRun::draw(json const& view) {
+  return state_->stage.draw(view, state_->simulation.step(), state_->simulation.time());
+}
+
+PictureFile LiveRun::picture(json const& request) {
+  return state_->stage.picture(request, state_->simulation.step(), state_->simulation.time());
+}
+
+json LiveRun::particle(std::string const& ensemble, std::size_t number) const {
+  return state_->stage.particle(ensemble, number);
+}
+
+RunReport run_live(Stage& stage, Audience& audience, Recording* recording, std::uint64_t steps,
+                   LiveOptions const& options, bool quiet) {
+  if (recording) stage.take(*recording);
+  stage.add_usual();
+  LiveRun live(stage, audience, recording, options);
+  ProgressOptions const progress{quiet, 0, true, [&](std::uint64_t n) { live.run(n); }};
+  if (!recording) return run_with_progress(stage.simulation(), steps, progress);
+  AddressFile const address(recording->folder(), audience.address());
+  return run_with_progress(*recording, steps, progress);
+}
+
+}  // namespace boltzmann

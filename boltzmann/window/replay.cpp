@@ -1,0 +1,197 @@
+// A frame is loaded into the ensembles; then everything is drawn as if the run had just come there.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/files/csv.hpp>
+#include <boltzmann/simulation/interrupt.hpp>
+#include <boltzmann/window/replay.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace boltzmann {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr double fastest = 240;                          // frames per second
+constexpr auto between_looks = std::chrono::seconds(1);  // at the file, which may grow
+
+Clock::duration seconds(double number) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(number));
+}
+
+}  // namespace
+
+Replay::Replay(Stage& stage, Audience& audience, std::string name, std::string description)
+    : stage_(stage),
+      audience_(audience),
+      name_(std::move(name)),
+      description_(std::move(description)),
+      path_(stage.folder() + "/trajectory.h5") {
+  size_ = std::filesystem::exists(path_) ? std::filesystem::file_size(path_) : 0;
+  reader_ = std::make_unique<TrajectoryReader>(path_);
+  if (reader_->frames() == 0) throw Error("'" + path_ + "' has no frames");
+  read_table();
+  go_to(0);
+}
+
+Replay::~Replay() { audience_.close(); }
+
+void Replay::read_table() {
+  std::string const path = stage_.folder() + "/diagnoses.csv";
+  if (!std::filesystem::exists(path)) return;
+  CsvTable const stored = read_csv(path);
+  stage_.columns(stored.header);
+  ShownTable fresh;
+  fresh.number = table_.number;
+  std::size_t const rows = stored.columns.empty() ? 0 : stored.columns[0].size();
+  // Every n-th row, so that there are never more than a page can draw.
+  std::size_t const stride = rows / ShownTable::most + 1;
+  for (std::size_t r = 0; r < rows; r += stride) {
+    std::vector<double> row;
+    for (auto const& column : stored.columns) row.push_back(column[r]);
+    fresh.add(row);
+  }
+  bool const grown = fresh.values.size() >= table_.values.size() && stride == 1 &&
+                     std::equal(table_.values.begin(), table_.values.end(), fresh.values.begin());
+  if (!grown) ++fresh.number;
+  table_ = std::move(fresh);
+}
+
+void Replay::go_to(std::int64_t frame) {
+  frame_ = std::clamp<std::int64_t>(frame, 0, frames() - 1);
+  for (auto* scheme : stage_.simulation().schemes())
+    for (auto* ensemble : scheme->ensembles()) reader_->load(static_cast<std::size_t>(frame_), *ensemble);
+  ++scene_;
+}
+
+// A run that goes on in another program adds frames.
+void Replay::look_for_more() {
+  std::error_code error;
+  auto const size = std::filesystem::file_size(path_, error);
+  if (error || size == size_) return;
+  try {
+    auto longer = std::make_unique<TrajectoryReader>(path_);
+    if (longer->frames() < reader_->frames()) return;  // replaced by another run: keep what is shown
+    bool const more = longer->frames() > reader_->frames();
+    reader_ = std::move(longer);
+    size_ = size;
+    if (more) {
+      read_table();
+      ++notice_;
+    }
+  } catch (Error const&) {
+    // in the middle of a write; the next look will do
+  }
+}
+
+bool Replay::run() {
+  Interrupt const interrupt(stage_.simulation());
+  audience_.open(*this);
+  auto next_frame = Clock::now(), next_look = Clock::now() + between_looks;
+  while (!quit_ && !interrupt.seen()) {
+    audience_.attend();
+    auto const now = Clock::now();
+    if (now >= next_look) {
+      look_for_more();
+      next_look = now + between_looks;
+    }
+    if (direction_ != 0 && now >= next_frame) {
+      std::int64_t const wanted = frame_ + direction_;
+      if (wanted < 0 || wanted >= frames()) {
+        direction_ = 0;
+        ++notice_;
+      } else {
+        go_to(wanted);
+        next_frame = std::max(next_frame + seconds(1 / frames_per_second_), now);
+      }
+    }
+    audience_.present();
+    double const idle = direction_ == 0 ? 0.1 : std::chrono::duration<double>(next_frame - Clock::now()).count();
+    if (idle > 0) audience_.wait(std::min(idle, 0.1));
+    if (direction_ == 0) next_frame = Clock::now();
+  }
+  ++notice_;
+  audience_.present();
+  return interrupt.seen();
+}
+
+json Replay::hello() const {
+  json result = stage_.describe();
+  std::string const stored = "this is a stored run; bzm resume goes on with it";
+  result["type"] = "hello";
+  result["kind"] = "replay";
+  result["name"] = name_;
+  result["description"] = description_;
+  result["planned"] = reader_->steps().back();
+  result["steps_per_frame"] = frames_per_second_;
+  result["can"] = {{"rewind", ""}, {"step_size", stored}, {"checkpoint", stored}, {"seek", ""}, {"quit", ""}};
+  return result;
+}
+
+json Replay::status() const {
+  bool const end = frame_ + 1 == frames();
+  return {{"state", quit_            ? "ended"
+                    : direction_ > 0 ? "playing"
+                    : direction_ < 0 ? "rewinding"
+                    : end            ? "done"
+                                     : "paused"},
+          {"step", step()},
+          {"time", stage_.quantity(time(), dimensions::time)},
+          {"time_number", time()},
+          {"planned", reader_->steps().back()},
+          {"steps_per_second", 0},
+          {"steps_per_frame", frames_per_second_},
+          {"frame", frame_},
+          {"frames", frames()},
+          {"message", ""},
+          {"missed", nullptr}};
+}
+
+json Replay::perform(json const& request) {
+  std::string const what = request["do"];
+  if (what == "play") {
+    if (frame_ + 1 == frames()) go_to(0);
+    direction_ = 1;
+  } else if (what == "rewind") {
+    if (frame_ == 0) throw Error("this is the first frame");
+    direction_ = -1;
+  } else if (what == "stop") {
+    direction_ = 0;
+  } else if (what == "quit") {
+    quit_ = true;
+  } else if (what == "step") {
+    direction_ = 0;
+    go_to(frame_ + static_cast<std::int64_t>(std::clamp(number_or(request, "steps", 1), -1e15, 1e15)));
+  } else if (what == "seek") {
+    double const frame = number_or(request, "frame", -1);
+    if (!(frame >= 0) || frame >= static_cast<double>(frames()))
+      throw Error(fmt::format("there are frames 0 to {}", frames() - 1));
+    go_to(static_cast<std::int64_t>(frame));
+  } else if (what == "set") {
+    double const rate = number_or(request, "steps_per_frame", 0);
+    if (!request.contains("steps_per_frame"))
+      throw Error("what can be set of a stored run is its frames per second, as steps_per_frame");
+    if (!(rate > 0)) throw Error(fmt::format("a replay shows up to {} frames per second, not {}", fastest, rate));
+    frames_per_second_ = std::min(rate, fastest);
+  } else {
+    throw Error("a stored run can't '" + what +
+                "'; it takes play, step, rewind, stop, seek, quit, set, select, views and "
+                "picture");
+  }
+  ++notice_;
+  return json::object();
+}
+
+std::shared_ptr<Canvas const> Replay::draw(json const& view) { return stage_.draw(view, step(), time()); }
+PictureFile Replay::picture(json const& request) { return stage_.picture(request, step(), time()); }
+json Replay::particle(std::string const& ensemble, std::size_t number) const {
+  return stage_.particle(ensemble, number);
+}
+
+}  // namespace boltzmann

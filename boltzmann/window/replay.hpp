@@ -1,0 +1,58 @@
+// Replay: a stored run, frame by frame, forwards and backwards; also one that is still being written.
+#pragma once
+
+#include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/stage.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+class Replay final : public Show {
+ public:
+  /// Shows the frames of folder/trajectory.h5 in the ensembles of the stage, and the table of folder/diagnoses.csv.
+  /// Error if there are none.
+  Replay(Stage& stage, Audience& audience, std::string name, std::string description);
+  ~Replay() override;
+  Replay(Replay const&) = delete;
+  Replay& operator=(Replay const&) = delete;
+
+  /// Does what the audience wants until it quits, or a signal comes (then it returns true).
+  bool run();
+
+  nlohmann::json hello() const override;
+  nlohmann::json status() const override;
+  std::uint64_t scene() const override { return scene_; }
+  std::uint64_t notice() const override { return notice_; }
+  nlohmann::json perform(nlohmann::json const& request) override;
+  std::shared_ptr<Canvas const> draw(nlohmann::json const& view) override;
+  PictureFile picture(nlohmann::json const& request) override;
+  nlohmann::json particle(std::string const& ensemble, std::size_t number) const override;
+  ShownTable const* table() const override { return &table_; }
+
+ private:
+  std::int64_t frames() const { return static_cast<std::int64_t>(reader_->frames()); }
+  std::int64_t step() const { return reader_->steps()[static_cast<std::size_t>(frame_)]; }
+  double time() const { return reader_->times()[static_cast<std::size_t>(frame_)]; }
+  void go_to(std::int64_t frame);
+  void read_table();
+  void look_for_more();
+
+  Stage& stage_;
+  Audience& audience_;
+  std::string name_, description_, path_;
+  std::unique_ptr<TrajectoryReader> reader_;
+  std::uintmax_t size_ = 0;  // of the file when it was opened
+  std::int64_t frame_ = 0;
+  int direction_ = 0;  // 1: plays, -1: plays backwards
+  double frames_per_second_ = 25;
+  bool quit_ = false;
+  std::uint64_t scene_ = 1, notice_ = 1;
+  ShownTable table_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,328 @@
+// From the names that a page knows to drawings of the simulation.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/diagnoses/derived.hpp>
+#include <boltzmann/diagnoses/figure.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/window/stage.hpp>
+#include <boltzmann/window/wire.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace boltzmann {
+namespace {
+
+using nlohmann::json;
+
+std::string text_or(json const& object, char const* key, std::string otherwise) {
+  auto const found = object.find(key);
+  if (found == object.end() || found->is_null()) return otherwise;
+  if (!found->is_string()) throw Error(fmt::format("'{}' is a text", key));
+  return found->get<std::string>();
+}
+
+bool flag_or(json const& object, char const* key, bool otherwise) {
+  auto const found = object.find(key);
+  if (found == object.end() || found->is_null()) return otherwise;
+  if (!found->is_boolean()) throw Error(fmt::format("'{}' is true or false", key));
+  return found->get<bool>();
+}
+
+std::array<double, 2> range(json const& ends, char const* key) {
+  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number())
+    throw Error(fmt::format("'{}' is a range, [low, high]", key));
+  return {ends[0].get<double>(), ends[1].get<double>()};
+}
+
+// "field-energy" -> "Field energy".
+std::string first_upper(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  std::replace(text.begin(), text.end(), '-', ' ');
+  return text;
+}
+
+// What a view changes of the picture of its diagnosis.
+Picture with(Picture picture, json const& view) {
+  std::string const drawing = text_or(view, "drawing", picture.drawing);
+  if (drawing != picture.drawing) picture = Picture{.drawing = drawing};
+  picture.x = text_or(view, "x", picture.x);
+  picture.y = text_or(view, "y", picture.y);
+  std::string const colour = text_or(view, "colour", picture.colour);
+  if (colour != picture.colour)  // the ends were those of another quantity
+    picture.low = picture.high = std::numeric_limits<double>::quiet_NaN();
+  picture.colour = colour;
+  picture.size = text_or(view, "size", picture.size);
+  picture.vectors = text_or(view, "vectors", picture.vectors);
+  picture.low = number_or(view, "low", picture.low);
+  picture.high = number_or(view, "high", picture.high);
+  picture.logarithmic = flag_or(view, "logarithmic", picture.logarithmic);
+  picture.slice = text_or(view, "slice", picture.slice);
+  picture.at = number_or(view, "at", picture.at);
+  picture.cells = static_cast<int>(std::clamp(number_or(view, "cells", picture.cells), 1.0, 4000.0));
+  picture.trace = flag_or(view, "trace", false);
+  picture.projection.azimuth = number_or(view, "azimuth", picture.projection.azimuth);
+  picture.projection.elevation = number_or(view, "elevation", picture.projection.elevation);
+  picture.most = static_cast<std::size_t>(std::clamp(number_or(view, "most", 0), 0.0, 1e9));
+  picture.region.clear();
+  if (auto const found = view.find("region"); found != view.end() && found->is_array())
+    for (auto const& side : *found) picture.region.push_back(range(side, "region"));
+  return picture;
+}
+
+}  // namespace
+
+double number_or(json const& object, char const* key, double otherwise) {
+  auto const found = object.find(key);
+  if (found == object.end() || found->is_null()) return otherwise;
+  if (!found->is_number()) throw Error(fmt::format("'{}' is a number", key));
+  return found->get<double>();
+}
+
+Stage::Stage(Simulation& simulation, Base const& base, std::string title, std::string folder)
+    : simulation_(simulation), base_(base), title_(std::move(title)), folder_(std::move(folder)) {}
+
+std::vector<AnyEnsemble*> Stage::ensembles() const {
+  std::vector<AnyEnsemble*> all;
+  for (auto* scheme : simulation_.schemes())
+    for (auto* ensemble : scheme->ensembles())
+      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+  return all;
+}
+
+std::vector<std::string> Stage::column_names() const {
+  std::vector<std::string> names;
+  for (std::size_t c = 2; c < header_.size(); ++c) {
+    std::size_t const unit = header_[c].rfind(" (");
+    names.push_back(header_[c].substr(0, unit));
+  }
+  return names;
+}
+
+void Stage::install(std::string name, std::function<void(Canvas&)> draw) {
+  std::erase_if(entries_, [&](Entry const& entry) { return entry.name == name; });
+  entries_.push_back({std::move(name), {}, std::move(draw)});
+}
+
+void Stage::add(std::string name, Picture picture, Unfit unfit) {
+  for (auto const& entry : entries_)
+    if (entry.name == name) return;
+  bool const table = picture.drawing == "time-series";
+  if (table && header_.empty() && unfit == Unfit::left_out) return;
+  try {
+    check(picture, ensembles(), column_names(), sources(picture));
+  } catch (Error const&) {
+    if (unfit == Unfit::throws) throw;
+    return;
+  }
+  picture.trace = false;
+  entries_.push_back({std::move(name), std::move(picture), {}, table});
+}
+
+PictureSources Stage::sources(Picture const& picture) const {
+  PictureSources all{{}, instruments_};
+  if (picture.drawing == "mesh")
+    for (auto* scheme : simulation_.schemes())
+      for (auto const* field : scheme->mesh_fields()) all.mesh_fields.push_back(field);
+  return all;
+}
+
+void Stage::take(Recording const& recording) {
+  header_ = recording.header();
+  instruments_ = recording.instruments();
+  for (auto const& picture : recording.pictures()) {
+    std::string const stem = picture.file.substr(0, picture.file.rfind('.'));
+    std::string const what = picture.drawing == "cartesian" ? "particles" : picture.drawing;
+    add(first_upper(stem == "picture" ? what : stem), picture);
+  }
+}
+
+void Stage::add_usual() {
+  add("Particles", {.drawing = "cartesian"});
+  add("Phase space", {.drawing = "phase-space", .x = "position.x", .y = "velocity.x"});
+  add("Measured", {.drawing = "time-series"});
+  add("Histogram", {.drawing = "histogram", .x = "speed"});
+  add("Spectrum", {.drawing = "spectrum", .x = "position.x", .y = "velocity.x"});
+  add("Profile", {.drawing = "profile", .x = "position.x", .y = "density"});
+  add("Density", {.drawing = "map", .y = "density", .cells = 120});
+  add("Mesh", {.drawing = "mesh", .y = "potential"});
+}
+
+void Stage::columns(std::vector<std::string> header) { header_ = std::move(header); }
+
+json Stage::describe() const {
+  Box const& box = simulation_.schemes().front()->box();
+  json result{{"title", title_}, {"dimension", box.dimension()}, {"folder", folder_}};
+  json sides{{"low", json::array()}, {"high", json::array()}, {"boundary", json::array()}};
+  for (int a = 0; a < box.dimension(); ++a) {
+    sides["low"].push_back(box.low(a));
+    sides["high"].push_back(box.high(a));
+    sides["boundary"].push_back(to_string(box.boundary(a)));
+  }
+  result["box"] = sides;
+  auto const length = base_.display(dimensions::length), time = base_.display(dimensions::time);
+  result["length_unit"] = length.unit;
+  result["length_factor"] = length.factor;
+  result["time_unit"] = time.unit;
+  double const step = simulation_.step_size();
+  std::string const shown = quantity(step, dimensions::time);
+  result["step_size_number"] = step;
+  result["step_size"] = base_.is_reduced() ? fmt::format("{:g}", step) : shown;
+
+  json &all = result["ensembles"] = json::array(), &together = result["quantities"] = json::array();
+  std::vector<std::string> vectors, names;
+  int number = 0;
+  for (auto const* ensemble : ensembles()) {
+    json list = json::array();
+    for (auto const& meaning : quantities(*ensemble)) {
+      json one{{"name", meaning.name}, {"label", meaning.label}, {"unit", base_.display(meaning.dimension).unit}};
+      list.push_back(one);
+      if (std::find(names.begin(), names.end(), meaning.name) == names.end()) {
+        names.push_back(meaning.name);
+        together.push_back(one);
+      }
+      bool const first = meaning.name.ends_with(".x");
+      std::string const stem = meaning.name.substr(0, meaning.name.rfind('.'));
+      if (first && stem != "position" && std::find(vectors.begin(), vectors.end(), stem) == vectors.end())
+        vectors.push_back(stem);
+    }
+    auto const& own = ensemble->appearance.colour;
+    bool const given = static_cast<std::size_t>(number) < palette_.size();
+    Colour const colour = !own.empty() ? colour_named(own)
+                          : given      ? palette_[static_cast<std::size_t>(number)]
+                                       : species_colour(number);
+    all.push_back({{"name", ensemble->name()},
+                   {"class", ensemble->class_name()},
+                   {"size", ensemble->size()},
+                   {"colour", colour_text(colour)},
+                   {"quantities", std::move(list)}});
+    ++number;
+  }
+  result["vectors"] = vectors;
+  json& diagnoses = result["diagnoses"] = json::array();
+  for (auto const& entry : entries_) {
+    Picture const& p = entry.picture;
+    diagnoses.push_back({{"name", entry.name},
+                         {"drawing", entry.installed ? "installed"
+                                     : entry.table   ? "table"
+                                                     : p.drawing},
+                         {"x", p.x},
+                         {"y", p.y},
+                         {"colour", p.colour},
+                         {"size", p.size}});
+  }
+  json& columns = result["columns"] = json::array();
+  for (std::size_t c = 2; c < header_.size(); ++c) {
+    std::size_t const unit = header_[c].rfind(" (");
+    columns.push_back(
+        {{"name", header_[c].substr(0, unit)},
+         {"unit", unit == std::string::npos ? "" : header_[c].substr(unit + 2, header_[c].size() - unit - 3)}});
+  }
+  result["maps"] = colour_maps_json();
+  json& colours = result["colours"] = json::array();
+  for (int k = 0; k < 16; ++k) colours.push_back(colour_text(species_colour(k)));
+  return result;
+}
+
+Stage::Entry const& Stage::entry(std::string const& name) const {
+  std::vector<std::string> names;
+  for (auto const& entry : entries_) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
+  }
+  throw Error(fmt::format("there is no diagnosis '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+}
+
+Canvas Stage::canvas(Entry const& entry, json const& view, std::int64_t step, double time) const {
+  if (entry.installed) {
+    Canvas own;
+    own.title(entry.name);
+    entry.installed(own);
+    return own;
+  }
+  Picture picture = with(entry.picture, view);
+  picture.palette = palette_;
+  if (picture.trace && folder_.empty()) throw Error("tracks are those of the trajectory, which nobody records here");
+  check(picture, ensembles(), column_names(), sources(picture));
+  return boltzmann::draw(picture, {simulation_, base_, title_, step, time, folder_, instruments_});
+}
+
+std::shared_ptr<Canvas const> Stage::draw(json const& view, std::int64_t step, double time) const {
+  Entry const& what = entry(text_or(view, "diagnosis", ""));
+  if (what.table) return nullptr;
+  return std::make_shared<Canvas const>(canvas(what, view, step, time));
+}
+
+PictureFile Stage::picture(json const& request, std::int64_t step, double time) const {
+  if (!request.contains("view") || !request["view"].is_object()) throw Error("a picture is one of a \"view\"");
+  json const& view = request["view"];
+  std::string const format = text_or(request, "format", "png");
+  Entry const& what = entry(text_or(view, "diagnosis", ""));
+  Canvas drawn = canvas(what, view, step, time);
+  if (!drawn.projection()) {
+    Axis x = drawn.x_axis(), y = drawn.y_axis();
+    if (view.contains("x_range"))
+      x.low = range(view["x_range"], "x_range")[0], x.high = range(view["x_range"], "x_range")[1];
+    if (view.contains("y_range"))
+      y.low = range(view["y_range"], "y_range")[0], y.high = range(view["y_range"], "y_range")[1];
+    drawn.axes(x, y);
+  }
+  PictureOptions paper;
+  paper.width = static_cast<int>(std::clamp(number_or(request, "width", 1200), 16.0, 8000.0));
+  paper.height = static_cast<int>(std::clamp(number_or(request, "height", 900), 16.0, 8000.0));
+  paper.scale = std::clamp(number_or(request, "scale", 1), 0.1, 8.0);
+  paper.dark = flag_or(request, "dark", false);
+  PictureFile file;
+  file.content = picture_bytes(drawn, format, paper);
+  file.type = format == "png" ? "image/png" : format == "svg" ? "image/svg+xml" : "application/pdf";
+  std::string name = folder_.empty() ? "picture" : folder_.substr(folder_.rfind('/') + 1);
+  file.name = fmt::format("{}-{}.{}", name, step, format);
+  if (format == "png") {
+    auto const layout = layout_of(drawn, paper);
+    file.frame = {layout.left, layout.top, layout.width, layout.height};
+  }
+  return file;
+}
+
+json Stage::particle(std::string const& name, std::size_t number) const {
+  for (auto const* ensemble : ensembles()) {
+    if (ensemble->name() != name || number >= ensemble->size()) continue;
+    double const* row = ensemble->row(number);
+    json position = json::array(), fields = json::array();
+    for (int a = 0; a < ensemble->dimension(); ++a) position.push_back(row[a]);
+    double speed2 = 0;
+    Field const* velocity = ensemble->find_field("velocity");
+    for (auto const& meaning : quantities(*ensemble)) {
+      // A name is a field, with a component behind a dot where it has several.
+      std::size_t const dot = meaning.name.rfind('.');
+      Field const* field = ensemble->find_field(meaning.name.substr(0, dot));
+      if (!field) continue;
+      int component = 0;
+      if (dot != std::string::npos) {
+        std::string const letters = meaning.name.substr(dot + 1);
+        for (char const c : letters) component = component * ensemble->dimension() + (c - 'x');
+      }
+      if (component < 0 || component >= field->components) continue;
+      if (dot == std::string::npos && field->components > 1) continue;
+      double const value = row[field->offset + component];
+      if (field == velocity) speed2 += value * value;
+      fields.push_back(
+          {{"name", meaning.name}, {"label", meaning.label}, {"value", quantity(value, meaning.dimension)}});
+    }
+    if (velocity)
+      fields.push_back(
+          {{"name", "speed"}, {"label", "speed"}, {"value", quantity(std::sqrt(speed2), velocity->dimension)}});
+    return {{"ensemble", name}, {"particle", number}, {"position", position}, {"fields", fields}};
+  }
+  return nullptr;
+}
+
+std::string Stage::quantity(double number, Dimension dimension) const {
+  return quantity_text(number, dimension, base_, 5);
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,107 @@
+// The socket to the window: opens it with the token of the page's address, asks for one update at a time, opens it
+// again when it breaks.
+import { decode, type Bye, type Hello, type Message, type Reply, type Update } from "./protocol";
+
+export interface ConnectionEvents {
+  hello(hello: Hello): void;
+  update(update: Update): void;
+  bye(bye: Bye): void;
+  /** The socket is open; or it broke and is tried again in so many seconds (0: now); or a message was damaged. */
+  opened(): void;
+  broken(seconds: number, attempt: number, reason: string): void;
+  damaged(error: string): void;
+}
+
+export type Words = { do: string; [more: string]: unknown };
+
+const longest_pause = 8; // seconds
+
+export class Connection {
+  private socket: WebSocket | null = null;
+  private number = 0;
+  private waiting = new Map<number, (reply: Reply) => void>();
+  private attempt = 0;
+  private timer = 0;
+  private asked = false;
+  private over = false;
+
+  constructor(private readonly events: ConnectionEvents) {
+    this.open();
+  }
+
+  get connected(): boolean {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
+  /** Says something and waits for the answer; an error in it is the window's "no", or that there is no window. */
+  say(words: Words): Promise<Reply> {
+    const id = ++this.number;
+    if (!this.connected) return Promise.resolve({ type: "reply", id, error: "there is no connection to the window" });
+    return new Promise((resolve) => {
+      this.waiting.set(id, resolve);
+      this.socket?.send(JSON.stringify({ ...words, id }));
+    });
+  }
+
+  /** Asks for the next update; nothing if one is under way. */
+  next(rows: number, table: number): void {
+    if (this.asked || !this.connected) return;
+    this.asked = true;
+    this.socket?.send(JSON.stringify({ do: "next", rows, table }));
+  }
+
+  /** Tries now instead of after the pause. */
+  retry(): void {
+    if (!this.socket && !this.over) this.open();
+  }
+
+  private open(): void {
+    clearTimeout(this.timer);
+    this.asked = false;
+    const { protocol, host, search } = location;
+    const token = new URLSearchParams(search).get("token") ?? "";
+    const secure = protocol === "https:" ? "wss:" : "ws:";
+    const socket = new WebSocket(`${secure}//${host}/socket?token=${encodeURIComponent(token)}`);
+    this.socket = socket;
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => this.events.opened();
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => this.heard(event.data);
+    socket.onclose = ({ reason }) => this.closed(reason ?? "");
+  }
+
+  private heard(data: string | ArrayBuffer): void {
+    let message: Message;
+    try {
+      message = typeof data === "string" ? (JSON.parse(data) as Message) : decode(data);
+    } catch (error) {
+      this.asked = false;
+      this.events.damaged(String(error));
+      return;
+    }
+    this.attempt = 0;
+    switch (message.type) {
+      case "hello":
+        return this.events.hello(message);
+      case "update":
+        this.asked = false;
+        return this.events.update(message);
+      case "bye":
+        this.over = true;
+        return this.events.bye(message);
+      case "reply":
+        this.waiting.get(message.id)?.(message);
+        this.waiting.delete(message.id);
+    }
+  }
+
+  private closed(reason: string): void {
+    this.socket = null;
+    for (const [id, resolve] of this.waiting)
+      resolve({ type: "reply", id, error: "the connection to the window broke" });
+    this.waiting.clear();
+    if (this.over) return;
+    const seconds = Math.min(longest_pause, 0.5 * 2 ** this.attempt++);
+    this.timer = window.setTimeout(() => this.open(), seconds * 1000);
+    this.events.broken(seconds, this.attempt, reason);
+  }
+}

@@ -1,0 +1,285 @@
+// The page of one scenario: picture, text, its parameters as a form that is checked while one types, RUN and SAVE AS.
+import type { Words } from "../connection";
+import { h } from "../elements";
+import type { Reply } from "../protocol";
+import { facts, picture, type Entry } from "./cards";
+import { paragraphs } from "./description";
+import { Field } from "./field";
+import type { Parameter } from "./parameter";
+
+export type Say = (message: Words) => Promise<Reply>;
+
+/** The answer to {"do":"scenario"}. */
+export interface Scenario {
+  name: string;
+  title: string;
+  description: string;
+  text: string;
+  parameters: Parameter[];
+  /** Of a saved one: what is wrong with it as it stands. */
+  errors?: Trouble[];
+}
+
+/** What a user has typed into the form of a scenario: path -> text. Kept while the page is open. */
+export type Edits = Map<string, string>;
+
+interface Trouble {
+  path: string | null;
+  message: string;
+}
+
+const pause = 400; // milliseconds without typing before the window is asked
+
+/** "ensembles.atoms" as a heading; what stands in no table is of the scenario itself. */
+function heading(group: string): string {
+  return group === "" ? "title and text" : group.replace(/_/g, " ").replace(/\./g, " · ");
+}
+
+export class ScenarioPage {
+  readonly element: HTMLElement;
+  private readonly fields: Field[];
+  private readonly form = h("form", { class: "gallery-form", novalidate: true });
+  private readonly general = h("p", { class: "gallery-trouble", id: "gallery-trouble", role: "alert" });
+  private readonly state = h("p", { class: "gallery-state", id: "gallery-state", role: "status" });
+  private readonly out = h("input", { type: "text", id: "gallery-out", autocomplete: "off", spellcheck: "false", "aria-describedby": "gallery-out-hint" });
+  private readonly runButton = h("button", { type: "submit", id: "gallery-run", class: "gallery-main" }, "RUN");
+  private readonly saveButton = h("button", { type: "button", id: "gallery-save", "aria-expanded": "false", "aria-controls": "gallery-saving" }, "SAVE AS …");
+  private readonly allBack = h("button", { type: "button", id: "gallery-all-back", class: "gallery-back-to" }, "all back");
+  private timer = 0;
+  private asked = 0;
+  private errors = 0;
+  private gone = false;
+
+  constructor(
+    private readonly scenario: Scenario,
+    entry: Entry | undefined,
+    private readonly say: Say,
+    private readonly edits: Edits,
+    private readonly saved: () => void,
+  ) {
+    const { name, title, description, text, parameters } = scenario;
+    this.fields = parameters.map((parameter, number) => new Field(parameter, number, () => this.edited()));
+    for (const field of this.fields) {
+      const before = edits.get(field.parameter.path);
+      if (before !== undefined) field.restore(before);
+    }
+    this.form.append(...this.groups(), this.results());
+    this.form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.run();
+    });
+    this.allBack.addEventListener("click", () => {
+      for (const field of this.fields) field.restore(field.original);
+      this.edited();
+      this.fields[0]?.focus();
+    });
+    this.form.append(this.bar());
+    this.element = h(
+      "article",
+      { class: "gallery-scenario", "data-name": name },
+      h("a", { class: "gallery-back", href: "#" }, "‹ All scenarios"),
+      h(
+        "header",
+        {},
+        h(
+          "div",
+          {},
+          h("h1", { tabindex: -1 }, title || name),
+          h("p", { class: "gallery-facts" }, h("code", {}, name), entry?.own ? h("span", { class: "gallery-own" }, "yours") : null, entry ? facts(entry) : null),
+          h("div", { class: "gallery-text" }, ...paragraphs(description)),
+        ),
+        entry?.picture ? picture(entry) : null,
+      ),
+      parameters.length > 0 ? h("h2", {}, "Parameters") : null,
+      parameters.some(({ kind }) => kind === "quantity")
+        ? h("p", { class: "gallery-hint" }, "Write a quantity with its unit, “2 fs”; a number alone is in the scenario's own units.")
+        : null,
+      this.form,
+      h("details", { class: "gallery-toml" }, h("summary", {}, "The scenario file (TOML)"), h("pre", { tabindex: 0 }, text)),
+    );
+    if (scenario.errors) this.show({ type: "reply", id: 0, errors: scenario.errors });
+    this.tellState();
+    if (this.changed.length > 0) this.edited();
+  }
+
+  /** Nothing more is asked or shown. */
+  leave(): void {
+    this.gone = true;
+    clearTimeout(this.timer);
+  }
+
+  private get changed(): Field[] {
+    return this.fields.filter((field) => field.changed);
+  }
+  private get set(): Record<string, string> {
+    return Object.fromEntries(this.changed.map((field) => [field.parameter.path, field.toml]));
+  }
+  private get locallyWrong(): Field[] {
+    return this.fields.filter((field) => field.wrong !== "");
+  }
+
+  private groups(): HTMLElement[] {
+    const groups = new Map<string, Field[]>();
+    for (const field of this.fields) {
+      const { group } = field.parameter;
+      groups.set(group, [...(groups.get(group) ?? []), field]);
+    }
+    const shown = [...groups].sort(([a], [b]) => Number(a === "") - Number(b === "")); // title and text are last
+    return shown.map(([group, fields]) =>
+      h(
+        "fieldset",
+        { "data-group": group },
+        h("legend", {}, heading(group)),
+        h("div", { class: "gallery-fields" }, ...fields.map((field) => field.element)),
+      ),
+    );
+  }
+
+  private results(): HTMLElement {
+    return h(
+      "fieldset",
+      {},
+      h("legend", {}, "results"),
+      h(
+        "div",
+        { class: "gallery-fields" },
+        h(
+          "div",
+          { class: "gallery-field" },
+          h("div", { class: "gallery-label" }, h("label", { for: "gallery-out" }, "folder")),
+          h("div", { class: "gallery-input" }, this.out),
+          h("p", { class: "gallery-hint", id: "gallery-out-hint" }, "for pictures, tables and the trajectory; left empty: a new one in results/"),
+        ),
+      ),
+    );
+  }
+
+  private bar(): HTMLElement {
+    const name = h("input", { type: "text", id: "gallery-as", autocomplete: "off", spellcheck: "false", autocapitalize: "off", value: `my-${this.scenario.name.replace(/^my-/, "")}` });
+    const answer = h("p", { class: "gallery-answer", id: "gallery-answer", role: "status" });
+    const save = h("button", { type: "button", id: "gallery-save-now" }, "Save");
+    const replace = h("button", { type: "button", id: "gallery-replace", hidden: true }, "Replace it");
+    const saving = h(
+      "div",
+      { id: "gallery-saving", class: "gallery-saving", hidden: true },
+      h("label", { for: "gallery-as" }, "Name"),
+      h("span", { class: "gallery-file" }, name, h("span", { "aria-hidden": "true" }, ".toml")),
+      save,
+      replace,
+      answer,
+    );
+    const store = async (over: boolean) => {
+      replace.hidden = true;
+      answer.className = "gallery-answer";
+      answer.textContent = "";
+      if (name.value.trim() === "") {
+        answer.className = "gallery-answer gallery-trouble";
+        answer.textContent = "a name is needed";
+        return name.focus();
+      }
+      const reply = await this.say({ do: "save", name: this.scenario.name, set: this.set, as: name.value.trim(), ...(over ? { replace: true } : {}) });
+      if (reply.error) {
+        answer.className = "gallery-answer gallery-trouble";
+        answer.textContent = reply.error;
+        this.show(reply);
+        replace.hidden = over || !/\balready\b/.test(reply.error); // "there is a file '…' already"
+        if (!replace.hidden) replace.focus();
+        return;
+      }
+      answer.textContent = `Saved: ${String(reply.path)}`;
+      this.saved();
+    };
+    const open = (wanted: boolean) => {
+      saving.hidden = !wanted;
+      this.saveButton.setAttribute("aria-expanded", String(wanted));
+      if (wanted) name.select();
+      else this.saveButton.focus();
+    };
+    this.saveButton.addEventListener("click", () => open(saving.hidden));
+    save.addEventListener("click", () => void store(false));
+    replace.addEventListener("click", () => void store(true));
+    name.addEventListener("input", () => (replace.hidden = true));
+    saving.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") {
+        event.stopPropagation();
+        open(false);
+      } else if (event.key === "Enter" && event.target === name) {
+        event.preventDefault(); // it would RUN
+        void store(false);
+      }
+    });
+    return h(
+      "div",
+      { class: "gallery-bar" },
+      this.general,
+      saving,
+      h(
+        "div",
+        { class: "gallery-buttons" },
+        this.runButton,
+        this.saveButton,
+        this.state,
+        this.allBack,
+      ),
+    );
+  }
+
+  private edited(): void {
+    this.edits.clear();
+    for (const field of this.changed) this.edits.set(field.parameter.path, field.text);
+    clearTimeout(this.timer);
+    ++this.asked; // an answer that is under way is of something else
+    this.element.dataset.checked = "waiting";
+    this.timer = window.setTimeout(() => void this.check(), pause);
+    this.tellState();
+  }
+
+  private async check(): Promise<void> {
+    if (this.locallyWrong.length > 0) {
+      this.element.dataset.checked = "errors";
+      return;
+    }
+    const number = ++this.asked;
+    this.state.textContent = "checking …";
+    const reply = await this.say({ do: "check", name: this.scenario.name, set: this.set });
+    if (this.gone || number !== this.asked) return;
+    this.show(reply);
+    this.element.dataset.checked = reply.error ? "errors" : "ok";
+    this.tellState();
+  }
+
+  /** Puts the errors of an answer where they belong. */
+  private show(reply: Reply): void {
+    const list = (Array.isArray(reply.errors) ? reply.errors : []) as Trouble[];
+    const elsewhere: string[] = [];
+    for (const field of this.fields)
+      field.tell(list.filter(({ path }) => path === field.parameter.path).map(({ message }) => message).join("; "));
+    for (const { path, message } of list)
+      if (!this.fields.some((field) => field.parameter.path === path)) elsewhere.push(path ? `${path}: ${message}` : message);
+    if (reply.error && list.length === 0) elsewhere.push(reply.error);
+    this.general.textContent = elsewhere.join("\n");
+    this.errors = list.length + (reply.error && list.length === 0 ? 1 : 0);
+  }
+
+  private tellState(): void {
+    const changed = this.changed.length;
+    const wrong = this.locallyWrong.length || this.errors;
+    const changes = changed === 0 ? "as it stands in the file" : `${changed} changed`;
+    this.state.textContent = wrong > 0 ? `${changes}, ${wrong === 1 ? "one error" : `${wrong} errors`}` : changes;
+    this.allBack.hidden = changed === 0;
+  }
+
+  private async run(): Promise<void> {
+    clearTimeout(this.timer);
+    const first = this.locallyWrong[0];
+    if (first) return first.focus();
+    this.runButton.disabled = true;
+    this.state.textContent = "starting …";
+    const reply = await this.say({ do: "run", name: this.scenario.name, set: this.set, out: this.out.value.trim() });
+    if (this.gone) return;
+    this.runButton.disabled = false;
+    this.show(reply);
+    this.tellState();
+    if (reply.error) this.fields.find((field) => field.troubled)?.focus();
+  }
+}

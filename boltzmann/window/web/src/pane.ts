@@ -1,0 +1,331 @@
+// One pane: a diagnosis, what the user changed of it, and the painter or the plot that shows it.
+import { h, iconButton } from "./elements";
+import { Painter } from "./paint/painter";
+import { TablePlot } from "./plot";
+import type { Canvas, Update, View } from "./protocol";
+import { Recorder } from "./recorder";
+import type { Session } from "./session";
+
+/** What the user can change of a diagnosis. */
+export type ViewChanges = Omit<View, "id" | "diagnosis" | "most" | "region" | "azimuth" | "elevation">;
+
+/** What a pane tells the ones around it. */
+export interface PaneEvents {
+  /** What the window should send for it is another now. */
+  changed(): void;
+  activated(pane: Pane): void;
+  closed(pane: Pane): void;
+  saved(pane: Pane): void;
+}
+
+const slow = 80; // milliseconds of a paint, three times in a row
+const quick = 12; // milliseconds of a paint, a hundred times in a row
+const pause = 150; // milliseconds without a move before another part is asked for
+
+export class Pane {
+  readonly element: HTMLElement;
+  readonly chooser: HTMLSelectElement;
+  canvas: Canvas | null = null;
+  changes: ViewChanges = {};
+  painter: Painter | null = null;
+  plot: TablePlot | null = null;
+  readonly recorder = new Recorder(() => this.marked());
+  private readonly board = h("div", { class: "board" });
+  private readonly fault = h("p", { class: "fault", role: "alert", hidden: true });
+  private readonly count = h("span", { class: "count" });
+  private readonly recording: HTMLButtonElement;
+  private readonly close: HTMLButtonElement;
+  private region: [number, number][] | undefined;
+  private frames = 0;
+  private fresh = false;
+  private slowPaints = 0;
+  private quickPaints = 0;
+  private moveTimer = 0;
+  private selectedAt: number[] | null = null;
+  private held = "";
+
+  constructor(
+    private readonly session: Session,
+    readonly id: number,
+    public diagnosis: string,
+    private readonly events: PaneEvents,
+  ) {
+    this.chooser = h("select", {
+      id: `pane-${id}-chooser`,
+      "aria-label": `diagnosis of pane ${id}`,
+      change: () => this.show(this.chooser.value),
+    });
+    this.recording = iconButton("record", "record a movie of this pane", () => this.record(), {
+      class: "small record",
+    });
+    this.close = iconButton("close", "take this pane away", () => events.closed(this), { class: "small close" });
+    this.element = h(
+      "section",
+      {
+        class: "pane",
+        "data-view": id,
+        pointerdown: () => events.activated(this),
+        focusin: () => events.activated(this),
+      },
+      h(
+        "header",
+        {},
+        h("span", { class: "number", "aria-hidden": "true" }, String(id)),
+        this.chooser,
+        this.count,
+        h("span", { class: "space" }),
+        iconButton("whole", "the whole view", () => this.reset(), { class: "small whole" }),
+        iconButton("save", "save a picture", () => events.saved(this), { class: "small save" }),
+        this.recording,
+        this.close,
+      ),
+      this.board,
+      this.fault,
+    );
+    this.greet();
+  }
+
+  /** The window says what there is to show. */
+  greet(): void {
+    const names = this.session.hello?.diagnoses.map(({ name }) => name) ?? [];
+    this.chooser.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
+    if (!names.includes(this.diagnosis)) {
+      this.diagnosis = names[0] ?? "";
+      this.changes = {};
+    }
+    this.plot?.dispose();
+    this.plot = null;
+    this.build();
+  }
+
+  get drawing(): string {
+    return this.session.hello?.diagnoses.find(({ name }) => name === this.diagnosis)?.drawing ?? "";
+  }
+
+  /** The one canvas that has everything of the pane on it. */
+  get picture(): HTMLCanvasElement | null {
+    return this.painter?.element ?? this.plot?.element ?? null;
+  }
+
+  /** Another diagnosis. */
+  show(diagnosis: string): void {
+    this.diagnosis = diagnosis;
+    this.changes = {};
+    this.region = undefined;
+    this.canvas = null;
+    this.build();
+    this.painter?.reset();
+    this.events.changed();
+  }
+
+  /** Changes something of the diagnosis; undefined: as the diagnosis has it. */
+  change(changes: ViewChanges): void {
+    const other = "colour" in changes || "y" in changes; // the ends were those of another quantity
+    this.changes = { ...this.changes, ...(other ? { low: undefined, high: undefined } : {}), ...changes };
+    this.plot?.logarithmic(this.changes.logarithmic ?? false);
+    this.events.changed();
+  }
+
+  /** What the window should send. */
+  view(): View {
+    const view: View = { id: this.id, diagnosis: this.diagnosis, ...this.changes, most: this.most };
+    if (this.region) view.region = this.region;
+    return view;
+  }
+
+  /** The same as it is looked at now, with all particles: for a picture. */
+  viewAsSeen(): View {
+    const view: View = { id: this.id, diagnosis: this.diagnosis, ...this.changes };
+    const seen = this.painter?.ranges();
+    if (seen?.azimuth !== undefined) view.azimuth = seen.azimuth;
+    if (seen?.elevation !== undefined) view.elevation = seen.elevation;
+    if (seen?.zoomed) {
+      view.x_range = seen.right ?? seen.x;
+      view.y_range = seen.up ?? seen.y;
+    }
+    return view;
+  }
+
+  reset(): void {
+    this.painter?.reset();
+    this.plot?.reset();
+    this.moved();
+  }
+
+  /** Tracks, following and colours of the page as chosen now. */
+  choose(): void {
+    this.painter?.theme(this.session.dark ? "dark" : "light");
+    this.painter?.track(this.session.tracking);
+    this.plot?.theme();
+    this.hold();
+  }
+
+  update(update: Update): void {
+    if (this.plot && update.table) this.plot.show();
+    const mine = update.views.find(({ id }) => id === this.id);
+    if (mine && !this.plot) {
+      this.fault.hidden = mine.error === undefined;
+      this.fault.textContent = mine.error ?? "";
+      // A picture of another diagnosis would stand over the fault.
+      this.board.classList.toggle("blank", mine.error !== undefined && this.canvas === null);
+      if (mine.canvas) {
+        this.canvas = mine.canvas;
+        this.fresh = true;
+        this.painter?.show(mine.canvas);
+      }
+    }
+    this.find(update);
+  }
+
+  /** Which of the panes this is. */
+  stand(active: boolean, alone: boolean): void {
+    this.element.classList.toggle("active", active && !alone);
+    this.close.hidden = alone;
+  }
+
+  focus(): void {
+    (this.board.querySelector<HTMLElement>("[tabindex='0']") ?? this.chooser).focus();
+  }
+
+  record(): void {
+    if (this.recorder.running) return this.recorder.stop();
+    const fault = this.recorder.start(this.picture, `${this.fileName()}.webm`);
+    if (fault) this.session.notices.set("reply", fault, "warning");
+  }
+
+  /** What a file of this pane is called, without its ending. */
+  fileName(): string {
+    const { hello, update } = this.session;
+    const plain = (text: string) =>
+      text
+        .toLowerCase()
+        .replace(/[^a-z0-9]+/g, "-")
+        .replace(/^-|-$/g, "");
+    return [plain(hello?.name ?? ""), plain(this.diagnosis), `step-${update?.step ?? 0}`].filter(Boolean).join("-");
+  }
+
+  dispose(): void {
+    clearTimeout(this.moveTimer);
+    this.recorder.stop();
+    this.painter?.dispose();
+    this.plot?.dispose();
+    this.element.remove();
+  }
+
+  private get most(): number {
+    return this.session.most || this.session.paintable;
+  }
+
+  private build(): void {
+    const { hello, session } = this;
+    this.chooser.value = this.diagnosis;
+    this.board.classList.remove("blank");
+    this.element.dataset.diagnosis = this.diagnosis;
+    this.element.dataset.drawing = this.drawing;
+    this.element.setAttribute("aria-label", `pane ${this.id}: ${this.diagnosis}`);
+    this.fault.hidden = true;
+    if (!hello) return;
+    const table = this.drawing === "table";
+    if (table ? this.painter : this.plot) {
+      this.recorder.stop();
+      this.painter?.dispose();
+      this.plot?.dispose();
+      this.painter = this.plot = null;
+      this.board.replaceChildren();
+    }
+    if (table && !this.plot) {
+      const chosen = hello.diagnoses.find(({ name }) => name === this.diagnosis)?.y ?? "";
+      this.plot = new TablePlot(this.board, hello, session.rows, {
+        chosen,
+        logarithmic: this.changes.logarithmic ?? false,
+      });
+      this.plot.onpaint = () => this.counted(session.rows.count, "row", "rows");
+      this.plot.show();
+    }
+    if (!table && !this.painter) {
+      this.held = "";
+      this.painter = new Painter(this.board, { maps: hello.maps, theme: session.dark ? "dark" : "light" });
+      this.painter.onview = () => this.moved();
+      this.painter.onpaint = () => this.painted();
+      this.painter.onpick = (hit) => void session.command(hit ? { do: "select", ...hit } : { do: "select" });
+      this.painter.track(session.tracking);
+    }
+  }
+
+  private get hello() {
+    return this.session.hello;
+  }
+
+  private painted(): void {
+    if (!this.fresh) return; // only turned or marked
+    this.fresh = false;
+    const { points, milliseconds } = this.painter?.drawn ?? { points: 0, milliseconds: 0 };
+    this.counted(points, "point", "points");
+    this.element.dataset.milliseconds = String(Math.round(milliseconds));
+    this.slowPaints = milliseconds > slow ? this.slowPaints + 1 : 0;
+    this.quickPaints = milliseconds < quick ? this.quickPaints + 1 : 0;
+    const thinned = this.canvas?.marks.some((mark) => mark.kind === "cloud" && mark.stride > 1);
+    if (this.slowPaints === 3) this.session.slower(points);
+    else if (this.quickPaints === 100 && thinned) this.session.faster();
+    else return;
+    this.slowPaints = this.quickPaints = 0;
+  }
+
+  private counted(number: number, one: string, many: string): void {
+    this.element.dataset.points = String(number);
+    this.element.dataset.frames = String(++this.frames);
+    this.count.textContent = number === 0 ? "" : `${number.toLocaleString("en-US")} ${number === 1 ? one : many}`;
+  }
+
+  /** The user has turned, moved or zoomed: soon ask for what is visible, if not all of it is here. */
+  private moved(): void {
+    clearTimeout(this.moveTimer);
+    this.moveTimer = window.setTimeout(() => {
+      const region = this.visible();
+      if (JSON.stringify(region) === JSON.stringify(this.region)) return;
+      this.region = region;
+      this.events.changed();
+    }, pause);
+  }
+
+  /** What is seen and a quarter around it; nothing where everything is sent anyway. */
+  private visible(): [number, number][] | undefined {
+    const all = this.hello?.ensembles.reduce((sum, { size }) => sum + size, 0) ?? 0;
+    const seen = this.painter?.ranges();
+    const follows = this.session.following; // what is seen moves with each frame
+    if (!seen?.zoomed || follows || all <= this.most || !this.canvas?.marks.some(({ kind }) => kind === "cloud"))
+      return undefined;
+    const axes = seen.z ? [seen.x, seen.y, seen.z] : [seen.x, seen.y];
+    return axes.map(([low, high]) => [low - (high - low) / 4, high + (high - low) / 4]);
+  }
+
+  /** Where the selected particle is in this pane's drawing. */
+  private find({ selected }: Update): void {
+    let place: number[] | null = null;
+    for (const mark of (selected && this.canvas?.marks) || []) {
+      if (mark.kind !== "cloud" || mark.ensemble !== selected?.ensemble) continue;
+      const here = mark.numbers ? mark.numbers.indexOf(selected.particle) : selected.particle / mark.stride;
+      if (!Number.isInteger(here) || here < 0 || here >= mark.count) continue;
+      place = Array.from({ length: mark.dimension }, (_, axis) => {
+        return mark.origin[axis] + mark.scale[axis] * mark.positions[here * mark.dimension + axis];
+      });
+    }
+    if (!place && selected && this.drawing === "cartesian") place = selected.position.slice(0, this.hello?.dimension);
+    this.selectedAt = place;
+    this.hold();
+  }
+
+  private hold(): void {
+    const held = JSON.stringify([this.selectedAt, this.session.following]);
+    if (held === this.held && !this.selectedAt) return;
+    this.held = held;
+    this.painter?.mark(this.selectedAt);
+    this.painter?.follow(this.session.following ? this.selectedAt : null);
+  }
+
+  private marked(): void {
+    this.recording.setAttribute("aria-pressed", String(this.recorder.running));
+    this.recording.title = this.recorder.running ? "end the movie and save it" : "record a movie of this pane";
+    this.element.classList.toggle("recording", this.recorder.running);
+  }
+}

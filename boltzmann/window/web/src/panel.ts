@@ -1,0 +1,547 @@
+// POPUP: the panel with what is shown and how, the steps, tracks, saving, and DONE.
+import type { Actions } from "./actions";
+import { download, fill, h, icon, iconButton, type Child } from "./elements";
+import type { Pane, ViewChanges } from "./pane";
+import { most_panes, type Panes } from "./panes";
+import { written } from "./plot";
+import type { View } from "./protocol";
+import { choice, type PictureChoice } from "./saving";
+import type { Session, Theme } from "./session";
+
+type Key = keyof ViewChanges;
+
+/** What can be changed of each drawing, in this order. */
+export const changeable: Record<string, Key[]> = {
+  cartesian: ["colour", "size", "vectors", "low", "high", "trace"],
+  "phase-space": ["x", "y", "colour", "size", "low", "high", "trace"],
+  histogram: ["x", "cells", "logarithmic"],
+  profile: ["x", "y", "cells", "low", "high", "logarithmic"],
+  spectrum: ["x", "y"],
+  "wave-spectrum": ["y"],
+  "time-series": ["y", "logarithmic"],
+  mesh: ["y", "slice", "at", "low", "high"],
+  map: ["y", "slice", "at", "low", "high", "cells"],
+  contours: ["y", "slice", "at", "low", "high", "cells"],
+  bands: ["y", "slice", "at", "low", "high", "cells"],
+  table: ["logarithmic"],
+};
+
+/** Steps per frame on the slider. */
+const paces = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+const speeds = [1, 2, 5, 10, 15, 20, 30, 60];
+
+/** A label and its control in one line; what is wrong with it below. */
+function line(words: string, control: HTMLElement, ...more: Child[]): HTMLElement {
+  return h(
+    "div",
+    { class: "line" },
+    h("label", { for: control.id }, words),
+    h("div", { class: "control" }, control, ...more),
+  );
+}
+
+function options(all: [value: string, words: string][], chosen: string): HTMLOptionElement[] {
+  const known = all.some(([value]) => value === chosen) ? all : [...all, [chosen, chosen] as [string, string]];
+  return known.map(([value, words]) => h("option", { value, selected: value === chosen }, words));
+}
+
+function select(
+  id: string,
+  all: [string, string][],
+  chosen: string,
+  change: (value: string) => void,
+): HTMLSelectElement {
+  const element = h("select", { id, change: () => change(element.value) }, ...options(all, chosen));
+  return element;
+}
+
+function check(id: string, words: string, on: boolean, change: (on: boolean) => void): HTMLElement {
+  const box = h("input", { type: "checkbox", id, change: () => change(box.checked) });
+  box.checked = on;
+  return h("label", { class: "check", for: id }, box, h("span", {}, words));
+}
+
+function input(
+  id: string,
+  value: string,
+  change: (value: string) => void,
+  more: Record<string, string | number> = {},
+): HTMLInputElement {
+  const element = h("input", {
+    type: "text",
+    id,
+    value,
+    autocomplete: "off",
+    spellcheck: "false",
+    ...more,
+    change: () => {
+      element.defaultValue = element.value; // no longer being typed
+      change(element.value.trim());
+    },
+  });
+  return element;
+}
+
+export class Panel {
+  readonly element = h("aside", { id: "panel", "aria-label": "panel", tabindex: -1, hidden: true });
+  private readonly shown = h("section", {});
+  private readonly view = h("section", {});
+  private readonly steps = h("section", {});
+  private readonly particle = h("section", {});
+  private readonly saving = h("section", {});
+  private readonly page = h("section", {});
+  private opener: Element | null = null;
+  private readonly ends = new Map<"low" | "high", HTMLInputElement>();
+
+  constructor(
+    private readonly session: Session,
+    private readonly panes: Panes,
+    private readonly actions: () => Actions,
+  ) {
+    this.element.append(
+      h("h2", { class: "unseen" }, "Panel"),
+      h("div", { class: "scroll" }, this.shown, this.view, this.steps, this.particle, this.saving, this.page),
+      h("footer", {}, h("button", { type: "button", id: "done", class: "primary", click: () => this.close() }, "Done")),
+    );
+    panes.onchange(() => this.refresh());
+    session.on("hello", () => this.refresh());
+    session.on("choice", () => this.refresh());
+    session.on("update", () => this.follow());
+  }
+
+  toggle(): void {
+    if (!this.element.hidden) return void this.close();
+    this.opener = document.activeElement;
+    this.element.hidden = false;
+    document.body.classList.add("with-panel");
+    this.refresh();
+    this.element.focus({ preventScroll: true }); // Tab goes on to its first control; keys still work
+  }
+
+  /** False if it was not open. */
+  close(): boolean {
+    if (this.element.hidden) return false;
+    const inside = this.element.contains(document.activeElement);
+    this.element.hidden = true;
+    document.body.classList.remove("with-panel");
+    if (inside && this.opener instanceof HTMLElement) this.opener.focus();
+    return true;
+  }
+
+  /** Builds the sections anew; who had the keyboard keeps it. */
+  private refresh(): void {
+    if (this.element.hidden || this.panes.list.length === 0) return;
+    const had = document.activeElement;
+    const typed =
+      had instanceof HTMLInputElement && had.type === "text" && had.value !== had.defaultValue ? had.value : null;
+    this.fillShown();
+    this.fillView();
+    this.fillSteps();
+    this.fillParticle();
+    this.fillSaving();
+    this.fillPage();
+    this.follow();
+    const now = had?.id ? document.getElementById(had.id) : null;
+    if (!now || now === had || !this.element.contains(now)) return;
+    now.focus({ preventScroll: true });
+    if (typed !== null && now instanceof HTMLInputElement) now.value = typed;
+  }
+
+  private fillShown(): void {
+    const names = this.session.hello?.diagnoses.map(({ name }) => [name, name] as [string, string]) ?? [];
+    const alone = this.panes.list.length === 1;
+    fill(
+      this.shown,
+      h("h3", {}, "Diagnoses"),
+      ...this.panes.list.map((pane) =>
+        h(
+          "div",
+          { class: `line pane-line${pane === this.panes.active ? " active" : ""}` },
+          h(
+            "button",
+            {
+              type: "button",
+              class: "number",
+              id: `pane-${pane.id}-active`,
+              "aria-pressed": String(pane === this.panes.active),
+              "aria-label": `pane ${pane.id}: what is below is about it`,
+              click: () => this.panes.activate(pane),
+            },
+            String(pane.id),
+          ),
+          select(`pane-${pane.id}-diagnosis`, names, pane.diagnosis, (name) => {
+            this.panes.activate(pane);
+            pane.show(name);
+          }),
+          alone
+            ? null
+            : iconButton("close", `take pane ${pane.id} away`, () => this.panes.remove(pane), {
+                id: `pane-${pane.id}-remove`,
+              }),
+        ),
+      ),
+      this.panes.list.length < most_panes &&
+        h(
+          "button",
+          { type: "button", id: "add-pane", class: "quiet", click: () => this.panes.add() },
+          icon("add"),
+          "Add a pane",
+        ),
+    );
+    this.shown
+      .querySelectorAll("select")
+      .forEach((element, k) => element.setAttribute("aria-label", `diagnosis of pane ${this.panes.list[k].id}`));
+  }
+
+  private fillView(): void {
+    const pane = this.panes.active;
+    const keys = changeable[pane.drawing] ?? [];
+    this.ends.clear();
+    fill(
+      this.view,
+      h("h3", {}, this.panes.list.length > 1 ? `${pane.diagnosis} (pane ${pane.id})` : pane.diagnosis),
+      ...keys.map((key) => this.control(pane, key)),
+      pane.drawing === "installed" &&
+        h("p", { class: "quiet" }, "Drawn by a function of the program: nothing of it can be changed here."),
+      pane.plot !== null &&
+        h("button", { type: "button", id: "csv", click: () => this.csv(pane) }, icon("save"), "Save the table as CSV"),
+      h(
+        "button",
+        { type: "button", id: "whole", class: "quiet", click: () => pane.reset() },
+        icon("whole"),
+        "Whole view",
+      ),
+    );
+  }
+
+  private control(pane: Pane, key: Key): Child {
+    const { hello } = this.session;
+    if (!hello) return null;
+    const asked = hello.diagnoses.find(({ name }) => name === pane.diagnosis) as Partial<View> | undefined;
+    const now = pane.changes[key] ?? asked?.[key];
+    const text = now === undefined || now === null ? "" : String(now);
+    const quantities = hello.quantities.map(({ name, label }) => [name, label || name] as [string, string]);
+    const places = ["x", "y", "z"]
+      .slice(0, hello.dimension)
+      .map((axis) => [`position.${axis}`, axis] as [string, string]);
+    const id = `view-${key}`;
+    const set = (value: View[Key]) => pane.change({ [key]: value });
+    switch (key) {
+      case "colour":
+        return line("Colour", select(id, [["", "by ensemble"], ...quantities], text, set));
+      case "size":
+        return line("Size", select(id, [["", "the ensemble's"], ...quantities], text, set));
+      case "vectors": {
+        if (hello.vectors.length === 0) return null;
+        return line(
+          "Arrows",
+          select(id, [["", "none"], ...hello.vectors.map((name) => [name, name] as [string, string])], text, set),
+        );
+      }
+      case "x": {
+        if (pane.drawing === "profile" || pane.drawing === "spectrum") {
+          const time: [string, string][] = pane.drawing === "spectrum" ? [["time", "time"]] : [];
+          return line(
+            pane.drawing === "profile" ? "Along" : "Across",
+            select(id, [...places, ...time], text || "position.x", set),
+          );
+        }
+        return line("x", select(id, quantities, text, set));
+      }
+      case "y": {
+        if (pane.drawing === "phase-space") return line("y", select(id, quantities, text, set));
+        const free = input(id, text, set, { list: `${id}-words` });
+        const words =
+          pane.drawing === "time-series" ? hello.columns.map(({ name }) => name) : this.words(pane.drawing, text);
+        return line(
+          "Shows",
+          free,
+          h("datalist", { id: `${id}-words` }, ...words.map((value) => h("option", { value }))),
+        );
+      }
+      case "low": {
+        const unit = this.scale(pane).unit;
+        const row = line(
+          pane.canvas?.bars.length ? "Colours" : "Values",
+          this.end(pane, "low"),
+          "to",
+          this.end(pane, "high"),
+        );
+        row.append(h("p", { class: "quiet under" }, unit ? `in ${unit}; empty: automatic` : "empty: automatic"));
+        return row;
+      }
+      case "high":
+        return null; // stands beside the lowest
+      case "slice":
+        if (hello.dimension < 3) return null;
+        return line("Slice across", select(id, [["x", "x"], ["y", "y"], ["z", "z"]], text || "z", set)); // prettier-ignore
+      case "at": {
+        if (hello.dimension < 3) return null;
+        const shown = text && String(Number(text) * hello.length_factor);
+        const field = input(
+          id,
+          shown,
+          (value) => this.number(field, value, (number) => set(number === null ? null : number / hello.length_factor)),
+          {
+            placeholder: "the middle",
+            inputmode: "decimal",
+          },
+        );
+        return line("at", field, h("span", { class: "unit" }, hello.length_unit));
+      }
+      case "cells": {
+        const field = input(
+          id,
+          text,
+          (value) => this.number(field, value, (number) => set(number === null ? undefined : Math.round(number))),
+          {
+            placeholder: "automatic",
+            inputmode: "numeric",
+          },
+        );
+        return line(pane.drawing === "histogram" || pane.drawing === "profile" ? "Bins" : "Cells", field);
+      }
+      case "logarithmic":
+        return check(
+          id,
+          pane.drawing === "histogram" || pane.drawing === "profile" ? "Logarithmic heights" : "Logarithmic values",
+          now === true,
+          set,
+        );
+      case "trace":
+        return hello.folder ? check(id, "Tracks through the stored frames", now === true, set) : null;
+      default:
+        return null;
+    }
+  }
+
+  /** Words that may be meant where any can be written. */
+  private words(drawing: string, text: string): string[] {
+    const names = this.session.hello?.quantities.map(({ name }) => name) ?? [];
+    const known: Record<string, string[]> = {
+      mesh: ["density", "potential", "field.x", "field.y", "field.z"],
+      profile: ["density", "temperature", ...names],
+      spectrum: [...names, ...(this.session.hello?.columns.map(({ name }) => name) ?? [])],
+    };
+    return [...new Set([text, ...(known[drawing] ?? ["density", ...names])])].filter(Boolean);
+  }
+
+  /** In what unit the ends of the colours, or of the values, are told. */
+  private scale(pane: Pane): { unit: string; factor: number; low: number; high: number } {
+    const { bars, y } = pane.canvas ?? {};
+    return bars?.[0] ?? y ?? { unit: "", factor: 1, low: NaN, high: NaN };
+  }
+
+  /** The value at an end of the colours, or of the axis of values. */
+  private end(pane: Pane, key: "low" | "high"): HTMLInputElement {
+    const now = pane.changes[key];
+    const shown = typeof now === "number" ? String(Number((now * this.scale(pane).factor).toPrecision(6))) : "";
+    const take = (number: number | null) =>
+      pane.change({ [key]: number === null ? null : number / this.scale(pane).factor });
+    const field = input(`view-${key}`, shown, (value) => this.number(field, value, take), {
+      inputmode: "decimal",
+      "aria-label": key === "low" ? "lowest value" : "highest value",
+    });
+    this.ends.set(key, field);
+    return field;
+  }
+
+  /** Takes a number (empty: null), or marks the field as wrong. */
+  private number(field: HTMLInputElement, value: string, take: (value: number | null) => void): void {
+    const number = value === "" ? null : Number(value.replace("−", "-").replace(",", "."));
+    const wrong = number !== null && !Number.isFinite(number);
+    this.fault(field, wrong ? "a number, or nothing for automatic" : "");
+    if (!wrong) take(number);
+  }
+
+  private fault(field: HTMLElement, text: string): void {
+    const control = field.closest(".line");
+    control?.querySelector(".fault")?.remove();
+    field.toggleAttribute("aria-invalid", text !== "");
+    if (text) control?.append(h("p", { class: "fault", role: "alert" }, text));
+  }
+
+  private fillSteps(): void {
+    const { hello } = this.session;
+    if (!hello) return;
+    const replay = hello.kind === "replay";
+    const size = input(
+      "step-size",
+      hello.step_size.replace(/ \(.*\)$/, ""),
+      (value) => void this.set(size, { step_size: value }),
+      {
+        "aria-describedby": "step-size-now",
+      },
+    );
+    if (hello.can.step_size) {
+      size.disabled = true;
+      size.title = hello.can.step_size;
+    }
+    const scale = replay ? speeds : paces;
+    const now = hello.steps_per_frame;
+    const number = h("input", {
+      type: "number",
+      id: "steps-per-frame",
+      min: 1,
+      step: 1,
+      value: now > 0 ? now : "",
+      disabled: now === 0,
+      change: () => void this.set(number, { steps_per_frame: Math.max(1, Math.round(Number(number.value))) }),
+    });
+    const nearest = scale.reduce(
+      (best, value, k) =>
+        Math.abs(Math.log(value / (now || 1))) < Math.abs(Math.log(scale[best] / (now || 1))) ? k : best,
+      0,
+    );
+    const slider = h("input", {
+      type: "range",
+      id: "steps-slider",
+      min: 0,
+      max: scale.length - 1,
+      value: nearest,
+      disabled: now === 0,
+      "aria-label": replay ? "frames per second" : "steps per frame",
+      input: () => (number.value = String(scale[Number(slider.value)])),
+      change: () => void this.set(slider, { steps_per_frame: scale[Number(slider.value)] }),
+    });
+    fill(
+      this.steps,
+      h("h3", {}, replay ? "Replay" : "Steps"),
+      !replay && line("Step size", size),
+      !replay &&
+        h(
+          "p",
+          { class: "quiet", id: "step-size-now" },
+          hello.can.step_size || "with a unit, as “2 fs”; a number alone is in the units of the run",
+        ),
+      line(replay ? "Frames per second" : "Steps per frame", number),
+      h("div", { class: "line" }, slider),
+      !replay &&
+        check(
+          "full-speed",
+          "Full speed: frames as they come",
+          now === 0,
+          (on) => void this.set(number, { steps_per_frame: on ? 0 : 1 }),
+        ),
+    );
+  }
+
+  private async set(field: HTMLElement, what: object): Promise<void> {
+    const reply = await this.session.link.say({ do: "set", ...what });
+    // The section may have been built anew meanwhile.
+    this.fault(document.getElementById(field.id) ?? field, reply.error ?? "");
+  }
+
+  private fillParticle(): void {
+    const { session } = this;
+    const most = input(
+      "most",
+      session.most ? String(session.most) : "",
+      (value) => this.number(most, value, (number) => session.choose({ most: Math.max(0, Math.round(number ?? 0)) })),
+      { placeholder: `automatic (${session.paintable.toLocaleString("en-US")})`, inputmode: "numeric" },
+    );
+    fill(
+      this.particle,
+      h("h3", {}, "Particles"),
+      check("track", "Track: keep what was drawn", session.tracking, (tracking) => session.choose({ tracking })),
+      check("follow", "Follow the selected particle", session.following, (following) => session.choose({ following })),
+      line("Points at most", most),
+    );
+  }
+
+  private fillSaving(): void {
+    const { session, panes } = this;
+    const shade = choice.dark === undefined ? "page" : choice.dark ? "dark" : "light";
+    const why = session.hello?.can.checkpoint ?? "";
+    const act = (id: string) => () => this.actions().run(id);
+    fill(
+      this.saving,
+      h("h3", {}, "Save"),
+      line(
+        "Picture",
+        select("save-format", [["png", "PNG"], ["svg", "SVG"], ["pdf", "PDF"]], choice.format, (value) => (choice.format = value as PictureChoice["format"])), // prettier-ignore
+        select("save-scale", [["1", "1 ×"], ["2", "2 ×"], ["3", "3 ×"], ["4", "4 ×"]], String(choice.scale), (value) => (choice.scale = Number(value))), // prettier-ignore
+      ),
+      line(
+        "Colours",
+        select("save-dark", [["page", "as the page"], ["light", "light"], ["dark", "dark"]], shade, (value) => (choice.dark = value === "page" ? undefined : value === "dark")), // prettier-ignore
+      ),
+      h(
+        "div",
+        { class: "row pair" },
+        h("button", { type: "button", id: "save-picture", click: act("picture") }, icon("save"), "Save picture"),
+        h(
+          "button",
+          { type: "button", id: "record", "aria-pressed": String(panes.active.recorder.running), click: act("movie") },
+          icon("record"),
+          panes.active.recorder.running ? "End movie" : "Record movie",
+        ),
+        h(
+          "button",
+          {
+            type: "button",
+            id: "checkpoint",
+            "aria-disabled": String(why !== ""),
+            title: why || "the whole state, to go on from",
+            click: act("checkpoint"),
+          },
+          icon("save"),
+          "Save checkpoint",
+        ),
+      ),
+    );
+    this.saving.querySelector("#save-scale")?.setAttribute("aria-label", "size of the picture");
+  }
+
+  private fillPage(): void {
+    const { session } = this;
+    const { title, description, name, folder } = session.hello ?? {};
+    const themes: [Theme, string][] = [["light", "Light"], ["dark", "Dark"], ["system", "System"]]; // prettier-ignore
+    fill(
+      this.page,
+      h("h3", {}, "Page"),
+      h(
+        "fieldset",
+        { class: "choice" },
+        h("legend", { class: "unseen" }, "colours of the page"),
+        ...themes.map(([value, words]) => {
+          const radio = h("input", {
+            type: "radio",
+            name: "theme",
+            id: `theme-${value}`,
+            value,
+            change: () => session.choose({ theme: value }),
+          });
+          radio.checked = session.theme === value;
+          return h("label", { for: `theme-${value}` }, radio, h("span", {}, words));
+        }),
+      ),
+      h(
+        "details",
+        { id: "about" },
+        h("summary", {}, "About this simulation"),
+        h("p", {}, h("strong", {}, title || name || "")),
+        !!description && h("p", { class: "description" }, description),
+        !!folder && h("p", { class: "quiet" }, "Folder: ", h("code", {}, folder)),
+      ),
+    );
+  }
+
+  /** What changes with the frames: the ends of the colours as they are now. */
+  private follow(): void {
+    if (this.element.hidden || !this.panes.active) return;
+    const { low, high, factor } = this.scale(this.panes.active);
+    const least = 1e-6 * Math.max(Math.abs(low), Math.abs(high)) * factor; // less is what rounding leaves of 0
+    for (const [key, field] of this.ends) {
+      const value = (key === "low" ? low : high) * factor;
+      field.placeholder = Number.isFinite(value) ? written(Math.abs(value) < least ? 0 : value, 2) : "auto";
+    }
+  }
+
+  private csv(pane: Pane): void {
+    const { hello, rows } = this.session;
+    const names = hello?.columns.map(({ name, unit }) => (unit ? `${name} (${unit})` : name)) ?? [];
+    const time = hello?.time_unit ? `time (${hello.time_unit})` : "time";
+    download(`${pane.fileName()}.csv`, new Blob([rows.csv(["step", time, ...names])], { type: "text/csv" }));
+  }
+}

@@ -1,0 +1,111 @@
+// The panes side by side: one to six, one of them active (keys and panel are about that one).
+import { h } from "./elements";
+import { Pane } from "./pane";
+import type { Session } from "./session";
+
+export const most_panes = 6;
+
+export class Panes {
+  readonly element = h("main", { id: "panes", "aria-label": "diagnoses" });
+  list: Pane[] = [];
+  active!: Pane;
+  private saying = false;
+  private said = "";
+  private shown = "";
+  private listeners: (() => void)[] = [];
+
+  constructor(
+    private readonly session: Session,
+    private readonly save: (pane: Pane) => void,
+  ) {
+    session.on("hello", () => this.greet());
+    session.on("update", (update) => this.list.forEach((pane) => pane.update(update)));
+    session.on("choice", () => {
+      this.list.forEach((pane) => pane.choose());
+      this.changed(); // perhaps another limit of points
+    });
+  }
+
+  /** Called when panes come and go, another is active or shows something else. */
+  onchange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  /** Adds a pane with a diagnosis that no other shows. */
+  add(diagnosis = this.unseen()): void {
+    if (this.list.length >= most_panes) return;
+    let id = 1;
+    while (this.list.some((pane) => pane.id === id)) ++id;
+    const pane = new Pane(this.session, id, diagnosis, {
+      changed: () => this.changed(),
+      activated: (other) => this.activate(other),
+      closed: (other) => this.remove(other),
+      saved: (other) => this.save(other),
+    });
+    this.list.push(pane);
+    this.list.sort((a, b) => a.id - b.id);
+    const after = this.list[this.list.indexOf(pane) + 1];
+    this.element.insertBefore(pane.element, after?.element ?? null);
+    this.active = pane;
+    this.changed();
+  }
+
+  remove(pane = this.active): void {
+    if (this.list.length < 2) return;
+    const at = this.list.indexOf(pane);
+    this.list.splice(at, 1);
+    pane.dispose();
+    if (this.active === pane) this.active = this.list[Math.max(0, at - 1)];
+    this.changed();
+  }
+
+  activate(pane: Pane | undefined): void {
+    if (!pane || pane === this.active) return;
+    this.active = pane;
+    this.arrange();
+  }
+
+  /** No panes: another simulation comes. */
+  clear(): void {
+    this.list.forEach((pane) => pane.dispose());
+    this.list = [];
+  }
+
+  private greet(): void {
+    const { kind, name } = this.session.hello ?? {};
+    this.said = "";
+    if (this.shown !== `${kind} ${name}`) this.clear();
+    this.shown = `${kind} ${name}`;
+    if (kind === "gallery") return;
+    if (this.list.length === 0) return this.add(this.session.hello?.diagnoses[0]?.name);
+    this.list.forEach((pane) => pane.greet());
+    this.changed();
+  }
+
+  private unseen(): string {
+    const names = this.session.hello?.diagnoses.map(({ name }) => name) ?? [];
+    const shown = this.list.map(({ diagnosis }) => diagnosis);
+    return names.find((name) => !shown.includes(name)) ?? names[0] ?? "";
+  }
+
+  /** Tells the window what is shown, once for all that changes at a time. */
+  private changed(): void {
+    this.arrange();
+    if (this.saying || this.list.length === 0) return;
+    this.saying = true;
+    queueMicrotask(() => {
+      this.saying = false;
+      const views = this.list.map((pane) => pane.view());
+      const words = JSON.stringify(views);
+      if (!this.session.link.connected || views.length === 0 || words === this.said) return;
+      this.said = words;
+      void this.session.tellWindow({ do: "views", views });
+    });
+  }
+
+  private arrange(): void {
+    this.element.dataset.count = String(this.list.length);
+    for (const pane of this.list) pane.stand(pane === this.active, this.list.length === 1);
+    for (const listener of this.listeners) listener();
+  }
+}

@@ -1,0 +1,220 @@
+// What the page knows: the last words of the window, what the user has chosen, and who wants to be told of changes.
+import { Connection, type Words } from "./connection";
+import { remember, remembered } from "./elements";
+import type { Notices } from "./notices";
+import type { Hello, Reply, Update } from "./protocol";
+import { Rows } from "./rows";
+
+export type Theme = "light" | "dark" | "system";
+
+/** What a gallery's hello leaves out. */
+const nothing: Hello = {
+  type: "hello",
+  kind: "gallery",
+  title: "",
+  description: "",
+  name: "",
+  dimension: 2,
+  planned: 0,
+  folder: "",
+  box: { low: [], high: [], boundary: [] },
+  length_unit: "",
+  length_factor: 1,
+  time_unit: "",
+  step_size: "",
+  step_size_number: 0,
+  steps_per_frame: 1,
+  ensembles: [],
+  quantities: [],
+  vectors: [],
+  diagnoses: [],
+  columns: [],
+  can: { rewind: "", step_size: "", checkpoint: "", seek: "", quit: "" },
+  maps: {},
+  colours: [],
+};
+
+function firstUpper(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+const most_paintable = 200_000;
+const least_paintable = 5_000;
+
+interface Changes {
+  /** What is shown became another simulation, or something about it changed. */
+  hello: Hello;
+  /** A new update is here, not yet painted. */
+  update: Update;
+  /** The socket is open or not. */
+  link: boolean;
+  /** A choice: tracks, follow, theme, the most points, the pace. */
+  choice: null;
+}
+
+export class Session {
+  hello: Hello | null = null;
+  update: Update | null = null;
+  readonly rows = new Rows();
+  readonly link: Connection;
+  /** The window has said goodbye. */
+  over = false;
+
+  tracking = false;
+  following = false;
+  theme: Theme;
+  /** The user's own limit of points; 0: what the machine can paint. */
+  most: number;
+  /** What the machine can paint, as far as known. */
+  paintable = most_paintable;
+
+  private readonly listeners: { [K in keyof Changes]: ((what: Changes[K]) => void)[] } = {
+    hello: [],
+    update: [],
+    link: [],
+    choice: [],
+  };
+  private readonly darkSystem = matchMedia("(prefers-color-scheme: dark)");
+
+  constructor(readonly notices: Notices) {
+    const theme = remembered("theme");
+    this.theme = theme === "light" || theme === "dark" ? theme : "system";
+    this.most = Number(remembered("most")) || 0;
+    this.darkSystem.addEventListener("change", () => this.chosen());
+    this.dress();
+    this.link = new Connection({
+      hello: (hello) => this.greeted(hello),
+      update: (update) => this.updated(update),
+      bye: ({ message }) => {
+        this.over = true;
+        notices.set("link", `The window has closed${message ? `: ${message}` : ""}. The last picture stays.`);
+        this.tell("link", false);
+      },
+      opened: () => {
+        notices.clear("link");
+        this.tell("link", true);
+      },
+      broken: (seconds, attempt, reason) => {
+        const gone = attempt > 5 ? "The window is gone; the last picture stays" : "The connection to the window broke";
+        notices.set("link", `${gone}${reason ? ` (${reason})` : ""}. Next try in ${seconds} s.`, "warning", {
+          words: "Try now",
+          press: () => this.link.retry(),
+        });
+        this.tell("link", false);
+      },
+      damaged: (error) => {
+        notices.set("run", `A message of the window was damaged: ${error}`, "error");
+        this.ask();
+      },
+    });
+  }
+
+  on<K extends keyof Changes>(what: K, listener: (what: Changes[K]) => void): void {
+    this.listeners[what].push(listener);
+  }
+
+  /** Asks for the next update. */
+  ask(): void {
+    this.link.next(this.rows.count, this.rows.number);
+  }
+
+  /** What the user wants: a line that was about an earlier wish goes away. */
+  command(words: Words): Promise<Reply> {
+    this.notices.clear("reply");
+    return this.tellWindow(words);
+  }
+
+  /** Says something; a "no" becomes a line of the page. */
+  async tellWindow(words: Words): Promise<Reply> {
+    const reply = await this.link.say(words);
+    if (reply.error && this.link.connected) this.notices.set("reply", firstUpper(reply.error), "error");
+    return reply;
+  }
+
+  get dark(): boolean {
+    return this.theme === "dark" || (this.theme === "system" && this.darkSystem.matches);
+  }
+
+  /** Keeps a choice and tells everybody. */
+  choose(choice: Partial<Pick<Session, "tracking" | "following" | "theme" | "most">>): void {
+    Object.assign(this, choice);
+    remember("theme", this.theme);
+    remember("most", String(this.most));
+    this.chosen();
+  }
+
+  /** The machine paints so many points slowly, or with ease: half, or twice as many from now on. */
+  slower(points: number): void {
+    const half = Math.max(least_paintable, Math.round(points / 2));
+    if (points > least_paintable) this.paint(Math.min(this.paintable, half));
+  }
+  faster(): void {
+    this.paint(Math.min(most_paintable, this.paintable * 2));
+  }
+  private paint(paintable: number): void {
+    if (paintable === this.paintable) return;
+    this.paintable = paintable;
+    this.chosen();
+  }
+
+  private chosen(): void {
+    this.dress();
+    this.tell("choice", null);
+  }
+
+  private dress(): void {
+    document.documentElement.dataset.theme = this.dark ? "dark" : "light";
+  }
+
+  private tell<K extends keyof Changes>(what: K, value: Changes[K]): void {
+    for (const listener of this.listeners[what]) listener(value);
+  }
+
+  private greeted(words: Partial<Hello>): void {
+    const hello = { ...nothing, ...words };
+    if (hello.kind !== this.hello?.kind || hello.name !== this.hello.name) this.update = null;
+    this.hello = hello;
+    this.rows.forget(); // another table may have the same number
+    this.tell("hello", hello);
+    queueMicrotask(() => this.ask()); // after the panes have said what they show
+  }
+
+  private updated(update: Update): void {
+    this.update = update;
+    this.paced(update);
+    if (update.table && !this.rows.take(update.table)) this.rows.forget();
+    if (update.message)
+      this.notices.set("run", firstUpper(update.message), update.state === "failed" ? "error" : "info");
+    else this.notices.clear("run");
+    if (update.missed) this.notices.set("missed", firstUpper(update.missed.text));
+    else this.notices.clear("missed");
+    this.tell("update", update);
+    this.painted();
+  }
+
+  /** Somebody has set another step size or pace. */
+  private paced({ steps_per_frame, step_size }: Update & Partial<Pick<Hello, "steps_per_frame" | "step_size">>): void {
+    const { hello } = this;
+    if (
+      !hello ||
+      ((steps_per_frame ?? hello.steps_per_frame) === hello.steps_per_frame &&
+        (step_size ?? hello.step_size) === hello.step_size)
+    )
+      return;
+    hello.steps_per_frame = steps_per_frame ?? hello.steps_per_frame;
+    hello.step_size = step_size ?? hello.step_size;
+    this.chosen();
+  }
+
+  /** Asks for the next update when this one is on the screen; a hidden page asks twice a second. */
+  private painted(): void {
+    let asked = false;
+    const once = () => {
+      if (asked) return;
+      asked = true;
+      this.ask();
+    };
+    if (!document.hidden) requestAnimationFrame(once); // after the panes' own
+    setTimeout(once, document.hidden ? 500 : 3000);
+  }
+}

@@ -1,0 +1,70 @@
+// One stage, one audience, one run.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/colour.hpp>
+#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/window/live_run.hpp>
+#include <boltzmann/window/window.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace boltzmann {
+struct Window::State {
+  Recording* recording;
+  WindowOptions options;
+  Stage stage;
+  Audience audience;
+
+  State(Simulation& simulation, Base const& base, Recording* the_recording, WindowOptions the_options,
+        std::string title, std::string folder)
+      : recording(the_recording),
+        options(std::move(the_options)),
+        stage(simulation, base, std::move(title), std::move(folder)),
+        audience(options.port) {
+    simulation.check();
+    if (options.quiet) return;
+    fmt::print("window: {}\n", audience.address());
+    std::fflush(stdout);
+  }
+};
+
+Window::Window(Recording& recording, WindowOptions options) {
+  std::string const title = options.title.empty() ? recording.title() : options.title;
+  state_ = std::make_unique<State>(recording.simulation(), recording.base(), &recording, std::move(options), title,
+                                   recording.folder());
+}
+
+Window::Window(Simulation& simulation, Base const& base, WindowOptions options) {
+  std::string const title = options.title;
+  state_ = std::make_unique<State>(simulation, base, nullptr, std::move(options), title, "");
+}
+
+Window::~Window() { state_->audience.bye("the program has closed the window"); }
+
+void Window::install_drawing(std::string name, std::function<void(Canvas&)> draw) {
+  if (name.empty()) throw Error("a diagnosis needs a name");
+  state_->stage.install(std::move(name), std::move(draw));
+}
+
+void Window::add(std::string name, Picture picture) {
+  if (name.empty()) throw Error("a diagnosis needs a name");
+  state_->stage.add(std::move(name), std::move(picture), Stage::Unfit::throws);
+}
+
+void Window::colours(std::vector<std::string> const& names) {
+  std::vector<Colour> palette;
+  for (auto const& name : names) palette.push_back(colour_named(name));
+  state_->stage.palette(std::move(palette));
+}
+
+std::string Window::address() const { return state_->audience.address(); }
+Simulation& Window::simulation() const { return state_->stage.simulation(); }
+
+RunReport Window::run(std::uint64_t steps) {
+  State& state = *state_;
+  return run_live(state.stage, state.audience, state.recording, steps,
+                  {state.options.play, -1, state.options.name, state.options.description}, state.options.quiet);
+}
+
+}  // namespace boltzmann

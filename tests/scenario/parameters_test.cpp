@@ -1,0 +1,370 @@
+// Parameters of scenarios: what is said of a value is what its reader allows, paths lead to it, and a text with other
+// values in it is the same text otherwise.
+#include <boltzmann/scenario/document.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string file_text(std::string const& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// In angstrom, amu and ps; a unit of energy is 1.0364e-4 eV.
+std::string const text =
+    "title = \"A test\"\n"
+    "[units]\n"
+    "base = \"custom\"\n"
+    "length = \"1 angstrom\"\n"
+    "mass = \"1 amu\"\n"
+    "time = \"1 ps\"\n"
+    "[box]\n"
+    "low = [0, 0]\n"
+    "high = [\"20 angstrom\", 20]   # a square # of 2 nm\n"
+    "boundary = \"periodic\"\n"
+    "[run]\n"
+    "step = \"2 fs\"                # small\n"
+    "steps = 1_000\n"
+    "cutoff = 6\n"
+    "[[ensembles]]\n"
+    "name = \"Ärgon # 1\"           # a sharp in a text is no comment\n"
+    "class = \"Newton\"\n"
+    "integrator = \"leap-frog\"\n"
+    "mass = \"40 amu\"\n"
+    "load = { kind = \"block\", lattice = \"square\", spacing = 4, counts = [4, 4], origin = [2, 2] } # \"all\"\n"
+    "temperature = \"30 K\"\n"
+    "remove_drift = true\n"
+    "colour = \"red\"\n"
+    "[[ensembles.set]]\n"
+    "particles = [3, 4]\n"
+    "velocity = [0.1, \"200 m/s\"]\n"
+    "[[influences]]\n"
+    "law = \"lennard-jones\"\n"
+    "on = \"Ärgon # 1\"\n"
+    "r0 = 4\n"
+    "depth = \"0.01 eV\"\n"
+    "[[diagnoses]]\n"
+    "kind = \"energies\"\n"
+    "[output]\n"
+    "diagnoses = 5\n"
+    "[[output.pictures]]\n"
+    "colour = \"speed\"\n";
+
+struct Parameters {
+  explicit Parameters(std::string const& of) : scenario(parse_scenario(of, "test.toml")) {}
+  ScenarioParameter const& operator()(std::string const& path) const {
+    static ScenarioParameter const nothing{};
+    for (auto const& parameter : scenario->parameters)
+      if (parameter.path == path) return parameter;
+    ADD_FAILURE() << "no parameter " << path;
+    return nothing;
+  }
+  std::unique_ptr<ScenarioSimulation> scenario;
+};
+
+using Texts = std::vector<std::string>;
+
+TEST(Parameters, KnowWhatTheirReadersAllow) {
+  Parameters const of(text);
+  auto const step = of("run.step");
+  EXPECT_EQ(step.group, "run");
+  EXPECT_EQ(step.name, "step");
+  EXPECT_EQ(step.kind, "quantity");
+  EXPECT_EQ(step.value, "\"2 fs\"");
+  EXPECT_EQ(step.unit, "ps");
+  EXPECT_EQ(step.units.front(), "fs");
+  EXPECT_TRUE(std::find(step.units.begin(), step.units.end(), "ps") != step.units.end());
+  EXPECT_EQ(step.low, 0);
+  EXPECT_TRUE(step.low_excluded);
+  EXPECT_EQ(step.high, infinity);
+  EXPECT_EQ(step.comment, "small");
+
+  auto const steps = of("run.steps");
+  EXPECT_EQ(steps.kind, "integer");
+  EXPECT_EQ(steps.value, "1_000");
+  EXPECT_EQ(steps.low, 0);
+  EXPECT_FALSE(steps.low_excluded);
+  EXPECT_EQ(steps.unit, "");
+  EXPECT_EQ(steps.comment, "");
+
+  auto const title = of("title");
+  EXPECT_EQ(title.group, "");
+  EXPECT_EQ(title.name, "title");
+  EXPECT_EQ(title.kind, "text");
+
+  auto const high = of("box.high");
+  EXPECT_EQ(high.kind, "vector");
+  EXPECT_EQ(high.value, "[\"20 angstrom\", 20]");
+  EXPECT_EQ(high.comment, "a square # of 2 nm");
+  EXPECT_EQ(high.unit, "angstrom");
+  EXPECT_EQ(of("box.boundary").words, (Texts{"open", "bounded", "periodic", "mirror"}));
+  EXPECT_EQ(of("box.boundary").kind, "word");
+
+  auto const mass = of("ensembles.Ärgon # 1.mass");
+  EXPECT_EQ(mass.group, "ensembles.Ärgon # 1");
+  EXPECT_EQ(mass.name, "mass");
+  EXPECT_EQ(mass.unit, "amu");
+  EXPECT_EQ(mass.low, 0);
+  EXPECT_TRUE(mass.low_excluded);
+  EXPECT_EQ(of("ensembles.Ärgon # 1.name").comment, "a sharp in a text is no comment");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.name").value, "\"Ärgon # 1\"");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.spacing").value, "4");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.spacing").name, "load.spacing");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.lattice").comment, "\"all\"");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.counts").low, 1);
+  EXPECT_EQ(of("ensembles.Ärgon # 1.remove_drift").kind, "boolean");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.set.0.velocity").units.front(), "m/s");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.set.0.particles").kind, "vector");
+  EXPECT_EQ(of("influences.0.depth").units.front(), "eV");
+  EXPECT_EQ(of("influences.0.on").words, (Texts{"Ärgon # 1"}));
+  EXPECT_EQ(of("influences.0.on").kind, "word");
+  EXPECT_EQ(of("output.pictures.0.colour").group, "output");
+  // What is left out but has a value all the same.
+  EXPECT_EQ(of("run.seed").value, "1");
+}
+
+TEST(Parameters, LimitsAreInTheUnitThatIsShown) {
+  // [ensembles.load] of a spacing above 0; of numbers with a finite limit other than 0, jitter is a pure number.
+  Parameters const of(text.substr(0, text.find("origin")) + "jitter = 0.1 } \n" +
+                      text.substr(text.find("temperature")));
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.jitter").kind, "number");
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.jitter").low, 0);
+  EXPECT_EQ(of("ensembles.Ärgon # 1.load.jitter").high, 1);
+  EXPECT_FALSE(of("ensembles.Ärgon # 1.load.jitter").low_excluded);
+}
+
+TEST(Parameters, AnArrayHasTheLimitsThatHoldForAllItsElements) {
+  Parameters const of(
+      "[units]\nbase = \"reduced\"\n[box]\nlow = [0]\nhigh = [9]\n[run]\nstep = 0.1\nsteps = 1\n"
+      "[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\nmass = 1\n"
+      "load = { kind = \"positions\", positions = [[1], [2], [3]] }\n"
+      "[[influences]]\nlaw = \"spring\"\non = \"a\"\nstiffness = 1\nrest_length = 1\nconnect = [[0, 1, 1]]\n");
+  EXPECT_EQ(of("influences.0.connect").low, 0);
+  EXPECT_EQ(of("influences.0.connect").kind, "vector");
+  EXPECT_EQ(of("influences.0.stiffness").kind, "number");
+  EXPECT_EQ(of("influences.0.stiffness").unit, "");
+  EXPECT_TRUE(of("influences.0.stiffness").units.empty());
+}
+
+TEST(Parameters, NamesThatLeadNowhereAreNumbers) {
+  auto const twice = [](std::string const& first, std::string const& second) {
+    std::string const ensemble =
+        "\"\nclass = \"Newton\"\nmass = 1\nload = { kind = \"positions\", positions = [[1]] }\n";
+    return Parameters(
+        "[units]\nbase = \"reduced\"\n[box]\nlow = [0]\nhigh = [9]\n[run]\nstep = 0.1\nsteps = 1\n[[ensembles]]\n"
+        "name = \"" +
+        first + ensemble + "[[ensembles]]\nname = \"" + second + ensemble);
+  };
+  EXPECT_EQ(twice("a.b", "12")("ensembles.0.mass").value, "1");
+  EXPECT_EQ(twice("a.b", "12")("ensembles.1.mass").value, "1");
+  EXPECT_EQ(twice("a=b", "c")("ensembles.0.mass").group, "ensembles.0");
+  EXPECT_EQ(twice("a=b", "c")("ensembles.c.mass").group, "ensembles.c");
+}
+
+TEST(Parameters, AnOverriddenValueIsTheNewOne) {
+  Overrides overrides;
+  overrides.set = {"run.step=3 fs", "ensembles.Ärgon # 1.load.counts=[3, 3]"};
+  auto const scenario = parse_scenario(text, "test.toml", overrides);
+  std::set<std::string> seen;
+  for (auto const& parameter : scenario->parameters) {
+    if (parameter.path == "run.step") seen.insert(parameter.value);
+    if (parameter.path == "ensembles.Ärgon # 1.load.counts") seen.insert(parameter.value);
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{"\"3 fs\"", "[3, 3]"}));
+}
+
+// ---- Every shipped scenario ----
+
+class Shipped : public testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, EachValueSetToItselfChangesNothing) {
+  std::string const path = find_scenario(GetParam());
+  auto const scenario = load_scenario(path);
+  ASSERT_GT(scenario->parameters.size(), 10U);
+  Overrides overrides;
+  std::set<std::string> paths;
+  for (auto const& parameter : scenario->parameters) {
+    overrides.set.push_back(parameter.path + "=" + parameter.value);
+    EXPECT_TRUE(paths.insert(parameter.path).second) << parameter.path;
+    EXPECT_FALSE(parameter.kind.empty());
+    EXPECT_TRUE(parameter.path.starts_with(parameter.group));
+    EXPECT_TRUE(parameter.path.ends_with(parameter.name));
+    EXPECT_FALSE(parameter.kind == "word" && parameter.words.empty()) << parameter.path;
+    EXPECT_FALSE(parameter.kind == "quantity" && parameter.units.empty()) << parameter.path;
+  }
+  auto const again = load_scenario(path, overrides);
+  EXPECT_EQ(again->resolved, scenario->resolved);
+}
+
+void collect(Item const& item, std::string const& path, std::vector<std::string>& values) {
+  bool const list = item.is(Item::Kind::array) && !item.elements.empty() && item.elements[0].is(Item::Kind::table);
+  if (item.is(Item::Kind::table))
+    for (auto const& entry : item.entries) collect(entry.item, path + (path.empty() ? "" : ".") + entry.key, values);
+  else if (list)
+    for (auto const& element : item.elements) collect(element, path + ".*", values);
+  else
+    values.push_back(path);
+}
+
+TEST_P(Shipped, EveryValueIsAParameter) {
+  std::string const path = find_scenario(GetParam());
+  Mistakes mistakes(path);
+  std::vector<std::string> written;
+  collect(parse_document(file_text(path), mistakes), "", written);
+  std::erase_if(written, [](std::string const& value) { return value.starts_with("sweep"); });
+  auto const scenario = load_scenario(path);
+  std::size_t const seed = std::count(written.begin(), written.end(), "run.seed") == 1 ? 0 : 1;
+  std::vector<std::string> read;
+  for (auto const& parameter : scenario->parameters) read.push_back(parameter.path);
+  EXPECT_EQ(read.size(), written.size() + seed) << testing::PrintToString(written) << testing::PrintToString(read);
+}
+
+TEST_P(Shipped, NumbersOutOfTheirLimitsAreRefused) {
+  std::string const path = find_scenario(GetParam());
+  auto const scenario = load_scenario(path);
+  int tried = 0;
+  for (auto const& parameter : scenario->parameters) {
+    std::vector<double> wrong;
+    if (parameter.low > -infinity) wrong.push_back(parameter.low_excluded ? parameter.low : parameter.low - 1);
+    if (parameter.high < infinity) wrong.push_back(parameter.high + 1);
+    if (parameter.kind == "vector" || parameter.path == "run.seed") continue;
+    for (double const value : wrong) {
+      // A negative number or zero is out of range in any unit.
+      std::string const unit = value > 0 && parameter.kind == "quantity" ? " " + parameter.unit : "";
+      std::string const assignment = fmt::format("{}={}{}", parameter.path, value, unit);
+      ++tried;
+      Overrides overrides;
+      overrides.set = {assignment};
+      try {
+        load_scenario(path, overrides);
+        ADD_FAILURE() << assignment << " is accepted";
+      } catch (ScenarioErrors const& errors) {
+        EXPECT_TRUE(errors.lines.front().starts_with("--set " + assignment + ": ")) << errors.lines.front();
+        EXPECT_NE(errors.lines.front().find("out of range"), std::string::npos) << errors.lines.front();
+      }
+    }
+  }
+  EXPECT_GT(tried, 2);
+}
+
+TEST_P(Shipped, OutlineIsThatOfTheSimulation) {
+  std::string const path = find_scenario(GetParam());
+  auto const outline = outline_scenario(file_text(path), path);
+  auto const scenario = load_scenario(path);
+  EXPECT_EQ(outline.title, scenario->title);
+  EXPECT_EQ(outline.description, scenario->description);
+  EXPECT_EQ(outline.dimension, scenario->ensembles.front()->dimension());
+  std::size_t count = 0;
+  for (auto const& ensemble : scenario->ensembles) count += ensemble->size();
+  EXPECT_EQ(outline.particles.value_or(count), count);
+  EXPECT_EQ(outline.steps.value_or(static_cast<double>(scenario->steps)), static_cast<double>(scenario->steps));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Shipped, testing::ValuesIn(shipped_scenarios()), [](auto const& info) {
+  std::string name = info.param;
+  std::erase_if(name, [](char c) { return c == '-'; });
+  return name;
+});
+
+TEST(Outline, OfMostShippedScenariosTheNumberOfParticlesIsKnown) {
+  std::size_t known = 0;
+  for (auto const& name : shipped_scenarios()) {
+    std::string const path = find_scenario(name);
+    if (outline_scenario(file_text(path), path).particles) ++known;
+  }
+  EXPECT_GE(10 * known, 8 * shipped_scenarios().size());
+}
+
+TEST(Outline, WhatIsNoScenarioIsRefused) {
+  for (std::string const bad : {"", "a = ", "[project]\nname = \"x\"\n", "box = 3\nensembles = 4\n"})
+    EXPECT_THROW(outline_scenario(bad, "x.toml"), ScenarioErrors) << bad;
+  // Half of one is enough of a scenario to be shown, whatever is wrong with it.
+  auto const odd = outline_scenario("[box]\nlow = 3\n[run]\nsteps = \"x\"\n[[ensembles]]\nnumber = -1\n", "x.toml");
+  EXPECT_EQ(odd.dimension, 0);
+  EXPECT_FALSE(odd.steps);
+  EXPECT_FALSE(odd.particles);
+}
+
+// ---- Other values in the text ----
+
+TEST(WithValues, KeepsCommentsAndLayout) {
+  std::string const now = with_values(text, {{"run.step", "\"3 fs\""},
+                                             {"box.high", "[30, 30]"},
+                                             {"ensembles.Ärgon # 1.load.counts", "[5, 6]"},
+                                             {"ensembles.Ärgon # 1.load.origin", "\"centred\""},
+                                             {"ensembles.Ärgon # 1.mass", "39.9 amu"},
+                                             {"title", "Another \"test\""}});
+  std::string expected = text;
+  auto const put = [&](std::string const& old, std::string const& instead) {
+    auto const at = expected.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    expected.replace(at, old.size(), instead);
+  };
+  put("\"2 fs\"                # small", "\"3 fs\"                # small");
+  put("[\"20 angstrom\", 20]", "[30, 30]");
+  put("[4, 4]", "[5, 6]");
+  put("[2, 2]", "\"centred\"");
+  put("\"40 amu\"", "\"39.9 amu\"");  // without its quotation marks it is no TOML
+  put("\"A test\"", "\"Another \\\"test\\\"\"");
+  EXPECT_EQ(now, expected);
+  EXPECT_EQ(with_values(text, {}), text);
+}
+
+TEST(WithValues, PutsKeysThatAreMissingBehindTheOthers) {
+  std::string const now = with_values(text, {{"run.seed", "7"},
+                                             {"description", "two\nlines"},
+                                             {"ensembles.Ärgon # 1.load.jitter", "0.1"},
+                                             {"output.trajectory", "10"}});
+  EXPECT_NE(now.find("cutoff = 6\nseed = 7\n[[ensembles]]"), std::string::npos) << now;
+  EXPECT_NE(now.find("title = \"A test\"\ndescription = \"\"\"\ntwo\nlines\"\"\"\n[units]"), std::string::npos) << now;
+  EXPECT_NE(now.find("origin = [2, 2], jitter = 0.1 } # \"all\"\n"), std::string::npos) << now;
+  EXPECT_NE(now.find("diagnoses = 5\ntrajectory = 10\n[[output.pictures]]"), std::string::npos) << now;
+  auto const scenario = parse_scenario(now, "test.toml");
+  EXPECT_EQ(scenario->simulation->seed(), 7U);
+  EXPECT_EQ(scenario->description, "two\nlines");
+  // In an empty table, in one without a line break at the end, and at the top of a file that has nothing there.
+  EXPECT_EQ(with_values("[a]", {{"a.b", "1"}}), "[a]\nb = 1");
+  EXPECT_EQ(with_values("a = {}", {{"a.b", "1"}}), "a = { b = 1}");
+  EXPECT_EQ(with_values("[a]\n", {{"title", "x"}}), "title = \"x\"\n[a]\n");
+}
+
+TEST(WithValues, OfWindowsFilesAndOddOnes) {
+  EXPECT_EQ(with_values("a = 1 # x\r\nb = 2\r\n", {{"a", "12"}}), "a = 12 # x\r\nb = 2\r\n");
+  EXPECT_EQ(with_values("a = \"\"\"\nx\ny\"\"\" # c\nb = 'it'\n", {{"a", "1"}, {"b", "true"}}),
+            "a = 1 # c\nb = true\n");
+  EXPECT_EQ(with_values("s = \"äöü 😀\", t = 1\n"[0] == 's' ? "x = { s = \"äöü 😀\", t = 1 }\n" : "", {{"x.t", "2"}}),
+            "x = { s = \"äöü 😀\", t = 2 }\n");
+  EXPECT_EQ(with_values("a=1", {{"a", "2"}}), "a=2");
+  // What would be more than a value is a text.
+  EXPECT_EQ(with_values("a = 1\n", {{"a", "1\n[b]\nc = 2"}}), "a = \"\"\"\n1\n[b]\nc = 2\"\"\"\n");
+  EXPECT_EQ(with_values("x = { a = 1, b = 2 }\n", {{"x.a", "3 # c"}}), "x = { a = 3, b = 2 }\n");
+}
+
+TEST(WithValues, RefusesWhatIsNoPlace) {
+  EXPECT_THROW(with_values(text, {{"run", "1"}}), Error);
+  EXPECT_THROW(with_values(text, {{"ensembles", "1"}}), Error);
+  EXPECT_THROW(with_values(text, {{"ensembles.helium.mass", "1"}}), Error);
+  EXPECT_THROW(with_values(text, {{"nothing.here", "1"}}), Error);
+  EXPECT_THROW(with_values(text, {{"run.step.courant", "1"}}), Error);
+  EXPECT_THROW(with_values(text, {{"", "1"}}), Error);
+  EXPECT_THROW(with_values(text, {{"run.", "1"}}), Error);
+  EXPECT_THROW(with_values("a = ", {{"a", "1"}}), ScenarioErrors);
+}
+
+}  // namespace
+}  // namespace boltzmann

@@ -1,0 +1,185 @@
+// [[views]]: diagnoses for the window by field names, read as pictures are, and what is told of mistakes in them.
+#include "mistakes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+using test::Mistake;
+using test::mistake_name;
+
+std::string const plain =
+    "[units]\n"                                                                     // 1
+    "base = \"custom\"\n"                                                           // 2
+    "length = \"1 angstrom\"\n"                                                     // 3
+    "mass = \"1 amu\"\n"                                                            // 4
+    "time = \"1 ps\"\n"                                                             // 5
+    "[box]\n"                                                                       // 6
+    "low = [0, 0]\n"                                                                // 7
+    "high = [20, 20]\n"                                                             // 8
+    "[run]\n"                                                                       // 9
+    "step = 0.01\n"                                                                 // 10
+    "steps = 20\n"                                                                  // 11
+    "[[ensembles]]\n"                                                               // 12
+    "name = \"atoms\"\n"                                                            // 13
+    "class = \"Newton\"\n"                                                          // 14
+    "mass = \"40 amu\"\n"                                                           // 15
+    "load = { kind = \"block\", spacing = 4, counts = [4, 4] }\n"                   // 16
+    "[[diagnoses]]\n"                                                               // 17
+    "kind = \"energies\"\n";                                                        // 18
+std::string view(std::string const& keys) { return plain + "[[views]]\n" + keys; }  // 19, 20 ...
+
+PicturePlan only_view(std::string const& keys) {
+  auto const scenario = parse_scenario(view(keys), "test.toml");
+  EXPECT_EQ(scenario->views.size(), 1U);
+  EXPECT_TRUE(scenario->output.pictures.empty());
+  return scenario->views.empty() ? PicturePlan{} : scenario->views.front();
+}
+
+TEST(Views, AreDiagnosesByFieldNames) {
+  auto const kinetic = only_view(
+      "name = \"Kinetic\"\nx = \"position.x\"\ny = \"velocity.x\"\ncolour = \"speed\"\nsize = \"mass\"\n"
+      "low = \"100 m/s\"\nhigh = 5\n");
+  EXPECT_EQ(kinetic.name, "Kinetic");
+  EXPECT_EQ(kinetic.drawing, "phase-space");
+  EXPECT_EQ(kinetic.x, "position.x");
+  EXPECT_EQ(kinetic.y, "velocity.x");
+  EXPECT_EQ(kinetic.colour, "speed");
+  EXPECT_EQ(kinetic.size, "mass");
+  EXPECT_DOUBLE_EQ(kinetic.low, 1);  // 1 angstrom/ps is 100 m/s
+  EXPECT_EQ(kinetic.high, 5);
+}
+
+TEST(Views, WithoutAxesShowTheParticlesInSpace) {
+  auto const hot = only_view("name = \"Hot\"\ncolour = \"kinetic-energy\"\n");
+  EXPECT_EQ(hot.drawing, "cartesian");
+  EXPECT_TRUE(std::isnan(hot.low));
+  EXPECT_EQ(hot.vectors, "");
+  EXPECT_EQ(only_view("name = \"Flow\"\nvectors = \"velocity\"\n").vectors, "velocity");
+  EXPECT_EQ(only_view("name = \"y\"\ny = \"velocity.y\"\nx = \"velocity.x\"\n").drawing, "phase-space");
+  EXPECT_EQ(only_view("name = \"m\"\ndrawing = \"map\"\ny = \"density\"\ncells = 50\nrange = 6\n").cells, 50);
+  auto const energy = only_view("name = \"E\"\ndrawing = \"time-series\"\ny = \"total energy\"\nlogarithmic = true\n");
+  EXPECT_EQ(energy.y, "total energy");
+  EXPECT_TRUE(energy.logarithmic);
+}
+
+TEST(Views, OfOneScenarioAreMany) {
+  auto const scenario =
+      parse_scenario(view("name = \"a\"\n[[views]]\nname = \"b\"\ndrawing = \"profile\"\ny = \"velocity.x\"\n[output]\n"
+                          "[[output.pictures]]\nfile = \"p.png\"\n"),
+                     "test.toml");
+  ASSERT_EQ(scenario->views.size(), 2U);
+  EXPECT_EQ(scenario->views[0].name, "a");
+  EXPECT_EQ(scenario->views[1].drawing, "profile");
+  ASSERT_EQ(scenario->output.pictures.size(), 1U);
+  EXPECT_EQ(scenario->output.pictures[0].name, "");
+  // They are stored with the run, and read back.
+  auto const again = parse_scenario(scenario->resolved, "again.toml");
+  ASSERT_EQ(again->views.size(), 2U);
+  EXPECT_EQ(again->views[1].y, "velocity.x");
+  EXPECT_TRUE(parse_scenario(plain, "test.toml")->views.empty());
+}
+
+TEST(Views, AreNamedOnTheCommandLine) {
+  Overrides overrides;
+  overrides.set = {"views.Hot.colour=speed"};
+  auto const scenario = parse_scenario(view("name = \"Hot\"\ncolour = \"mass\"\n"), "test.toml", overrides);
+  EXPECT_EQ(scenario->views[0].colour, "speed");
+  bool found = false;
+  for (auto const& parameter : scenario->parameters) found = found || parameter.path == "views.Hot.colour";
+  EXPECT_TRUE(found);
+}
+
+TEST(Histograms, AreReadAsViewsAndPictures) {
+  auto const of_speed =
+      only_view("name = \"Speeds\"\ndrawing = \"histogram\"\nx = \"speed\"\ncells = 20\nlogarithmic = true\n");
+  EXPECT_EQ(of_speed.drawing, "histogram");
+  EXPECT_EQ(of_speed.x, "speed");
+  EXPECT_EQ(of_speed.cells, 20);
+  EXPECT_TRUE(of_speed.logarithmic);
+  auto const picture = parse_scenario(
+      plain + "[output]\n[[output.pictures]]\ndrawing = \"histogram\"\nx = \"velocity.x\"\n", "test.toml");
+  EXPECT_EQ(picture->output.pictures.at(0).x, "velocity.x");
+}
+
+class ViewMistakes : public testing::TestWithParam<Mistake> {};
+TEST_P(ViewMistakes, AreToldInOneLine) { test::expect_one_line(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ViewMistakes,
+    testing::Values(
+        Mistake{"no name", view("colour = \"speed\"\n"), "19:1", {"[[views]]", "no 'name'", "name = \"Kinetic\""}},
+        Mistake{"empty name", view("name = \"\"\n"), "20:8", {"needs a name"}},
+        Mistake{"name no text", view("name = 3\n"), "20:8", {"name", "a text is needed"}},
+        Mistake{"same name", view("name = \"a\"\n[[views]]\nname = \"a\"\n"), "22:8", {"view 'a' already"}},
+        Mistake{
+            "drawing", view("name = \"a\"\ndrawing = \"histogramm\"\n"), "21:11", {"unknown drawing", "'histogram'?"}},
+        Mistake{"a file", view("name = \"a\"\nfile = \"a.png\"\n"), "21:1", {"unknown key 'file'", "[[views]] 'a'"}},
+        Mistake{"key",
+                view("name = \"a\"\ncolor = \"speed\"\n"),
+                "21:1",
+                {"unknown key 'color'", "did you mean 'colour'?"}},
+        Mistake{"field",
+                view("name = \"a\"\nx = \"position.x\"\ny = \"velocty.x\"\n"),
+                "22:5",
+                {"velocty.x", "did you mean"}},
+        Mistake{
+            "x", view("name = \"a\"\nx = \"positon.x\"\ny = \"velocity.x\"\n"), "21:5", {"positon.x", "did you mean"}},
+        Mistake{"colour", view("name = \"a\"\ncolour = \"sped\"\nlow = \"1 m/s\"\n"), "21:10", {"'speed'?"}},
+        Mistake{"size",
+                view("name = \"a\"\nx = \"position.x\"\ny = \"velocity.x\"\nsize = \"mas\"\n"),
+                "23:8",
+                {"'mass'?"}},
+        Mistake{"low", view("name = \"a\"\nlow = 1\n"), "21:7", {"no 'colour'"}},
+        Mistake{"unit",
+                view("name = \"a\"\ncolour = \"speed\"\nhigh = \"1 K\"\n"),
+                "22:8",
+                {"high", "a velocity is needed"}},
+        Mistake{"trace", view("name = \"a\"\ntrace = true\n"), "21:9", {"trajectory"}},
+        Mistake{"column",
+                view("name = \"a\"\ndrawing = \"time-series\"\ny = \"total enrgy\"\n"),
+                "22:5",
+                {"'total energy'?"}},
+        Mistake{"histogram of nothing known",
+                view("name = \"a\"\ndrawing = \"histogram\"\nx = \"sped\"\n"),
+                "22:5",
+                {"'speed'?"}},
+        Mistake{"histogram with y",
+                view("name = \"a\"\ndrawing = \"histogram\"\nx = \"speed\"\ny = \"mass\"\n"),
+                "23:1",
+                {"unknown key 'y'"}},
+        Mistake{"histogram without bins",
+                view("name = \"a\"\ndrawing = \"histogram\"\nx = \"speed\"\ncells = 0\n"),
+                "23:9",
+                {"out of range"}},
+        Mistake{"vectors", view("name = \"a\"\nvectors = \"velocty\"\n"), "21:11", {"'velocity'?"}},
+        Mistake{"vectors in phase space",
+                view("name = \"a\"\nx = \"position.x\"\ny = \"velocity.x\"\nvectors = \"velocity\"\n"),
+                "23:1",
+                {"unknown key 'vectors'"}},
+        Mistake{"no mesh", view("name = \"a\"\ndrawing = \"mesh\"\n"), "21:11", {"needs a mesh"}},
+        Mistake{"one table", plain + "[views]\nname = \"a\"\n", "19:1", {"[[views]] (two brackets)"}}),
+    mistake_name);
+
+TEST(ViewMistakes, WithoutParticlesNobodyKnowsWhatColoursMean) {
+  std::string const text =
+      test::replaced(view("name = \"a\"\ncolour = \"speed\"\nlow = \"1 m/s\"\n"), "spacing = 4", "spacing = 0");
+  auto const lines = test::mistakes_of(text);
+  ASSERT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
+  EXPECT_NE(lines[0].find("spacing"), std::string::npos);
+}
+
+TEST(ViewMistakes, OfWhatIsMissing) {
+  test::expect_mistakes_of_what_is_missing(
+      view("name = \"Kinetic\"\nx = \"position.x\"\ny = \"velocity.x\"\ncolour = \"speed\"\nlow = \"1 m/s\"\n"), 300,
+      10);
+}
+
+}  // namespace
+}  // namespace boltzmann

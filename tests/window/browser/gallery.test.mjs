@@ -1,0 +1,232 @@
+// The gallery in a browser: cards, search, the form of a scenario and its checks, SAVE AS, RUN and the way back.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { browser, bzm, data, keep, open, until } from "./window.mjs";
+
+const shipped = readdirSync(new URL("../../../scenarios/", import.meta.url))
+  .filter((file) => file.endsWith(".toml"))
+  .map((file) => file.slice(0, -5));
+
+let chromium;
+before(async () => (chromium = await browser()));
+after(() => chromium.close());
+
+/** The gallery in a page of its own. */
+async function gallery(t, options) {
+  const run = await bzm(t, ["window"]);
+  const page = await open(t, chromium, run.address, options);
+  await page.waitForSelector('.gallery[data-page="list"]');
+  return { run, page };
+}
+
+/** Chooses a scenario by its card. */
+async function choose(page, name) {
+  await page.click(`[data-scenario="${name}"] a`);
+  await page.waitForSelector(`.gallery-scenario[data-name="${name}"]`);
+}
+
+const field = (page, path) => page.locator(`[data-path="${path}"]`);
+const input = (page, path) => field(page, path).locator("input, select, textarea");
+const trouble = (page, path) => field(page, path).locator(".gallery-trouble").textContent();
+const checked = (page, state) =>
+  until(async () => (await data(page, ".gallery-scenario")).checked === state, `the form is ${state}`, 60);
+const noWiderThan = async (page, width) =>
+  assert.ok((await page.evaluate(() => document.scrollingElement.scrollWidth)) <= width, `wider than ${width} pixels`);
+
+test("every shipped scenario has a card with its picture, and can be searched for", async (t) => {
+  const { page } = await gallery(t);
+  const cards = page.locator("[data-scenario]");
+  assert.deepEqual(await cards.evaluateAll((all) => all.map((card) => card.dataset.scenario).sort()), [...shipped].sort());
+  for (const name of shipped) {
+    const card = page.locator(`[data-scenario="${name}"]`);
+    await card.scrollIntoViewIfNeeded();
+    await until(() => card.locator("img").evaluate((image) => image.complete && image.naturalWidth >= 200), `the picture of ${name}`);
+    assert.ok((await card.locator("h2").textContent()).length > 3, name);
+    assert.ok((await card.locator(".gallery-beginning").textContent()).length > 20, name);
+    assert.match(await card.locator(".gallery-facts").textContent(), /[123]D/, name);
+  }
+  assert.match(await page.locator('[data-scenario="copper"] .gallery-facts').textContent(), /2D · 250 particles · 2,000 steps/);
+  await page.evaluate(() => scrollTo(0, 0));
+  await keep(page, "gallery");
+
+  const visible = () => cards.evaluateAll((all) => all.filter((card) => card.offsetParent).map((card) => card.dataset.scenario));
+  await page.fill("#gallery-search", "Copper RADIATION");
+  assert.deepEqual((await visible()).sort(), ["copper", "copper-10000"]);
+  await page.fill("#gallery-search", "zzz");
+  assert.deepEqual(await visible(), []);
+  assert.match(await page.textContent(".gallery-none"), /zzz/);
+  await page.fill("#gallery-search", "");
+  assert.equal((await visible()).length, shipped.length);
+});
+
+test("the form shows every value of the file, checks while one types, and goes back", async (t) => {
+  const { page } = await gallery(t);
+  await choose(page, "copper");
+  assert.match(await page.textContent(".gallery-text"), /one atom is knocked out of its site/);
+  assert.match(await page.locator(".gallery-toml pre").textContent(), /^title = "Radiation/);
+  assert.equal(await input(page, "run.step").inputValue(), "0.01");
+  assert.equal(await input(page, "run.cutoff").inputValue(), "7.653 angstrom");
+  assert.match(await field(page, "run.cutoff").locator(".gallery-hint").textContent(), /3 r0.*angstrom/);
+  assert.equal(await input(page, "box.high").inputValue(), "100 angstrom, 100 angstrom");
+  assert.equal(await input(page, "ensembles.atoms.integrator").evaluate((element) => element.tagName), "SELECT");
+  // Every input has a label and is described.
+  for (const element of await page.locator(".gallery-form .gallery-field :is(input, select, textarea)").all()) {
+    const { label, described } = await element.evaluate((one) => ({
+      label: one.labels.length > 0 && one.labels[0].textContent,
+      described: (one.getAttribute("aria-describedby") ?? "").split(" ").every((id) => document.getElementById(id)),
+    }));
+    assert.ok(label && described, await element.evaluate((one) => one.outerHTML));
+  }
+
+  // Wrong at once: outside the limits, no number.
+  await input(page, "run.step").fill("-1");
+  assert.match(await trouble(page, "run.step"), /above 0/);
+  assert.equal(await input(page, "run.step").getAttribute("aria-invalid"), "true");
+  await input(page, "run.steps").fill("ten");
+  assert.match(await trouble(page, "run.steps"), /number/);
+  await page.click("#gallery-run"); // does not start: the keyboard is put where the mistake is
+  assert.equal(await page.evaluate(() => document.activeElement.closest("[data-path]")?.dataset.path), "run.step");
+  await input(page, "run.steps").fill("10");
+
+  // Wrong for the window: another dimension. It says so at the field, after a pause.
+  await input(page, "run.step").fill("2 kg");
+  await until(async () => /mass|time/.test(await trouble(page, "run.step")), "an error at the step");
+  assert.equal((await data(page, ".gallery-scenario")).checked, "errors");
+  await keep(page, "gallery-form-error");
+  await page.click("#gallery-run");
+  await until(async () => !(await page.locator("#gallery-run").isDisabled()), "an answer");
+  assert.equal((await data(page, ".gallery")).page, "scenario");
+
+  // Right, in another unit.
+  await input(page, "run.step").fill("0.03 fs");
+  await checked(page, "ok");
+  assert.equal(await trouble(page, "run.step"), "");
+  assert.equal((await field(page, "run.step").getAttribute("data-changed")), "true");
+  assert.match(await page.textContent("#gallery-state"), /2 changed/);
+
+  // Back to what the file has.
+  await field(page, "run.step").getByRole("button", { name: "back to 0.01" }).click();
+  assert.equal(await input(page, "run.step").inputValue(), "0.01");
+  await page.click("#gallery-all-back");
+  assert.equal(await input(page, "run.steps").inputValue(), "2000");
+  await checked(page, "ok");
+});
+
+test("a changed scenario is saved as a file that the command takes; another file is not overwritten unasked", async (t) => {
+  const { run, page } = await gallery(t);
+  await choose(page, "copper");
+  await input(page, "run.steps").fill("123");
+  await checked(page, "ok");
+  await page.click("#gallery-save");
+  await page.fill("#gallery-as", "my-copper");
+  await page.press("#gallery-as", "Enter");
+  const file = join(run.cwd, "my-copper.toml");
+  await until(async () => (await page.textContent("#gallery-answer")).includes(file), "the path of the file", 60);
+  assert.match(readFileSync(file, "utf8"), /^steps = 123$/m);
+  assert.match(readFileSync(file, "utf8"), /# 3 r0/); // comments are still there
+  execFileSync(process.env.BZM, ["check", file]);
+
+  await input(page, "run.steps").fill("456");
+  await checked(page, "ok");
+  await page.click("#gallery-save-now");
+  await page.waitForSelector("#gallery-replace:not([hidden])");
+  assert.match(readFileSync(file, "utf8"), /^steps = 123$/m);
+  await page.click("#gallery-replace");
+  await until(() => /^steps = 456$/m.test(readFileSync(file, "utf8")), "the other number in the file", 60);
+
+  for (const name of ["../elsewhere", "/tmp/elsewhere", ""]) {
+    await page.fill("#gallery-as", name);
+    await page.click("#gallery-save-now");
+    await until(async () => /name/.test(await page.textContent("#gallery-answer")), `a refusal of '${name}'`, 60);
+  }
+  assert.ok(!existsSync(join(run.cwd, "..", "elsewhere.toml")));
+
+  // It stands in the list now, and its form has the new value.
+  await page.click(".gallery-back");
+  await page.waitForSelector('[data-scenario="my-copper"] .gallery-own');
+  await choose(page, "my-copper");
+  assert.equal(await input(page, "run.steps").inputValue(), "456");
+});
+
+test("RUN starts what was typed; QUIT comes back to the form as it was", async (t) => {
+  const { run, page } = await gallery(t);
+  await choose(page, "copper");
+  await input(page, "run.steps").fill("77");
+  await page.fill("#gallery-out", "results");
+  await page.click("#gallery-run");
+  await page.waitForSelector("#play:visible", { timeout: 60_000 });
+  await until(async () => (await page.textContent("#simulation")).includes("of 77"), "step ... of 77");
+  await page.click("#play");
+  await until(async () => (await data(page, "body")).step === "77", "the last step");
+  await page.click("#quit");
+  await page.getByRole("dialog").getByRole("button", { name: /quit/i }).click();
+  await page.waitForSelector('.gallery-scenario[data-name="copper"]');
+  assert.equal(await input(page, "run.steps").inputValue(), "77");
+  assert.ok(run.running());
+  assert.match(readFileSync(join(run.cwd, "results", "scenario.toml"), "utf8"), /steps = 77/);
+});
+
+test("the keyboard alone finds a scenario, changes it, and goes back", async (t) => {
+  const { page } = await gallery(t);
+  const press = async (key, wanted) => {
+    for (let times = 0; times < 60; ++times) {
+      if (await page.evaluate(wanted)) return;
+      await page.keyboard.press(key);
+    }
+    assert.fail(`no ${key} leads to ${wanted}`);
+  };
+  await press("Tab", "document.activeElement.id === 'gallery-search'");
+  await page.keyboard.type("pythagorean");
+  await press("Tab", "document.activeElement.closest('[data-scenario=pythagorean]') !== null");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector(".gallery-scenario[data-name=pythagorean]");
+  await press("Tab", "document.activeElement.closest('[data-path^=\"run.\"]') !== null");
+  await press("Tab", "document.activeElement.id === 'gallery-run'");
+  await press("Shift+Tab", "document.activeElement.classList.contains('gallery-back')");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector('.gallery[data-page="list"]');
+  // The search is as it was, and the keyboard where it was.
+  assert.equal(await page.inputValue("#gallery-search"), "pythagorean");
+  await until(() => page.evaluate(() => document.activeElement.closest("[data-scenario=pythagorean]") !== null), "the card has the keyboard");
+  await page.goBack();
+  await page.waitForSelector(".gallery-scenario[data-name=pythagorean]");
+});
+
+test("a name that there is not is one line with a way back", async (t) => {
+  const { page } = await gallery(t);
+  await page.evaluate(() => (location.hash = "#coper"));
+  await until(async () => /coper/.test(await page.textContent(".gallery")), "the name in the message");
+  await page.click(".gallery-back");
+  await page.waitForSelector('.gallery[data-page="list"]');
+});
+
+for (const dark of [false, true])
+  test(`readable at the width of a phone, ${dark ? "dark" : "light"}`, async (t) => {
+    const { page } = await gallery(t, { width: 360, height: 740, dark });
+    await noWiderThan(page, 360);
+    await keep(page, `gallery-phone-${dark ? "dark" : "light"}`);
+    await choose(page, "copper");
+    await noWiderThan(page, 360);
+    await page.locator('[data-path="run.step"]').scrollIntoViewIfNeeded();
+    await keep(page, `gallery-form-phone-${dark ? "dark" : "light"}`);
+    // Paper and ink differ enough to be read (WCAG: 7 to 1 is the best class).
+    const contrast = await page.evaluate(() => {
+      const luminance = (colour) => {
+        const [r, g, b] = colour.match(/[\d.]+/g).map((part) => {
+          const x = Number(part) / 255;
+          return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
+        });
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const label = document.querySelector(".gallery-label label");
+      let behind = label;
+      const see = (element) => getComputedStyle(element).backgroundColor;
+      while (behind && /, 0\)$|transparent/.test(see(behind))) behind = behind.parentElement;
+      const [a, b] = [luminance(getComputedStyle(label).color), luminance(behind ? see(behind) : "rgb(255, 255, 255)")];
+      return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    });
+    assert.ok(contrast > 7, `contrast ${contrast}`);
+  });

@@ -1,0 +1,245 @@
+// What the browser tests share: bzm with a window, a browser, a page whose every complaint is a failure.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+
+/** Where run.sh has installed the modules, and where screenshots go. */
+export const folder = process.env.WINDOW_FOLDER ?? ".";
+const { chromium } = createRequire(join(folder, "package.json"))("playwright-core");
+
+/** Waits until `condition` gives something true, and returns it. */
+export async function until(condition, what, seconds = 20) {
+  const end = Date.now() + seconds * 1000;
+  for (;;) {
+    const found = await condition();
+    if (found) return found;
+    if (Date.now() > end) assert.fail(`after ${seconds} s still not: ${typeof what === "function" ? await what() : what}`);
+    await new Promise((resolve) => setTimeout(resolve, 30));
+  }
+}
+
+// What is to be done when a test is over, the last thing first: a page is closed before what it shows is ended.
+const rests = new WeakMap();
+function atEnd(test, rest) {
+  if (!rests.has(test)) {
+    rests.set(test, []);
+    test.after(async () => {
+      const failures = [];
+      for (const each of rests.get(test).reverse()) await Promise.resolve(each()).catch((failure) => failures.push(failure));
+      if (failures.length > 0) throw failures[0];
+    });
+  }
+  rests.get(test).push(rest);
+}
+
+/** A folder of a test's own, taken away after it: `test` is the context that node:test gives it. */
+export function ownFolder(test) {
+  const made = mkdtempSync(join(tmpdir(), "boltzmann-window-"));
+  atEnd(test, async () => rmSync(made, { recursive: true, force: true, maxRetries: 3 }));
+  return made;
+}
+
+/** Starts bzm and waits for the address of its window. It is ended with the test, if it still runs then. */
+export async function bzm(test, words, { cwd = ownFolder(test), seconds = 60 } = {}) {
+  assert.ok(process.env.BZM, "BZM is the path of the command");
+  const child = spawn(process.env.BZM, words, { cwd, stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, NO_COLOR: "1" } });
+  let output = "";
+  for (const stream of [child.stdout, child.stderr]) stream.on("data", (text) => (output += text));
+  const run = {
+    child,
+    cwd,
+    address: "",
+    output: () => output,
+    /** The exit status, or the signal, once it has ended. */
+    ended: new Promise((resolve) => child.on("close", (status, signal) => resolve(status ?? signal))),
+    running: () => child.exitCode === null && child.signalCode === null,
+  };
+  atEnd(test, async () => {
+    if (run.running()) child.kill("SIGINT");
+    const late = setTimeout(() => child.kill("SIGKILL"), 10_000);
+    await run.ended;
+    clearTimeout(late);
+  });
+  run.address = await until(
+    () => {
+      const address = /http:\/\/127\.0\.0\.1:\d+\/\?token=[\w-]+/.exec(output);
+      if (!address && !run.running()) assert.fail(`bzm ${words.join(" ")} ended with ${child.exitCode}:\n${output}`);
+      return address?.[0];
+    },
+    () => `an address in what bzm ${words.join(" ")} prints:\n${output}`,
+    seconds,
+  );
+  return run;
+}
+
+// SwiftShader draws WebGL2 where there is no graphics card. The others: nothing of Chromium speaks to anybody.
+const flags = [
+  "--enable-unsafe-swiftshader",
+  "--use-gl=angle",
+  "--use-angle=swiftshader",
+  "--disable-gpu-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+
+/** A browser for all tests of a file: close() it after them. */
+export function browser() {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    chromiumSandbox: process.getuid() !== 0,
+    args: flags,
+  });
+}
+
+/** Opens an address in a browser state of its own. What the page complains of is kept, and fails the test at its end. */
+export async function open(test, chromium, address, { width = 1280, height = 800, dark = false, prepare } = {}) {
+  const context = await chromium.newContext({
+    viewport: { width, height },
+    colorScheme: dark ? "dark" : "light",
+    reducedMotion: "reduce",
+    acceptDownloads: true,
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(15_000);
+  const complaints = [];
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(`console: ${message.text()} (${message.location().url})`);
+  });
+  page.on("pageerror", (error) => complaints.push(`exception: ${error.stack ?? error}`));
+  const { origin } = new URL(address);
+  page.on("request", (request) => {
+    const url = request.url();
+    if (![origin, "blob:", "data:"].some((start) => url.startsWith(start))) complaints.push(`fetched ${url}`);
+  });
+  page.complaints = complaints;
+  page.wire = listen(page);
+  atEnd(test, async () => {
+    for (const complaint of complaints) test.diagnostic(complaint);
+    // What it looked like at the end, for people: above all when the test has failed.
+    if (!page.isClosed()) await keep(page, `at-the-end/${test.name.replace(/\W+/g, "-").slice(0, 60)}`);
+    await context.close();
+    assert.deepEqual(complaints, []);
+  });
+  await prepare?.(page);
+  await page.goto(address);
+  const version = await page.evaluate(() => {
+    const gl = document.createElement("canvas").getContext("webgl2");
+    const found = gl?.getParameter(gl.VERSION) ?? "";
+    gl?.getExtension("WEBGL_lose_context")?.loseContext();
+    return found;
+  });
+  assert.match(version, /WebGL 2/, "the browser has no WebGL2");
+  return page;
+}
+
+/**
+ * What a page and its window say to each other, as it goes over the wire: the page's own reading of it is left out.
+ * said: the page's messages; hello, update: the last ones; views: the last canvas of each view, with `numbers(stored)`
+ * for its arrays; replies: by id.
+ */
+function listen(page) {
+  const wire = { said: [], hello: null, update: null, replies: new Map(), views: new Map(), steps: [], closed: false };
+  const hear = (message, payload) => {
+    if (message.type === "hello") wire.hello = message;
+    if (message.type === "reply") wire.replies.set(message.id, message);
+    if (message.type !== "update") return;
+    wire.update = message;
+    if (wire.steps.at(-1) !== message.step) wire.steps.push(message.step);
+    for (const view of message.views) wire.views.set(view.id, { ...view, step: message.step, numbers: (stored) => numbers(payload, stored) });
+  };
+  page.on("websocket", (socket) => {
+    Object.assign(wire, { hello: null, update: null, closed: false });
+    wire.views.clear();
+    wire.replies.clear();
+    socket.on("close", () => (wire.closed = true));
+    socket.on("framesent", ({ payload }) => wire.said.push(JSON.parse(payload)));
+    socket.on("framereceived", ({ payload }) => {
+      if (typeof payload === "string") return hear(JSON.parse(payload), null);
+      const length = 4 + payload.readUInt32LE(0);
+      hear(JSON.parse(payload.subarray(4, length).toString()), payload.subarray(length));
+    });
+  });
+  return wire;
+}
+
+const kinds = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, u8: Uint8Array };
+function numbers(payload, { at, count, as }) {
+  const bytes = new Uint8Array(payload).slice(at, at + count * kinds[as].BYTES_PER_ELEMENT);
+  return new kinds[as](bytes.buffer);
+}
+
+/** The last message of the page that does this, and its answer. */
+export async function answer(page, what) {
+  const said = await until(() => page.wire.said.findLast((words) => words.do === what), `a message "${what}"`);
+  return { said, reply: await until(() => page.wire.replies.get(said.id), `an answer to ${JSON.stringify(said)}`, 60) };
+}
+
+/** The cloud of particles that a view was sent last: { count, at: (particle) => coordinates, ... }. */
+export function cloud(page, view = 1) {
+  const { canvas, numbers: read } = page.wire.views.get(view);
+  const mark = canvas.marks.find(({ kind }) => kind === "cloud");
+  const positions = read(mark.positions);
+  const at = (k) => Array.from({ length: mark.dimension }, (_, a) => mark.origin[a] + mark.scale[a] * positions[k * mark.dimension + a]);
+  return { ...mark, at, value: mark.values ? (k) => read(mark.values)[k] : undefined };
+}
+
+/** A page of a simulation that has its first picture. */
+export async function watch(test, chromium, run, options) {
+  const page = await open(test, chromium, run.address, options);
+  await until(() => page.wire.views.has(1), "a first picture");
+  await until(async () => Number((await data(page, "[data-view='1']")).frames) > 0, "a painted picture");
+  return page;
+}
+
+/** Waits until the window has said, and the page shows, this step. */
+export async function atStep(page, step, seconds) {
+  await until(
+    async () => page.wire.update?.step === step && (await data(page, "body")).step === String(step),
+    () => `step ${step}; it is ${page.wire.update?.step} and ${page.wire.update?.state}`,
+    seconds,
+  );
+}
+
+/** The data- attributes of the first element that is found. */
+export function data(page, selector) {
+  return page.locator(selector).first().evaluate((element) => ({ ...element.dataset }));
+}
+
+/**
+ * The share of a pane's canvas that is coloured: particles, curves, images; axes, texts and the paper are grey, and the
+ * right, where colour bars are, is left out.
+ */
+export function share(page, view) {
+  return page.evaluate((number) => {
+    const canvas = document.querySelector(`[data-view="${number}"] canvas`);
+    if (!canvas || canvas.width === 0 || canvas.height === 0) return 0;
+    const copy = document.createElement("canvas");
+    const width = (copy.width = Math.ceil(canvas.width * 0.7));
+    const height = (copy.height = canvas.height);
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    let coloured = 0;
+    for (let k = 0; k < data.length; k += 4)
+      if (Math.max(data[k], data[k + 1], data[k + 2]) - Math.min(data[k], data[k + 1], data[k + 2]) > 40) ++coloured;
+    return coloured / (width * height);
+  }, view);
+}
+
+/** Fails unless the pane shows a picture: particles, curves or an image on its background. */
+export async function painted(page, view, least = 0.0005) {
+  await until(async () => (await share(page, view)) > least, `a picture in pane ${view}`);
+}
+
+/** Keeps a screenshot for people to look at. */
+export async function keep(page, name) {
+  const file = join(folder, "screenshots", `${name}.png`);
+  mkdirSync(dirname(file), { recursive: true });
+  writeFileSync(file, await page.screenshot());
+}

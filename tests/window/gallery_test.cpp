@@ -1,0 +1,281 @@
+// The gallery: what the start page is told of scenarios, and what it may write.
+#include <boltzmann/window/gallery.hpp>
+
+#include "../files/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string read(fs::path const& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+json find(json const& list, std::string const& key, std::string const& value) {
+  for (auto const& one : list)
+    if (one.at(key) == value) return one;
+  return nullptr;
+}
+
+/// A scenario of one atom in 1D.
+std::string small(std::string const& title) {
+  return "title = \"" + title +
+         "\"\n[units]\nbase = \"reduced\"\n[box]\nlow = [0]\nhigh = [9]\n[run]\nstep = 0.1   # of a second\nsteps = 3\n"
+         "[[ensembles]]\nname = \"atoms\"\nclass = \"Newton\"\nmass = 1\n"
+         "load = { kind = \"positions\", positions = [[1]] }\n";
+}
+
+class GalleryTest : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+  Gallery gallery{folder.path};
+
+  void put(std::string const& name, std::string const& text) const { std::ofstream(folder / name) << text; }
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()));
+  }
+};
+
+TEST_F(GalleryTest, ListsEveryShippedScenarioAtOnce) {
+  auto const since = std::chrono::steady_clock::now();
+  json const reply = gallery.scenarios();
+  double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+  RecordProperty("milliseconds", static_cast<int>(1000 * seconds));
+  std::printf("[ LIST     ] %.1f ms\n", 1000 * seconds);
+  EXPECT_LT(seconds, 1.0);
+  EXPECT_EQ(reply.at("ok"), true);
+  auto const& list = reply.at("scenarios");
+  ASSERT_EQ(list.size(), shipped_scenarios().size());
+  std::size_t k = 0;
+  for (auto const& name : shipped_scenarios()) {
+    auto const& one = list[k++];
+    EXPECT_EQ(one.at("name"), name);
+    EXPECT_FALSE(one.at("title").get<std::string>().empty());
+    EXPECT_FALSE(one.at("description").get<std::string>().empty());
+    EXPECT_EQ(one.at("own"), false);
+    ASSERT_TRUE(one.at("picture").is_string()) << name << " has no picture in docs/gallery";
+    auto const picture = gallery.picture(one.at("picture").get<std::string>());
+    ASSERT_TRUE(picture) << name;
+    EXPECT_EQ(picture->type, "image/png");
+    // PNG's head: 480 x 360.
+    EXPECT_EQ(picture->content->substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_EQ(picture->content->substr(16, 8), std::string("\0\0\x01\xe0\0\0\x01\x68", 8)) << name;
+  }
+  json const copper = find(list, "name", "copper");
+  EXPECT_EQ(copper.at("dimension"), 2);
+  EXPECT_EQ(copper.at("steps"), 2000);
+  EXPECT_EQ(copper.at("particles"), 250);
+  EXPECT_TRUE(find(list, "name", "cavitation").at("steps").is_null());  // by the Courant step
+}
+
+TEST_F(GalleryTest, OwnScenariosComeAfterTheShipped) {
+  put("zebra.toml", small("Stripes"));
+  put("ant.toml", small("Six legs"));
+  put("copper.toml", small("Another copper"));
+  put("pyproject.toml", "[project]\nname = \"x\"\n");
+  put("broken.toml", "title = \n");
+  put("note.txt", small("no"));
+  put("latin\xe9.toml", small("not to be told in JSON"));
+  fs::create_directory(folder / "folder.toml");
+  json const list = gallery.scenarios().at("scenarios");
+  std::vector<std::string> own;
+  for (std::size_t k = shipped_scenarios().size(); k < list.size(); ++k) {
+    own.push_back(list[k].at("name"));
+    EXPECT_EQ(list[k].at("own"), true);
+    EXPECT_TRUE(list[k].at("picture").is_null());
+    EXPECT_EQ(list[k].at("particles"), 1);
+  }
+  EXPECT_EQ(own, (std::vector<std::string>{"ant", "copper.toml", "zebra"}));
+  EXPECT_EQ(gallery.scenario("copper.toml").at("title"), "Another copper");
+  EXPECT_NE(gallery.scenario("copper").at("title"), "Another copper");
+  EXPECT_EQ(gallery.load("copper.toml", {})->title, "Another copper");
+}
+
+TEST_F(GalleryTest, TellsParametersAsThePageWantsThem) {
+  json const reply = gallery.scenario("copper");
+  EXPECT_EQ(reply.at("ok"), true);
+  EXPECT_EQ(reply.at("name"), "copper");
+  EXPECT_EQ(reply.at("text"), read(find_scenario("copper")));
+  json const step = find(reply.at("parameters"), "path", "run.step");
+  ASSERT_FALSE(step.is_null());
+  std::set<std::string> keys;
+  for (auto const& [key, value] : step.items()) keys.insert(key);
+  EXPECT_EQ(keys, (std::set<std::string>{"path", "group", "name", "kind", "value", "unit", "units", "low", "high",
+                                         "low_excluded", "words", "comment"}));
+  EXPECT_EQ(step.at("group"), "run");
+  EXPECT_EQ(step.at("low"), 0);
+  EXPECT_EQ(step.at("low_excluded"), true);
+  EXPECT_TRUE(step.at("high").is_null());
+  // One with a mistake still has its text.
+  put("wrong.toml", small("w") + "[output]\ntrajectroy = 1\n");
+  json const wrong = gallery.scenario("wrong");
+  EXPECT_EQ(wrong.at("ok"), true);
+  EXPECT_TRUE(wrong.at("parameters").empty());
+  ASSERT_EQ(wrong.at("errors").size(), 1U);
+  EXPECT_NE(wrong.at("errors")[0].at("message").get<std::string>().find("did you mean 'trajectory'"),
+            std::string::npos);
+  // What is no TOML, or no UTF-8, is refused.
+  put("broken.toml", "title = \n");
+  put("latin.toml", small("caf\xe9"));
+  for (char const* name : {"broken", "latin"}) {
+    json const broken = gallery.scenario(name);
+    EXPECT_FALSE(broken.contains("ok"));
+    EXPECT_EQ(broken.at("errors").size(), 1U);
+    EXPECT_NO_THROW((void)broken.dump());
+  }
+  EXPECT_NE(gallery.scenario("coper").at("error").get<std::string>().find("did you mean 'copper'"), std::string::npos);
+}
+
+TEST_F(GalleryTest, ChecksAndSaysWhichValueIsWrong) {
+  EXPECT_EQ(gallery.check("copper", json::object()).at("ok"), true);
+  EXPECT_EQ(gallery.check("copper", nullptr).at("ok"), true);
+  EXPECT_EQ(gallery.check("copper", {{"run.step", "0.02"}, {"run.steps", "10"}}).at("ok"), true);
+  json const reply = gallery.check("copper", {{"run.step", "-1"}, {"box.boundary", "perodic"}, {"run.seed", "3"}});
+  EXPECT_FALSE(reply.contains("ok"));
+  ASSERT_EQ(reply.at("errors").size(), 2U);
+  EXPECT_EQ(find(reply.at("errors"), "path", "run.step").at("message"),
+            "step: -1 is out of range; it must be positive");
+  EXPECT_NE(
+      find(reply.at("errors"), "path", "box.boundary").at("message").get<std::string>().find("did you mean 'periodic'"),
+      std::string::npos);
+  EXPECT_NE(reply.at("error").get<std::string>().find("(and 1 more)"), std::string::npos);
+  // What another value makes wrong has no path of its own.
+  put("small.toml", small("s"));
+  json const elsewhere = gallery.check("small", {{"box.high", "[0.5]"}, {"box.boundary", "periodic"}});
+  ASSERT_EQ(elsewhere.at("errors").size(), 1U);
+  EXPECT_TRUE(elsewhere.at("errors")[0].at("path").is_null()) << elsewhere.dump();
+  // A line break in a value, a value that holds an equals sign, one path that is the beginning of another.
+  EXPECT_EQ(gallery.check("small", {{"run.step", "1\n2"}}).at("errors")[0].at("path"), "run.step");
+  EXPECT_EQ(gallery.check("small", {{"run.step", "a=b: c"}}).at("errors")[0].at("path"), "run.step");
+  EXPECT_EQ(gallery.check("small", {{"run.steps", "-1"}}).at("errors")[0].at("path"), "run.steps");
+  EXPECT_EQ(gallery.check("small", {{"nothing.here", "1"}}).at("errors")[0].at("path"), "nothing.here");
+}
+
+TEST_F(GalleryTest, RefusesWhatIsNoSet) {
+  for (json const& set : {json(3), json::array({1}), json("run.step=1"), json{{"run.step", 1}}, json{{"", "1"}},
+                          json{{"a=b", "1"}}, json{{"run.step", nullptr}}}) {
+    json const reply = gallery.check("copper", set);
+    EXPECT_TRUE(reply.contains("error")) << set.dump();
+    EXPECT_FALSE(reply.contains("ok"));
+    EXPECT_TRUE(gallery.save("copper", set, "x", false).contains("error"));
+    EXPECT_THROW(gallery.load("copper", set), Error);
+  }
+  EXPECT_TRUE(gallery.check("", {}).contains("error"));
+  EXPECT_TRUE(gallery.check("../copper", {}).contains("error"));
+  EXPECT_TRUE(gallery.check("/etc/passwd", {}).contains("error"));
+  EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(GalleryTest, SavesWithCommentsAndLayout) {
+  json const reply = gallery.save("copper", {{"run.step", "0.02"}, {"title", "\"My copper\""}}, "my-copper", false);
+  ASSERT_TRUE(reply.contains("ok")) << reply.dump();
+  EXPECT_EQ(reply.at("path"), fs::absolute(folder / "my-copper.toml").string());
+  std::string expected = read(find_scenario("copper"));
+  auto const title = expected.find("title = ");
+  expected.replace(title, expected.find('\n') - title, "title = \"My copper\"");
+  auto const step = expected.find("\nstep = 0.01");
+  ASSERT_NE(step, std::string::npos);
+  expected.replace(step, 12, "\nstep = 0.02");
+  EXPECT_EQ(read(folder / "my-copper.toml"), expected);
+  EXPECT_EQ(files(), 1U);
+  // It is a scenario like any other now.
+  EXPECT_EQ(find(gallery.scenarios().at("scenarios"), "name", "my-copper").at("title"), "My copper");
+  EXPECT_EQ(gallery.load("my-copper", {})->simulation->step_size(), 0.02);
+  EXPECT_TRUE(gallery.save("my-copper", {{"run.steps", "1"}}, "twice", false).contains("ok"));
+}
+
+TEST_F(GalleryTest, ReplacesOnlyWhenTold) {
+  ASSERT_TRUE(gallery.save("copper", {}, "mine", false).contains("ok"));
+  std::string const first = read(folder / "mine.toml");
+  json const refused = gallery.save("copper", {{"run.step", "0.02"}}, "mine", false);
+  EXPECT_NE(refused.at("error").get<std::string>().find("already"), std::string::npos);
+  EXPECT_EQ(read(folder / "mine.toml"), first);
+  ASSERT_TRUE(gallery.save("copper", {{"run.step", "0.02"}}, "mine", true).contains("ok"));
+  EXPECT_NE(read(folder / "mine.toml"), first);
+  EXPECT_EQ(files(), 1U);
+  // A link to elsewhere is replaced, not followed.
+  fs::create_symlink(folder / "target", folder / "link.toml");
+  EXPECT_TRUE(gallery.save("copper", {}, "link", false).contains("error"));
+  EXPECT_TRUE(gallery.save("copper", {}, "link", true).contains("ok"));
+  EXPECT_FALSE(fs::exists(folder / "target"));
+}
+
+TEST_F(GalleryTest, RefusesNamesThatLeadElsewhere) {
+  for (std::string const bad : {"", ".", "..", "../x", "a/b", "/tmp/x", "a..b", ".hidden", "-x", "a\nb", "a\\b",
+                                "copper", "copper.toml", "a\"b", "*"})
+    EXPECT_TRUE(gallery.save("copper", {}, bad, true).contains("error")) << bad;
+  EXPECT_TRUE(gallery.save("copper", {}, std::string("a\0b", 3), true).contains("error"));
+  EXPECT_TRUE(gallery.save("copper", {}, std::string(200, 'a'), true).contains("error"));
+  EXPECT_EQ(files(), 0U);
+  EXPECT_TRUE(gallery.save("copper", {}, "Änderung 2, neu.toml", false).contains("ok"));
+  EXPECT_TRUE(fs::exists(folder / "Änderung 2, neu.toml"));
+}
+
+TEST_F(GalleryTest, SavesNothingThatIsWrong) {
+  json const reply = gallery.save("copper", {{"run.step", "0"}}, "wrong", false);
+  ASSERT_EQ(reply.at("errors").size(), 1U);
+  EXPECT_EQ(reply.at("errors")[0].at("path"), "run.step");
+  // A file beside the scenario that would not be beside the copy.
+  fs::create_directory(folder / "other");
+  std::string text = small("f");
+  text.replace(text.find("{ kind"), std::string::npos, "{ kind = \"file\", path = \"atoms.xyz\" }\n");
+  std::ofstream(folder / "there.toml") << text;
+  std::ofstream(folder / "atoms.xyz") << "1\n\nX 1 0 0\n";
+  EXPECT_TRUE(gallery.save("there", {}, "copy", false).contains("ok"));
+  fs::remove(folder / "atoms.xyz");
+  EXPECT_TRUE(gallery.save("there", {}, "copy2", false).contains("error"));
+  EXPECT_FALSE(fs::exists(folder / "copy2.toml"));
+  Gallery const nowhere(folder / "not there");
+  EXPECT_TRUE(nowhere.save("copper", {}, "x", false).contains("error"));
+  EXPECT_EQ(nowhere.scenarios().at("scenarios").size(), shipped_scenarios().size());
+}
+
+TEST_F(GalleryTest, RenamesAnEnsembleWithItsOtherValues) {
+  put("small.toml", small("s"));
+  json const set = {
+      {"ensembles.atoms.name", "\"balls\""}, {"ensembles.atoms.mass", "2"}, {"ensembles.atoms.class", "\"Newton\""}};
+  auto const scenario = gallery.load("small", set);
+  EXPECT_EQ(scenario->ensembles[0]->name(), "balls");
+  ASSERT_TRUE(gallery.save("small", set, "balls", false).contains("ok"));
+  EXPECT_EQ(gallery.load("balls", {})->ensembles[0]->column(scenario->ensembles[0]->field("mass"))[0], 2);
+}
+
+TEST_F(GalleryTest, PicturesAreThoseOfTheFolderAlone) {
+  for (std::string const bad : {"/gallery/", "/gallery/.png", "/gallery/../gallery/copper.png", "/gallery/copper",
+                                "copper.png", "/gallery//etc/passwd.png", "/gallery/%2e%2e/x.png",
+                                "/gallery/nothing.png", "", "/gallery/copper.toml", "/gallery/copper.png/"})
+    EXPECT_FALSE(gallery.picture(bad)) << bad;
+  EXPECT_FALSE(gallery.picture(std::string_view("/gallery/\0.png", 14)));
+  std::size_t bytes = 0;
+  for (auto const& entry : fs::directory_iterator(gallery_folder())) bytes += entry.file_size();
+  EXPECT_LT(bytes, 1'500'000U);
+}
+
+TEST_F(GalleryTest, PicturesCanBeAskedForMeanwhile) {
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 50; ++k) EXPECT_TRUE(gallery.picture("/gallery/copper.png"));
+    });
+  for (int k = 0; k < 5; ++k) gallery.scenarios();
+  for (auto& thread : threads) thread.join();
+}
+
+}  // namespace
+}  // namespace boltzmann

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here.
+# Usage: page.sh BUILD_FOLDER
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+what="build of the page"
+. "$here/node_modules.sh"
+need node npm
+
+window=$(cd "$here/../../boltzmann/window" && pwd)
+folder=$1/window-page
+mkdir -p "$folder"
+rm -rf "$folder/src" "$folder/out"
+for name in .npmrc package.json package-lock.json tsconfig.json vite.config.ts index.html src; do
+  cp -r "$window/web/$name" "$folder/"
+done
+install "$folder"
+cd "$folder"
+PAGE_FOLDER=out npm run --silent build
+cmp out/page.html "$window/page.html" || {
+  echo "boltzmann/window/page.html is not what its source gives; build it again: cd boltzmann/window/web && npm ci && npm run build"
+  exit 1
+}
+echo "page.html is what its source gives"
