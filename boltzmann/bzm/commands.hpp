@@ -42,8 +42,9 @@ int resume(ResumeOptions const& options);
 struct RenderOptions {
   std::string folder, out;
   std::optional<std::int64_t> frame;  ///< counts from 0; negative: from the end
-  std::string drawing, x, y, colour, size;
-  bool trace = false, dark = false;
+  std::string drawing, x, y, colour, size, vectors;
+  std::optional<double> azimuth, elevation;  ///< degrees
+  bool trace = false, dark = false, logarithmic = false;
   int frames_per_second = 25;
   double scale = 1;
 };

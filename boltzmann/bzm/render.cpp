@@ -83,6 +83,10 @@ class Frames {
     if (!options.y.empty()) picture_.y = options.y;
     if (!options.colour.empty()) picture_.colour = options.colour;
     if (!options.size.empty()) picture_.size = options.size;
+    if (!options.vectors.empty()) picture_.vectors = options.vectors;
+    if (options.azimuth) picture_.projection.azimuth = *options.azimuth;
+    if (options.elevation) picture_.projection.elevation = *options.elevation;
+    if (options.logarithmic) picture_.logarithmic = true;
     if (options.trace) picture_.trace = true;
     paper_.scale = options.scale;
     paper_.dark = options.dark;

@@ -309,7 +309,7 @@ class Maker {
     choose_ends();
     double const width = result_.high - result_.low;
     double const far = scale.squares ? result_.high : std::max(std::abs(result_.low - scale.zero), width);
-    return !(width > 0) || (width > 1e-30 && far < 1e3 * width && far < 1e37);
+    return width > 1e-30 && far < 1e3 * width && far < 1e37;
   }
 
   void draw(Scale const& scale) {

@@ -76,7 +76,7 @@ Recorder::Recorder(Item& document, std::string const& text) : text_(text) { walk
 void Recorder::walk(Item& table, std::string const& path, std::string const& group, Lines const& lines) {
   for (auto& entry : table.entries) {
     if (entry.key.empty() || entry.key.find_first_of(".= ") != std::string::npos) continue;  // no path leads there
-    if (path.empty() && entry.key == "sweep") continue;  // not of the simulation
+    if (path.empty() && entry.key == "sweep") continue;                                      // not of the simulation
     std::string const here = path.empty() ? entry.key : path + "." + entry.key;
     Item& item = entry.item;
     if (item.is(Item::Kind::table)) {
@@ -142,6 +142,7 @@ void Recorder::number(Item const& item, Dimension dimension, NumberRange const& 
     ScenarioParameter& parameter = value->parameter;
     auto const display = base.display(dimension);
     parameter.unit = display.unit;
+    parameter.base_unit = base.unit_name(dimension);
     value->factor = display.factor;
     std::vector<std::string> candidates = example_units(dimension);
     candidates.insert(candidates.begin(), display.unit);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace boltzmann {
 namespace {
@@ -17,6 +18,8 @@ void check_drawing(Picture const& picture) {
   if (std::find(names.begin(), names.end(), picture.drawing) == names.end())
     throw Error("unknown drawing '" + picture.drawing + "'; there are " + join(names) +
                 did_you_mean(picture.drawing, names));
+  if (!std::isfinite(picture.projection.azimuth) || !std::isfinite(picture.projection.elevation))
+    throw Error("azimuth and elevation of a projection are finite angles");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Two quantities of every particle, one over the other; and their way through all frames.
 #include <boltzmann/diagnoses/drawings.hpp>
-#include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/picture_scene.hpp>
 
@@ -27,9 +26,7 @@ bool through_wall(Scene const& scene, std::string const& name, double way) {
 // Two quantities of every particle through all frames. The ensembles show one frame after the other meanwhile.
 void draw_tracks(Canvas& canvas, Scene& scene, std::string const& x, std::string const& y) {
   TrajectoryReader const reader(scene.context.folder + "/trajectory.h5");
-  scene.keep_schemes();
-  std::vector<Checkpoint::Rows> now;
-  for (auto const* ensemble : scene.ensembles) now.push_back(copy_rows(*ensemble));
+  scene.keep_particles();
   std::vector<std::vector<std::array<Values, 2>>> tracks(scene.ensembles.size());
   auto const extend = [&] {
     scene.forget();
@@ -50,7 +47,7 @@ void draw_tracks(Canvas& canvas, Scene& scene, std::string const& x, std::string
     for (auto* ensemble : scene.ensembles) reader.load(f, *ensemble);
     extend();
   }
-  for (std::size_t e = 0; e < scene.ensembles.size(); ++e) restore_rows(now[e], *scene.ensembles[e]);
+  scene.put_particles_back();
   extend();
   for (std::size_t e = 0; e < tracks.size(); ++e)
     for (std::size_t i = 0; i < tracks[e].size(); ++i)

@@ -25,6 +25,7 @@ Scene::Scene(Picture const& what, PictureContext const& where)
     : picture(what), context(where), ensembles(ensembles_of(where.simulation)) {}
 
 Scene::~Scene() {
+  put_particles_back();
   for (std::size_t e = 0; e < influences_.size(); ++e)
     std::copy(influences_[e].begin(), influences_[e].end(), ensembles[e]->influence(0));
   auto const& schemes = context.simulation.schemes();
@@ -119,12 +120,12 @@ void Scene::need(std::string const& name) {
                                              [](AnyEnsemble* e) { return !e->find_field("velocity"); }));
   if (!needed || fresh_) return;
   fresh_ = true;
-  keep();
+  keep_influences();
   for (auto* ensemble : ensembles) ensemble->clear_influence();
   for (auto* scheme : context.simulation.schemes()) scheme->add_influences(context.time);
 }
 
-void Scene::keep() {
+void Scene::keep_influences() {
   if (kept_) return;
   kept_ = true;
   for (auto const* ensemble : ensembles) {
@@ -133,10 +134,14 @@ void Scene::keep() {
   }
 }
 
-void Scene::keep_schemes() {
-  keep();
-  if (schemes_.empty())
-    for (auto const* scheme : context.simulation.schemes()) schemes_.push_back(scheme->state());
+void Scene::keep_particles() {
+  keep_influences();
+  for (auto const* scheme : context.simulation.schemes()) schemes_.push_back(scheme->state());
+  for (auto const* ensemble : ensembles) rows_.push_back(copy_rows(*ensemble));
+}
+
+void Scene::put_particles_back() {
+  for (std::size_t e = 0; e < rows_.size(); ++e) restore_rows(rows_[e], *ensembles[e]);
 }
 
 std::vector<std::array<double, 2>> Scene::shown_box(std::array<std::array<double, 2>, 3> const& reach) const {

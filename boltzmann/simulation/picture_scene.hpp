@@ -4,6 +4,7 @@
 
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/particle_clouds.hpp>
+#include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/simulation/picture.hpp>
 
 #include <array>
@@ -18,7 +19,7 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 class Scene {
  public:
   Scene(Picture const& picture, PictureContext const& context);
-  /// Puts influences back that had to be found anew.
+  /// Puts back what had to be found anew, or was kept.
   ~Scene();
   Scene(Scene const&) = delete;
   Scene& operator=(Scene const&) = delete;
@@ -52,8 +53,10 @@ class Scene {
   void need(std::string const& name);
   /// The particles have been replaced: what is needed must be found again.
   void forget() { fresh_ = false; }
-  /// To be called before particles are replaced by others for a while: what schemes remember of them comes back, too.
-  void keep_schemes();
+  /// To be called before particles are replaced by others for a while. They, and what schemes remember of them, come
+  /// back at the end at the latest.
+  void keep_particles();
+  void put_particles_back();
 
   /// The part of space that is shown: the box, and on open axes also what has left it, up to half a box away. `reach`
   /// is where particles are.
@@ -62,9 +65,10 @@ class Scene {
   std::array<std::array<double, 2>, 3> open_reach() const;
 
  private:
-  void keep();
+  void keep_influences();
 
   bool fresh_ = false, kept_ = false;
+  std::vector<Checkpoint::Rows> rows_;
   std::vector<Values> influences_;
   std::vector<Values> schemes_;
 };

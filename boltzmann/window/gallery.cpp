@@ -149,12 +149,19 @@ json answer(ScenarioValues const& values, Function const& function) {
 json limit(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json json_of(ScenarioParameter const& parameter) {
-  return {{"path", parameter.path},        {"group", parameter.group},
-          {"name", parameter.name},        {"kind", parameter.kind},
-          {"value", parameter.value},      {"unit", parameter.unit},
-          {"units", parameter.units},      {"low", limit(parameter.low)},
-          {"high", limit(parameter.high)}, {"low_excluded", parameter.low_excluded},
-          {"words", parameter.words},      {"comment", parameter.comment}};
+  return {{"path", parameter.path},
+          {"group", parameter.group},
+          {"name", parameter.name},
+          {"kind", parameter.kind},
+          {"value", parameter.value},
+          {"unit", parameter.unit},
+          {"base_unit", parameter.base_unit},
+          {"units", parameter.units},
+          {"low", limit(parameter.low)},
+          {"high", limit(parameter.high)},
+          {"low_excluded", parameter.low_excluded},
+          {"words", parameter.words},
+          {"comment", parameter.comment}};
 }
 
 /// A name of a file, nothing that leads elsewhere.

@@ -43,8 +43,32 @@ std::optional<GalleryShow::Choice> GalleryShow::run() {
 }
 
 json GalleryShow::hello() const {
-  return {{"type", "hello"}, {"kind", "gallery"}, {"title", "Boltzmann"}, {"description", ""},
-          {"name", ""},      {"folder", ""},      {"message", message_}};
+  json const none = json::array();
+  std::string const why = "there is no simulation yet";
+  return {{"type", "hello"},
+          {"kind", "gallery"},
+          {"title", "Boltzmann"},
+          {"description", ""},
+          {"name", ""},
+          {"folder", ""},
+          {"message", message_},
+          {"dimension", 0},
+          {"planned", 0},
+          {"box", {{"low", none}, {"high", none}, {"boundary", none}}},
+          {"length_unit", ""},
+          {"length_factor", 1},
+          {"time_unit", ""},
+          {"step_size", ""},
+          {"step_size_number", 0},
+          {"steps_per_frame", 1},
+          {"ensembles", none},
+          {"quantities", none},
+          {"vectors", none},
+          {"diagnoses", none},
+          {"columns", none},
+          {"can", {{"rewind", why}, {"step_size", why}, {"checkpoint", why}, {"seek", why}, {"quit", ""}}},
+          {"maps", json::object()},
+          {"colours", none}};
 }
 
 json GalleryShow::status() const {

@@ -54,7 +54,7 @@ struct LiveRun::State {
   bool inside = false;  // within run() or rewind() of the simulation
   Wish wish = Wish::pause;
   bool quit = false;
-  std::int64_t steps_left = 0;  // of STEP, backwards if negative
+  std::optional<std::int64_t> goal, bound_for;  // where STEP goes, and where the present run() goes for it
   std::int64_t first = 0, target = 0, planned = 0;
   std::int64_t steps_per_frame = 0;
   std::optional<double> new_step_size;
@@ -120,7 +120,7 @@ struct LiveRun::State {
   }
 
   // STEP goes as fast as it can.
-  bool paced() const { return steps_per_frame > 0 && steps_left == 0 && audience.watched(); }
+  bool paced() const { return steps_per_frame > 0 && !goal && audience.watched(); }
 
   // The pace that was asked for, whether or not a browser keeps up with it. Where steps alone take longer than that,
   // drawing is held to its share of the time.
@@ -151,7 +151,7 @@ struct LiveRun::State {
   }
 
   Wish doing = Wish::pause;  // what the present run() of the simulation does
-  bool turned() const { return quit || wish != doing || new_step_size.has_value(); }
+  bool turned() const { return quit || wish != doing || goal != bound_for || new_step_size.has_value(); }
 
   void count() {
     auto const now = Clock::now();
@@ -224,6 +224,7 @@ struct LiveRun::State {
   // Runs the simulation until something else is wanted, or the end of this is reached.
   void go(Wish what, std::uint64_t steps) {
     doing = wish;
+    bound_for = goal;
     counted_since = last_look = next_frame = Clock::now();
     counted_from = simulation.step();
     judged = std::numeric_limits<std::int64_t>::min();
@@ -233,13 +234,11 @@ struct LiveRun::State {
       bool& inside;
       ~Outside() { inside = false; }
     } const outside{inside};
-    std::int64_t const before = simulation.step();
     if (what == Wish::rewind)
       simulation.rewind(steps);
     else
       simulation.run(steps);
-    std::int64_t const done = simulation.step() - before;
-    if (steps_left != 0) steps_left -= done;
+    if (goal == simulation.step()) goal.reset();
     ++scene;
   }
 
@@ -253,9 +252,9 @@ struct LiveRun::State {
       simulation.step_size(size);
     }
     std::int64_t const step = simulation.step();
-    if (steps_left != 0) {
+    if (goal) {
       missed = nullptr;
-      go(steps_left < 0 ? Wish::rewind : Wish::play, static_cast<std::uint64_t>(std::abs(steps_left)));
+      go(*goal < step ? Wish::rewind : Wish::play, static_cast<std::uint64_t>(std::abs(*goal - step)));
       arrive();
       return;
     }
@@ -350,7 +349,7 @@ void LiveRun::run(std::uint64_t steps) {
   while (!state.over()) {
     state.audience.attend();
     if (state.over()) break;
-    bool const busy = !state.failure && (state.wish != Wish::pause || state.steps_left != 0 || state.new_step_size);
+    bool const busy = !state.failure && (state.wish != Wish::pause || state.goal || state.new_step_size);
     if (!busy) {
       state.audience.present();
       bool const finished = state.failure || state.simulation.step() >= state.target;
@@ -358,7 +357,7 @@ void LiveRun::run(std::uint64_t steps) {
       state.audience.wait(0.1);
       continue;
     }
-    if (state.new_step_size && state.wish == Wish::pause && state.steps_left == 0) {
+    if (state.new_step_size && state.wish == Wish::pause && !state.goal) {
       state.simulation.step_size(*state.new_step_size);
       state.new_step_size.reset();
       ++state.notice;
@@ -370,12 +369,12 @@ void LiveRun::run(std::uint64_t steps) {
       state.failure = std::current_exception();
       state.tell(failure.what());
       state.wish = Wish::pause;
-      state.steps_left = 0;
+      state.goal.reset();
       ++state.scene;
     } catch (Error const& error) {
       state.tell(error.what());
       state.wish = Wish::pause;
-      state.steps_left = 0;
+      state.goal.reset();
     }
   }
   state.quit = true;
@@ -404,7 +403,7 @@ json LiveRun::hello() const {
 
 json LiveRun::status() const {
   State const& state = *state_;
-  bool const moving = state.wish != Wish::pause || state.steps_left != 0;
+  bool const moving = state.wish != Wish::pause || state.goal;
   return {{"state", state.state_word()},
           {"step", state.simulation.step()},
           {"time", state.stage.quantity(state.simulation.time(), dimensions::time)},
@@ -431,7 +430,7 @@ json LiveRun::perform(json const& request) {
     return json::object();
   }
   if (what == "stop") {
-    state.steps_left = 0;
+    state.goal.reset();
     state.want(Wish::pause);
     return json::object();
   }
@@ -445,14 +444,19 @@ json LiveRun::perform(json const& request) {
   if (back && state.simulation.step() <= state.first) throw Error("this is where the run began");
   if (moves && !state.message.empty()) state.tell("");
   if (what == "play") {
-    state.steps_left = 0;
+    state.goal.reset();
     state.want(Wish::play);
   } else if (what == "rewind") {
-    state.steps_left = 0;
+    state.goal.reset();
     state.want(Wish::rewind);
   } else if (what == "step") {
     state.want(Wish::pause);
-    state.steps_left = std::max(static_cast<std::int64_t>(count), state.first - state.simulation.step());
+    // Pressed faster than steps are done, they add up; the other way they begin anew.
+    std::int64_t const now = state.simulation.step();
+    bool const again = state.goal && (*state.goal > now) == (count > 0);
+    std::int64_t const goal = (again ? *state.goal : now) + static_cast<std::int64_t>(count);
+    state.goal = std::max(goal, state.first);
+    if (state.goal == now) state.goal.reset();
   } else if (what == "set") {
     state.set(request);
   } else if (what == "checkpoint") {

@@ -33,9 +33,10 @@ Replay::Replay(Stage& stage, Audience& audience, std::string name, std::string d
       name_(std::move(name)),
       description_(std::move(description)),
       path_(stage.folder() + "/trajectory.h5") {
-  size_ = std::filesystem::exists(path_) ? std::filesystem::file_size(path_) : 0;
-  reader_ = std::make_unique<TrajectoryReader>(path_);
-  if (reader_->frames() == 0) throw Error("'" + path_ + "' has no frames");
+  std::error_code ignored;  // the reader will say what is wrong
+  written_ = std::filesystem::last_write_time(path_, ignored);
+  take(std::make_unique<TrajectoryReader>(path_));
+  if (steps_.empty()) throw Error("'" + path_ + "' has no frames");
   read_table();
   go_to(0);
 }
@@ -64,30 +65,41 @@ void Replay::read_table() {
 }
 
 void Replay::go_to(std::int64_t frame) {
+  if (!reader_) throw Error("'" + path_ + "' can't be read at the moment");
   frame_ = std::clamp<std::int64_t>(frame, 0, frames() - 1);
   for (auto* scheme : stage_.simulation().schemes())
     for (auto* ensemble : scheme->ensembles()) reader_->load(static_cast<std::size_t>(frame_), *ensemble);
   ++scene_;
 }
 
-// A run that goes on in another program adds frames.
+// A run that goes on in another program adds frames. HDF5 would take a file that is open already for the same, as it
+// was: so it is closed first.
 void Replay::look_for_more() {
   std::error_code error;
-  auto const size = std::filesystem::file_size(path_, error);
-  if (error || size == size_) return;
+  auto const written = std::filesystem::last_write_time(path_, error);
+  if (error || (written == written_ && reader_)) return;
+  std::int64_t const before = frames();
+  reader_.reset();
   try {
     auto longer = std::make_unique<TrajectoryReader>(path_);
-    if (longer->frames() < reader_->frames()) return;  // replaced by another run: keep what is shown
-    bool const more = longer->frames() > reader_->frames();
-    reader_ = std::move(longer);
-    size_ = size;
-    if (more) {
-      read_table();
-      ++notice_;
+    if (static_cast<std::int64_t>(longer->frames()) < before) {  // replaced by another run
+      longer.reset();
+      return;
     }
+    take(std::move(longer));
+    written_ = written;
+    if (frames() == before) return;
+    read_table();
+    ++notice_;
   } catch (Error const&) {
     // in the middle of a write; the next look will do
   }
+}
+
+void Replay::take(std::unique_ptr<TrajectoryReader> reader) {
+  reader_ = std::move(reader);
+  steps_ = reader_->steps();
+  times_ = reader_->times();
 }
 
 bool Replay::run() {
@@ -107,7 +119,7 @@ bool Replay::run() {
         direction_ = 0;
         ++notice_;
       } else {
-        go_to(wanted);
+        if (reader_) go_to(wanted);
         next_frame = std::max(next_frame + seconds(1 / frames_per_second_), now);
       }
     }
@@ -128,7 +140,7 @@ json Replay::hello() const {
   result["kind"] = "replay";
   result["name"] = name_;
   result["description"] = description_;
-  result["planned"] = reader_->steps().back();
+  result["planned"] = steps_.back();
   result["steps_per_frame"] = frames_per_second_;
   result["can"] = {{"rewind", ""}, {"step_size", stored}, {"checkpoint", stored}, {"seek", ""}, {"quit", ""}};
   return result;
@@ -144,7 +156,7 @@ json Replay::status() const {
           {"step", step()},
           {"time", stage_.quantity(time(), dimensions::time)},
           {"time_number", time()},
-          {"planned", reader_->steps().back()},
+          {"planned", steps_.back()},
           {"steps_per_second", 0},
           {"steps_per_frame", frames_per_second_},
           {"frame", frame_},

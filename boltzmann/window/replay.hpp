@@ -6,6 +6,7 @@
 #include <boltzmann/window/stage.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,9 +36,10 @@ class Replay final : public Show {
   ShownTable const* table() const override { return &table_; }
 
  private:
-  std::int64_t frames() const { return static_cast<std::int64_t>(reader_->frames()); }
-  std::int64_t step() const { return reader_->steps()[static_cast<std::size_t>(frame_)]; }
-  double time() const { return reader_->times()[static_cast<std::size_t>(frame_)]; }
+  std::int64_t frames() const { return static_cast<std::int64_t>(steps_.size()); }
+  std::int64_t step() const { return steps_[static_cast<std::size_t>(frame_)]; }
+  double time() const { return times_[static_cast<std::size_t>(frame_)]; }
+  void take(std::unique_ptr<TrajectoryReader> reader);
   void go_to(std::int64_t frame);
   void read_table();
   void look_for_more();
@@ -45,8 +47,10 @@ class Replay final : public Show {
   Stage& stage_;
   Audience& audience_;
   std::string name_, description_, path_;
-  std::unique_ptr<TrajectoryReader> reader_;
-  std::uintmax_t size_ = 0;  // of the file when it was opened
+  std::unique_ptr<TrajectoryReader> reader_;  // null while the file can't be read
+  std::vector<std::int64_t> steps_;
+  std::vector<double> times_;
+  std::filesystem::file_time_type written_{};  // when the file was, before it was opened
   std::int64_t frame_ = 0;
   int direction_ = 0;  // 1: plays, -1: plays backwards
   double frames_per_second_ = 25;

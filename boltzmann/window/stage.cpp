@@ -3,6 +3,7 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/figure.hpp>
+#include <boltzmann/diagnoses/projection.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/window/stage.hpp>
@@ -38,6 +39,9 @@ std::array<double, 2> range(json const& ends, char const* key) {
     throw Error(fmt::format("'{}' is a range, [low, high]", key));
   return {ends[0].get<double>(), ends[1].get<double>()};
 }
+
+// JSON has no NaN.
+json finite(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
 
 // "field-energy" -> "Field energy".
 std::string first_upper(std::string text) {
@@ -213,7 +217,13 @@ json Stage::describe() const {
                          {"x", p.x},
                          {"y", p.y},
                          {"colour", p.colour},
-                         {"size", p.size}});
+                         {"size", p.size},
+                         {"low", finite(p.low)},
+                         {"high", finite(p.high)},
+                         {"logarithmic", p.logarithmic},
+                         {"slice", p.slice},
+                         {"at", finite(p.at)},
+                         {"cells", p.cells}});
   }
   json& columns = result["columns"] = json::array();
   for (std::size_t c = 2; c < header_.size(); ++c) {
@@ -263,6 +273,7 @@ PictureFile Stage::picture(json const& request, std::int64_t step, double time) 
   std::string const format = text_or(request, "format", "png");
   Entry const& what = entry(text_or(view, "diagnosis", ""));
   Canvas drawn = canvas(what, view, step, time);
+  if (drawn.projection() && (view.contains("x_range") || view.contains("y_range"))) drawn = flattened(drawn);
   if (!drawn.projection()) {
     Axis x = drawn.x_axis(), y = drawn.y_axis();
     if (view.contains("x_range"))

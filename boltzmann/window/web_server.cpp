@@ -54,6 +54,8 @@ using Request = http::request<http::empty_body>;
 // A message leaves in frames of at most so many bytes: between two of them a pong may be sent, a browser may be let go,
 // and a slow line shows that it is alive.
 constexpr std::size_t frame_bytes = 1U << 18U;
+// Read at a time.
+constexpr std::size_t piece_bytes = 1U << 14U;
 // A closed connection may finish reading what it was told for so long, and may still say so much.
 constexpr double farewell_seconds = 1;
 constexpr std::size_t farewell_bytes = 1U << 18U;
@@ -362,11 +364,11 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 
   void heard(error_code error) {
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-      return answer(431, plain_text, "The request is too long.");
+      return answer(431, "The request is too long.");
     }
     if (error && error.category() == make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message) {
-      return answer(400, plain_text, "The request can't be read.");
+      return answer(400, "The request can't be read.");
     }
     if (error) return close();
 
@@ -374,28 +376,28 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     bool const upgrade = request.count(http::field::upgrade) > 0;
     Refusal const refusal = check(request, state_.token, upgrade);
     known_ = refusal.status == 0 || refusal.status == 405;
-    if (refusal.status != 0) return answer(refusal.status, plain_text, refusal.text);
-    if (parser_.chunked()) return answer(400, plain_text, "A request has no body here.");
+    if (refusal.status != 0) return answer(refusal.status, refusal.text);
+    if (parser_.chunked()) return answer(400, "A request has no body here.");
     if (parser_.content_length() && *parser_.content_length() > 0) {
-      return answer(413, plain_text, "A request has no body here.");
+      return answer(413, "A request has no body here.");
     }
     auto const path = clean_path(view(request.target()));
     if (path == "/socket") return open_socket(request);
-    if (upgrade) return answer(404, plain_text, "No socket here.");
+    if (upgrade) return answer(404, "No socket here.");
     std::optional<WebFile> file;
     try {
       if (path && state_.events.file) file = state_.events.file(*path);
     } catch (std::exception const&) {
-      return answer(500, plain_text, "It can't be made.");
+      return answer(500, "It can't be made.");
     }
-    if (!file || !file->content) return answer(404, plain_text, "There is nothing here.");
+    if (!file || !file->content) return answer(404, "There is nothing here.");
     send(200, file->type, file->content);
   }
 
   void open_socket(Request const& request);
 
-  void answer(int status, std::string_view type, std::string const& text) {
-    send(status, type, std::make_shared<std::string const>(text + "\n"));
+  void answer(int status, std::string const& text) {
+    send(status, plain_text, std::make_shared<std::string const>(text + "\n"));
   }
 
   void send(int status, std::string_view type, std::shared_ptr<std::string const> content) {
@@ -473,7 +475,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
       self->tell([&] {
         if (self->state_.events.joined) self->state_.events.joined(self->id_);
       });
-      self->read();
+      if (!self->closing_) self->read();
     });
   }
 
@@ -540,15 +542,18 @@ class Browser : public std::enable_shared_from_this<Browser> {
     });
   }
 
+  /// Piece by piece: between two pieces of the library's own async_read a close may come, and change what it goes on
+  /// with.
   void read() {
-    stream_->async_read(incoming_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (self->finished_ || self->closing_) return;
-      if (error) return self->finish();
-      self->said_something();
-      if (!self->leaving_) self->heard();
-      self->incoming_.consume(self->incoming_.size());
-      if (!self->finished_) self->read();
-    });
+    stream_->async_read_some(incoming_.prepare(piece_bytes),
+                             [self = shared_from_this()](error_code error, std::size_t bytes) {
+                               if (self->finished_ || self->closing_) return;
+                               if (error) return self->finish();
+                               self->said_something();
+                               self->incoming_.commit(bytes);
+                               if (self->stream_->is_message_done()) self->heard();
+                               if (!self->finished_ && !self->closing_) self->read();
+                             });
   }
 
   /// Any frame is a sign of life; but who is to leave can't put it off by talking.
@@ -557,6 +562,11 @@ class Browser : public std::enable_shared_from_this<Browser> {
   }
 
   void heard() {
+    if (!leaving_) pass_on();
+    incoming_.consume(incoming_.size());
+  }
+
+  void pass_on() {
     if (!stream_->got_text()) return leave(websocket::close_code::unknown_data, "text only", farewell_seconds);
     auto const data = incoming_.data();
     tell([&] {
@@ -666,14 +676,14 @@ class Browser : public std::enable_shared_from_this<Browser> {
 
 void Visitor::open_socket(Request const& request) {
   if (!websocket::is_upgrade(request)) {
-    if (request.count(http::field::upgrade) > 0) return answer(400, plain_text, "This is no way to open a socket.");
-    return answer(426, plain_text, "There is a socket here.");
+    if (request.count(http::field::upgrade) > 0) return answer(400, "This is no way to open a socket.");
+    return answer(426, "There is a socket here.");
   }
   if (request[http::field::sec_websocket_version] != "13") {
-    return answer(400, plain_text, "Only version 13 of the WebSocket protocol.");
+    return answer(400, "Only version 13 of the WebSocket protocol.");
   }
   if (request[http::field::sec_websocket_key].size() != 24 || heard_.size() > 0) {
-    return answer(400, plain_text, "This is no way to open a socket.");
+    return answer(400, "This is no way to open a socket.");
   }
   auto const self = shared_from_this();
   std::uint64_t const id = ++state_.last_browser;

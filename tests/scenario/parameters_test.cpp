@@ -87,6 +87,7 @@ TEST(Parameters, KnowWhatTheirReadersAllow) {
   EXPECT_EQ(step.kind, "quantity");
   EXPECT_EQ(step.value, "\"2 fs\"");
   EXPECT_EQ(step.unit, "ps");
+  EXPECT_EQ(step.base_unit, "ps");
   EXPECT_EQ(step.units.front(), "fs");
   EXPECT_TRUE(std::find(step.units.begin(), step.units.end(), "ps") != step.units.end());
   EXPECT_EQ(step.low, 0);

@@ -116,9 +116,11 @@ TEST_F(GalleryTest, TellsParametersAsThePageWantsThem) {
   ASSERT_FALSE(step.is_null());
   std::set<std::string> keys;
   for (auto const& [key, value] : step.items()) keys.insert(key);
-  EXPECT_EQ(keys, (std::set<std::string>{"path", "group", "name", "kind", "value", "unit", "units", "low", "high",
-                                         "low_excluded", "words", "comment"}));
+  EXPECT_EQ(keys, (std::set<std::string>{"path", "group", "name", "kind", "value", "unit", "base_unit", "units", "low",
+                                         "high", "low_excluded", "words", "comment"}));
   EXPECT_EQ(step.at("group"), "run");
+  EXPECT_EQ(step.at("unit"), "fs");
+  EXPECT_EQ(step.at("base_unit"), "3.273e-15 s");  // 0.01 is 0.01 of these
   EXPECT_EQ(step.at("low"), 0);
   EXPECT_EQ(step.at("low_excluded"), true);
   EXPECT_TRUE(step.at("high").is_null());
@@ -157,7 +159,7 @@ TEST_F(GalleryTest, ChecksAndSaysWhichValueIsWrong) {
   EXPECT_NE(reply.at("error").get<std::string>().find("(and 1 more)"), std::string::npos);
   // What another value makes wrong has no path of its own.
   put("small.toml", small("s"));
-  json const elsewhere = gallery.check("small", {{"box.high", "[0.5]"}, {"box.boundary", "periodic"}});
+  json const elsewhere = gallery.check("small", {{"box.high", "[0.5]"}, {"box.boundary", "mirror"}});
   ASSERT_EQ(elsewhere.at("errors").size(), 1U);
   EXPECT_TRUE(elsewhere.at("errors")[0].at("path").is_null()) << elsewhere.dump();
   // A line break in a value, a value that holds an equals sign, one path that is the beginning of another.

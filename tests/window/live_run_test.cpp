@@ -218,6 +218,7 @@ TEST(LiveRun, TakesAnotherStepSize) {
   EXPECT_NEAR(update.head["time_number"].get<double>(), 10 * 0.004 + 10 * 0.001, 1e-12);
   for (json const& wrong : {json(0), json(-1), json("fast"), json("3 kg"), json(true)})
     EXPECT_TRUE(page.ask({{"do", "set"}, {"step_size", wrong}}).contains("error")) << wrong;
+  page.show(json::array({{{"id", 2}, {"diagnosis", "Phase space"}}}));
   EXPECT_EQ(page.update().head["step_size_number"], 0.001);
 }
 

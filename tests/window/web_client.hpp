@@ -90,7 +90,7 @@ class WebConnection {
   bool read(char* to, std::size_t bytes) { return read(to, bytes, end_of_patience()); }
   bool read(char* to, std::size_t bytes, Time until) {
     std::size_t const known = std::min(bytes, ahead_.size());
-    std::memcpy(to, ahead_.data(), known);
+    std::copy_n(ahead_.begin(), known, to);
     ahead_.erase(0, known);
     for (std::size_t done = known; done < bytes;) {
       // Without asking poll() first where there is something already.

@@ -5,6 +5,10 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <future>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <random>
@@ -35,6 +39,7 @@ class House {
     events.left = [this](std::uint64_t id) { note([&] { left.push_back(id); }); };
     events.said = [this](std::uint64_t id, std::string_view text) {
       note([&] { said.emplace_back(text); });
+      if (text == "sleep") std::this_thread::sleep_for(200ms);
       if (text == "throw") throw std::runtime_error("an event that fails");
       std::string answer = "heard: ";
       answer += text;
@@ -526,6 +531,29 @@ TEST(WebServer, who_does_not_read_an_answer_is_closed) {
   EXPECT_EQ(get(server.port(), std::string("/?token=") + token).body.size(), large->size());
 }
 
+TEST(WebServer, an_event_that_fails_ends_its_browser_only) {
+  std::atomic<int> left{0};
+  WebEvents events;
+  events.joined = [](std::uint64_t id) {
+    if (id % 2 == 1) throw std::runtime_error("no");
+  };
+  events.left = [&](std::uint64_t) {
+    ++left;
+    throw std::runtime_error("no");
+  };
+  WebServer server(events, 0, token);
+  for (int i = 0; i < 3; ++i) {
+    WebSocketClient first(server.port(), token);
+    WebSocketClient second(server.port(), token);
+    EXPECT_EQ(first.end().code, 1011);
+    server.send(static_cast<std::uint64_t>(2 * i + 2), WebMessage::of_text("hello"));
+    EXPECT_EQ(second.hear(), "hello");
+  }
+  auto const start = Clock::now();
+  while (left < 6 && seconds_since(start) < 10) std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(left, 6);
+}
+
 TEST(WebServer, parts_become_one_message) {
   House house;
   auto [browser, id] = house.visit();
@@ -693,6 +721,74 @@ TEST(WebServer, joined_and_left_are_pairs) {
   house->expect_all_well("a crowd");
 }
 
+/// What nobody would say: a request or frames with some bytes wrong, cut off, or in a wrong order.
+class Babbler {
+ public:
+  explicit Babbler(unsigned seed) : random_(seed) {}
+
+  unsigned upto(unsigned n) { return random_() % n; }
+
+  std::string request(std::uint16_t port) {
+    std::string text = upto(3) > 0 ? WebSocketClient::upgrade(port, std::string("/socket?token=") + token)
+                                   : std::string("GET /?token=") + token + " HTTP/1.1\r\n" + host_line(port) + "\r\n";
+    for (unsigned i = upto(4) == 0 ? 1 + upto(4) : 0; i > 0; --i) {
+      auto const at = upto(static_cast<unsigned>(text.size()) - 5);
+      text.replace(at, upto(5), upto(5), static_cast<char>(random_()));
+    }
+    return text;
+  }
+
+  std::string frame() {
+    static constexpr unsigned firsts[] = {0x81, 0x81, 0x82, 0x88, 0x89, 0x8a, 0x01, 0x00, 0x80, 0x83, 0xc1, 0x09};
+    unsigned const first = firsts[upto(12)];
+    std::string payload(upto(5) > 0 ? upto(100) : upto(3500), 'x');
+    if (first == 0x88) payload = std::string("\x03") + static_cast<char>(0xe8 + upto(16)) + "x";
+    if (upto(10) == 0 && !payload.empty()) payload[upto(static_cast<unsigned>(payload.size()))] = '\xff';
+    std::optional<std::uint64_t> declared;
+    if (upto(20) == 0) declared = std::uint64_t{random_()} << upto(33);
+    auto bytes = WebSocketClient::frame(first, payload, upto(20) > 0, declared);
+    if (upto(10) == 0) bytes.resize(upto(static_cast<unsigned>(bytes.size())));
+    return bytes;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+TEST(WebServer, a_crowd_that_babbles_harms_nobody) {
+  WebLimits limits;
+  limits.handshake_seconds = 0.5;
+  limits.message_bytes = 3000;
+  limits.waiting_bytes = 4 << 20;
+  auto house = std::make_unique<House>(limits);
+  std::vector<std::thread> crowd;
+  for (unsigned thread = 0; thread < 4; ++thread) {
+    crowd.emplace_back([&house = *house, thread] {
+      Babbler babbler(thread);
+      for (int i = 0; i < 150; ++i) {
+        WebConnection connection(house.port(), babbler.upto(2) == 0 ? 4096 : 0);
+        connection.patience = 0.02;
+        connection.write(babbler.request(house.port()));
+        connection.read_until("\r\n\r\n");
+        for (unsigned frames = babbler.upto(10); frames > 0; --frames) {
+          connection.write(babbler.frame());
+          auto const joined = house.now(house.joined);
+          if (joined.empty() || babbler.upto(4) > 0) continue;
+          auto const id = joined[joined.size() - 1 - babbler.upto(4) % joined.size()];
+          if (babbler.upto(2) == 0) house.here().dismiss(id, "enough");
+          house.here().send(id, binary(std::vector<char>(babbler.upto(2'000'000))));
+        }
+        if (babbler.upto(3) == 0) connection.reset();
+        if (babbler.upto(3) == 0) connection.closed_within(0.01);
+      }
+    });
+  }
+  for (auto& thread : crowd) thread.join();
+  EXPECT_GT(house->now(house->joined).size(), 50U);
+  EXPECT_TRUE(house->soon([&] { return house->left.size() == house->joined.size(); }));
+  house->expect_all_well("babble");
+}
+
 TEST(WebServer, nothing_comes_from_a_browser_after_it_has_left) {
   std::mutex mutex;
   std::map<std::uint64_t, int> state;  // 1 joined, 2 left
@@ -796,6 +892,28 @@ TEST(WebServer, a_wrong_answer_to_a_farewell_holds_nobody) {
   auto const start = Clock::now();
   house.reset();
   EXPECT_LT(seconds_since(start), 1);
+}
+
+TEST(WebServer, a_wrong_frame_that_crosses_a_farewell_holds_nobody) {
+  auto house = std::make_unique<House>();
+  auto [other, other_id] = house->visit();
+  auto [client, id] = house->visit();
+  // While the server's thread sleeps, both come: it sees them at the same time.
+  other.say("sleep");
+  std::this_thread::sleep_for(50ms);
+  client.connection().write(WebSocketClient::frame(0x83, "no such opcode"));
+  house->here().dismiss(id, "goodbye");
+  EXPECT_TRUE(house->soon([&, id = id] { return house->left == std::vector{id}; }));
+  std::promise<void> ended;
+  std::thread end([&] {
+    house.reset();
+    ended.set_value();
+  });
+  if (ended.get_future().wait_for(10s) != std::future_status::ready) {
+    std::fputs("the server does not end\n", stderr);
+    std::abort();
+  }
+  end.join();
 }
 
 TEST(WebServer, who_is_dismissed_cannot_stay_by_talking) {

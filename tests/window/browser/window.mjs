@@ -192,7 +192,7 @@ export function cloud(page, view = 1) {
 /** A page of a simulation that has its first picture. */
 export async function watch(test, chromium, run, options) {
   const page = await open(test, chromium, run.address, options);
-  await until(() => page.wire.views.has(1), "a first picture");
+  await until(() => page.wire.update && (page.wire.views.has(1) || page.wire.hello.diagnoses[0].drawing === "table"), "a first picture");
   await until(async () => Number((await data(page, "[data-view='1']")).frames) > 0, "a painted picture");
   return page;
 }
@@ -212,8 +212,9 @@ export function data(page, selector) {
 }
 
 /**
- * The share of a pane's canvas that is coloured: particles, curves, images; axes, texts and the paper are grey, and the
- * right, where colour bars are, is left out.
+ * How much of a pane's canvas shows something: the coloured share of it (particles, curves and images are; axes, texts
+ * and the paper are grey; the right, where colour bars are, is left out), or what stands out in its middle, if that is
+ * more (an image in greys).
  */
 export function share(page, view) {
   return page.evaluate((number) => {
@@ -224,11 +225,15 @@ export function share(page, view) {
     const height = (copy.height = canvas.height);
     const context = copy.getContext("2d", { willReadFrequently: true });
     context.drawImage(canvas, 0, 0);
+    const spread = (data, k) => Math.max(data[k], data[k + 1], data[k + 2]) - Math.min(data[k], data[k + 1], data[k + 2]);
     const { data } = context.getImageData(0, 0, width, height);
     let coloured = 0;
-    for (let k = 0; k < data.length; k += 4)
-      if (Math.max(data[k], data[k + 1], data[k + 2]) - Math.min(data[k], data[k + 1], data[k + 2]) > 40) ++coloured;
-    return coloured / (width * height);
+    for (let k = 0; k < data.length; k += 4) if (spread(data, k) > 40) ++coloured;
+    const middle = context.getImageData(canvas.width * 0.3, canvas.height * 0.3, canvas.width * 0.4, canvas.height * 0.4).data;
+    let other = 0;
+    for (let k = 0; k < middle.length; k += 4) // lines of the grid are fainter than this
+      if ([0, 1, 2].some((c) => Math.abs(middle[k + c] - data[c]) > 60)) ++other;
+    return Math.max(coloured, other > middle.length / 40 ? other : 0) / (width * height);
   }, view);
 }
 

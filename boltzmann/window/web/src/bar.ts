@@ -53,7 +53,8 @@ export function makeBar(session: Session, actions: Actions): HTMLElement {
       planned > 0
         ? `step ${step.toLocaleString("en-US")} of ${planned.toLocaleString("en-US")}`
         : `step ${step.toLocaleString("en-US")}`;
-    const parts = [count, time, speed > 0 ? `${roughly(speed)} steps/s` : ""].filter(Boolean);
+    const clock = session.hello?.time_unit || !time ? time : `time ${time}`;
+    const parts = [count, clock, speed > 0 ? `${roughly(speed)} steps/s` : ""].filter(Boolean);
     status.replaceChildren(...parts.map((part) => h("span", {}, part)));
     viewers.replaceChildren(
       icon("viewers"),

@@ -16,6 +16,8 @@ export interface PaneEvents {
   activated(pane: Pane): void;
   closed(pane: Pane): void;
   saved(pane: Pane): void;
+  /** A movie begins or ends. */
+  recorded(): void;
 }
 
 const slow = 80; // milliseconds of a paint, three times in a row
@@ -43,6 +45,7 @@ export class Pane {
   private moveTimer = 0;
   private selectedAt: number[] | null = null;
   private held = "";
+  private columns = "";
 
   constructor(
     private readonly session: Session,
@@ -93,8 +96,12 @@ export class Pane {
       this.diagnosis = names[0] ?? "";
       this.changes = {};
     }
-    this.plot?.dispose();
-    this.plot = null;
+    const columns = JSON.stringify([this.hello?.columns, this.hello?.time_unit]);
+    if (columns !== this.columns) {
+      this.plot?.dispose();
+      this.plot = null;
+    }
+    this.columns = columns;
     this.build();
   }
 
@@ -327,5 +334,6 @@ export class Pane {
     this.recording.setAttribute("aria-pressed", String(this.recorder.running));
     this.recording.title = this.recorder.running ? "end the movie and save it" : "record a movie of this pane";
     this.element.classList.toggle("recording", this.recorder.running);
+    this.events.recorded();
   }
 }

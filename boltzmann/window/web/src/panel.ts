@@ -132,6 +132,7 @@ export class Panel {
   private refresh(): void {
     if (this.element.hidden || this.panes.list.length === 0) return;
     const had = document.activeElement;
+    const inside = this.element.contains(had);
     const typed =
       had instanceof HTMLInputElement && had.type === "text" && had.value !== had.defaultValue ? had.value : null;
     this.fillShown();
@@ -142,8 +143,8 @@ export class Panel {
     this.fillPage();
     this.follow();
     const now = had?.id ? document.getElementById(had.id) : null;
-    if (!now || now === had || !this.element.contains(now)) return;
-    now.focus({ preventScroll: true });
+    if (now === had || !inside) return;
+    (now ?? this.element).focus({ preventScroll: true });
     if (typed !== null && now instanceof HTMLInputElement) now.value = typed;
   }
 

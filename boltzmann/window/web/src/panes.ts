@@ -41,6 +41,7 @@ export class Panes {
       activated: (other) => this.activate(other),
       closed: (other) => this.remove(other),
       saved: (other) => this.save(other),
+      recorded: () => this.arrange(),
     });
     this.list.push(pane);
     this.list.sort((a, b) => a.id - b.id);

@@ -169,7 +169,7 @@ export class TablePlot {
       scale: `unit ${unit}`,
       side: k % 2 ? 1 : 3,
       grid: { show: k === 0, stroke: line, width: 1 },
-      label: this.title(unit),
+      label: this.title(unit, height),
       size: (_plot, values) => 14 + 7.6 * Math.max(2, ...(values ?? []).map((value) => value?.length ?? 0)),
       values: (_plot, splits, _axis, _space, increment) =>
         distr === 3
@@ -235,12 +235,13 @@ export class TablePlot {
     this.read();
   }
 
-  /** What stands along the axis of a unit: the one quantity's name, if it is one. */
-  private title(unit: string): string {
+  /** What stands along the axis of a unit: the one quantity's name, if it is one and there is room. */
+  private title(unit: string, height: number): string {
     const names = this.hello.columns
       .filter((column, c) => this.shown[c] && column.unit === unit)
       .map(({ name }) => name);
-    const name = names.length === 1 ? names[0] : "";
+    const fits = names.length === 1 && 8 * (names[0].length + unit.length) < height - 70;
+    const name = fits ? names[0] : "";
     return unit ? (name ? `${name} (${unit})` : `(${unit})`) : name;
   }
 

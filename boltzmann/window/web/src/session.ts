@@ -103,7 +103,7 @@ export class Session {
         this.tell("link", false);
       },
       damaged: (error) => {
-        notices.set("run", `A message of the window was damaged: ${error}`, "error");
+        notices.set("reply", `A message of the window was damaged: ${error}`, "error");
         this.ask();
       },
     });

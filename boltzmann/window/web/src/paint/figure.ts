@@ -26,9 +26,22 @@ export function placeOn(range: Range, value: number): number {
 }
 
 // Sizes in pixels of a picture of 1200 x 900.
-const outerRoom = 20, tickText = 20, axisTitle = 22, headingText = 25, legendText = 20, noteText = 16.5;
-const tickLength = 7, minorTick = 4, tickGap = 6, titleGap = 12, frameLine = 1.3;
-const barGap = 28, barWidth = 22, legendRow = 31, headingRow = 1.4, noteRow = 23; // headingRow: of its font
+const outerRoom = 20,
+  tickText = 20,
+  axisTitle = 22,
+  headingText = 25,
+  legendText = 20,
+  noteText = 16.5;
+const tickLength = 7,
+  minorTick = 4,
+  tickGap = 6,
+  titleGap = 12,
+  frameLine = 1.3;
+const barGap = 28,
+  barWidth = 22,
+  legendRow = 31,
+  headingRow = 1.4,
+  noteRow = 23; // headingRow: of its font
 
 const nothing: Ticks = { major: [], minor: [], labels: [], multiplier: "", exponent: 0 };
 
@@ -72,7 +85,8 @@ export class Figure {
   private notesTop = 0;
   private multiplierBelow = false;
 
-  /** unit: device pixels for one pixel of a picture of 1200 x 900. ratio: what width / height of the box must be; 0: free. */
+  /** unit: device pixels for one pixel of a picture of 1200 x 900. ratio: what width / height of the box must be; 0:
+   * free. leastLabels: room that labels at y get in any case. */
   constructor(
     private readonly canvas: Canvas,
     private readonly pen: Pen,
@@ -91,7 +105,8 @@ export class Figure {
     this.yTitle = framed ? titleOf(canvas.y.label, canvas.y.unit) : "";
     this.keys = canvas.legend.map((entry) => ({ ...entry, line: false, dashed: false }));
     for (const mark of canvas.marks)
-      if (mark.kind === "curve" && mark.label) this.keys.push({ label: mark.label, colour: mark.colour, line: true, dashed: mark.dashed });
+      if (mark.kind === "curve" && mark.label)
+        this.keys.push({ label: mark.label, colour: mark.colour, line: true, dashed: mark.dashed });
     this.bars = canvas.bars.map((bar) => ({ bar, ticks: nothing, labels: 0, width: 0 }));
     const outer = this.length(outerRoom);
     this.box = this.room = { left: outer, top: outer, width: width - 2 * outer, height: height - 2 * outer };
@@ -119,14 +134,22 @@ export class Figure {
   /** The most ticks whose labels don't touch. */
   private ticksThatFit(range: Range, extent: number, across: boolean, atMostExponent = 400): Ticks {
     for (let most = 8; ; --most) {
-      const ticks = ticksBetween(range.low * range.factor, range.high * range.factor, range.logarithmic, most, atMostExponent);
+      const ticks = ticksBetween(
+        range.low * range.factor,
+        range.high * range.factor,
+        range.logarithmic,
+        most,
+        atMostExponent,
+      );
       for (const values of [ticks.major, ticks.minor]) values.forEach((v, i) => (values[i] = v / range.factor));
       let fits = true;
       let beforeAt = 0;
       let beforeWidth = 0;
       ticks.major.forEach((value, i) => {
         const at = placeOn(range, value) * extent;
-        const wide = across ? this.pen.width(ticks.labels[i] ?? "", this.length(tickText)) + this.length(16) : this.length(1.7 * tickText);
+        const wide = across
+          ? this.pen.width(ticks.labels[i] ?? "", this.length(tickText)) + this.length(16)
+          : this.length(1.7 * tickText);
         if (i > 0 && at - beforeAt < (wide + beforeWidth) / 2) fits = false;
         beforeAt = at;
         beforeWidth = wide;
@@ -155,7 +178,10 @@ export class Figure {
     const last = this.xTicks.labels.length - 1;
     if (last >= 0) {
       const half = pen.width(this.xTicks.labels[last] ?? "", this.length(tickText)) / 2;
-      right = Math.max(right, half - (1 - placeOn(this.x, this.xTicks.major[last] ?? 0)) * this.box.width + this.length(8));
+      right = Math.max(
+        right,
+        half - (1 - placeOn(this.x, this.xTicks.major[last] ?? 0)) * this.box.width + this.length(8),
+      );
     }
     let bars = 0;
     for (const bar of this.bars) bars += this.planBar(bar);
@@ -168,7 +194,10 @@ export class Figure {
       left = this.length(tickLength + tickGap) + this.labels + outer;
       if (this.yTitle) left += this.length(titleGap + 1.05 * axisTitle) - 0.35 * outer;
       if (this.yTicks.multiplier && !shares)
-        left = Math.max(left, pen.width(this.yTicks.multiplier, this.length(tickText)) + this.length(tickLength) + 0.5 * outer);
+        left = Math.max(
+          left,
+          pen.width(this.yTicks.multiplier, this.length(tickText)) + this.length(tickLength) + 0.5 * outer,
+        );
     }
     this.planHeading(left, right);
     const headed = this.keys.length > 0 || this.heading.length > 0;
@@ -241,14 +270,19 @@ export class Figure {
   }
 
   private get headingBlock(): number {
-    return this.heading.length * headingRow * this.headingFont + this.keyRows * this.length(legendRow) + this.headingGap;
+    return (
+      this.heading.length * headingRow * this.headingFont + this.keyRows * this.length(legendRow) + this.headingGap
+    );
   }
 
   /** The height of what stands below the frame. */
   private planBelow(left: number, right: number): number {
     const outer = this.length(outerRoom);
     const framed = this.canvas.frame;
-    const wide = Math.max(framed ? this.width - Math.max(left, this.box.left) - outer : this.width - 2 * outer, this.length(200));
+    const wide = Math.max(
+      framed ? this.width - Math.max(left, this.box.left) - outer : this.width - 2 * outer,
+      this.length(200),
+    );
     this.notes = this.canvas.notes.flatMap((note) => this.pen.wrapped(note, this.length(noteText), wide));
     let below = outer + this.notes.length * this.length(noteRow);
     if (!framed) return below;
@@ -256,7 +290,8 @@ export class Figure {
     if (this.xTitle || this.xTicks.multiplier) below += this.length(titleGap + axisTitle);
     const multiplier = this.pen.width(this.xTicks.multiplier, this.length(tickText));
     const reach = this.pen.width(this.xTitle, this.length(axisTitle)) / 2 + multiplier + this.length(20);
-    this.multiplierBelow = this.xTitle !== "" && multiplier > 0 && reach > (this.width - left - right) / 2 && reach > this.box.width / 2;
+    this.multiplierBelow =
+      this.xTitle !== "" && multiplier > 0 && reach > (this.width - left - right) / 2 && reach > this.box.width / 2;
     if (this.multiplierBelow) below += this.length(1.3 * tickText);
     return this.notes.length ? below + this.length(4) : below;
   }
@@ -310,7 +345,12 @@ export class Figure {
     }
     this.pen.context.fillStyle = css(this.theme.quiet);
     this.notes.forEach((line, i) =>
-      this.pen.draw(line, this.canvas.frame ? this.box.left : this.length(outerRoom), this.notesTop + (i + 1) * this.length(noteRow), this.length(noteText)),
+      this.pen.draw(
+        line,
+        this.canvas.frame ? this.box.left : this.length(outerRoom),
+        this.notesTop + (i + 1) * this.length(noteRow),
+        this.length(noteText),
+      ),
     );
   }
 
@@ -334,8 +374,14 @@ export class Figure {
     const font = this.length(tickText);
     const { left, top, right, bottom } = this.strokeBox(this.box, wide);
     context.beginPath();
-    for (const [ticks, across] of [[this.xTicks, true], [this.yTicks, false]] as const)
-      for (const [values, reach] of [[ticks.major, tickLength], [ticks.minor, minorTick]] as const)
+    for (const [ticks, across] of [
+      [this.xTicks, true],
+      [this.yTicks, false],
+    ] as const)
+      for (const [values, reach] of [
+        [ticks.major, tickLength],
+        [ticks.minor, minorTick],
+      ] as const)
         for (const value of values) {
           const at = this.crisp(this.at(value, across), wide);
           context.moveTo(across ? at : left, across ? bottom : at);
@@ -345,7 +391,9 @@ export class Figure {
 
     const gap = this.length(tickLength + tickGap);
     const row = bottom + gap + 0.76 * font;
-    this.xTicks.major.forEach((value, i) => this.pen.draw(this.xTicks.labels[i] ?? "", this.at(value, true), row, font, 0.5));
+    this.xTicks.major.forEach((value, i) =>
+      this.pen.draw(this.xTicks.labels[i] ?? "", this.at(value, true), row, font, 0.5),
+    );
     const labelRight = left - gap;
     this.yTicks.major.forEach((value, i) =>
       this.pen.draw(this.yTicks.labels[i] ?? "", labelRight, this.at(value, false) + 0.36 * font, font, 1),
@@ -354,12 +402,29 @@ export class Figure {
     const titleRow = row + this.length(titleGap + axisTitle);
     const xFont = this.fitted(this.xTitle, this.length(axisTitle), this.width - this.length(outerRoom));
     const half = this.pen.width(this.xTitle, xFont) / 2;
-    const middle = Math.min(Math.max((left + right) / 2, Math.min(half, this.width / 2)), Math.max(this.width - half, this.width / 2));
+    const middle = Math.min(
+      Math.max((left + right) / 2, Math.min(half, this.width / 2)),
+      Math.max(this.width - half, this.width / 2),
+    );
     this.pen.draw(this.xTitle, middle, titleRow, xFont, 0.5);
     if (this.xTicks.multiplier)
-      this.pen.draw(this.xTicks.multiplier, this.box.left + this.box.width, titleRow + (this.multiplierBelow ? 1.3 * font : 0), font, 1);
+      this.pen.draw(
+        this.xTicks.multiplier,
+        this.box.left + this.box.width,
+        titleRow + (this.multiplierBelow ? 1.3 * font : 0),
+        font,
+        1,
+      );
     const yFont = this.fitted(this.yTitle, this.length(axisTitle), this.height - this.length(outerRoom));
-    this.pen.draw(this.yTitle, labelRight - this.labels - this.length(titleGap), (top + bottom) / 2, yFont, 0.5, false, true);
+    this.pen.draw(
+      this.yTitle,
+      labelRight - this.labels - this.length(titleGap),
+      (top + bottom) / 2,
+      yFont,
+      0.5,
+      false,
+      true,
+    );
     const multiplier = this.yTicks.multiplier;
     if (multiplier.includes(" ")) this.pen.draw(multiplier, labelRight - this.labels, top - this.length(13), font);
     else if (multiplier) this.pen.draw(multiplier, left - this.length(tickLength), top - this.length(15), font, 1);
@@ -376,7 +441,14 @@ export class Figure {
     context.fillStyle = css(theme.ink);
     const wide = Math.max(...this.heading.map((line) => pen.width(line, this.headingFont, true)));
     for (const line of this.heading) {
-      pen.draw(line, Math.max(Math.min(left, this.width - outer - wide), outer), y + 0.8 * this.headingFont, this.headingFont, 0, true);
+      pen.draw(
+        line,
+        Math.max(Math.min(left, this.width - outer - wide), outer),
+        y + 0.8 * this.headingFont,
+        this.headingFont,
+        0,
+        true,
+      );
       y += headingRow * this.headingFont;
     }
     let at = 0;
@@ -414,7 +486,12 @@ export class Figure {
     const wide = this.lineWidth(frameLine);
     const font = this.length(tickText);
     const beside = this.barBox();
-    const area = { left: Math.round(from), top: Math.round(beside.top), width: Math.round(this.length(barWidth)), height: Math.round(beside.height) };
+    const area = {
+      left: Math.round(from),
+      top: Math.round(beside.top),
+      width: Math.round(this.length(barWidth)),
+      height: Math.round(beside.height),
+    };
     const map = this.maps[bar.map] ?? ["#9e9e9e"];
     const some = bar.high > bar.low;
     // Pixel row by pixel row, so that no seams show.
@@ -424,9 +501,13 @@ export class Figure {
       context.fillRect(area.left, area.top + row, area.width, 1);
     }
     const { left, top, right } = this.strokeBox(area, wide);
-    const height = (value: number) => area.top + area.height * (some ? 1 - (value - bar.low) / (bar.high - bar.low) : 0.5);
+    const height = (value: number) =>
+      area.top + area.height * (some ? 1 - (value - bar.low) / (bar.high - bar.low) : 0.5);
     context.beginPath();
-    for (const [values, reach] of [[ticks.major, tickLength], [ticks.minor, minorTick]] as const)
+    for (const [values, reach] of [
+      [ticks.major, tickLength],
+      [ticks.minor, minorTick],
+    ] as const)
       for (const value of values) {
         const y = this.crisp(height(value), wide);
         context.moveTo(right, y);
@@ -434,11 +515,21 @@ export class Figure {
       }
     context.stroke();
     const labelRight = right + this.length(tickLength + tickGap) + labels;
-    ticks.major.forEach((value, i) => this.pen.draw(ticks.labels[i] ?? "", labelRight, height(value) + 0.36 * font, font, 1));
+    ticks.major.forEach((value, i) =>
+      this.pen.draw(ticks.labels[i] ?? "", labelRight, height(value) + 0.36 * font, font, 1),
+    );
     this.pen.draw(ticks.multiplier, left, top - this.length(15), font);
     const title = titleOf(bar.label, bar.unit);
     const titleFont = this.fitted(title, this.length(axisTitle), this.height - this.length(outerRoom));
-    this.pen.draw(title, labelRight + this.length(titleGap + 0.8 * axisTitle), beside.top + beside.height / 2, titleFont, 0.5, false, true);
+    this.pen.draw(
+      title,
+      labelRight + this.length(titleGap + 0.8 * axisTitle),
+      beside.top + beside.height / 2,
+      titleFont,
+      0.5,
+      false,
+      true,
+    );
   }
 }
 
@@ -447,6 +538,12 @@ export function drawLine(pen: Pen, text: string, colour: Rgba, box: Box, size: n
   const lines = pen.wrapped(text, size, 0.9 * box.width);
   pen.context.fillStyle = css(colour);
   lines.forEach((line, i) =>
-    pen.draw(line, box.left + box.width / 2, box.top + box.height / 2 + (i - (lines.length - 1) / 2) * 1.4 * size, size, 0.5),
+    pen.draw(
+      line,
+      box.left + box.width / 2,
+      box.top + box.height / 2 + (i - (lines.length - 1) / 2) * 1.4 * size,
+      size,
+      0.5,
+    ),
   );
 }

@@ -181,7 +181,10 @@ export class Program {
     fragment: string,
   ) {
     const program = gl.createProgram();
-    for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
+    for (const [type, source] of [
+      [gl.VERTEX_SHADER, vertex],
+      [gl.FRAGMENT_SHADER, fragment],
+    ] as const) {
       const shader = gl.createShader(type);
       if (!shader) break; // the context is lost
       gl.shaderSource(shader, source);
@@ -247,7 +250,7 @@ export class Shared {
 
   private build() {
     ++this.generation;
-    this.maps = null;
+    this.maps = this.table = null;
     this.discs = new Program(this.gl, discVertex, discFragment);
     this.strokes = new Program(this.gl, strokeVertex, strokeFragment);
     const sizes = this.gl.getParameter(this.gl.ALIASED_POINT_SIZE_RANGE) as Float32Array | null;
@@ -282,8 +285,10 @@ export class Shared {
       gl.deleteTexture(this.table);
       gl.bindTexture(gl.TEXTURE_2D, (this.table = gl.createTexture()));
       gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-      for (const parameter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, parameter, gl.LINEAR);
-      for (const parameter of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, parameter, gl.CLAMP_TO_EDGE);
+      for (const parameter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+        gl.texParameteri(gl.TEXTURE_2D, parameter, gl.LINEAR);
+      for (const parameter of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
+        gl.texParameteri(gl.TEXTURE_2D, parameter, gl.CLAMP_TO_EDGE);
     }
     return (Math.max(this.names.indexOf(name), 0) + 0.5) / Math.max(this.names.length, 1);
   }

@@ -16,8 +16,8 @@ export interface Look {
   /** Unit coordinates of marks; coordinates of the axes; to pixels from the lower left. */
   unit: Mapping;
   coordinates: Mapping;
-  cloud(cloud: Cloud): Mapping;
-  /** Pixels for one unit of the x axis (at 1 on a logarithmic axis: see the shader), and for one unit coordinate of x. */
+  cloud(cloud: Pick<Cloud, "origin" | "scale">): Mapping;
+  /** Pixels for one unit of the x axis (on a logarithmic one for a decade), and for one unit coordinate of x. */
   perX: number;
   perUnit: number;
   /** In a space: pixels for a pixel of a point's size. */
@@ -62,7 +62,12 @@ export function flatLook(canvas: Canvas, box: Box, view: { x: Span; y: Span }, h
   const start = [box.left, height - box.top - box.height] as const;
   const low = [view.x[0], view.y[0]] as const;
   const mapping = (origin: readonly number[], scale: readonly number[], logs: readonly boolean[]): Mapping => {
-    const result: Mapping = { scale: [1, 1, 0], origin: [0, 0, 0], logs: [0, 0], matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1] };
+    const result: Mapping = {
+      scale: [1, 1, 0],
+      origin: [0, 0, 0],
+      logs: [0, 0],
+      matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1],
+    };
     for (const i of [0, 1] as const) {
       const o = origin[i] ?? 0;
       const s = scale[i] ?? 1;
@@ -153,7 +158,8 @@ export class Space {
     const ranges = this.ranges();
     const screen = Math.max(ranges.right[1] - ranges.right[0], ranges.up[1] - ranges.up[0]);
     const matrix: number[] = [];
-    for (const i of [0, 1, 2] as const) matrix.push(this.right[i] * per, this.up[i] * per, -this.near[i] / (2 * depth), 0);
+    for (const i of [0, 1, 2] as const)
+      matrix.push(this.right[i] * per, this.up[i] * per, -this.near[i] / (2 * depth), 0);
     matrix.push(x, y, 0.5, 1);
     const mapping = (origin: readonly number[], scale: readonly number[]): Mapping => ({
       scale: scale.map((s) => s / this.half) as Place3,
@@ -181,10 +187,19 @@ export class Space {
       [this.up, up[1]],
       [this.up.map((v) => -v) as Place3, -up[0]],
     ];
-    const found: [Span, Span, Span] = [[Infinity, -Infinity], [Infinity, -Infinity], [Infinity, -Infinity]];
+    const found: [Span, Span, Span] = [
+      [Infinity, -Infinity],
+      [Infinity, -Infinity],
+      [Infinity, -Infinity],
+    ];
     for (let axis = 0; axis < 3; ++axis)
       for (const end of [-1, 1]) {
-        let face = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a = 0, b = 0]) => {
+        let face = [
+          [-1, -1],
+          [1, -1],
+          [1, 1],
+          [-1, 1],
+        ].map(([a = 0, b = 0]) => {
           const corner: Place3 = [0, 0, 0];
           corner[axis] = end * (this.sides[axis] ?? 0);
           corner[(axis + 1) % 3] = a * (this.sides[(axis + 1) % 3] ?? 0);
@@ -197,7 +212,8 @@ export class Space {
             const b = face[(i + 1) % face.length] ?? a;
             const [da, db] = [dot(normal, a) - most, dot(normal, b) - most];
             if (da <= 0) kept.push(a);
-            if (da < 0 !== db < 0 && da !== db) kept.push(a.map((v, k) => v + ((b[k] ?? 0) - v) * (da / (da - db))) as Place3);
+            if (da < 0 !== db < 0 && da !== db)
+              kept.push(a.map((v, k) => v + ((b[k] ?? 0) - v) * (da / (da - db))) as Place3);
           });
           face = kept;
         }

@@ -55,7 +55,9 @@ export class GpuMarks {
     const { gl } = this.shared;
     if (this.generation !== this.shared.generation) this.slots = [];
     this.generation = this.shared.generation;
-    this.slots.splice(canvas.marks.length).forEach((slot) => slot?.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
+    this.slots
+      .splice(canvas.marks.length)
+      .forEach((slot) => slot?.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
     canvas.marks.forEach((mark, k) => {
       const old = this.slots[k]?.buffers ?? [];
       const arrays: ArrayBufferView[] = !onGpu(mark)
@@ -99,7 +101,14 @@ export class GpuMarks {
       const { buffer, size, at, stride, bytes } = source;
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer ?? null);
       gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, size, bytes ? gl.UNSIGNED_BYTE : gl.FLOAT, bytes === true, stride * every, at + stride * first);
+      gl.vertexAttribPointer(
+        place,
+        size,
+        bytes ? gl.UNSIGNED_BYTE : gl.FLOAT,
+        bytes === true,
+        stride * every,
+        at + stride * first,
+      );
       gl.vertexAttribDivisor(place, quads ? 1 : 0);
     });
     const some = Math.ceil((count - first) / every);
@@ -136,14 +145,29 @@ export class GpuMarks {
       const circles = mark.kind === "circle";
       const stride = circles ? 24 : 16;
       const data = (at: number, size: number): Source => ({ buffer: buffers[0], size, at, stride });
-            gl.vertexAttrib2f(4, 0, 1);
+      gl.vertexAttrib2f(4, 0, 1);
       discs.use({
         ...this.values(scene, look.unit),
         toRadius: circles ? look.perUnit : unit / 2,
         fade: circles ? look.fade : 0,
-        quads: 1, sized: circles ? 1 : 0, useMap: 0, shaded: 0, opacity: 1, pass,
+        quads: 1,
+        sized: circles ? 1 : 0,
+        useMap: 0,
+        shaded: 0,
+        opacity: 1,
+        pass,
       });
-      this.draw([data(0, 3), null, data(12, 1), { buffer: buffers[1], size: 4, at: 0, stride: 4, bytes: true }, circles ? data(16, 2) : null], count, true);
+      this.draw(
+        [
+          data(0, 3),
+          null,
+          data(12, 1),
+          { buffer: buffers[1], size: 4, at: 0, stride: 4, bytes: true },
+          circles ? data(16, 2) : null,
+        ],
+        count,
+        true,
+      );
       return count;
     }
     const given = slot.largest > 0;
@@ -155,7 +179,9 @@ export class GpuMarks {
     gl.vertexAttrib1f(2, given ? mark.diameter : mark.size);
     gl.vertexAttrib4f(3, ...colour);
     gl.vertexAttrib2f(4, 0, -1);
-    const quads = perSize * (given ? slot.largest : mark.size) > Math.min(24 * unit, this.shared.largestPoint) || (given && mapping.logs[0] > 0);
+    const quads =
+      perSize * (given ? slot.largest : mark.size) > Math.min(24 * unit, this.shared.largestPoint) ||
+      (given && mapping.logs[0] > 0);
     discs.use({
       ...this.values(scene, mapping),
       // Where the colour carries a value, fading is weak: the colour bar must stay readable.
@@ -191,25 +217,38 @@ export class GpuMarks {
     const data = (at: number, size: number): Source => ({ buffer: slot.buffers[0], size, at, stride: 28 });
     this.shared.gl.depthMask(false);
     this.shared.strokes.use({ ...this.values(scene, scene.look.unit), arrows: slot.mark.kind === "arrow" ? 1 : 0 });
-    this.draw([data(0, 3), data(12, 3), data(24, 1), { buffer: slot.buffers[1], size: 4, at: 0, stride: 4, bytes: true }, null], slot.count, true);
+    this.draw(
+      [data(0, 3), data(12, 3), data(24, 1), { buffer: slot.buffers[1], size: 4, at: 0, stride: 4, bytes: true }, null],
+      slot.count,
+      true,
+    );
   }
 
   drawTrail(trail: Trail, scene: Scene) {
     const { gl, discs } = this.shared;
-    const { cloud } = trail;
     gl.depthMask(false);
     gl.vertexAttrib1f(2, 2.4);
-    gl.vertexAttrib4f(3, ...shown(parse(cloud.colour), scene.theme));
+    gl.vertexAttrib4f(3, ...shown(parse(trail.colour), scene.theme));
     gl.vertexAttrib2f(4, 0, -1);
     discs.use({
-      ...this.values(scene, scene.look.cloud(cloud)),
+      ...this.values(scene, scene.look.cloud(trail)),
       toRadius: scene.unit / 2,
-      quads: 0, sized: 0, shaded: 0, pass: 0, opacity: 0.4,
+      quads: 0,
+      sized: 0,
+      shaded: 0,
+      pass: 0,
+      opacity: 0.4,
       useMap: trail.coloured ? 1 : 0,
-      mapRow: this.shared.mapRow(scene.maps, cloud.map),
+      mapRow: this.shared.mapRow(scene.maps, trail.map),
     });
     this.draw(
-      [{ buffer: trail.buffer, size: cloud.dimension, at: 0, stride: 16 }, trail.coloured ? { buffer: trail.buffer, size: 1, at: 12, stride: 16 } : null, null, null, null],
+      [
+        { buffer: trail.buffer, size: trail.dimension, at: 0, stride: 16 },
+        trail.coloured ? { buffer: trail.buffer, size: 1, at: 12, stride: 16 } : null,
+        null,
+        null,
+        null,
+      ],
       trail.count,
       false,
     );

@@ -109,7 +109,10 @@ export class Outline {
         outUp = -outUp;
       }
       const edgeAt = (fraction: number, away: number) =>
-        pane(a.right + fraction * (b.right - a.right) + away * size * outRight, a.up + fraction * (b.up - a.up) + away * size * outUp);
+        pane(
+          a.right + fraction * (b.right - a.right) + away * size * outRight,
+          a.up + fraction * (b.up - a.up) + away * size * outUp,
+        );
       const align = 0.5 - 0.5 * Math.min(Math.max(4 * outRight, -1), 1);
       const write = (fraction: number, away: number, text: string, font: number) => {
         const [x, y] = edgeAt(fraction, away * space.crowding);

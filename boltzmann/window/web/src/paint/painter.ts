@@ -65,14 +65,13 @@ export class Painter {
     element.tabIndex = 0;
     element.setAttribute("role", "application");
     element.setAttribute("aria-roledescription", "picture");
-    element.style.cssText = "position:absolute;inset:0;width:100%;height:100%;display:block;touch-action:none;outline-offset:-2px";
-    const style = getComputedStyle(host);
-    if (style.position === "static") host.style.position = "relative";
+    element.style.cssText =
+      "position:absolute;inset:0;width:100%;height:100%;display:block;touch-action:none;outline-offset:-2px";
     host.append(element);
     const context = element.getContext("2d", { alpha: false });
     if (!context) throw new Error("this browser has no 2D canvas");
     this.context = context;
-    this.pen = new Pen(context, style.fontFamily || "sans-serif");
+    this.pen = new Pen(context);
     this.maps = options.maps;
     this.colours = themes[options.theme];
     this.view = new View(host, this.pen, options.maps, this.colours);
@@ -82,6 +81,7 @@ export class Painter {
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(host);
     this.unsteer = steer(this);
+    this.resize();
   }
 
   /** The next frame. Zoom, pan and camera stay, unless it has other axes. */
@@ -92,7 +92,10 @@ export class Painter {
       this.ring = 0;
       this.forget();
     } else if (this.tracking && before && this.shared && !this.shared.gl.isContextLost()) {
-      this.trails.add(this.shared, before.marks.filter((mark): mark is Cloud => mark.kind === "cloud"));
+      this.trails.add(
+        this.shared,
+        before.marks.filter((mark): mark is Cloud => mark.kind === "cloud"),
+      );
     }
     this.element.setAttribute("aria-label", plainText(canvas.title) || "picture");
     this.later();
@@ -103,7 +106,12 @@ export class Painter {
     this.view.paintOn(this.colours);
     this.later();
   }
+  /** Also when it comes into the page. */
   resize() {
+    const style = getComputedStyle(this.host);
+    if (style.position === "static") this.host.style.position = "relative";
+    this.pen.use(style.fontFamily);
+    this.view.paintOn(this.colours);
     this.later();
   }
 
@@ -167,7 +175,12 @@ export class Painter {
       const by = look.cloud(cloud);
       const { dimension: d, positions, diameters, diameter: common } = cloud;
       for (let k = 0; k < cloud.count; ++k) {
-        const at = mapped(by, positions[d * k] as number, positions[d * k + 1] as number, d > 2 ? (positions[d * k + 2] as number) : 0);
+        const at = mapped(
+          by,
+          positions[d * k] as number,
+          positions[d * k + 1] as number,
+          d > 2 ? (positions[d * k + 2] as number) : 0,
+        );
         const away = Math.hypot(at[0] - px, at[1] - py);
         const diameter = diameters ? (diameters[k] as number) : common;
         const radius = (diameter * look.perX) / 2;
@@ -294,7 +307,17 @@ export class Painter {
     if (element.height !== height) element.height = height;
     figure.drawUnder();
     const { clip } = figure;
-    const scene: Scene = { look, theme, maps: this.maps, width, height, unit, clip, space: space !== null, coarse: this.coarse };
+    const scene: Scene = {
+      look,
+      theme,
+      maps: this.maps,
+      width,
+      height,
+      unit,
+      clip,
+      space: space !== null,
+      coarse: this.coarse,
+    };
     const outline = space && new Outline(space, look, this.pen, theme, unit, clip.width, height);
     context.save();
     context.beginPath();
@@ -339,7 +362,8 @@ export class Painter {
     const deliver = (to = context) => {
       soften();
       const { left, top, width: wide, height: tall } = clip;
-      if (open && shared) to.drawImage(shared.element, left, shared.element.height - height + top, wide, tall, left, top, wide, tall);
+      if (open && shared)
+        to.drawImage(shared.element, left, shared.element.height - height + top, wide, tall, left, top, wide, tall);
       open = false;
     };
     const firstCloud = canvas.marks.findIndex((mark) => mark.kind === "cloud");
@@ -373,12 +397,23 @@ export class Painter {
     });
     deliver();
     if (!shared && canvas.marks.some(onGpu))
-      drawLine(this.pen, "this browser has no WebGL2: particles, lines and arrows can't be drawn", theme.quiet, clip, 20 * unit);
+      drawLine(
+        this.pen,
+        "this browser has no WebGL2: particles, lines and arrows can't be drawn",
+        theme.quiet,
+        clip,
+        20 * unit,
+      );
     return points;
   }
 
   /** Tracks are kept as an image, to which the newest frame is added as long as nobody moves. */
-  private paintTrails(gl: WebGL2RenderingContext, scene: Scene, begin: () => void, deliver: (to: CanvasRenderingContext2D) => void) {
+  private paintTrails(
+    gl: WebGL2RenderingContext,
+    scene: Scene,
+    begin: () => void,
+    deliver: (to: CanvasRenderingContext2D) => void,
+  ) {
     const layer = (this.trailLayer ??= document.createElement("canvas"));
     if (layer.width !== scene.width || layer.height !== scene.height) {
       layer.width = scene.width;
@@ -395,12 +430,13 @@ export class Painter {
       context.clearRect(0, 0, layer.width, layer.height);
       fresh = frames.length;
     }
-    this.trailKey = key;
+    this.trailKey = scene.coarse > 1 ? "" : key;
     this.trailCount = count;
     if (fresh > 0) {
       begin();
       gl.disable(gl.DEPTH_TEST);
-      for (const frame of frames.slice(-fresh)) for (const trail of frame) this.gpu?.drawTrail(trail, scene);
+      const some = frames.slice(-fresh).filter((_, i) => i % scene.coarse === 0);
+      for (const frame of some) for (const trail of frame) this.gpu?.drawTrail(trail, scene);
       deliver(context);
     }
     this.context.drawImage(layer, 0, 0);
@@ -409,9 +445,15 @@ export class Painter {
   private paintRing(place: number[], { look, height, space, theme }: Scene, scale: number) {
     const [x, y] = toPane(look.coordinates, height, space ? place : place.slice(0, 2));
     if (!isFinite(x) || !isFinite(y)) return;
-    const { context } = this;
-    const radius = Math.max((this.ring * look.perX) / 2 + 3.5 * scale, 8 * scale);
-    for (const [colour, wide] of [[css(theme.paper, 0.9), 5], [theme.accent, 2.5]] as const) {
+    const { context, view } = this;
+    const common =
+      view.canvas?.marks.map((mark) => (mark.kind === "cloud" && !mark.diameters ? mark.diameter : 0)) ?? [];
+    const diameter = this.ring || Math.max(0, ...common);
+    const radius = Math.max((diameter * look.perX) / 2 + 3.5 * scale, 8 * scale);
+    for (const [colour, wide] of [
+      [css(theme.paper, 0.9), 5],
+      [theme.accent, 2.5],
+    ] as const) {
       context.strokeStyle = colour;
       context.lineWidth = wide * scale;
       context.beginPath();

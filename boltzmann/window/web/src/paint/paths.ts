@@ -85,9 +85,12 @@ export function drawImage(image: Image, look: Look, context: CanvasRenderingCont
   const along = corner(image.x0, image.y1);
   context.save();
   context.transform(
-    (across[0] - first[0]) / image.columns, (across[1] - first[1]) / image.columns,
-    (along[0] - first[0]) / image.rows, (along[1] - first[1]) / image.rows,
-    first[0], first[1],
+    (across[0] - first[0]) / image.columns,
+    (across[1] - first[1]) / image.columns,
+    (along[0] - first[0]) / image.rows,
+    (along[1] - first[1]) / image.rows,
+    first[0],
+    first[1],
   );
   context.imageSmoothingEnabled = false;
   context.drawImage(picture, 0, 0);

@@ -6,7 +6,10 @@ function parts(markup: string): { text: string; level: number }[] {
   const found: { text: string; level: number }[] = [];
   let from = 0;
   for (const match of markup.matchAll(/([\^_])\{([^}]*)\}/g)) {
-    found.push({ text: markup.slice(from, match.index), level: 0 }, { text: match[2] ?? "", level: match[1] === "^" ? 1 : -1 });
+    found.push(
+      { text: markup.slice(from, match.index), level: 0 },
+      { text: match[2] ?? "", level: match[1] === "^" ? 1 : -1 },
+    );
     from = match.index + match[0].length;
   }
   found.push({ text: markup.slice(from), level: 0 });
@@ -23,10 +26,16 @@ export function plainText(markup: string): string {
 export class Pen {
   private readonly widths = new Map<string, number>();
 
-  constructor(
-    readonly context: CanvasRenderingContext2D,
-    private readonly family: string,
-  ) {}
+  private family = "sans-serif";
+
+  constructor(readonly context: CanvasRenderingContext2D) {}
+
+  /** The names of fonts as in CSS; none while the page does not know them yet. */
+  use(family: string) {
+    if (!family || family === this.family) return;
+    this.family = family;
+    this.widths.clear();
+  }
 
   private choose(size: number, bold: boolean) {
     this.context.font = `${bold ? "bold " : ""}${size}px ${this.family}`;

@@ -1,5 +1,5 @@
-// Ticks: steps of 1, 2, 5 times a power of ten, and labels as short as they can be; as boltzmann/diagnoses/canvas_ticks.cpp
-// has them.
+// Ticks: steps of 1, 2, 5 times a power of ten, and labels as short as they can be. As in
+// boltzmann/diagnoses/canvas_ticks.cpp.
 
 export interface Ticks {
   major: number[];
@@ -67,7 +67,10 @@ function linearTicks(low: number, high: number, most: number, atMostExponent: nu
     ticks.labels = units.map((u) => signed(String(u - shared)));
     ticks.exponent = exponent;
     ticks.multiplier =
-      (exponent !== 0 ? power(exponent) + " " : "") + (shared < 0 ? minus : "+") + " " + exactText(Math.abs(shared), exponent);
+      (exponent !== 0 ? power(exponent) + " " : "") +
+      (shared < 0 ? minus : "+") +
+      " " +
+      exactText(Math.abs(shared), exponent);
     return ticks;
   }
   const largestValue = scaled(largest, exponent);
@@ -78,7 +81,13 @@ function linearTicks(low: number, high: number, most: number, atMostExponent: nu
   }
   const zeros = Math.round(10 ** (exponent - ticks.exponent));
   ticks.labels = units.map((u) =>
-    signed(!plain ? String(u * zeros + 0) : exponent < 0 ? (scaled(u, exponent) + 0).toFixed(-exponent) : String(scaled(u, exponent) + 0)),
+    signed(
+      !plain
+        ? String(u * zeros + 0)
+        : exponent < 0
+          ? (scaled(u, exponent) + 0).toFixed(-exponent)
+          : String(scaled(u, exponent) + 0),
+    ),
   );
   return ticks;
 }
@@ -92,7 +101,8 @@ function logarithmicTicks(low: number, high: number, most: number): Ticks {
   const inside = (v: number) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9);
   const ticks: Ticks = { major: [], minor: [], labels: [], multiplier: "", exponent: 0 };
   if (last - first >= 2 || (last - first === 1 && top - bottom > 1.6)) {
-    const stride = [1, 2, 3, 5, 10, 20, 30, 50, 100, 200].find((s) => Math.floor((last - first) / s) + 1 <= most) ?? 200;
+    const stride =
+      [1, 2, 3, 5, 10, 20, 30, 50, 100, 200].find((s) => Math.floor((last - first) / s) + 1 <= most) ?? 200;
     for (let n = first; n <= last; ++n) {
       const major = n % stride === 0;
       (major ? ticks.major : ticks.minor).push(scaled(1, n));

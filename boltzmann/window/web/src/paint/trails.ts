@@ -2,14 +2,16 @@
 import type { Cloud } from "../protocol";
 import type { Shared } from "./gl";
 
-export interface Trail {
-  cloud: Cloud; // its arrays emptied
+/** Of one frame, particles that look alike: x, y, z and the value of each. */
+export interface Trail extends Pick<Cloud, "colour" | "map" | "dimension" | "origin" | "scale"> {
   buffer: WebGLBuffer;
   count: number;
   coloured: boolean;
 }
 
-const mostFrames = 400, mostPoints = 4e6, mostAtOnce = 20000;
+const mostFrames = 400,
+  mostPoints = 4e6,
+  mostAtOnce = 20000;
 
 export class Trails {
   /** The clouds of each frame kept. */
@@ -24,27 +26,30 @@ export class Trails {
     // The same particles in every frame: those whose number is a multiple of a power of two.
     let thinning = 1;
     while (all / thinning > mostAtOnce) thinning *= 2;
-    const frame: Trail[] = [];
+    // One buffer for all that look alike: particles may come in many small clouds.
+    const groups = new Map<string, Cloud[]>();
     for (const cloud of clouds) {
-      const room = new Float32Array(4 * Math.min(cloud.count, cloud.numbers ? cloud.count : Math.ceil(cloud.count / thinning)));
-      const { positions, values, numbers, dimension } = cloud;
-      let count = 0;
-      const keep = (k: number) => {
-        for (let d = 0; d < dimension; ++d) room[4 * count + d] = positions[k * dimension + d] as number;
-        room[4 * count + 3] = values ? (values[k] as number) : 0;
-        ++count;
-      };
-      if (numbers) {
-        for (let k = 0; k < cloud.count; ++k) if ((numbers[k] as number) % thinning === 0) keep(k);
-      } else {
-        for (let k = 0; k < cloud.count; k += thinning) keep(k);
-      }
+      const { colour, map, dimension, origin, scale, values } = cloud;
+      const key = JSON.stringify([colour, map, dimension, origin, scale, values !== undefined]);
+      groups.set(key, [...(groups.get(key) ?? []), cloud]);
+    }
+    const frame: Trail[] = [];
+    for (const alike of groups.values()) {
+      const numbers: number[] = [];
+      for (const { count, positions, values, numbers: names, dimension } of alike)
+        for (let k = 0; k < count; k += names ? 1 : thinning) {
+          if (names && (names[k] as number) % thinning) continue;
+          for (let d = 0; d < 3; ++d) numbers.push(d < dimension ? (positions[k * dimension + d] as number) : 0);
+          numbers.push(values ? (values[k] as number) : 0);
+        }
       const buffer = gl.createBuffer();
-      if (!count || !buffer) continue;
+      const [cloud] = alike;
+      if (!numbers.length || !buffer || !cloud) continue;
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, room.subarray(0, 4 * count), gl.STATIC_DRAW);
-      const empty = new Float32Array(0);
-      frame.push({ cloud: { ...cloud, positions: empty, values: empty, diameters: empty, numbers: new Uint32Array(0) }, buffer, count, coloured: values !== undefined });
+      gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.STATIC_DRAW);
+      const { colour, map, dimension, origin, scale } = cloud;
+      const count = numbers.length / 4;
+      frame.push({ colour, map, dimension, origin, scale, buffer, count, coloured: cloud.values !== undefined });
       this.points += count;
     }
     if (!frame.length) return;

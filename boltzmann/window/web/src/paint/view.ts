@@ -2,7 +2,17 @@
 // from these.
 import type { Canvas } from "../protocol";
 import { Figure, type Range } from "./figure";
-import { flatLook, hasEqualAspect, Space, toPane, wholeRanges, type Camera, type Look, type Place3, type Span } from "./look";
+import {
+  flatLook,
+  hasEqualAspect,
+  Space,
+  toPane,
+  wholeRanges,
+  type Camera,
+  type Look,
+  type Place3,
+  type Span,
+} from "./look";
 import type { Pen } from "./text";
 import type { Theme } from "./theme";
 
@@ -57,7 +67,10 @@ const moved = (place: Place3, by: Place3, sign: number) => place.map((p, i) => p
 
 /** What must stay the same so that the view of the canvas before fits the next one. */
 function kindOf(canvas: Canvas): string {
-  return [canvas.x, canvas.y, canvas.z].map((axis) => axis && [axis.label, axis.unit, axis.logarithmic].join()).join(";") + canvas.equal_aspect;
+  return (
+    [canvas.x, canvas.y, canvas.z].map((axis) => axis && [axis.label, axis.unit, axis.logarithmic].join()).join(";") +
+    canvas.equal_aspect
+  );
 }
 
 export class View {
@@ -115,7 +128,10 @@ export class View {
       const next = between(view.scale * stronger(factorX, factorY), 1e-3, 1e5);
       const { room } = figure;
       const way = free ? 0 : (1 - view.scale / next) / look.perUnit;
-      const step = space.inPlane((x * scale - room.left - room.width / 2) * way || 0, (room.top + room.height / 2 - y * scale) * way || 0);
+      const step = space.inPlane(
+        (x * scale - room.left - room.width / 2) * way || 0,
+        (room.top + room.height / 2 - y * scale) * way || 0,
+      );
       this.space = { scale: next, target: moved(view.target, step, 1) };
     } else {
       const view = this.seenFlat(canvas);
@@ -160,7 +176,10 @@ export class View {
   /** Turns the camera, in degrees. */
   orbit(azimuth: number, elevation: number) {
     const camera = this.seenCamera();
-    this.camera = { azimuth: (((camera.azimuth + azimuth) % 360) + 360) % 360, elevation: between(camera.elevation + elevation, -90, 90) };
+    this.camera = {
+      azimuth: (((camera.azimuth + azimuth) % 360) + 360) % 360,
+      elevation: between(camera.elevation + elevation, -90, 90),
+    };
     this.planned = null;
   }
 
@@ -170,7 +189,10 @@ export class View {
     const { canvas, figure, look, space, height } = layout;
     if (!space) {
       const view = this.seenFlat(canvas);
-      const values = (span: Span, logarithmic: boolean): Span => [valueOf(span[0], logarithmic), valueOf(span[1], logarithmic)];
+      const values = (span: Span, logarithmic: boolean): Span => [
+        valueOf(span[0], logarithmic),
+        valueOf(span[1], logarithmic),
+      ];
       return {
         x: values(view.x, canvas.x.logarithmic),
         y: values(view.y, canvas.y.logarithmic),
@@ -180,12 +202,19 @@ export class View {
     const zoomed = this.space !== null || this.followed !== null;
     const start = toPane(look.unit, height, [0, 0, 0]);
     // Of a rectangle of the pane, in unit coordinates of the camera's plane.
-    const right = (left: number, width: number): Span => [(left - start[0]) / look.perUnit, (left + width - start[0]) / look.perUnit];
-    const up = (top: number, tall: number): Span => [(start[1] - top - tall) / look.perUnit, (start[1] - top) / look.perUnit];
+    const right = (left: number, width: number): Span => [
+      (left - start[0]) / look.perUnit,
+      (left + width - start[0]) / look.perUnit,
+    ];
+    const up = (top: number, tall: number): Span => [
+      (start[1] - top - tall) / look.perUnit,
+      (start[1] - top) / look.perUnit,
+    ];
     const { clip } = figure;
     const shown = zoomed ? figure.room : figure.box;
     const [x, y, z] =
-      space.visible(right(clip.left, clip.width), up(clip.top, clip.height)) ?? space.axes.map((axis): Span => [axis.low, axis.high]);
+      space.visible(right(clip.left, clip.width), up(clip.top, clip.height)) ??
+      space.axes.map((axis): Span => [axis.low, axis.high]);
     const centre = space.project(space.middle);
     const absolute = (span: Span, at: number): Span => [at + span[0] * space.half, at + span[1] * space.half];
     return {
@@ -207,7 +236,10 @@ export class View {
     const whole = wholeRanges(canvas);
     const view = { ...(this.flat ?? whole) };
     if (this.flat && hasEqualAspect(canvas))
-      view.y = around((view.y[0] + view.y[1]) / 2, ((view.x[1] - view.x[0]) * (whole.y[1] - whole.y[0])) / (whole.x[1] - whole.x[0]));
+      view.y = around(
+        (view.y[0] + view.y[1]) / 2,
+        ((view.x[1] - view.x[0]) * (whole.y[1] - whole.y[0])) / (whole.x[1] - whole.x[0]),
+      );
     const centred = (span: Span, at: number | undefined, logarithmic: boolean): Span => {
       const middle = at === undefined ? NaN : logarithmic ? Math.log10(at) : at;
       return isFinite(middle) ? around(middle, span[1] - span[0]) : span;
@@ -238,9 +270,26 @@ export class View {
     const unit = Math.max(fitting, leastUnit) * scale;
     const size = { canvas, width, height, scale, unit };
     const figure = (x: Range, y: Range, ratio: number) =>
-      new Figure(canvas, this.pen, this.theme, this.maps, width, height, unit, x, y, ratio, this.flat ? this.labels * unit : 0);
+      new Figure(
+        canvas,
+        this.pen,
+        this.theme,
+        this.maps,
+        width,
+        height,
+        unit,
+        x,
+        y,
+        ratio,
+        this.flat ? this.labels * unit : 0,
+      );
     if (canvas.z) {
-      const space = new Space([canvas.x, canvas.y, canvas.z], canvas.half, this.seenCamera(), Math.max(leastUnit / fitting, 1));
+      const space = new Space(
+        [canvas.x, canvas.y, canvas.z],
+        canvas.half,
+        this.seenCamera(),
+        Math.max(leastUnit / fitting, 1),
+      );
       const { right, up } = space.ranges();
       const none = { low: 0, high: 1, logarithmic: false, factor: 1 };
       const around = figure(none, none, (right[1] - right[0]) / (up[1] - up[0]));
@@ -258,7 +307,10 @@ export class View {
     }
     const view = this.seenFlat(canvas);
     const range = (span: Span, { logarithmic, factor }: Canvas["x"]): Range => ({
-      low: valueOf(span[0], logarithmic), high: valueOf(span[1], logarithmic), logarithmic, factor,
+      low: valueOf(span[0], logarithmic),
+      high: valueOf(span[1], logarithmic),
+      logarithmic,
+      factor,
     });
     const whole = wholeRanges(canvas);
     const ratio = hasEqualAspect(canvas) ? (whole.x[1] - whole.x[0]) / (whole.y[1] - whole.y[0]) : 0;
