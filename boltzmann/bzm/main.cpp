@@ -132,14 +132,20 @@ int command_line(int argc, char** argv) {
       ->required();
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
   sub->add_option("--drawing", render_options.drawing,
-                  "cartesian, phase-space, spectrum, time-series, profile, map, contours, bands or mesh");
-  sub->add_option("--x", render_options.x,
-                  "what is to the right: a field (phase-space), position.x or time (spectrum)");
+                  "cartesian, phase-space, histogram, spectrum, time-series, profile, map, contours, bands or mesh");
+  sub->add_option(
+      "--x", render_options.x,
+      "what is to the right: a field (phase-space), any quantity (histogram), position.x or time (spectrum)");
   sub->add_option("--y", render_options.y,
                   "what is upwards: a field, columns of diagnoses.csv (time-series), or what a mesh or a map shows");
   sub->add_option("--colour,--color", render_options.colour,
                   "colour by a field, speed, kinetic-energy or potential-energy");
   sub->add_option("--size", render_options.size, "diameters by the same");
+  sub->add_option("--vectors", render_options.vectors, "arrows of a vector of the particles: velocity or influence");
+  sub->add_option("--azimuth", render_options.azimuth,
+                  "from where one looks at three dimensions, in degrees round z [35]");
+  sub->add_option("--elevation", render_options.elevation, "and how high above the xy plane, in degrees [22]");
+  sub->add_flag("--log", render_options.logarithmic, "values upwards on a logarithmic axis");
   sub->add_flag("--trace", render_options.trace, "draw the tracks of all frames");
   sub->add_option("--fps", render_options.frames_per_second, "frames per second of a movie")->capture_default_str();
   sub->add_option("--scale", render_options.scale, "1: 1200 x 900 pixels")->capture_default_str();

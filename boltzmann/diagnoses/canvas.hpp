@@ -59,8 +59,8 @@ class Canvas {
     float size = 4;
     bool shaded = false;                ///< looks like spheres
     std::string ensemble;               ///< its name: with the number, what a reader can ask more about
-    std::vector<std::uint32_t> number;  ///< of each particle in its ensemble; empty: 0, stride, 2 stride, ...
-    std::uint32_t stride = 1;
+    std::vector<std::uint32_t> number;  ///< of each particle in its ensemble; empty: 0, 1, 2, ...
+    std::uint32_t stride = 1;           ///< one of so many particles is here
 
     std::size_t count() const { return position.size() / static_cast<std::size_t>(dimension); }
   };

@@ -162,6 +162,14 @@ struct Block {
   float *place, *value, *diameter;
 };
 
+// The one that is shown of the k-th `stride` of so many particles: by a hash, the same in every picture, so that what is
+// shown is a fair sample whatever the order in which particles were loaded (a lattice, a quiet start).
+std::size_t one_of(std::size_t k, std::size_t stride, std::size_t count) {
+  std::uint64_t hash = (k + 1) * 0x9E3779B97F4A7C15U;
+  hash = (hash ^ hash >> 32U) * 0xD6E8FEB86659FD93U;
+  return k * stride + (hash ^ hash >> 32U) % std::min(stride, count - k * stride);
+}
+
 class Maker {
  public:
   Maker(std::span<CloudSource const> sources, CloudOptions const& options)
@@ -326,9 +334,12 @@ class Maker {
       cloud.stride = result_.stride;
       if (!source.size) cloud.common_diameter = source.diameter;
       std::size_t const count = (inside(s) + result_.stride - 1) / result_.stride;
-      if (!options_.region.empty()) {
+      if (!options_.region.empty() || result_.stride > 1) {
         cloud.number.resize(count);
-        for (std::size_t k = 0; k < count; ++k) cloud.number[k] = inside_[s][k * result_.stride];
+        for (std::size_t k = 0; k < count; ++k) {
+          std::size_t const i = one_of(k, result_.stride, inside(s));
+          cloud.number[k] = options_.region.empty() ? static_cast<std::uint32_t>(i) : inside_[s][i];
+        }
       }
       Told const told = fill(source, count, scale, cloud);
       drawn_.add(told.value);
@@ -373,9 +384,8 @@ class Maker {
   void draw_block(CloudSource const& source, Canvas::Cloud const& cloud, std::size_t at, std::size_t count,
                   Scale const& scale, Block const& out, Told& told) const {
     if (cloud.number.empty()) {
-      std::size_t const stride = result_.stride;
       draw_block(
-          source, count, [at, stride](std::size_t k) { return (at + k) * stride; }, scale, out, told);
+          source, count, [at](std::size_t k) { return at + k; }, scale, out, told);
     } else {
       std::uint32_t const* const number = cloud.number.data() + at;
       draw_block(
@@ -554,7 +564,7 @@ std::vector<Canvas::Cloud> in_turns(std::vector<Canvas::Cloud> clouds) {
         for (std::size_t a = 0; a < dimension; ++a) part.position.push_back(whole.position[dimension * k + a]);
         if (!whole.value.empty()) part.value.push_back(whole.value[k]);
         if (!whole.diameter.empty()) part.diameter.push_back(whole.diameter[k]);
-        part.number.push_back(whole.number.empty() ? static_cast<std::uint32_t>(k * whole.stride) : whole.number[k]);
+        part.number.push_back(whole.number.empty() ? static_cast<std::uint32_t>(k) : whole.number[k]);
       }
       if (part.count() > 0) parts.push_back(std::move(part));
     }

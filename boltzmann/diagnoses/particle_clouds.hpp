@@ -43,7 +43,7 @@ struct CloudOptions {
   std::array<double, 3> origin{0, 0, 0}, scale{1, 1, 1};   ///< of the clouds
   double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours; NaN: the smallest
   double high = std::numeric_limits<double>::quiet_NaN();  ///< and the largest of all particles, drawn or not
-  std::size_t most = 0;                                    ///< every n-th particle, so that so many are drawn; 0: all
+  std::size_t most = 0;                                    ///< one of every n particles, so that so many are drawn; 0: all
   std::vector<std::array<double, 2>> region = {};  ///< only particles with low <= coordinate <= high; empty: all
   int threads = 1;
 };

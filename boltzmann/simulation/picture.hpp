@@ -52,7 +52,7 @@ struct Picture {
   std::vector<double> levels = {};  ///< contours, bands: ascending; empty: level_count even ones
   int level_count = 0;              ///< 0: 8 for contours; the mean over the picture alone for bands
   Projection projection = {};       ///< cartesian in 3D: from where
-  std::size_t most = 0;  ///< cartesian, phase-space: every n-th particle, so that so many or fewer are drawn; 0: all
+  std::size_t most = 0;  ///< cartesian, phase-space: one of every n particles, so that so many or fewer are drawn; 0: all
   std::vector<std::array<double, 2>> region = {};  ///< cartesian, phase-space: only particles with low <= x <= high,
                                                    ///< for each axis; empty: all
   std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()

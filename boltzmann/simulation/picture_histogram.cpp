@@ -16,7 +16,12 @@ std::string histogram_quantity(Picture const& picture, std::vector<AnyEnsemble*>
 Canvas draw_histogram(Scene& scene) {
   std::string const name = histogram_quantity(scene.picture, scene.ensembles);
   auto const what = meaning(scene.ensembles, name);
-  auto const values = scene.values(name);
+  auto const columns = scene.columns(name);
+  std::vector<Values> values(columns.size());
+  for (std::size_t e = 0; e < columns.size(); ++e) {
+    values[e].resize(scene.ensembles[e]->size());
+    for (std::size_t i = 0; i < values[e].size(); ++i) values[e][i] = columns[e][i];
+  }
   std::vector<std::span<double const>> samples;
   std::vector<std::string> labels;
   std::vector<Colour> colours;

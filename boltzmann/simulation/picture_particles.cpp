@@ -67,7 +67,7 @@ ParticleClouds clouds_of(Scene& scene) {
 }
 
 std::uint32_t number_of(Canvas::Cloud const& cloud, std::size_t k) {
-  return cloud.number.empty() ? static_cast<std::uint32_t>(k) * cloud.stride : cloud.number[k];
+  return cloud.number.empty() ? static_cast<std::uint32_t>(k) : cloud.number[k];
 }
 
 void draw_bonds(Canvas& canvas, Scene const& scene, CartesianStyle const& style) {

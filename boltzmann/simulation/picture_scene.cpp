@@ -159,16 +159,32 @@ std::vector<std::array<double, 2>> Scene::shown_box(std::array<std::array<double
 }
 
 std::array<std::array<double, 2>, 3> Scene::open_reach() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<std::array<double, 2>, 3> reach;
-  for (std::size_t a = 0; a < 3; ++a) {
-    reach[a] = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    if (a >= static_cast<std::size_t>(box().dimension()) || box().boundary(static_cast<int>(a)) != Boundary::open)
-      continue;
+  reach.fill({infinity, -infinity});
+  auto const D = static_cast<std::size_t>(box().dimension());
+  bool any = false;
+  for (std::size_t a = 0; a < D; ++a) any = any || box().boundary(static_cast<int>(a)) == Boundary::open;
+  if (!any) return reach;
+  auto const take = [D, &reach](double const* row, bool finite_only) {
+    for (std::size_t a = 0; a < D; ++a) {
+      if (finite_only && !std::isfinite(row[a])) continue;
+      auto& [low, high] = reach[a];
+      low = row[a] < low ? row[a] : low;
+      high = row[a] > high ? row[a] : high;
+    }
+  };
+  for (bool const finite_only : {false, true}) {  // quickly, and once more if somebody is infinitely far
+    reach.fill({infinity, -infinity});
     for (auto const* ensemble : ensembles)
-      for (std::size_t i = 0; i < ensemble->size(); ++i)
-        if (double const x = ensemble->row(i)[a]; std::isfinite(x))
-          reach[a] = {std::min(reach[a][0], x), std::max(reach[a][1], x)};
+      for (std::size_t i = 0; i < ensemble->size(); ++i) take(ensemble->row(i), finite_only);
+    if (std::none_of(reach.begin(), reach.end(), [](auto const& side) {
+          return side[0] <= side[1] && (std::isinf(side[0]) || std::isinf(side[1]));
+        }))
+      break;
   }
+  for (std::size_t a = 0; a < 3; ++a)
+    if (a >= D || box().boundary(static_cast<int>(a)) != Boundary::open) reach[a] = {infinity, -infinity};
   return reach;
 }
 

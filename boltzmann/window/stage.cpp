@@ -154,6 +154,11 @@ void Stage::add_usual() {
   add("Profile", {.drawing = "profile", .x = "position.x", .y = "density"});
   add("Density", {.drawing = "map", .y = "density", .cells = 120});
   add("Mesh", {.drawing = "mesh", .y = "potential"});
+  // What shows the state comes before what needs a history.
+  std::stable_partition(entries_.begin(), entries_.end(), [](Entry const& entry) {
+    return !entry.table && entry.picture.drawing != "wave-spectrum" &&
+           !(entry.picture.drawing == "spectrum" && entry.picture.x == "time");
+  });
 }
 
 void Stage::columns(std::vector<std::string> header) { header_ = std::move(header); }

@@ -197,10 +197,9 @@ TEST(Pictures, ParticlesHaveTheColoursOfTheirEnsembles) {
   pair.simulation.check();
   for (auto const* drawing : {"cartesian", "phase-space"}) {
     Canvas const canvas = draw({.drawing = drawing}, {pair.simulation, Base::reduced(), "", 0, 0.0, folder.string()});
-    std::vector<Colour> colours;
-    for (auto const& circle : canvas.circles()) colours.push_back(with_alpha(circle.colour, 1));
-    for (auto const& point : canvas.points()) colours.push_back(with_alpha(point.colour, 1));
-    EXPECT_EQ(colours, std::vector<Colour>(2, colour_named("seagreen"))) << drawing;
+    ASSERT_EQ(canvas.clouds().size(), 1U) << drawing;
+    EXPECT_EQ(canvas.clouds()[0].count(), 2U) << drawing;
+    EXPECT_EQ(with_alpha(canvas.clouds()[0].colour, 1), colour_named("seagreen")) << drawing;
   }
 }
 

@@ -23,7 +23,7 @@ export async function until(condition, what, seconds = 20) {
 
 // What is to be done when a test is over, the last thing first: a page is closed before what it shows is ended.
 const rests = new WeakMap();
-function atEnd(test, rest) {
+export function atEnd(test, rest) {
   if (!rests.has(test)) {
     rests.set(test, []);
     test.after(async () => {
@@ -88,12 +88,12 @@ const flags = [
   "--disable-sync",
 ];
 
-/** A browser for all tests of a file: close() it after them. */
-export function browser() {
+/** A browser for all tests of a file: close() it after them. `more`: flags of Chromium's. */
+export function browser(...more) {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     chromiumSandbox: process.getuid() !== 0,
-    args: flags,
+    args: [...flags, ...more],
   });
 }
 

@@ -311,7 +311,7 @@ export class Pane {
     let place: number[] | null = null;
     for (const mark of (selected && this.canvas?.marks) || []) {
       if (mark.kind !== "cloud" || mark.ensemble !== selected?.ensemble) continue;
-      const here = mark.numbers ? mark.numbers.indexOf(selected.particle) : selected.particle / mark.stride;
+      const here = mark.numbers ? mark.numbers.indexOf(selected.particle) : selected.particle;
       if (!Number.isInteger(here) || here < 0 || here >= mark.count) continue;
       place = Array.from({ length: mark.dimension }, (_, axis) => {
         return mark.origin[axis] + mark.scale[axis] * mark.positions[here * mark.dimension + axis];

@@ -192,7 +192,7 @@ export class Painter {
     }
     if (!best) return null;
     this.ring = best.diameter;
-    return { ensemble: best.cloud.ensemble, particle: best.cloud.numbers?.[best.k] ?? best.k * best.cloud.stride };
+    return { ensemble: best.cloud.ensemble, particle: best.cloud.numbers?.[best.k] ?? best.k };
   }
 
   click(x: number, y: number) {
