@@ -12,6 +12,7 @@ Picture picture_of(PicturePlan const& plan) {
   picture.y = plan.y;
   picture.colour = plan.colour;
   picture.size = plan.size;
+  picture.vectors = plan.vectors;
   if (!plan.file.empty()) picture.file = plan.file;
   picture.trace = plan.trace;
   picture.low = plan.low;

@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -159,6 +160,8 @@ class Canvas {
   /// Throws Error if its arrays don't fit together. Particles whose place is not finite stay in it, are not drawn, and
   /// are counted, unless who made the cloud has counted them.
   void cloud(Cloud cloud, std::optional<std::size_t> not_finite = {});
+  /// Gives the clouds away, for their memory; the canvas must not be shown any more.
+  std::vector<Cloud> take_clouds() { return std::move(clouds_); }
 
   // What stands around the drawing.
   void axes(Axis x, Axis y);
@@ -186,6 +189,11 @@ class Canvas {
   std::vector<Text> const& texts() const { return texts_; }
   std::vector<Image> const& images() const { return images_; }
   std::vector<Cloud> const& clouds() const { return clouds_; }
+  /// Takes the clouds off the canvas, for their memory.
+  std::vector<Cloud> take_clouds() {
+    std::erase_if(order_, [](Run const& run) { return run.kind == Kind::cloud; });
+    return std::exchange(clouds_, {});
+  }
   std::vector<Run> const& order() const { return order_; }
   std::vector<ColourBar> const& colour_bars() const { return colour_bars_; }
   std::vector<LegendEntry> const& legend_entries() const { return legend_; }

@@ -162,8 +162,8 @@ struct Block {
   float *place, *value, *diameter;
 };
 
-// The one that is shown of the k-th `stride` of so many particles: by a hash, the same in every picture, so that what is
-// shown is a fair sample whatever the order in which particles were loaded (a lattice, a quiet start).
+// The one that is shown of the k-th `stride` of so many particles: by a hash, the same in every picture, so that what
+// is shown is a fair sample whatever the order in which particles were loaded (a lattice, a quiet start).
 std::size_t one_of(std::size_t k, std::size_t stride, std::size_t count) {
   std::uint64_t hash = (k + 1) * 0x9E3779B97F4A7C15U;
   hash = (hash ^ hash >> 32U) * 0xD6E8FEB86659FD93U;
@@ -341,6 +341,11 @@ class Maker {
           cloud.number[k] = options_.region.empty() ? static_cast<std::uint32_t>(i) : inside_[s][i];
         }
       }
+      if (options_.memory) {
+        cloud.position = options_.memory->take();
+        if (valued_) cloud.value = options_.memory->take();
+        if (source.size) cloud.diameter = options_.memory->take();
+      }
       Told const told = fill(source, count, scale, cloud);
       drawn_.add(told.value);
       result_.shown += count;
@@ -364,6 +369,7 @@ class Maker {
       });
     }
     // Each number goes to memory only once, which would be set to zero otherwise.
+    cloud.position.clear(), cloud.value.clear(), cloud.diameter.clear();
     Told told;
     std::array<float, 3 * block> place;
     std::array<float, block> value, diameter;
@@ -539,6 +545,24 @@ ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std
   column.own = quantity(ensemble, name, potential);
   column.first = column.own.data();
   return column;
+}
+
+std::vector<float> CloudMemory::take() {
+  std::scoped_lock const lock(mutex_);
+  if (spare_.empty()) return {};
+  // The largest: positions, of which there are most, are asked for first.
+  auto const largest = std::max_element(spare_.begin(), spare_.end(),
+                                        [](auto const& a, auto const& b) { return a.capacity() < b.capacity(); });
+  std::vector<float> taken = std::move(*largest);
+  spare_.erase(largest);
+  return taken;
+}
+
+void CloudMemory::keep(std::vector<Canvas::Cloud> clouds) {
+  std::scoped_lock const lock(mutex_);
+  for (auto& cloud : clouds)
+    for (auto* array : {&cloud.position, &cloud.value, &cloud.diameter})
+      if (array->capacity() > 0 && spare_.size() < most) spare_.push_back(std::move(*array));
 }
 
 ParticleClouds particle_clouds(std::span<CloudSource const> sources, CloudOptions const& options) {

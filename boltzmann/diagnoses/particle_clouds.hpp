@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -39,13 +40,29 @@ struct CloudSource {
   std::optional<ParticleColumn> size = {};  ///< the largest of all sources gets its `diameter`; none (NaN): the same
 };
 
+/// Memory of clouds that nobody shows any more, for the next ones: what is made many times a second must not be asked
+/// of the system, page by page, each time. May be used from several threads.
+class CloudMemory {
+ public:
+  /// An empty array, with room where there is some.
+  std::vector<float> take();
+  /// Keeps the arrays of a canvas, a few of them.
+  void keep(std::vector<Canvas::Cloud> clouds);
+
+ private:
+  static constexpr std::size_t most = 12;
+  std::mutex mutex_;
+  std::vector<std::vector<float>> spare_;
+};
+
 struct CloudOptions {
   std::array<double, 3> origin{0, 0, 0}, scale{1, 1, 1};   ///< of the clouds
   double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours; NaN: the smallest
   double high = std::numeric_limits<double>::quiet_NaN();  ///< and the largest of all particles, drawn or not
-  std::size_t most = 0;                                    ///< one of every n particles, so that so many are drawn; 0: all
+  std::size_t most = 0;                            ///< one of every n particles, so that so many are drawn; 0: all
   std::vector<std::array<double, 2>> region = {};  ///< only particles with low <= coordinate <= high; empty: all
   int threads = 1;
+  CloudMemory* memory = nullptr;  ///< where arrays come from; null: new ones
 };
 
 struct ParticleClouds {

@@ -19,7 +19,7 @@ struct ScenarioParameter {
   std::string kind;   ///< "quantity", "integer", "number", "word", "boolean", "text" or "vector" (an array of any)
   std::string value;  ///< as TOML, as it was written
   std::string unit;   ///< in which the base shows such a quantity; empty: a pure number, or none
-  std::string base_unit;  ///< what a plain number counts there: "amu", "3.273e-15 s"; empty: a pure number, or none
+  std::string base_unit;  ///< what a plain number counts there: "amu", "3.273 fs"; empty: a pure number, or none
   std::vector<std::string> units;  ///< some that it may be written in, that of the value first
   /// Of a number, in `unit`; of a vector those of its elements. Not all limits are known without the other values.
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/canvas.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/diagnoses/particle_clouds.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -52,7 +53,7 @@ struct Picture {
   std::vector<double> levels = {};  ///< contours, bands: ascending; empty: level_count even ones
   int level_count = 0;              ///< 0: 8 for contours; the mean over the picture alone for bands
   Projection projection = {};       ///< cartesian in 3D: from where
-  std::size_t most = 0;  ///< cartesian, phase-space: one of every n particles, so that so many or fewer are drawn; 0: all
+  std::size_t most = 0;  ///< cartesian, phase-space: one of every n particles, so that so many are drawn; 0: all
   std::vector<std::array<double, 2>> region = {};  ///< cartesian, phase-space: only particles with low <= x <= high,
                                                    ///< for each axis; empty: all
   std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()
@@ -74,6 +75,8 @@ struct PictureContext {
   double time;
   std::string folder;  ///< where diagnoses.csv and trajectory.h5 are, for time series and tracks
   std::vector<Diagnosis const*> diagnoses = {};  ///< of the run, for wave spectra
+  int threads = 0;                               ///< for many particles; 0: those of the scheme
+  CloudMemory* memory = nullptr;                 ///< where clouds of particles get theirs; null: new
 };
 
 /// Draws. Error for an unknown drawing, field or column (with the allowed ones and the nearest), and for a histogram of

@@ -90,6 +90,14 @@ void draw_bonds(Canvas& canvas, Scene const& scene, CartesianStyle const& style)
       }
 }
 
+bool has_bonds(Scene const& scene) {
+  auto const& schemes = scene.context.simulation.schemes();
+  return std::any_of(schemes.begin(), schemes.end(), [](Scheme const* scheme) {
+    auto const* pairs = dynamic_cast<PairScheme const*>(scheme);
+    return pairs && !pairs->bonds().empty();
+  });
+}
+
 // A vector of particles: an influence, or a field. Null if the class has no such one.
 struct VectorColumn {
   double const* first = nullptr;
@@ -259,7 +267,8 @@ Canvas draw_particles(Scene& scene) {
     }
     canvas.axes(axes[0], axes[1]);
   }
-  if (clouds.stride == 1) draw_bonds(canvas, scene, style);  // else most of their ends would not be seen
+  bool const with_bonds = clouds.stride == 1;  // else most of their ends would not be seen
+  if (with_bonds) draw_bonds(canvas, scene, style);
   if (scene.picture.colour.empty())
     explain_colours(canvas, style, 0, 0, false);
   else
@@ -273,6 +282,7 @@ Canvas draw_particles(Scene& scene) {
     canvas.curve(std::move(curve));
   }
   note_shown(canvas, clouds, !scene.picture.region.empty());
+  if (!with_bonds && has_bonds(scene)) canvas.note("connections are not shown");
   note_far_ones(canvas, scene, reach, shown);
   return canvas;
 }

@@ -34,7 +34,9 @@ Scene::~Scene() {
 
 Box const& Scene::box() const { return context.simulation.schemes().front()->box(); }
 
-int Scene::threads() const { return context.simulation.schemes().front()->threads(); }
+int Scene::threads() const {
+  return context.threads > 0 ? context.threads : context.simulation.schemes().front()->threads();
+}
 
 Base::Display Scene::shown_in(Dimension dimension) const { return context.base.display(dimension); }
 
@@ -195,6 +197,7 @@ CloudOptions cloud_options(Scene const& scene) {
   options.most = scene.picture.most;
   options.region = scene.picture.region;
   options.threads = scene.threads();
+  options.memory = scene.context.memory;
   return options;
 }
 

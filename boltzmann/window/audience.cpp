@@ -70,6 +70,8 @@ struct Audience::State {
   std::uint64_t stirrings = 0, noticed = 0;  // what has happened, and how much of it when it was last attended to
   Show* show = nullptr;
   std::unique_ptr<WebServer> server;
+  // The same for its own thread: from the moment on at which it is known here, and until that thread has ended.
+  std::atomic<WebServer*> speaks{nullptr};
 
   void joined(std::uint64_t id) {
     std::scoped_lock const lock(mutex);
@@ -99,7 +101,8 @@ struct Audience::State {
   void heard(std::uint64_t id, std::string_view text) {
     json request = json::parse(text, nullptr, false);
     if (!request.is_object() || !request.contains("do") || !request["do"].is_string()) {
-      reply(id, nullptr, {{"error", "what was said is no request: {\"do\": \"play\"}"}});
+      if (WebServer* const open = speaks)
+        open->send(id, reply_message(nullptr, {{"error", "what was said is no request: {\"do\": \"play\"}"}}));
       return;
     }
     std::unique_lock lock(mutex);
@@ -117,7 +120,7 @@ struct Audience::State {
     }
     if (found->second.requests >= most_requests) {
       lock.unlock();
-      server->dismiss(id, "too many requests at a time");
+      if (WebServer* const open = speaks) open->dismiss(id, "too many requests at a time");
       return;
     }
     ++found->second.requests;
@@ -125,11 +128,14 @@ struct Audience::State {
     call();
   }
 
-  void reply(std::uint64_t id, json const& number, json fields) {
+  static WebMessage reply_message(json const& number, json fields) {
     fields["type"] = "reply";
     fields["id"] = number;
     if (!fields.contains("error")) fields["ok"] = true;
-    server->send(id, WebMessage::of_text(fields.dump(-1, ' ', false, json::error_handler_t::replace)));
+    return WebMessage::of_text(fields.dump(-1, ' ', false, json::error_handler_t::replace));
+  }
+  void reply(std::uint64_t id, json const& number, json fields) {
+    server->send(id, reply_message(number, std::move(fields)));
   }
 
   void greet(std::uint64_t id) {
@@ -216,11 +222,14 @@ Audience::Audience(std::uint16_t port, std::function<std::optional<WebFile>(std:
     if (path == "/") return WebFile{"text/html; charset=utf-8", std::make_shared<std::string const>(page_html())};
     return file ? file(path) : std::nullopt;
   };
-  // No browser can have come before the server is known here: it needs the token.
   state_->server = std::make_unique<WebServer>(std::move(events), port, std::move(token));
+  state_->speaks = state_->server.get();
 }
 
-Audience::~Audience() { state_->server.reset(); }
+Audience::~Audience() {
+  state_->speaks = nullptr;
+  state_->server.reset();
+}
 
 std::string Audience::address() const { return state_->server->address(); }
 std::uint16_t Audience::port() const { return state_->server->port(); }

@@ -23,7 +23,7 @@ using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double frames_per_second = 60;
-constexpr double share_of_time = 0.04;     // that drawing may take from a run at full speed
+constexpr double share_of_time = 0.045;    // that drawing may take from a run at full speed
 constexpr double shortest_show = 10;       // seconds that a run takes at least, unless told otherwise
 constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept for REWD
 
@@ -115,7 +115,8 @@ struct LiveRun::State {
     if (paced())
       keep_pace();
     else if (audience.present())
-      next_frame = std::max(afford(), begun_frame + period());
+      // Steps don't end when a frame is due: what one comes late, the next one comes early.
+      next_frame = std::max({afford(), next_frame + period(), begun_frame + period() / 2});
     if (turned()) simulation.pause();
   }
 

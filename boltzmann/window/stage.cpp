@@ -1,6 +1,7 @@
 // From the names that a page knows to drawings of the simulation.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/projection.hpp>
@@ -263,13 +264,19 @@ Canvas Stage::canvas(Entry const& entry, json const& view, std::int64_t step, do
   picture.palette = palette_;
   if (picture.trace && folder_.empty()) throw Error("tracks are those of the trajectory, which nobody records here");
   check(picture, ensembles(), column_names(), sources(picture));
-  return boltzmann::draw(picture, {simulation_, base_, title_, step, time, folder_, instruments_});
+  return boltzmann::draw(
+      picture, {simulation_, base_, title_, step, time, folder_, instruments_, default_threads(), memory_.get()});
 }
 
 std::shared_ptr<Canvas const> Stage::draw(json const& view, std::int64_t step, double time) const {
   Entry const& what = entry(text_or(view, "diagnosis", ""));
   if (what.table) return nullptr;
-  return std::make_shared<Canvas const>(canvas(what, view, step, time));
+  // Its arrays come back when the last browser has been sent them.
+  return {new Canvas(canvas(what, view, step, time)), [memory = memory_](Canvas const* shown) {
+            auto* const canvas = const_cast<Canvas*>(shown);  // made as one that may be changed, one line above
+            memory->keep(canvas->take_clouds());
+            delete canvas;
+          }};
 }
 
 PictureFile Stage::picture(json const& request, std::int64_t step, double time) const {

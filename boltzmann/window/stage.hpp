@@ -75,6 +75,7 @@ class Stage {
   std::vector<Colour> palette_;
   std::vector<std::string> header_;
   std::vector<Diagnosis const*> instruments_;
+  std::shared_ptr<CloudMemory> memory_ = std::make_shared<CloudMemory>();
 };
 
 /// The number of a field that may be left out or null; Error if it is something else.

@@ -476,6 +476,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
         if (self->state_.events.joined) self->state_.events.joined(self->id_);
       });
       if (!self->closing_) self->read();
+      if (!self->writing_ && !self->queue_.empty()) self->write();
     });
   }
 
@@ -490,7 +491,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
     }
     waiting_ += bytes;
     queue_.push_back(std::move(message));
-    if (!writing_) write();
+    if (joined_ && !writing_) write();
   }
 
   /// Closes after what is waiting; gives up when nothing has moved for so long.

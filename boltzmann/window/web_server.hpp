@@ -50,13 +50,13 @@ struct WebEvents {
 };
 
 struct WebLimits {
-  std::size_t connections = 32;            ///< sockets and requests at a time; more are refused with 503
-  std::size_t request_bytes = 16 * 1024;   ///< of a request's head; it has no body
-  std::size_t message_bytes = 256 * 1024;  ///< of a message from a browser
-  std::size_t waiting_bytes = 256 << 20;   ///< of messages not yet sent to one browser; above, it is let go
-  std::size_t waiting_messages = 256;      ///< likewise
-  double handshake_seconds = 5;            ///< a connection that has not said what it wants by then is closed
-  double idle_seconds = 60;                ///< a browser that answers no ping for so long is gone
+  std::size_t connections = 32;                        ///< sockets and requests at a time; more are refused with 503
+  std::size_t request_bytes = 16'384;                  ///< of a request's head; it has no body
+  std::size_t message_bytes = 262'144;                 ///< of a message from a browser
+  std::size_t waiting_bytes = std::size_t{256} << 20;  ///< of messages not yet sent to one browser; above, it is let go
+  std::size_t waiting_messages = 256;                  ///< likewise
+  double handshake_seconds = 5;  ///< a connection that has not said what it wants by then is closed
+  double idle_seconds = 60;      ///< a browser that answers no ping for so long is gone
 };
 
 class WebServer {

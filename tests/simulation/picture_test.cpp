@@ -176,6 +176,21 @@ TEST(ParticlePictures, LimitsAndRegionsAreTold) {
   }
 }
 
+TEST(ParticlePictures, ConnectionsAreThoseOfWhoIsShown) {
+  Atoms<2> plane;
+  for (double const x : {1.0, 3.0, 5.0, 9.5}) plane.add({x, 5});
+  plane.scheme.connect(plane.atoms, {{0, 3, 1}}, Spring{1, 1});  // 0-1, 1-2, 2-3
+  std::size_t const box = 4;
+  Canvas const all = plane.drawn({});
+  ASSERT_EQ(all.lines().size(), box + 3);
+  EXPECT_EQ(all.lines()[box].x0, 1);
+  EXPECT_EQ(all.lines()[box].x1, 3);
+  EXPECT_EQ(plane.drawn({.region = {{0, 2}}}).lines().size(), box + 1) << "with an end inside";
+  Canvas const half = plane.drawn({.most = 2});
+  EXPECT_EQ(half.lines().size(), box);
+  EXPECT_EQ(half.notes().back(), "connections are not shown");
+}
+
 TEST(ParticlePictures, ArrowsOfVectors) {
   Atoms<2> plane;
   plane.add({2, 2}, {3, 4});

@@ -120,7 +120,7 @@ TEST_F(GalleryTest, TellsParametersAsThePageWantsThem) {
                                          "high", "low_excluded", "words", "comment"}));
   EXPECT_EQ(step.at("group"), "run");
   EXPECT_EQ(step.at("unit"), "fs");
-  EXPECT_EQ(step.at("base_unit"), "3.273e-15 s");  // 0.01 is 0.01 of these
+  EXPECT_EQ(step.at("base_unit"), "3.273 fs");  // 0.01 is 0.01 of these
   EXPECT_EQ(step.at("low"), 0);
   EXPECT_EQ(step.at("low_excluded"), true);
   EXPECT_TRUE(step.at("high").is_null());

@@ -546,7 +546,7 @@ TEST(WebServer, an_event_that_fails_ends_its_browser_only) {
     WebSocketClient first(server.port(), token);
     WebSocketClient second(server.port(), token);
     EXPECT_EQ(first.end().code, 1011);
-    server.send(static_cast<std::uint64_t>(2 * i + 2), WebMessage::of_text("hello"));
+    server.send(2 * static_cast<std::uint64_t>(i) + 2, WebMessage::of_text("hello"));
     EXPECT_EQ(second.hear(), "hello");
   }
   auto const start = Clock::now();

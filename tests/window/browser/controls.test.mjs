@@ -365,6 +365,41 @@ test("zoom by wheel, keys and the button for the whole view", async (t) => {
   assert.equal(await seen(), undefined);
 });
 
+test("a space is turned by mouse and keys, without new data, and comes back", async (t) => {
+  const run = await bzm(t, ["run", "three-body", "--window", "--out", "run"]);
+  const page = await watch(t, chromium, run);
+  const camera = async () => {
+    const before = page.wire.said.length;
+    await page.keyboard.press("g");
+    const { view } = await until(() => page.wire.said.slice(before).find((words) => words.do === "picture"), "a picture");
+    return [view.azimuth, view.elevation];
+  };
+  const { canvas: shown } = page.wire.views.get(1);
+  assert.ok(shown.z, "three axes");
+  const picture = page.locator("[data-view='1'] canvas").first();
+  await picture.focus();
+  const first = await camera();
+  near(first[0], shown.azimuth, 1e-6);
+  near(first[1], shown.elevation, 1e-6);
+  const box = await picture.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 80, y + 40, { steps: 4 });
+  await page.mouse.up();
+  const dragged = await camera();
+  assert.ok(Math.abs(dragged[0] - first[0]) > 5 && Math.abs(dragged[1] - first[1]) > 2, `${first} -> ${dragged}`);
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("ArrowUp");
+  const turned = await camera();
+  assert.ok(turned[0] !== dragged[0] && turned[1] !== dragged[1], `${dragged} -> ${turned}`);
+  await page.keyboard.press("Home");
+  const back = await camera();
+  near(back[0], first[0], 1e-6);
+  near(back[1], first[1], 1e-6);
+  await painted(page, 1, 1e-4);
+});
+
 test("pictures are saved as PNG, SVG and PDF, as the window draws them", async (t) => {
   const { page } = await copper(t);
   await panel(page);

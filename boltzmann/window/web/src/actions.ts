@@ -67,10 +67,7 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
   const fields = () => ["", ...(session.hello?.quantities.map(({ name }) => name) ?? [])];
 
   const cycle = (what: "colour" | "size") => () => {
-    const now =
-      panes.active.changes[what] ??
-      session.hello?.diagnoses.find(({ name }) => name === panes.active.diagnosis)?.[what];
-    const next = after(fields(), now ?? "");
+    const next = after(fields(), panes.active.has(what) ?? "");
     panes.active.change({ [what]: next });
     const label = session.hello?.quantities.find(({ name }) => name === next)?.label || next;
     session.notices.set(
@@ -80,6 +77,14 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
   };
 
   const list: Action[] = [
+    {
+      id: "toggle",
+      words: "Play or stop",
+      help: "go on, or stand still",
+      keys: [" "],
+      why: ended,
+      run: () => say(state() === "playing" || state() === "rewinding" ? "stop" : "play"),
+    },
     { id: "play", words: "Play", help: "go on from here", keys: [], icon: "play", why: able, run: () => say("play") },
     {
       id: "step",
@@ -118,14 +123,6 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
       run: () => parts.panel.toggle(),
     },
 
-    {
-      id: "toggle",
-      words: "Play or stop",
-      help: "go on, or stand still",
-      keys: [" "],
-      why: ended,
-      run: () => say(state() === "playing" || state() === "rewinding" ? "stop" : "play"),
-    },
     {
       id: "step-back",
       words: "Step back",

@@ -16,6 +16,7 @@ export function makeBar(session: Session, actions: Actions): HTMLElement {
   const buttons = actions.list
     .filter((action) => action.icon)
     .map((action) => [action, button(action, actions)] as const);
+  const name = h("span", { id: "name" });
   const state = h("span", { id: "state", class: "state" }, "connecting");
   const status = h("span", { id: "status" });
   const viewers = h("span", { id: "viewers", title: "browsers that watch" });
@@ -45,6 +46,7 @@ export function makeBar(session: Session, actions: Actions): HTMLElement {
   session.on("link", refresh);
   session.on("hello", (hello) => {
     document.body.dataset.kind = hello.kind;
+    name.textContent = name.title = hello.title || hello.name;
     refresh();
   });
   session.on("update", (update) => {
@@ -79,6 +81,7 @@ export function makeBar(session: Session, actions: Actions): HTMLElement {
     h(
       "div",
       { class: "facts" },
+      name,
       state,
       status,
       viewers,

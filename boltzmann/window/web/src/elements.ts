@@ -77,17 +77,20 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
-/** What the user has chosen in this browser before; nothing where it keeps nothing. */
-export function remembered(key: string): string | null {
+/** For this browser, or until this page is closed. */
+type Keeping = "localStorage" | "sessionStorage";
+
+/** What the user has chosen before; nothing where the browser keeps nothing. */
+export function remembered(key: string, where: Keeping = "localStorage"): string | null {
   try {
-    return localStorage.getItem(`boltzmann.${key}`);
+    return window[where].getItem(`boltzmann.${key}`);
   } catch {
     return null;
   }
 }
-export function remember(key: string, value: string): void {
+export function remember(key: string, value: string, where: Keeping = "localStorage"): void {
   try {
-    localStorage.setItem(`boltzmann.${key}`, value);
+    window[where].setItem(`boltzmann.${key}`, value);
   } catch {
     // A browser that keeps nothing: the choice holds until the page is closed.
   }

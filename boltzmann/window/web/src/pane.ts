@@ -2,7 +2,7 @@
 import { h, iconButton } from "./elements";
 import { Painter } from "./paint/painter";
 import { TablePlot } from "./plot";
-import type { Canvas, Update, View } from "./protocol";
+import type { Canvas, Diagnosis, Update, View } from "./protocol";
 import { Recorder } from "./recorder";
 import type { Session } from "./session";
 
@@ -28,7 +28,6 @@ export class Pane {
   readonly element: HTMLElement;
   readonly chooser: HTMLSelectElement;
   canvas: Canvas | null = null;
-  changes: ViewChanges = {};
   painter: Painter | null = null;
   plot: TablePlot | null = null;
   readonly recorder = new Recorder(() => this.marked());
@@ -39,7 +38,7 @@ export class Pane {
   private readonly close: HTMLButtonElement;
   private region: [number, number][] | undefined;
   private frames = 0;
-  private fresh = false;
+  private paintedCanvas: Canvas | null = null;
   private slowPaints = 0;
   private quickPaints = 0;
   private moveTimer = 0;
@@ -52,6 +51,7 @@ export class Pane {
     readonly id: number,
     public diagnosis: string,
     private readonly events: PaneEvents,
+    public changes: ViewChanges = {},
   ) {
     this.chooser = h("select", {
       id: `pane-${id}-chooser`,
@@ -106,7 +106,7 @@ export class Pane {
   }
 
   get drawing(): string {
-    return this.session.hello?.diagnoses.find(({ name }) => name === this.diagnosis)?.drawing ?? "";
+    return this.own.drawing ?? "";
   }
 
   /** The one canvas that has everything of the pane on it. */
@@ -127,10 +127,28 @@ export class Pane {
 
   /** Changes something of the diagnosis; undefined: as the diagnosis has it. */
   change(changes: ViewChanges): void {
-    const other = "colour" in changes || "y" in changes; // the ends were those of another quantity
-    this.changes = { ...this.changes, ...(other ? { low: undefined, high: undefined } : {}), ...changes };
-    this.plot?.logarithmic(this.changes.logarithmic ?? false);
+    // The ends were those of another quantity.
+    if ("colour" in changes) changes = { low: undefined, high: undefined, ...changes };
+    if ("y" in changes) {
+      const end = changes.y === this.own.y ? undefined : null;
+      changes = { low: end, high: end, ...changes };
+    }
+    this.changes = { ...this.changes, ...changes };
+    this.plot?.logarithmic(this.has("logarithmic") === true);
     this.events.changed();
+  }
+
+  /** The diagnosis as the scenario or the program has set it. */
+  get own(): Partial<Diagnosis> {
+    return this.session.hello?.diagnoses.find(({ name }) => name === this.diagnosis) ?? {};
+  }
+
+  /** As the user has changed it, or as the diagnosis has it. */
+  has<K extends keyof ViewChanges>(key: K): ViewChanges[K] {
+    const { changes, own } = this;
+    if (changes[key] !== undefined) return changes[key];
+    const end = key === "low" || key === "high"; // of the diagnosis' own colours only
+    return end && (changes.colour ?? own.colour) !== own.colour ? undefined : own[key];
   }
 
   /** What the window should send. */
@@ -177,7 +195,7 @@ export class Pane {
       this.board.classList.toggle("blank", mine.error !== undefined && this.canvas === null);
       if (mine.canvas) {
         this.canvas = mine.canvas;
-        this.fresh = true;
+        this.head();
         this.painter?.show(mine.canvas);
       }
     }
@@ -241,10 +259,9 @@ export class Pane {
       this.board.replaceChildren();
     }
     if (table && !this.plot) {
-      const chosen = hello.diagnoses.find(({ name }) => name === this.diagnosis)?.y ?? "";
       this.plot = new TablePlot(this.board, hello, session.rows, {
-        chosen,
-        logarithmic: this.changes.logarithmic ?? false,
+        chosen: this.own.y ?? "",
+        logarithmic: this.has("logarithmic") === true,
       });
       this.plot.onpaint = () => this.counted(session.rows.count, "row", "rows");
       this.plot.show();
@@ -253,7 +270,7 @@ export class Pane {
       this.held = "";
       this.painter = new Painter(this.board, { maps: hello.maps, theme: session.dark ? "dark" : "light" });
       this.painter.onview = () => this.moved();
-      this.painter.onpaint = () => this.painted();
+      this.painter.onpaint = (canvas) => this.painted(canvas);
       this.painter.onpick = (hit) => void session.command(hit ? { do: "select", ...hit } : { do: "select" });
       this.painter.track(session.tracking);
     }
@@ -263,11 +280,12 @@ export class Pane {
     return this.session.hello;
   }
 
-  private painted(): void {
-    if (!this.fresh) return; // only turned or marked
-    this.fresh = false;
+  private painted(canvas: Canvas): void {
     const { points, milliseconds } = this.painter?.drawn ?? { points: 0, milliseconds: 0 };
-    this.counted(points, "point", "points");
+    const again = canvas === this.paintedCanvas; // only turned or marked
+    this.paintedCanvas = canvas;
+    this.counted(points, "point", "points", !again);
+    if (again) return;
     this.element.dataset.milliseconds = String(Math.round(milliseconds));
     this.slowPaints = milliseconds > slow ? this.slowPaints + 1 : 0;
     this.quickPaints = milliseconds < quick ? this.quickPaints + 1 : 0;
@@ -278,9 +296,9 @@ export class Pane {
     this.slowPaints = this.quickPaints = 0;
   }
 
-  private counted(number: number, one: string, many: string): void {
+  private counted(number: number, one: string, many: string, fresh = true): void {
     this.element.dataset.points = String(number);
-    this.element.dataset.frames = String(++this.frames);
+    if (fresh) this.element.dataset.frames = String(++this.frames);
     this.count.textContent = number === 0 ? "" : `${number.toLocaleString("en-US")} ${number === 1 ? one : many}`;
   }
 
@@ -330,7 +348,14 @@ export class Pane {
     this.painter?.follow(this.session.following ? this.selectedAt : null);
   }
 
+  /** The page's bar says which simulation and step this is: a picture's title says it again only in a movie. */
+  private head(): void {
+    const title = this.hello?.title ?? "";
+    this.painter?.head(this.recorder.running || !title || !this.canvas?.title.startsWith(title));
+  }
+
   private marked(): void {
+    this.head();
     this.recording.setAttribute("aria-pressed", String(this.recorder.running));
     this.recording.title = this.recorder.running ? "end the movie and save it" : "record a movie of this pane";
     this.element.classList.toggle("recording", this.recorder.running);

@@ -26,6 +26,9 @@ export const changeable: Record<string, Key[]> = {
   table: ["logarithmic"],
 };
 
+/** What a diagnosis has whose scenario says nothing of cells; a histogram then chooses its bins itself. */
+const usual_cells = 300;
+
 /** Steps per frame on the slider. */
 const paces = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const speeds = [1, 2, 5, 10, 15, 20, 30, 60];
@@ -91,6 +94,7 @@ export class Panel {
   private readonly saving = h("section", {});
   private readonly page = h("section", {});
   private opener: Element | null = null;
+  private readonly under = h("p", { class: "quiet under" });
   private readonly ends = new Map<"low" | "high", HTMLInputElement>();
 
   constructor(
@@ -218,8 +222,7 @@ export class Panel {
   private control(pane: Pane, key: Key): Child {
     const { hello } = this.session;
     if (!hello) return null;
-    const asked = hello.diagnoses.find(({ name }) => name === pane.diagnosis) as Partial<View> | undefined;
-    const now = pane.changes[key] ?? asked?.[key];
+    const now = pane.has(key);
     const text = now === undefined || now === null ? "" : String(now);
     const quantities = hello.quantities.map(({ name, label }) => [name, label || name] as [string, string]);
     const places = ["x", "y", "z"]
@@ -261,14 +264,15 @@ export class Panel {
         );
       }
       case "low": {
-        const unit = this.scale(pane).unit;
+        const drawn = pane.drawing === "cartesian" || pane.drawing === "phase-space";
+        if (drawn && !pane.has("colour")) return null; // by ensemble: there is no scale
         const row = line(
-          pane.canvas?.bars.length ? "Colours" : "Values",
+          pane.drawing === "profile" ? "Values" : "Colours",
           this.end(pane, "low"),
           "to",
           this.end(pane, "high"),
         );
-        row.append(h("p", { class: "quiet under" }, unit ? `in ${unit}; empty: automatic` : "empty: automatic"));
+        row.append(this.under);
         return row;
       }
       case "high":
@@ -291,9 +295,10 @@ export class Panel {
         return line("at", field, h("span", { class: "unit" }, hello.length_unit));
       }
       case "cells": {
+        const free = pane.drawing === "histogram" && now === usual_cells;
         const field = input(
           id,
-          text,
+          free ? "" : text,
           (value) => this.number(field, value, (number) => set(number === null ? undefined : Math.round(number))),
           {
             placeholder: "automatic",
@@ -335,7 +340,7 @@ export class Panel {
 
   /** The value at an end of the colours, or of the axis of values. */
   private end(pane: Pane, key: "low" | "high"): HTMLInputElement {
-    const now = pane.changes[key];
+    const now = pane.has(key);
     const shown = typeof now === "number" ? String(Number((now * this.scale(pane).factor).toPrecision(6))) : "";
     const take = (number: number | null) =>
       pane.change({ [key]: number === null ? null : number / this.scale(pane).factor });
@@ -531,7 +536,8 @@ export class Panel {
   /** What changes with the frames: the ends of the colours as they are now. */
   private follow(): void {
     if (this.element.hidden || !this.panes.active) return;
-    const { low, high, factor } = this.scale(this.panes.active);
+    const { low, high, factor, unit } = this.scale(this.panes.active);
+    this.under.textContent = `${unit ? `in ${unit}; ` : ""}empty: automatic`;
     const least = 1e-6 * Math.max(Math.abs(low), Math.abs(high)) * factor; // less is what rounding leaves of 0
     for (const [key, field] of this.ends) {
       const value = (key === "low" ? low : high) * factor;

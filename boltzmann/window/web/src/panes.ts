@@ -1,9 +1,16 @@
 // The panes side by side: one to six, one of them active (keys and panel are about that one).
-import { h } from "./elements";
-import { Pane } from "./pane";
+import { h, remember, remembered } from "./elements";
+import { Pane, type ViewChanges } from "./pane";
 import type { Session } from "./session";
 
 export const most_panes = 6;
+
+/** A pane as it is kept over a reload of the page. */
+interface Kept {
+  id: number;
+  diagnosis: string;
+  changes: ViewChanges;
+}
 
 export class Panes {
   readonly element = h("main", { id: "panes", "aria-label": "diagnoses" });
@@ -36,19 +43,24 @@ export class Panes {
     if (this.list.length >= most_panes) return;
     let id = 1;
     while (this.list.some((pane) => pane.id === id)) ++id;
-    const pane = new Pane(this.session, id, diagnosis, {
+    this.put({ id, diagnosis, changes: {} });
+    this.changed();
+  }
+
+  private put({ id, diagnosis, changes }: Kept): void {
+    const events = {
       changed: () => this.changed(),
-      activated: (other) => this.activate(other),
-      closed: (other) => this.remove(other),
-      saved: (other) => this.save(other),
+      activated: (other: Pane) => this.activate(other),
+      closed: (other: Pane) => this.remove(other),
+      saved: (other: Pane) => this.save(other),
       recorded: () => this.arrange(),
-    });
+    };
+    const pane = new Pane(this.session, id, diagnosis, events, changes);
     this.list.push(pane);
     this.list.sort((a, b) => a.id - b.id);
     const after = this.list[this.list.indexOf(pane) + 1];
     this.element.insertBefore(pane.element, after?.element ?? null);
     this.active = pane;
-    this.changed();
   }
 
   remove(pane = this.active): void {
@@ -78,9 +90,26 @@ export class Panes {
     if (this.shown !== `${kind} ${name}`) this.clear();
     this.shown = `${kind} ${name}`;
     if (kind === "gallery") return;
+    if (this.list.length > 0) this.list.forEach((pane) => pane.greet());
+    else this.kept().forEach((pane) => this.put(pane));
     if (this.list.length === 0) return this.add(this.session.hello?.diagnoses[0]?.name);
-    this.list.forEach((pane) => pane.greet());
     this.changed();
+  }
+
+  /** What was shown of this simulation before the page was loaded again, as far as there still is such a diagnosis. */
+  private kept(): Kept[] {
+    const names = this.session.hello?.diagnoses.map(({ name }) => name) ?? [];
+    try {
+      const all = JSON.parse(remembered(`panes.${this.shown}`, "sessionStorage") ?? "[]") as Kept[];
+      return all.filter(({ diagnosis }) => names.includes(diagnosis)).slice(0, most_panes);
+    } catch {
+      return [];
+    }
+  }
+
+  private keep(): void {
+    const all: Kept[] = this.list.map(({ id, diagnosis, changes }) => ({ id, diagnosis, changes }));
+    remember(`panes.${this.shown}`, JSON.stringify(all), "sessionStorage");
   }
 
   private unseen(): string {
@@ -96,6 +125,7 @@ export class Panes {
     this.saying = true;
     queueMicrotask(() => {
       this.saying = false;
+      this.keep();
       const views = this.list.map((pane) => pane.view());
       const words = JSON.stringify(views);
       if (!this.session.link.connected || views.length === 0 || words === this.said) return;

@@ -168,6 +168,7 @@ export class TablePlot {
       ...axis,
       scale: `unit ${unit}`,
       side: k % 2 ? 1 : 3,
+      space: 46,
       grid: { show: k === 0, stroke: line, width: 1 },
       label: this.title(unit, height),
       size: (_plot, values) => 14 + 7.6 * Math.max(2, ...(values ?? []).map((value) => value?.length ?? 0)),
@@ -200,6 +201,7 @@ export class TablePlot {
           {
             ...axis,
             size: 34,
+            space: 84,
             grid: { stroke: line, width: 1 },
             label: time_unit ? `time (${time_unit})` : "time",
             values: (_plot, splits, _axis, _space, increment) => ticks(splits, increment),
@@ -246,10 +248,12 @@ export class TablePlot {
   }
 
   private data(): uPlot.AlignedData {
-    const positive = (values: Float64Array) => Array.from(values, (value) => (value > 0 ? value : null));
+    const least = this.options.logarithmic ? Number.MIN_VALUE : -Infinity;
     const columns = this.hello.columns.map((_, c) => {
       const values = this.rows.column(c + 2);
-      return this.options.logarithmic ? positive(values) : values;
+      // What is not there (or can't be drawn) is a gap.
+      const whole = values.every((value) => value >= least);
+      return whole ? values : Array.from(values, (value) => (value >= least ? value : null));
     });
     return [this.rows.column(1), ...columns];
   }

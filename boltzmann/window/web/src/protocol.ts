@@ -118,6 +118,12 @@ export interface View {
   y_range?: [number, number];
 }
 
+/** What there is to show, as the scenario or the program has set it. */
+export interface Diagnosis extends Omit<View, "id" | "diagnosis"> {
+  name: string;
+  drawing: string;
+}
+
 export interface Quantity {
   name: string;
   label: string;
@@ -143,7 +149,7 @@ export interface Hello {
   ensembles: { name: string; class: string; size: number; colour: string; quantities: Quantity[] }[];
   quantities: Quantity[];
   vectors: string[];
-  diagnoses: { name: string; drawing: string; x?: string; y?: string; colour?: string; size?: string }[];
+  diagnoses: Diagnosis[];
   columns: { name: string; unit: string }[];
   /** Empty: it can; otherwise why it can't. */
   can: { rewind: string; step_size: string; checkpoint: string; seek: string; quit: string };
@@ -159,6 +165,10 @@ export interface Update {
   time_number: number;
   planned: number;
   steps_per_second: number;
+  steps_per_frame: number;
+  /** Not in a replay. */
+  step_size?: string;
+  step_size_number?: number;
   frame?: number;
   frames?: number;
   message: string;

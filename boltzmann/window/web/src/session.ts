@@ -39,7 +39,7 @@ function firstUpper(text: string): string {
 }
 
 const most_paintable = 200_000;
-const least_paintable = 5_000;
+const least_paintable = 20_000;
 
 interface Changes {
   /** What is shown became another simulation, or something about it changed. */
@@ -193,16 +193,12 @@ export class Session {
   }
 
   /** Somebody has set another step size or pace. */
-  private paced({ steps_per_frame, step_size }: Update & Partial<Pick<Hello, "steps_per_frame" | "step_size">>): void {
+  private paced({ steps_per_frame, step_size, step_size_number }: Update): void {
     const { hello } = this;
-    if (
-      !hello ||
-      ((steps_per_frame ?? hello.steps_per_frame) === hello.steps_per_frame &&
-        (step_size ?? hello.step_size) === hello.step_size)
-    )
-      return;
-    hello.steps_per_frame = steps_per_frame ?? hello.steps_per_frame;
-    hello.step_size = step_size ?? hello.step_size;
+    if (!hello) return;
+    const now = { steps_per_frame, step_size: step_size ?? hello.step_size };
+    if (now.steps_per_frame === hello.steps_per_frame && now.step_size === hello.step_size) return;
+    Object.assign(hello, now, step_size_number === undefined ? {} : { step_size_number });
     this.chosen();
   }
 

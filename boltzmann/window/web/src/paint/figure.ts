@@ -29,9 +29,9 @@ export function placeOn(range: Range, value: number): number {
 const outerRoom = 20,
   tickText = 20,
   axisTitle = 22,
-  headingText = 25,
+  headingText = 22.5,
   legendText = 20,
-  noteText = 16.5;
+  noteText = 18.5;
 const tickLength = 7,
   minorTick = 4,
   tickGap = 6,
@@ -86,7 +86,7 @@ export class Figure {
   private multiplierBelow = false;
 
   /** unit: device pixels for one pixel of a picture of 1200 x 900. ratio: what width / height of the box must be; 0:
-   * free. leastLabels: room that labels at y get in any case. */
+   * free. leastLabels: room that labels at y get in any case. headed: with the title of the canvas. */
   constructor(
     private readonly canvas: Canvas,
     private readonly pen: Pen,
@@ -99,6 +99,7 @@ export class Figure {
     private readonly y: Range,
     private readonly ratio: number,
     leastLabels: number,
+    private readonly headed: boolean,
   ) {
     const framed = canvas.frame;
     this.xTitle = framed ? titleOf(canvas.x.label, canvas.x.unit) : "";
@@ -255,7 +256,7 @@ export class Figure {
       this.headingFont = this.length(legendText);
       most = this.width - this.length(2 * outerRoom);
     }
-    this.heading = this.pen.wrapped(this.canvas.title, this.headingFont, most, true);
+    this.heading = this.headed ? this.pen.wrapped(this.canvas.title, this.headingFont, most, true) : [];
     this.keyRows = this.keys.length ? 1 : 0;
     this.keysWide = wide;
     let at = 0;

@@ -36,7 +36,9 @@ export interface Scene {
   height: number;
   /** The part of the pane that is drawn on. */
   clip: Box;
+  /** Device pixels for a pixel of a picture of 1200 x 900; for one of its texts. */
   unit: number;
+  textUnit: number;
   space: boolean;
   /** Every so manieth particle only, for a moment. */
   coarse: number;
@@ -227,7 +229,7 @@ export class GpuMarks {
   drawTrail(trail: Trail, scene: Scene) {
     const { gl, discs } = this.shared;
     gl.depthMask(false);
-    gl.vertexAttrib1f(2, 2.4);
+    gl.vertexAttrib1f(2, 3.4);
     gl.vertexAttrib4f(3, ...shown(parse(trail.colour), scene.theme));
     gl.vertexAttrib2f(4, 0, -1);
     discs.use({
@@ -237,7 +239,7 @@ export class GpuMarks {
       sized: 0,
       shaded: 0,
       pass: 0,
-      opacity: 0.4,
+      opacity: 0.55,
       useMap: trail.coloured ? 1 : 0,
       mapRow: this.shared.mapRow(scene.maps, trail.map),
     });

@@ -134,7 +134,10 @@ export class Outline {
         const [x, y] = pane(top.right, top.up + 0.04 * size * space.crowding);
         this.write(name, x, y, 21, 0.85);
       } else {
-        write(0.5, 0.09, name, 21);
+        // Behind the numbers, as far as these reach from the edge.
+        const widest = Math.max(0, ...ticks.labels.map((label) => this.pen.width(label, 18 * unit)));
+        const reach = Math.abs(outRight) * widest + Math.abs(outUp) * 18 * unit + 34 * unit;
+        write(0.5, Math.min(0.09, reach / (size * per * space.crowding)), name, 21);
       }
     });
   }

@@ -106,6 +106,12 @@ export class Painter {
     this.view.paintOn(this.colours);
     this.later();
   }
+  /** With the title of the canvas, or without it where the page says the same. */
+  head(on: boolean) {
+    if (on === this.view.headed) return;
+    this.view.head(on);
+    this.later();
+  }
   /** Also when it comes into the page. */
   resize() {
     const style = getComputedStyle(this.host);
@@ -302,7 +308,7 @@ export class Painter {
       if (!this.view.canvas) element.width = host.clientWidth;
       return;
     }
-    const { canvas, figure, look, space, width, height, unit } = layout;
+    const { canvas, figure, look, space, width, height, unit, textUnit } = layout;
     if (element.width !== width) element.width = width;
     if (element.height !== height) element.height = height;
     figure.drawUnder();
@@ -314,11 +320,12 @@ export class Painter {
       width,
       height,
       unit,
+      textUnit,
       clip,
       space: space !== null,
       coarse: this.coarse,
     };
-    const outline = space && new Outline(space, look, this.pen, theme, unit, clip.width, height);
+    const outline = space && new Outline(space, look, this.pen, theme, textUnit, clip.width, height);
     context.save();
     context.beginPath();
     context.rect(clip.left, clip.top, clip.width, clip.height);
@@ -336,7 +343,7 @@ export class Painter {
 
   private paintMarks(canvas: Canvas, scene: Scene): number {
     const { context, shared, gpu } = this;
-    const { clip, look, theme, unit, height } = scene;
+    const { clip, look, theme, unit, textUnit, height } = scene;
     const gl = shared && gpu && !shared.gl.isContextLost() ? shared.gl : null;
     if (gl && gpu) {
       shared?.grow(scene.width, height);
@@ -371,7 +378,7 @@ export class Painter {
       if (!onGpu(mark)) {
         deliver();
         if (mark.kind === "curve") drawCurve(mark, look, this.pen, theme, unit, height);
-        else if (mark.kind === "text") drawTexts(mark, look, this.pen, theme, unit, height);
+        else if (mark.kind === "text") drawTexts(mark, look, this.pen, theme, textUnit, height);
         else drawImage(mark, look, context, height);
         return;
       }
@@ -402,7 +409,7 @@ export class Painter {
         "this browser has no WebGL2: particles, lines and arrows can't be drawn",
         theme.quiet,
         clip,
-        20 * unit,
+        20 * textUnit,
       );
     return points;
   }

@@ -39,9 +39,10 @@ export interface Layout {
   space: Space | null;
   width: number;
   height: number;
-  /** Device pixels for a CSS pixel, and for a pixel of a picture of 1200 x 900. */
+  /** Device pixels for a CSS pixel; for a pixel of a picture of 1200 x 900; for one of its texts. */
   scale: number;
   unit: number;
+  textUnit: number;
 }
 
 interface FlatView {
@@ -55,8 +56,10 @@ interface SpaceView {
   scale: number;
 }
 
-/** Smallest unit, in CSS pixels: numbers at ticks have 20. */
+/** The least that marks, the least and the most that texts are scaled by, in CSS pixels: numbers at ticks have 20. */
 const leastUnit = 0.58;
+const leastText = 0.6;
+const mostText = 0.75;
 
 const around = (middle: number, width: number): Span => [middle - width / 2, middle + width / 2];
 const between = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
@@ -77,6 +80,8 @@ export class View {
   canvas: Canvas | null = null;
   /** In coordinates of the axes. */
   followed: number[] | null = null;
+  /** With the title of the canvas. */
+  headed = true;
   private kind = "";
   private flat: FlatView | null = null;
   private space: SpaceView | null = null;
@@ -103,6 +108,10 @@ export class View {
   }
   paintOn(theme: Theme) {
     this.theme = theme;
+    this.planned = null;
+  }
+  head(on: boolean) {
+    this.headed = on;
     this.planned = null;
   }
   follow(place: number[] | null) {
@@ -266,9 +275,11 @@ export class View {
     if (!canvas || width < 2 || height < 2) return null;
     if (planned && planned.width === width && planned.height === height && planned.scale === scale) return planned;
     const fitting = Math.sqrt((host.clientWidth * host.clientHeight) / 1.08e6);
-    // In a small pane texts stay readable.
     const unit = Math.max(fitting, leastUnit) * scale;
-    const size = { canvas, width, height, scale, unit };
+    // In a small pane texts stay readable; in a large one the drawing gets the room.
+    const text = between(fitting, leastText, mostText);
+    const textUnit = text * scale;
+    const size = { canvas, width, height, scale, unit, textUnit };
     const figure = (x: Range, y: Range, ratio: number) =>
       new Figure(
         canvas,
@@ -277,19 +288,15 @@ export class View {
         this.maps,
         width,
         height,
-        unit,
+        textUnit,
         x,
         y,
         ratio,
-        this.flat ? this.labels * unit : 0,
+        this.flat ? this.labels * textUnit : 0,
+        this.headed,
       );
     if (canvas.z) {
-      const space = new Space(
-        [canvas.x, canvas.y, canvas.z],
-        canvas.half,
-        this.seenCamera(),
-        Math.max(leastUnit / fitting, 1),
-      );
+      const space = new Space([canvas.x, canvas.y, canvas.z], canvas.half, this.seenCamera(), text / fitting);
       const { right, up } = space.ranges();
       const none = { low: 0, high: 1, logarithmic: false, factor: 1 };
       const around = figure(none, none, (right[1] - right[0]) / (up[1] - up[0]));
@@ -316,7 +323,7 @@ export class View {
     const ratio = hasEqualAspect(canvas) ? (whole.x[1] - whole.x[0]) / (whole.y[1] - whole.y[0]) : 0;
     const frame = figure(range(view.x, canvas.x), range(view.y, canvas.y), ratio);
     // While one moves and zooms, longer labels may push the frame, shorter ones don't pull it back.
-    this.labels = frame.labels / unit;
+    this.labels = frame.labels / textUnit;
     return (this.planned = { ...size, figure: frame, look: flatLook(canvas, frame.box, view, height), space: null });
   }
 }
