@@ -189,11 +189,6 @@ class Canvas {
   std::vector<Text> const& texts() const { return texts_; }
   std::vector<Image> const& images() const { return images_; }
   std::vector<Cloud> const& clouds() const { return clouds_; }
-  /// Takes the clouds off the canvas, for their memory.
-  std::vector<Cloud> take_clouds() {
-    std::erase_if(order_, [](Run const& run) { return run.kind == Kind::cloud; });
-    return std::exchange(clouds_, {});
-  }
   std::vector<Run> const& order() const { return order_; }
   std::vector<ColourBar> const& colour_bars() const { return colour_bars_; }
   std::vector<LegendEntry> const& legend_entries() const { return legend_; }

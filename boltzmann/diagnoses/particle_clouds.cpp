@@ -342,9 +342,9 @@ class Maker {
         }
       }
       if (options_.memory) {
-        cloud.position = options_.memory->take();
-        if (valued_) cloud.value = options_.memory->take();
-        if (source.size) cloud.diameter = options_.memory->take();
+        cloud.position = options_.memory->take(dimension_ * count);
+        if (valued_) cloud.value = options_.memory->take(count);
+        if (source.size) cloud.diameter = options_.memory->take(count);
       }
       Told const told = fill(source, count, scale, cloud);
       drawn_.add(told.value);
@@ -547,14 +547,17 @@ ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std
   return column;
 }
 
-std::vector<float> CloudMemory::take() {
+std::vector<float> CloudMemory::take(std::size_t count) {
   std::scoped_lock const lock(mutex_);
-  if (spare_.empty()) return {};
-  // The largest: positions, of which there are most, are asked for first.
-  auto const largest = std::max_element(spare_.begin(), spare_.end(),
-                                        [](auto const& a, auto const& b) { return a.capacity() < b.capacity(); });
-  std::vector<float> taken = std::move(*largest);
-  spare_.erase(largest);
+  auto const waste = [count](std::vector<float> const& array) {
+    if (array.size() == count) return std::size_t{0};
+    return array.capacity() < count ? std::numeric_limits<std::size_t>::max() : 1 + array.capacity() - count;
+  };
+  auto const best =
+      std::min_element(spare_.begin(), spare_.end(), [&](auto const& a, auto const& b) { return waste(a) < waste(b); });
+  if (best == spare_.end() || waste(*best) > 1 + count) return {};
+  std::vector<float> taken = std::move(*best);
+  spare_.erase(best);
   return taken;
 }
 

@@ -44,8 +44,8 @@ struct CloudSource {
 /// of the system, page by page, each time. May be used from several threads.
 class CloudMemory {
  public:
-  /// An empty array, with room where there is some.
-  std::vector<float> take();
+  /// An array for so many numbers: one of that length, else one with room for them, else a new one.
+  std::vector<float> take(std::size_t count);
   /// Keeps the arrays of a canvas, a few of them.
   void keep(std::vector<Canvas::Cloud> clouds);
 

@@ -1,5 +1,6 @@
 // From a canvas to the arrays and words of protocol.md.
 #include <boltzmann/diagnoses/figure_layout.hpp>
+#include <boltzmann/diagnoses/projection.hpp>
 #include <boltzmann/window/wire.hpp>
 
 #include <fmt/format.h>
@@ -42,13 +43,8 @@ class Places {
       ranges_ = axis_ranges(canvas, 4.0 / 3);
       return;
     }
-    Axis const* axes[3] = {&canvas.x_axis(), &canvas.y_axis(), &canvas.z_axis()};
-    auto const content = content_box(canvas);
-    for (std::size_t a = 0; a < 3; ++a) {
-      box_[a] = {std::isfinite(axes[a]->low) ? axes[a]->low : content[a][0],
-                 std::isfinite(axes[a]->high) ? axes[a]->high : content[a][1]};
-      half_ = std::max(half_, (box_[a][1] - box_[a][0]) / 2);
-    }
+    box_ = space_box(canvas);
+    for (auto const& side : box_) half_ = std::max(half_, (side[1] - side[0]) / 2);
     if (!(half_ > 0)) half_ = 1;
   }
 
@@ -66,35 +62,6 @@ class Places {
   }
 
  private:
-  // Around the marks, in space.
-  static std::array<std::array<double, 2>, 3> content_box(Canvas const& canvas) {
-    double const infinity = std::numeric_limits<double>::infinity();
-    std::array<std::array<double, 2>, 3> box;
-    box.fill({infinity, -infinity});
-    auto const add = [&](double x, double y, double z) {
-      double const place[3] = {x, y, z};
-      for (std::size_t a = 0; a < 3; ++a)
-        if (std::isfinite(place[a])) box[a] = {std::min(box[a][0], place[a]), std::max(box[a][1], place[a])};
-    };
-    for (auto const& m : canvas.circles()) add(m.x, m.y, m.z);
-    for (auto const& m : canvas.points()) add(m.x, m.y, m.z);
-    for (auto const& m : canvas.lines()) add(m.x0, m.y0, m.z0), add(m.x1, m.y1, m.z1);
-    for (auto const& m : canvas.arrows()) add(m.x0, m.y0, m.z0), add(m.x1, m.y1, m.z1);
-    for (auto const& m : canvas.curves())
-      for (std::size_t k = 0; k < m.x.size(); ++k) add(m.x[k], m.y[k], m.z.empty() ? 0 : m.z[k]);
-    for (auto const& cloud : canvas.clouds())
-      for (std::size_t k = 0; k < cloud.count(); ++k) {
-        double place[3] = {0, 0, 0};
-        for (std::size_t a = 0; a < static_cast<std::size_t>(cloud.dimension); ++a)
-          place[a] =
-              cloud.origin[a] + cloud.scale[a] * cloud.position[k * static_cast<std::size_t>(cloud.dimension) + a];
-        add(place[0], place[1], place[2]);
-      }
-    for (auto& side : box)
-      if (side[0] > side[1]) side = {0, 1};
-    return box;
-  }
-
   bool space_;
   std::array<AxisRange, 2> ranges_;
   std::array<std::array<double, 2>, 3> box_{};

@@ -109,6 +109,12 @@ export class Pane {
     return this.own.drawing ?? "";
   }
 
+  /** A picture much wider than high, in equal units: it wants a row of its own. */
+  get wide(): boolean {
+    const { x, y, z, equal_aspect } = this.canvas ?? {};
+    return !!x && !!y && !z && !!equal_aspect && x.high - x.low > 2.2 * (y.high - y.low);
+  }
+
   /** The one canvas that has everything of the pane on it. */
   get picture(): HTMLCanvasElement | null {
     return this.painter?.element ?? this.plot?.element ?? null;
@@ -284,7 +290,8 @@ export class Pane {
     const { points, milliseconds } = this.painter?.drawn ?? { points: 0, milliseconds: 0 };
     const again = canvas === this.paintedCanvas; // only turned or marked
     this.paintedCanvas = canvas;
-    this.counted(points, "point", "points", !again);
+    const cloud = canvas.marks.some(({ kind }) => kind === "cloud");
+    this.counted(points, cloud ? "point" : "", cloud ? "points" : "", !again);
     if (again) return;
     this.element.dataset.milliseconds = String(Math.round(milliseconds));
     this.slowPaints = milliseconds > slow ? this.slowPaints + 1 : 0;
@@ -296,10 +303,12 @@ export class Pane {
     this.slowPaints = this.quickPaints = 0;
   }
 
+  /** Tells the number of what is painted; nothing where it has no name. */
   private counted(number: number, one: string, many: string, fresh = true): void {
     this.element.dataset.points = String(number);
     if (fresh) this.element.dataset.frames = String(++this.frames);
-    this.count.textContent = number === 0 ? "" : `${number.toLocaleString("en-US")} ${number === 1 ? one : many}`;
+    const name = number === 1 ? one : many;
+    this.count.textContent = number && name ? `${number.toLocaleString("en-US")} ${name}` : "";
   }
 
   /** The user has turned, moved or zoomed: soon ask for what is visible, if not all of it is here. */

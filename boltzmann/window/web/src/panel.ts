@@ -292,7 +292,7 @@ export class Panel {
             inputmode: "decimal",
           },
         );
-        return line("at", field, h("span", { class: "unit" }, hello.length_unit));
+        return line("At", field, h("span", { class: "unit" }, hello.length_unit));
       }
       case "cells": {
         const free = pane.drawing === "histogram" && now === usual_cells;
@@ -305,7 +305,8 @@ export class Panel {
             inputmode: "numeric",
           },
         );
-        return line(pane.drawing === "histogram" || pane.drawing === "profile" ? "Bins" : "Cells", field);
+        const bins: Record<string, string> = { histogram: "Bins", profile: "Bins at most" };
+        return line(bins[pane.drawing] ?? "Cells", field);
       }
       case "logarithmic":
         return check(
@@ -541,7 +542,7 @@ export class Panel {
     const least = 1e-6 * Math.max(Math.abs(low), Math.abs(high)) * factor; // less is what rounding leaves of 0
     for (const [key, field] of this.ends) {
       const value = (key === "low" ? low : high) * factor;
-      field.placeholder = Number.isFinite(value) ? written(Math.abs(value) < least ? 0 : value, 2) : "auto";
+      field.placeholder = Number.isFinite(value) ? written(Math.abs(value) < least ? 0 : value, 1) : "auto";
     }
   }
 

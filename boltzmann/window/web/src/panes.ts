@@ -26,7 +26,10 @@ export class Panes {
     private readonly save: (pane: Pane) => void,
   ) {
     session.on("hello", () => this.greet());
-    session.on("update", (update) => this.list.forEach((pane) => pane.update(update)));
+    session.on("update", (update) => {
+      this.list.forEach((pane) => pane.update(update));
+      this.lay();
+    });
     session.on("choice", () => {
       this.list.forEach((pane) => pane.choose());
       this.changed(); // perhaps another limit of points
@@ -134,8 +137,13 @@ export class Panes {
     });
   }
 
-  private arrange(): void {
+  private lay(): void {
     this.element.dataset.count = String(this.list.length);
+    this.element.classList.toggle("in-rows", this.list[0]?.wide ?? false);
+  }
+
+  private arrange(): void {
+    this.lay();
     for (const pane of this.list) pane.stand(pane === this.active, this.list.length === 1);
     for (const listener of this.listeners) listener();
   }

@@ -168,7 +168,7 @@ export class TablePlot {
       ...axis,
       scale: `unit ${unit}`,
       side: k % 2 ? 1 : 3,
-      space: 46,
+      space: 38,
       grid: { show: k === 0, stroke: line, width: 1 },
       label: this.title(unit, height),
       size: (_plot, values) => 14 + 7.6 * Math.max(2, ...(values ?? []).map((value) => value?.length ?? 0)),
@@ -275,7 +275,7 @@ export class TablePlot {
     const at = this.plot?.cursor.idx ?? this.rows.count - 1;
     this.values.forEach((value, c) => {
       const number = at >= 0 ? this.rows.column(c + 2)[at] : NaN;
-      value.textContent = this.shown[c] && number !== undefined ? written(number, 5) : "";
+      value.textContent = this.shown[c] && number !== undefined ? written(number, 4) : "";
     });
   }
 

@@ -101,43 +101,46 @@ export class Outline {
       if (!best) return;
       const [a, b] = best;
       const length = Math.hypot(b.right - a.right, b.up - a.up);
-      if (length < 0.1 * size) return; // seen from its end
+      const pixels = length * per;
+      if (pixels < 80 * unit) return; // seen from its end, or thin
       let outRight = (b.up - a.up) / length;
       let outUp = -(b.right - a.right) / length;
       if (outRight * (a.right + b.right) + outUp * (a.up + b.up) < 0) {
         outRight = -outRight;
         outUp = -outUp;
       }
+      // away: from the edge, in pixels of a picture's texts.
       const edgeAt = (fraction: number, away: number) =>
         pane(
-          a.right + fraction * (b.right - a.right) + away * size * outRight,
-          a.up + fraction * (b.up - a.up) + away * size * outUp,
+          a.right + fraction * (b.right - a.right) + ((away * unit) / per) * outRight,
+          a.up + fraction * (b.up - a.up) + ((away * unit) / per) * outUp,
         );
       const align = 0.5 - 0.5 * Math.min(Math.max(4 * outRight, -1), 1);
       const write = (fraction: number, away: number, text: string, font: number) => {
-        const [x, y] = edgeAt(fraction, away * space.crowding);
+        const [x, y] = edgeAt(fraction, away);
         this.write(text, x, y, font, align);
       };
-      const pixels = length * per;
-      const most = Math.max(2, Math.min(5, Math.floor(pixels / (45 * unit))));
+      const most = Math.max(
+        2,
+        Math.min(Math.max(5, Math.floor(pixels / (170 * unit))), Math.floor(pixels / (45 * unit))),
+      );
       const ticks = ticksBetween(axis.low * axis.factor, axis.high * axis.factor, false, most);
       ticks.major.forEach((tick, i) => {
         const fraction = (tick / axis.factor - axis.low) / (axis.high - axis.low);
-        this.line(edgeAt(fraction, 0), edgeAt(fraction, 0.009), 0.6, 1.3);
-        write(fraction, 0.028, ticks.labels[i] ?? "", 18);
+        this.line(edgeAt(fraction, 0), edgeAt(fraction, 8), 0.6, 1.3);
+        write(fraction, 24, ticks.labels[i] ?? "", 18);
       });
       const units = [ticks.multiplier, axis.unit].filter(Boolean).join(" ");
       const name = axis.label + (units ? ` (${units})` : "");
       if (along === 2) {
         // Above the upper end, where it needs no room beside the box.
         const top = a.up > b.up ? a : b;
-        const [x, y] = pane(top.right, top.up + 0.04 * size * space.crowding);
+        const [x, y] = pane(top.right, top.up + (34 * unit) / per);
         this.write(name, x, y, 21, 0.85);
       } else {
         // Behind the numbers, as far as these reach from the edge.
-        const widest = Math.max(0, ...ticks.labels.map((label) => this.pen.width(label, 18 * unit)));
-        const reach = Math.abs(outRight) * widest + Math.abs(outUp) * 18 * unit + 34 * unit;
-        write(0.5, Math.min(0.09, reach / (size * per * space.crowding)), name, 21);
+        const widest = Math.max(0, ...ticks.labels.map((label) => this.pen.width(label, 18)));
+        write(0.5, 34 + Math.abs(outRight) * widest + Math.abs(outUp) * 18, name, 21);
       }
     });
   }
