@@ -1,4 +1,5 @@
-// A window on a gas that is heated by compression: two lines open it, a few more add diagnoses and colours of one's own.
+// A window on a gas that is heated by compression: two lines open it, a few more add diagnoses and colours of one's
+// own.
 //
 //   build/release/examples/window            prints an address; PLAY, STEP, REWD, STOP, QUIT are on that page
 //   build/release/examples/window --play     begins at once, and ends by itself when nobody looks

@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double frames_per_second = 61;  // so that 60 come, whenever steps end
+constexpr double frames_per_second = 61;   // so that 60 come, whenever steps end
 constexpr double share_of_time = 0.035;    // that drawing may take from a run at full speed
 constexpr double shortest_show = 10;       // seconds that a run takes at least, unless told otherwise
 constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept for REWD

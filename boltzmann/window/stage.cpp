@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace boltzmann {
@@ -63,8 +64,10 @@ Picture with(Picture picture, json const& view) {
   picture.colour = colour;
   picture.size = text_or(view, "size", picture.size);
   picture.vectors = text_or(view, "vectors", picture.vectors);
-  picture.low = number_or(view, "low", picture.low);
-  picture.high = number_or(view, "high", picture.high);
+  // Null is automatic; what is left out is the diagnosis' own.
+  double const automatic = std::numeric_limits<double>::quiet_NaN();
+  if (view.contains("low")) picture.low = number_or(view, "low", automatic);
+  if (view.contains("high")) picture.high = number_or(view, "high", automatic);
   picture.logarithmic = flag_or(view, "logarithmic", picture.logarithmic);
   picture.slice = text_or(view, "slice", picture.slice);
   picture.at = number_or(view, "at", picture.at);

@@ -292,6 +292,8 @@ export class Pane {
     this.paintedCanvas = canvas;
     const cloud = canvas.marks.some(({ kind }) => kind === "cloud");
     this.counted(points, cloud ? "point" : "", cloud ? "points" : "", !again);
+    const box = this.painter?.frameBox();
+    if (box) this.element.dataset.box = [box.left, box.top, box.width, box.height].map((v) => v.toFixed(2)).join(" ");
     if (again) return;
     this.element.dataset.milliseconds = String(Math.round(milliseconds));
     this.slowPaints = milliseconds > slow ? this.slowPaints + 1 : 0;

@@ -1,0 +1,125 @@
+// Two ways to one picture: what the page paints with WebGL, what the window saves and what `bzm render` writes, of the
+// same frame of the same run. The files are the same byte for byte; the page differs from them by the edges of discs
+// and letters, and from another frame by much more.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { browser, bzm, data, keep, ownFolder, until, watch } from "./window.mjs";
+
+let chromium;
+before(async () => (chromium = await browser()));
+after(() => chromium.close());
+
+const width = 1200;
+const height = 900;
+
+/** A stored run, and a page of its window whose picture has the size of a saved one. */
+async function stored(t, scenario, ...words) {
+  const cwd = ownFolder(t);
+  const command = (...all) => execFileSync(process.env.BZM, all, { cwd, stdio: "pipe" });
+  command("run", scenario, "--out", "run", "--quiet", ...words);
+  const window = await bzm(t, ["window", "run"], { cwd });
+  const page = await watch(t, chromium, window, { width: 1400, height: 1000 });
+  const now = await page.evaluate(() => {
+    const { width, height } = document.querySelector("[data-view='1'] canvas").getBoundingClientRect();
+    return { width, height };
+  });
+  await page.setViewportSize({ width: Math.round(1400 + width - now.width), height: Math.round(1000 + height - now.height) });
+  await until(async () => {
+    const box = await page.evaluate(() => document.querySelector("[data-view='1'] canvas").getBoundingClientRect().width);
+    return Math.abs(box - width) < 1;
+  }, "a pane as wide as a picture");
+  const render = (frame, ...more) => {
+    command("render", "run", "-o", `${frame}.png`, "--frame", String(frame), ...more);
+    return readFileSync(join(cwd, `${frame}.png`));
+  };
+  return { page, render };
+}
+
+async function show(page, frame) {
+  await page.evaluate((value) => {
+    const slider = document.querySelector("#frame");
+    slider.value = String(value);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+  }, frame);
+  await until(async () => (await data(page, "body")).frame === String(frame) && page.wire.views.get(1)?.step === page.wire.update.step, `frame ${frame}`);
+  const { frames } = await data(page, "[data-view='1']");
+  await page.waitForTimeout(300);
+  assert.ok(Number(frames) > 0);
+}
+
+/** The picture as the window saves it: its bytes, and where its frame stands. */
+const saved = (page, diagnosis) =>
+  page.evaluate(
+    ({ diagnosis, width, height }) =>
+      new Promise((found, failed) => {
+        const socket = new WebSocket(`ws://${location.host}/socket${location.search}`);
+        socket.binaryType = "arraybuffer";
+        socket.onerror = () => failed(new Error("no socket"));
+        socket.onopen = () =>
+          socket.send(JSON.stringify({ do: "picture", id: 1, view: { diagnosis }, format: "png", width, height, scale: 1, dark: false }));
+        socket.onmessage = ({ data }) => {
+          if (typeof data === "string") {
+            const message = JSON.parse(data);
+            if (message.type === "reply") failed(new Error(message.error));
+            return;
+          }
+          const length = new DataView(data).getUint32(0, true);
+          const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
+          const bytes = new Uint8Array(data, 4 + length + head.file.at, head.file.count);
+          socket.close();
+          found({ box: head.box, bytes: Array.from(bytes) });
+        };
+      }),
+    { diagnosis, width, height },
+  );
+
+/** How much what the page shows differs from a picture, inside their frames: the mean over 200 x 200 places, of 255. */
+const difference = (page, png, box) =>
+  page.evaluate(
+    async ({ png, box }) => {
+      const pane = document.querySelector("[data-view='1']");
+      const painted = pane.querySelector("canvas");
+      const own = pane.dataset.box.split(" ").map(Number);
+      const scale = painted.width / painted.getBoundingClientRect().width;
+      const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))], { type: "image/png" }));
+      const pixels = (source, [left, top, wide, high]) => {
+        const small = new OffscreenCanvas(200, 200).getContext("2d", { willReadFrequently: true });
+        small.fillStyle = "white";
+        small.fillRect(0, 0, 200, 200);
+        small.imageSmoothingQuality = "high";
+        small.drawImage(source, left, top, wide, high, 0, 0, 200, 200);
+        return small.getImageData(0, 0, 200, 200).data;
+      };
+      const a = pixels(painted, own.map((v) => v * scale));
+      const b = pixels(picture, box);
+      let sum = 0;
+      for (let k = 0; k < a.length; k += 4) sum += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c])));
+      return { mean: sum / 40_000, own };
+    },
+    { png: png.toString("base64"), box },
+  );
+
+for (const [scenario, words, frame, other, most] of [
+  ["copper", ["--steps", "1200"], 5, 11, 1.5],
+  ["two-stream", [], 40, 60, 3],
+  ["molten-salt", ["--steps", "40", "--set", "output.trajectory=10"], 1, 4, 4],
+])
+  test(`${scenario}: the page, the saved picture and bzm render agree`, async (t) => {
+    const { page, render } = await stored(t, scenario, ...words);
+    await show(page, frame);
+    const { diagnosis } = await data(page, "[data-view='1']");
+    const picture = await saved(page, diagnosis);
+    const rendered = render(frame);
+    assert.ok(rendered.equals(Buffer.from(picture.bytes)), "the window saves what bzm render writes, byte for byte");
+    const { mean, own } = await difference(page, rendered, picture.box);
+    own.forEach((v, k) => assert.ok(Math.abs(v - picture.box[k]) < 4, `the frame stands at ${own} on the page and at ${picture.box} in the picture`));
+    const wrong = (await difference(page, render(other), picture.box)).mean;
+    t.diagnostic(`differs by ${mean.toFixed(2)} of 255, from another frame by ${wrong.toFixed(2)}`);
+    await keep(page, `twins-${scenario}`);
+    assert.ok(mean < most, `the page differs by ${mean} of 255`);
+    assert.ok(wrong > 2 * mean, `another frame differs by ${wrong}, this one by ${mean}`);
+  });
