@@ -1,8 +1,8 @@
 // A window on a gas that is heated by compression: two lines open it, a few more add diagnoses and colours of one's
 // own.
 //
-//   build/release/examples/window            prints an address; PLAY, STEP, REWD, STOP, QUIT are on that page
-//   build/release/examples/window --play     begins at once, and ends by itself when nobody looks
+//   build/release/examples/window                   prints an address; PLAY, STEP, REWD, STOP, QUIT are on that page
+//   build/release/examples/window FOLDER --play     begins at once, and ends by itself when nobody looks
 #include <boltzmann/boltzmann.hpp>
 
 #include <cstring>
@@ -10,7 +10,7 @@
 using namespace boltzmann;
 
 int main(int argc, char** argv) try {
-  bool const play = argc > 1 && std::strcmp(argv[1], "--play") == 0;
+  bool const play = argc > 2 && std::strcmp(argv[2], "--play") == 0;
   Ensemble<Newton<2>> light("light", 200), heavy("heavy", 200);
   block_load(light, Lattice::square, 1.2, {20, 10}, {1, 1});
   block_load(heavy, Lattice::square, 1.2, {20, 10}, {1, 14});
@@ -25,8 +25,10 @@ int main(int argc, char** argv) try {
   simulation.integrate(light, Method::leap_frog);
   simulation.integrate(heavy, Method::leap_frog);
 
-  Recording recording(simulation, Base::reduced(), "results/window-cpp", true);
+  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/window-cpp", true);
   recording.diagnoses(10, {"energies", "temperature"});
+  recording.trajectory(50);
+  recording.picture({.colour = "speed"});
 
   Window window(recording, {.play = play});
   window.colours({"orange", "navy"});

@@ -59,11 +59,14 @@ struct Table {
 class Example {
  public:
   explicit Example(std::string const& name,
-                   std::vector<std::string> const& files = {"trajectory.h5", "checkpoint.h5", "picture.png"}) {
+                   std::vector<std::string> const& files = {"trajectory.h5", "checkpoint.h5", "picture.png"},
+                   std::vector<std::string> const& words = {}) {
     std::string const program = std::string(BOLTZMANN_BUILD) + "/examples/" + name;
     built_ = test::fs::exists(program);
     if (!built_) return;
-    outcome_ = test::Process({program, "results"}, folder_.string()).wait();
+    std::vector<std::string> command{program, "results"};
+    command.insert(command.end(), words.begin(), words.end());
+    outcome_ = test::Process(command, folder_.string()).wait();
     EXPECT_EQ(outcome_.status, 0) << name << ": " << outcome_.err;
     for (auto const& file : files)
       EXPECT_TRUE(test::fs::exists(path(file)) && test::fs::file_size(path(file)) > 1000) << name << ": " << file;
@@ -432,6 +435,20 @@ TEST(Examples, LiquidsAndSolidsDoWhatTheySay) {
   EXPECT_NEAR(printed_after(convection.out(), "Nusselt's number: "), 2.661, 0.05 * 2.661);  // Clever and Busse 1974
   Example const dam("dam_break", {"checkpoint.h5", "picture.png"});
   EXPECT_NEAR(printed_after(dam.out(), "2.950    3.728 "), 3.728, 0.12 * 3.728);  // Martin and Moyce 1952
+}
+
+// A window that nobody looks at: the run is that of a program without one.
+TEST(Examples, AWindowHoldsNothingUp) {
+  Example const example("window", {"trajectory.h5", "checkpoint.h5", "picture.png"}, {"--play"});
+  if (!example.built()) GTEST_SKIP() << "examples/window is not built";
+  ASSERT_TRUE(example.good());
+  EXPECT_NE(example.out().find("window: http://127.0.0.1:"), std::string::npos);
+  EXPECT_FALSE(test::fs::exists(example.path("window.txt")));
+  auto const table = example.diagnoses();
+  EXPECT_EQ(table.rows, 301u);
+  EXPECT_NEAR(table["kinetic energy"].front(), 200 * 0.5 * 4, 1e-9);
+  EXPECT_LT(table.drift("total energy"), 3e-3 * 400);  // forces end at the cut-off
+  EXPECT_GT(table.drift("kinetic energy"), 40);
 }
 
 TEST(ExampleSources, CopperFitsOnAPage) {
