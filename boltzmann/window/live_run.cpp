@@ -52,6 +52,7 @@ struct LiveRun::State {
 
   bool here = true;     // the LiveRun still is
   bool inside = false;  // within run() or rewind() of the simulation
+  bool begun = false;   // one of them has been called
   Wish wish = Wish::pause;
   bool quit = false;
   std::optional<std::int64_t> goal, bound_for;  // where STEP goes, and where the present run() goes for it
@@ -226,6 +227,7 @@ struct LiveRun::State {
   void go(Wish what, std::uint64_t steps) {
     doing = wish;
     bound_for = goal;
+    begun = true;
     counted_since = last_look = next_frame = Clock::now();
     counted_from = simulation.step();
     judged = std::numeric_limits<std::int64_t>::min();
@@ -381,6 +383,8 @@ void LiveRun::run(std::uint64_t steps) {
   state.quit = true;
   ++state.notice;
   state.audience.present();
+  // Whoever quits before the first step finds the start of the run in its folder, ready to be resumed.
+  if (state.recording && !state.begun && !state.failure) state.simulation.run(0);
   if (state.failure) std::rethrow_exception(state.failure);
 }
 

@@ -397,6 +397,19 @@ TEST(LiveRun, RecordsAsARunWithoutAWindow) {
   }
 }
 
+TEST(LiveRun, QuitBeforeTheFirstStepLeavesARunToResume) {
+  Folder const folder;
+  Atoms<2> system;
+  Recording recording(*system.simulation, Base::reduced(), folder.path.string(), true);
+  recording.trajectory(10);
+  Running running(recording, 40);
+  PageReader page(running.window.address());
+  page.ask({{"do", "quit"}});
+  running.join();
+  EXPECT_FALSE(running.failure);
+  EXPECT_EQ(read_checkpoint((folder.path / "checkpoint.h5").string()).step, 0);
+}
+
 TEST(LiveRun, GivesAPictureOfWhatIsShown) {
   Atoms<2> system;
   Running running(*system.simulation, 100);
