@@ -459,7 +459,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
   double const dt = direction * step_size_;
   std::unique_ptr<WholeSteps> const whole = steps > 0 ? whole_steps(dt) : nullptr;
-  for (std::uint64_t n = 0; n < steps && !stop_ && !pause_; ++n) {
+  for (std::uint64_t n = 0; n < steps && !stopped() && !pause_; ++n) {
     try {
       if (whole)
         whole->step(time());

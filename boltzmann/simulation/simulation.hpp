@@ -6,6 +6,7 @@
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
 
+#include <atomic>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -69,8 +70,8 @@ class Simulation {
   /// The same with the negative step: the step number counts down. With the reversible leap-frog it retraces to the
   /// last bit.
   void rewind(std::uint64_t steps);
-  void stop() { stop_ = true; }
-  bool stopped() const { return stop_; }
+  void stop() { std::atomic_ref(stop_).store(true, std::memory_order_relaxed); }
+  bool stopped() const { return std::atomic_ref(stop_).load(std::memory_order_relaxed); }
   /// The same for this run() alone: the next one goes on.
   void pause() { pause_ = true; }
 
@@ -155,7 +156,7 @@ class Simulation {
   bool keeps_influences_ = false;  // some are of velocities inside the step, and can't be had again from its end
   bool kept_ = false;              // influences, for rows of this checksum
   std::uint64_t kept_checksum_ = 0;
-  volatile bool stop_ = false;
+  mutable bool stop_ = false;  // read and written as an atomic one: a signal or another thread may set it
   bool pause_ = false;
 };
 
