@@ -445,7 +445,7 @@ TEST(LiveRun, ABrowserThatNeverReadsHoldsNothingUp) {
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   auto const before = system.simulation->step();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_GT(system.simulation->step() - before, 1000) << "at full speed";
+  EXPECT_GT(system.simulation->step() - before, 100) << "at full speed; in step with frames it would be 18";
   page.ask({{"do", "quit"}});
   running.join();
 }
