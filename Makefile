@@ -1,44 +1,56 @@
-# Two commands: `make run` shows a first simulation, `make test` checks everything. Both install what is missing and build first.
+# `make run` shows a first simulation, `make test` checks everything. Both install what is missing and build first.
 BUILD := build/release
-PACKAGES := $(shell cat dependencies.txt)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+CORES := $(shell nproc)
+# CPU seconds that bzm takes from nothing, for one instruction set (docs/guide/install.md has the measurement).
+BZM_SECONDS := 420
+NINJA := NINJA_STATUS='[%p of %t, %e s] ' cmake --build $(BUILD)
 
-.PHONY: run test build install dependencies browser page bench format clean
+.PHONY: run test build all-sets install dependencies test-dependencies page bench format clean
 
-run: build
+# Kernels for this machine only, and nothing but the command.
+run: | $(BUILD)/build.ninja
+	@[ -x $(BUILD)/bzm ] || echo "Building bzm: about $$(( ($(BZM_SECONDS) / $(CORES) + 59) / 60 )) minutes on $(CORES) cores, once."
+	@$(NINJA) --target bzm
 	$(BUILD)/bzm run copper --out results/copper --force
 	@echo "Results are in $(CURDIR)/results/copper (start with picture.png)"
 
-test: build browser
-	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $$(nproc)
+test: test-dependencies build
+	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $(CORES)
 
-build: $(BUILD)/build.ninja
-	cmake --build $(BUILD)
+build: all-sets
+	$(NINJA)
 
-$(BUILD)/build.ninja: dependencies
-	cmake --preset release
+# Kernels for every x86-64, and the tests; what is compiled already stays.
+all-sets: | $(BUILD)/build.ninja
+	@grep -q 'BOLTZMANN_SETS:STRING=all' $(BUILD)/CMakeCache.txt && grep -q 'BOLTZMANN_TESTS:BOOL=ON' $(BUILD)/CMakeCache.txt || \
+	cmake --preset release -DBOLTZMANN_SETS=all -DBOLTZMANN_TESTS=ON
 
-dependencies:
-	@missing=$$(for p in $(PACKAGES); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+$(BUILD)/build.ninja:
+	@$(MAKE) --no-print-directory dependencies
+	cmake --preset release -DBOLTZMANN_SETS=machine -DBOLTZMANN_TESTS=OFF
+
+install_missing = missing=$$(for p in $(1); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then echo "installing" $$missing; \
 	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
 
-# For the window's tests in a browser; those are skipped where this fails.
-browser:
-	@missing=$$(for p in chromium nodejs npm; do command -v $$(echo $$p | sed s/nodejs/node/) >/dev/null || echo $$p; done); \
-	if [ -n "$$missing" ]; then echo "installing" $$missing; \
-	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing || true; fi
+dependencies:
+	@$(call install_missing,$$(cat dependencies.txt))
+
+test-dependencies: dependencies
+	@$(call install_missing,$$(cat tests/dependencies.txt))
 
 # After a change of boltzmann/window/web.
 page:
 	cd boltzmann/window/web && npm ci --ignore-scripts && npm run build
 
 PREFIX := /usr/local
-install: build
+install: all-sets
+	$(NINJA) --target boltzmann bzm
 	$(SUDO) cmake --install $(BUILD) --prefix $(PREFIX)
 
-bench: build
-	cmake --build $(BUILD) --target bench
+bench: all-sets
+	$(NINJA) --target bench
 
 format:
 	clang-format -i $$(git ls-files '*.cpp' '*.hpp' '*.c')

@@ -2,8 +2,13 @@
 #include <boltzmann/bzm/scenario_recording.hpp>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace boltzmann::bzm {
+
+std::string title_of(ScenarioSimulation const& scenario, std::string const& folder) {
+  return scenario.title.empty() ? std::filesystem::path(folder).filename().string() : scenario.title;
+}
 
 Picture picture_of(PicturePlan const& plan) {
   Picture picture;

@@ -77,7 +77,7 @@ struct Named {
   std::string name, doc;
 };
 
-std::string title_of(std::string const& scenario) {
+std::string title_line(std::string const& scenario) {
   std::istringstream text(read_text(scenario_folder() + "/" + scenario + ".toml"));
   for (std::string line; std::getline(text, line);) {
     if (!line.starts_with("title")) continue;
@@ -89,7 +89,7 @@ std::string title_of(std::string const& scenario) {
 
 std::vector<Named> scenarios() {
   std::vector<Named> all;
-  for (auto const& name : shipped_scenarios()) all.push_back({name, title_of(name)});
+  for (auto const& name : shipped_scenarios()) all.push_back({name, title_line(name)});
   return all;
 }
 std::vector<Named> classes() {

@@ -318,10 +318,6 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
   return failed > 0 ? 3 : 0;
 }
 
-std::string title_of(ScenarioSimulation const& scenario, std::string const& folder) {
-  return scenario.title.empty() ? fs::path(folder).filename().string() : scenario.title;
-}
-
 /// The scenario of one run, whether it can be run.
 void try_run(ScenarioSimulation& scenario, std::string const& folder) {
   auto const recording = make_recording(scenario, folder, true);

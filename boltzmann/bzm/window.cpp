@@ -22,10 +22,6 @@ void say(std::string const& line) {
   std::fflush(stdout);
 }
 
-std::string title_of(ScenarioSimulation const& scenario, std::string const& folder) {
-  return scenario.title.empty() ? fs::path(folder).filename().string() : scenario.title;
-}
-
 void add_views(Stage& stage, ScenarioSimulation const& scenario) {
   for (auto const& view : scenario.views) stage.add(view.name, picture_of(view));
 }

@@ -17,16 +17,21 @@ enum class InstructionSet {
 /// "native", "x86-64", "x86-64-v3", "x86-64-v4".
 std::string to_string(InstructionSet set);
 
-/// The sets that this library has kernels for and this processor can run, the best last.
+/// The sets that this library has kernels for, the best last.
+std::vector<InstructionSet> compiled_instruction_sets();
+
+/// Those of them that this processor can run; none if the library was compiled for other machines only.
 std::vector<InstructionSet> instruction_sets();
 
 /// The set whose kernels run: the best one, or the one that the environment variable BOLTZMANN_INSTRUCTIONS names.
-/// Chosen at the first call. Error with the allowed words if there is no such set or this processor can't run it.
+/// Chosen at the first call. Error with the allowed words if there is no such set or this processor can't run it, or if
+/// it can run none.
 InstructionSet instruction_set();
 
 namespace detail {
-/// The same for any word (null or empty: the best) and any processor.
-InstructionSet choose_instruction_set(char const* word, std::vector<InstructionSet> const& available);
+/// The same for any word (null or empty: the best), any library and any processor.
+InstructionSet choose_instruction_set(char const* word, std::vector<InstructionSet> const& compiled,
+                                      std::vector<InstructionSet> const& available);
 }  // namespace detail
 
 }  // namespace boltzmann

@@ -7,12 +7,11 @@
 // of all other units, and the program would die on an older processor. So all that is emitted must carry the set or the
 // width W of its packs in its name; tests/core/instruction_set_test.cpp looks at the objects and says what does not.
 // An ordinary unit declares `template <InstructionSet> Table const& table();`, the kernel unit defines `template <>
-// Table const& table<this_set>()`, and for_instruction_set() takes the table of the set that is in use.
+// Table const& table<this_set>()`, and for_instruction_set() (kernel_dispatch.hpp) takes the table of the set that is
+// in use.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
-
-#include <type_traits>
 
 #if !defined(BOLTZMANN_INSTRUCTION_SET)
 #define BOLTZMANN_INSTRUCTION_SET native
@@ -22,24 +21,5 @@ namespace boltzmann {
 
 /// The set that a kernel unit is being compiled for.
 constexpr InstructionSet this_set = InstructionSet::BOLTZMANN_INSTRUCTION_SET;
-
-/// Calls function(std::integral_constant<InstructionSet, set>) for the set in use (instruction_set(); Error as there).
-template <class Function>
-decltype(auto) for_instruction_set(Function const& function) {
-  using enum InstructionSet;
-#if defined(BOLTZMANN_SEVERAL_SETS)
-  switch (instruction_set()) {
-    case x86_64_v4:
-      return function(std::integral_constant<InstructionSet, x86_64_v4>{});
-    case x86_64_v3:
-      return function(std::integral_constant<InstructionSet, x86_64_v3>{});
-    default:
-      return function(std::integral_constant<InstructionSet, x86_64>{});
-  }
-#else
-  instruction_set();
-  return function(std::integral_constant<InstructionSet, native>{});
-#endif
-}
 
 }  // namespace boltzmann

@@ -106,7 +106,7 @@ Colour compute(ColourMap map, double t) {
 
 constexpr int levels = 1024;
 
-std::array<Colour, levels + 1> table_of(ColourMap map) {
+std::array<Colour, levels + 1> map_table(ColourMap map) {
   std::array<Colour, levels + 1> table;
   for (int i = 0; i <= levels; ++i) table[static_cast<std::size_t>(i)] = compute(map, static_cast<double>(i) / levels);
   return table;
@@ -184,8 +184,8 @@ Colour with_alpha(Colour colour, double alpha) {
 Colour map_colour(ColourMap map, double zero_to_one) {
   if (std::isnan(zero_to_one)) return no_value_grey;
   static std::array<std::array<Colour, levels + 1>, 5> const tables = {
-      table_of(ColourMap::viridis), table_of(ColourMap::ember), table_of(ColourMap::grey),
-      table_of(ColourMap::diverging), table_of(ColourMap::cyclic)};
+      map_table(ColourMap::viridis), map_table(ColourMap::ember), map_table(ColourMap::grey),
+      map_table(ColourMap::diverging), map_table(ColourMap::cyclic)};
   auto const level = static_cast<std::size_t>(std::lround(std::clamp(zero_to_one, 0.0, 1.0) * levels));
   return tables[static_cast<std::size_t>(map)][level];
 }

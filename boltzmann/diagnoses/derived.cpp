@@ -12,7 +12,7 @@
 namespace boltzmann {
 namespace {
 
-struct Entry {
+struct DerivedQuantity {
   QuantityMeaning meaning;
   std::function<double(std::size_t)> value;
 };
@@ -30,8 +30,8 @@ std::string readable(std::string name) {
   return name;
 }
 
-std::vector<Entry> table_of(AnyEnsemble const& ensemble, std::span<double const> potential_energy) {
-  std::vector<Entry> table;
+std::vector<DerivedQuantity> table_of(AnyEnsemble const& ensemble, std::span<double const> potential_energy) {
+  std::vector<DerivedQuantity> table;
   auto const* particles = &ensemble;
   auto const add = [&](std::string const& name, Dimension dimension, std::function<double(std::size_t)> value) {
     table.push_back({{name, readable(name), dimension}, std::move(value)});
@@ -78,7 +78,7 @@ std::vector<Entry> table_of(AnyEnsemble const& ensemble, std::span<double const>
   return table;
 }
 
-Entry find(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential_energy) {
+DerivedQuantity find(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential_energy) {
   auto table = table_of(ensemble, potential_energy);
   std::vector<std::string> names;
   for (auto& entry : table) {
@@ -105,7 +105,7 @@ QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view n
 
 std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
                              std::span<double const> potential_energy) {
-  Entry const entry = find(ensemble, name, potential_energy);
+  DerivedQuantity const entry = find(ensemble, name, potential_energy);
   std::vector<double> values(ensemble.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = entry.value(i);
   return values;

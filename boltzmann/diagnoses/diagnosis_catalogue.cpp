@@ -10,6 +10,7 @@
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 
 #include <fmt/format.h>
@@ -21,8 +22,6 @@
 
 namespace boltzmann {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // ---- Looking up ----
 
@@ -54,7 +53,7 @@ std::vector<Column> along_axes(std::string const& what, int axes, Dimension dime
   return columns;
 }
 
-std::string named(std::string const& prefix, std::string const& what) {
+std::string prefixed(std::string const& prefix, std::string const& what) {
   return prefix.empty() ? what : prefix + " " + what;
 }
 
@@ -76,7 +75,7 @@ class SystemDiagnosis : public Diagnosis {
   std::vector<Column> columns() const final {
     std::vector<Column> columns;
     for (auto const& name : names_)
-      for (auto const& column : columns_of_one()) columns.push_back({named(name, column.name), column.dimension});
+      for (auto const& column : columns_of_one()) columns.push_back({prefixed(name, column.name), column.dimension});
     if (names_.empty()) columns = columns_of_one();
     for (auto const& column : columns_of_all()) columns.push_back(column);
     return columns;
@@ -188,9 +187,9 @@ class Energies final : public SystemDiagnosis {
   void measure_all(Sample const& sample, std::vector<double>& values) override {
     double const kinetic = kinetic_energy(sample.ensembles);
     bool const known = sample.measures != nullptr && sample.measures->unknown.empty();
-    double const potential = known ? sample.measures->potential : nan;
-    double const external = known ? sample.measures->external : nan;
-    double const internal = known ? sample.measures->internal : nan;
+    double const potential = known ? sample.measures->potential : unknown;
+    double const external = known ? sample.measures->external : unknown;
+    double const internal = known ? sample.measures->internal : unknown;
     if (!whole_only_) values.push_back(kinetic);
     values.insert(values.end(), {potential, external, internal, kinetic + potential + external + internal});
   }
@@ -212,9 +211,9 @@ class Pressure final : public SystemDiagnosis {
   }
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
     Tensor3 tensor;
-    for (auto& row : tensor) row.fill(nan);
+    for (auto& row : tensor) row.fill(unknown);
     if (sample.measures != nullptr) tensor = pressure_tensor(of, *sample.measures, sample.box);
-    values.push_back(sample.measures != nullptr ? pressure(of, *sample.measures, sample.box) : nan);
+    values.push_back(sample.measures != nullptr ? pressure(of, *sample.measures, sample.box) : unknown);
     for (int a = 0; dimension() > 1 && a < dimension(); ++a)
       values.insert(values.end(), tensor[a].begin(), tensor[a].begin() + dimension());
   }
@@ -332,7 +331,7 @@ class GroupDiagnosis : public Diagnosis {
     std::vector<Column> columns;
     for (std::size_t g = 0; g < prefixes_.size(); ++g)
       for (auto const& column : columns_of_group(g))
-        columns.push_back({named(prefixes_[g], column.name), column.dimension});
+        columns.push_back({prefixed(prefixes_[g], column.name), column.dimension});
     return columns;
   }
 

@@ -21,9 +21,9 @@ void need_length(std::size_t found, std::size_t wanted, std::string const& what)
                 " numbers for " + what);
 }
 
-struct Limits {
+struct Extremes {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-  explicit Limits(std::span<double const> values) {
+  explicit Extremes(std::span<double const> values) {
     for (double const v : values)
       if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
   }
@@ -56,7 +56,7 @@ Colour colour_of(CartesianStyle const& style, int species) {
 
 // The ends of the colours.
 std::array<double, 2> ends_of(CartesianStyle const& style) {
-  Limits limits(style.value);
+  Extremes limits(style.value);
   if (limits.empty()) limits.low = limits.high = 0;
   if (style.map == ColourMap::diverging) {
     limits.high = std::max(std::abs(limits.low), std::abs(limits.high));
@@ -88,7 +88,7 @@ std::vector<Canvas::Cloud> clouds_of(Positions const& position, CartesianStyle c
   like.common_diameter = style.diameter.empty() ? style.common_diameter : 0;
   like.size = fitting_point(position[0].size());
   for (std::size_t a = 0; a < position.size(); ++a) {
-    Limits const limits(position[a]);
+    Extremes const limits(position[a]);
     if (limits.empty()) continue;
     like.origin[a] = limits.low;
     like.scale[a] = limits.width() > 0 ? limits.width() : 1;
@@ -124,7 +124,7 @@ double distance_between(Positions const& position, CartesianStyle const& style,
     for (auto const& side : box) volume *= side[1] - side[0];
     return std::cbrt(volume / count);
   }
-  auto const width = [&](std::size_t a) { return Limits(style.box.empty() ? position[a] : style.box[a]).width(); };
+  auto const width = [&](std::size_t a) { return Extremes(style.box.empty() ? position[a] : style.box[a]).width(); };
   double const area = width(0) * width(1);
   return area > 0 ? std::sqrt(area / count) : std::max({width(0), width(1), 1.0}) / 10;
 }

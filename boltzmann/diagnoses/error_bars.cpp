@@ -14,7 +14,7 @@ namespace {
 constexpr double picture_width_to_height = 4.0 / 3;
 constexpr double stroke = 0.005;  // half of the one at the end of a bar, as a part of the axis
 
-Colour colour_of(std::span<MeasuredSeries const> series, std::size_t s) {
+Colour series_colour(std::span<MeasuredSeries const> series, std::size_t s) {
   return series[s].colour.value_or(species_colour(static_cast<int>(s)));
 }
 
@@ -96,7 +96,7 @@ Canvas draw_measured_points(std::span<MeasuredSeries const> series, Axis x, Axis
   canvas.axes(std::move(x), std::move(y));
   canvas.grid(true);
   for (std::size_t s = 0; s < series.size(); ++s) {
-    Colour const colour = colour_of(series, s);
+    Colour const colour = series_colour(series, s);
     if (s < lines.size() && lines[s]) {
       std::vector<double> right, up;
       constexpr int nodes = 100;  // a straight line is a curve on a logarithmic axis
@@ -135,7 +135,7 @@ Canvas draw_measured_time_series(std::span<MeasuredSeries const> series, Axis x,
   canvas.axes(std::move(x), std::move(y));
   canvas.grid(true);
   for (std::size_t s = 0; s < series.size(); ++s) {
-    Colour const colour = colour_of(series, s);
+    Colour const colour = series_colour(series, s);
     canvas.curve(series[s].x, series[s].y, colour, series[s].label, 2.4F);
     // Every so many nodes, beginning where no other series does.
     std::size_t const count = series[s].x.size(), every = std::max<std::size_t>(1, count / 20);

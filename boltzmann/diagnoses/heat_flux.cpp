@@ -1,5 +1,6 @@
 // Heat flux: one pass for the mean enthalpy, one for what the flow carries of the rest.
 #include <boltzmann/diagnoses/heat_flux.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
 
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
@@ -11,8 +12,6 @@
 
 namespace boltzmann {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls f(mass, velocity, enthalpy per mass) for every particle.
 template <class Function>
@@ -31,7 +30,9 @@ void for_each_enthalpy(std::span<AnyEnsemble* const> ensembles, int axis, Functi
 }  // namespace
 
 double temperature_difference(Box const& box, int axis) {
-  auto const temperature = [&](Box::End end) { return box.walled(axis, end) ? box.wall(axis, end).temperature : nan; };
+  auto const temperature = [&](Box::End end) {
+    return box.walled(axis, end) ? box.wall(axis, end).temperature : unknown;
+  };
   double const difference = temperature(Box::End::low) - temperature(Box::End::high);
   if (!(difference != 0) || std::isnan(difference))
     throw Error(fmt::format("a heat flux along {} needs walls of different temperatures at both ends of this axis",
@@ -86,8 +87,8 @@ void HeatFlux::measure(Sample const& sample, std::vector<double>& values) {
   values.insert(values.end(), {conductive, convective, nusselt, this->mean(), spread()});
 }
 
-double HeatFlux::mean() const { return count_ > 0 ? mean_ : nan; }
-double HeatFlux::spread() const { return count_ > 0 ? std::sqrt(squares_ / count_) : nan; }
+double HeatFlux::mean() const { return count_ > 0 ? mean_ : unknown; }
+double HeatFlux::spread() const { return count_ > 0 ? std::sqrt(squares_ / count_) : unknown; }
 
 void HeatFlux::restore(std::span<double const> state) {
   if (state.size() != 3) throw Error("the checkpoint does not fit this diagnosis: a heat flux remembers three numbers");

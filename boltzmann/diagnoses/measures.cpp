@@ -2,6 +2,7 @@
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
 
 #include <fmt/format.h>
 
@@ -12,8 +13,6 @@
 
 namespace boltzmann {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using TripleSum = std::array<CompensatedSum, 3>;
 
@@ -91,7 +90,7 @@ Triple centre_of_mass(Ensembles of) {
   });
   Triple centre = value_of(moment);
   double const mass = total_mass(of);
-  for (double& x : centre) x = mass != 0 ? x / mass : nan;
+  for (double& x : centre) x = mass != 0 ? x / mass : unknown;
   return centre;
 }
 
@@ -153,7 +152,7 @@ Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_d
   double const freedom = static_cast<double>(count) - static_cast<double>(lost);
   double sum = 0;
   for (int a = 0; a < axes; ++a) {
-    result.component[a] = freedom > 0 ? heat[a].value() / (boltzmann_constant * freedom) : nan;
+    result.component[a] = freedom > 0 ? heat[a].value() / (boltzmann_constant * freedom) : unknown;
     sum += result.component[a];
   }
   result.total = sum / axes;
@@ -212,13 +211,13 @@ Triple mean_velocity(AnyEnsemble const& ensemble, std::span<std::uint32_t const>
     for (int a = 0; a < ensemble.dimension(); ++a) sum[a] += velocities[i][a];
   Triple mean{};
   for (int a = 0; a < ensemble.dimension(); ++a)
-    mean[a] = group.empty() ? nan : sum[a].value() / static_cast<double>(group.size());
+    mean[a] = group.empty() ? unknown : sum[a].value() / static_cast<double>(group.size());
   return mean;
 }
 
 double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group) {
   Triple const mean = mean_velocity(ensemble, group);
-  if (group.empty()) return nan;
+  if (group.empty()) return unknown;
   Velocities const velocities = velocities_of(ensemble);
   CompensatedSum sum;
   for (std::uint32_t const i : group)
@@ -230,11 +229,11 @@ double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t cons
 }
 
 Extremes extremes(std::span<double const> values) {
-  if (values.empty()) return {nan, nan, nan};
+  if (values.empty()) return {unknown, unknown, unknown};
   CompensatedSum sum;
   double low = values.front(), high = values.front();
   for (double const x : values) {
-    if (std::isnan(x)) return {nan, nan, nan};
+    if (std::isnan(x)) return {unknown, unknown, unknown};
     low = std::min(low, x);
     high = std::max(high, x);
     sum += x;

@@ -61,7 +61,7 @@ Four four(float const* from) {
 }
 
 // The smallest and the largest of values; what is not finite counts as nothing.
-struct Limits {
+struct CloudLimits {
   double low = infinity, high = -infinity;
   void add(double v) {
     if (std::isfinite(v)) take(v);
@@ -71,7 +71,7 @@ struct Limits {
     low = v < low ? v : low;
     high = v > high ? v : high;
   }
-  void add(Limits const& other) {
+  void add(CloudLimits const& other) {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
   }
@@ -79,7 +79,7 @@ struct Limits {
 };
 
 // The limits of numbers, infinities included, and how many are NaN.
-Limits limits_of(float const* values, std::size_t count, std::size_t& missing) {
+CloudLimits limits_of(float const* values, std::size_t count, std::size_t& missing) {
   Four low(std::numeric_limits<float>::infinity()), high(-std::numeric_limits<float>::infinity());
   Mask<float, 4>::Native not_numbers{};
   std::size_t k = 0;
@@ -89,7 +89,7 @@ Limits limits_of(float const* values, std::size_t count, std::size_t& missing) {
     high = max(high, v);
     not_numbers -= (v != v).native;
   }
-  Limits limits;
+  CloudLimits limits;
   for (int lane = 0; lane < 4; ++lane) {
     limits.take(static_cast<double>(low[lane]));
     limits.take(static_cast<double>(high[lane]));
@@ -123,7 +123,7 @@ std::size_t nowhere(float const* places, std::size_t particles, std::size_t dime
 
 // What one range of particles has to tell.
 struct Told {
-  Limits value;
+  CloudLimits value;
   double largest = 0;  // of sizes
   std::size_t not_finite = 0, without_value = 0;
   std::vector<std::uint32_t> inside = {};  // the region
@@ -170,9 +170,9 @@ std::size_t one_of(std::size_t k, std::size_t stride, std::size_t count) {
   return k * stride + (hash ^ hash >> 32U) % std::min(stride, count - k * stride);
 }
 
-class Maker {
+class CloudMaker {
  public:
-  Maker(std::span<CloudSource const> sources, CloudOptions const& options)
+  CloudMaker(std::span<CloudSource const> sources, CloudOptions const& options)
       : sources_(sources), options_(options), dimension_(sources.empty() ? 2 : sources[0].place.size()) {
     for (auto const& source : sources) {
       valued_ = valued_ || source.value;
@@ -218,7 +218,7 @@ class Maker {
       auto const index = [at](std::size_t k) { return at + k; };
       if (!options_.region.empty()) add_inside(source, at, count, told.inside);
       if (source.value && source.value->first) {
-        Limits quick;
+        CloudLimits quick;
         each_value(*source.value, count, index, [&](std::size_t, double v) { quick.take(v); });
         if (std::isinf(quick.low) || std::isinf(quick.high))
           each_value(*source.value, count, index, [&](std::size_t, double v) { told.value.add(v); });
@@ -504,7 +504,7 @@ class Maker {
   bool valued_ = false, sized_ = false;
   std::array<double, 3> per_scale_;
   std::vector<std::vector<std::uint32_t>> inside_;  // of each source: the particles in the region
-  Limits limits_, drawn_;
+  CloudLimits limits_, drawn_;
   double largest_ = 0;
   ParticleClouds result_;
 };
@@ -569,7 +569,7 @@ void CloudMemory::keep(std::vector<Canvas::Cloud> clouds) {
 }
 
 ParticleClouds particle_clouds(std::span<CloudSource const> sources, CloudOptions const& options) {
-  return Maker(sources, options).make();
+  return CloudMaker(sources, options).make();
 }
 
 std::vector<Canvas::Cloud> in_turns(std::vector<Canvas::Cloud> clouds) {

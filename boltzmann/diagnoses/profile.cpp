@@ -1,5 +1,6 @@
 // Profiles: sums over the particles of each bin.
 #include <boltzmann/diagnoses/profile.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
 
 #include <boltzmann/core/error.hpp>
 
@@ -11,8 +12,6 @@
 
 namespace boltzmann {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
   Field const* field = ensemble.find_field(name);
@@ -38,11 +37,11 @@ void MatterSum::add(Body const& body, int dimension) {
   potential_ += body.potential;
   if (!std::isnan(body.temperature)) {
     with_temperature_ += 1;
-    inverse_temperature_ += body.temperature > 0 ? 1 / body.temperature : nan;
+    inverse_temperature_ += body.temperature > 0 ? 1 / body.temperature : unknown;
   }
   double const* virial = body.virial;
   for (auto& row : virial_)
-    for (double& sum : row) sum += virial != nullptr ? *virial++ : nan;
+    for (double& sum : row) sum += virial != nullptr ? *virial++ : unknown;
 }
 
 MatterState MatterSum::matter(int dimension, double boltzmann_constant) const {
@@ -50,21 +49,21 @@ MatterState MatterSum::matter(int dimension, double boltzmann_constant) const {
   matter.number = number();
   matter.volume = volume_;
   matter.mass = mass_;
-  matter.density = volume_ > 0 ? mass_ / volume_ : nan;
+  matter.density = volume_ > 0 ? mass_ / volume_ : unknown;
   for (auto& row : matter.pressure) row.fill(0);
   double thermal = 0, sum = 0;
   for (int a = 0; a < dimension; ++a) {
-    matter.velocity[a] = number_ > 0 ? mean_[a] : nan;
-    matter.kinetic_temperature[a] = number_ > 1 ? squares_[a][a] / ((number_ - 1) * boltzmann_constant) : nan;
+    matter.velocity[a] = number_ > 0 ? mean_[a] : unknown;
+    matter.kinetic_temperature[a] = number_ > 1 ? squares_[a][a] / ((number_ - 1) * boltzmann_constant) : unknown;
     sum += matter.kinetic_temperature[a];
     thermal += 0.5 * squares_[a][a];
     for (int b = 0; b < dimension; ++b)  // the two ways of writing m v'_a v'_b differ in rounding only
       matter.pressure[a][b] =
-          number_ > 0 && volume_ > 0 ? (0.5 * (squares_[a][b] + squares_[b][a]) + virial_[a][b]) / volume_ : nan;
+          number_ > 0 && volume_ > 0 ? (0.5 * (squares_[a][b] + squares_[b][a]) + virial_[a][b]) / volume_ : unknown;
   }
   matter.mean_kinetic_temperature = sum / dimension;
-  matter.internal_temperature = with_temperature_ > 0 ? with_temperature_ / inverse_temperature_ : nan;
-  auto const per_mass = [&](double energy) { return number_ > 0 && mass_ > 0 ? energy / mass_ : nan; };
+  matter.internal_temperature = with_temperature_ > 0 ? with_temperature_ / inverse_temperature_ : unknown;
+  auto const per_mass = [&](double energy) { return number_ > 0 && mass_ > 0 ? energy / mass_ : unknown; };
   matter.internal_energy = per_mass(internal_);
   matter.potential_energy = per_mass(potential_);
   matter.specific_energy = per_mass(thermal + internal_ + potential_);
@@ -131,8 +130,8 @@ MatterSum::Body Bodies::body(Source const& source, std::size_t i) {
           source.internal_energy >= 0   ? row[source.internal_energy]
           : source.specific_energy >= 0 ? mass * row[source.specific_energy]
                                         : 0,
-          source.potential != nullptr ? source.potential[i] : nan,
-          source.temperature >= 0 ? row[source.temperature] : nan,
+          source.potential != nullptr ? source.potential[i] : unknown,
+          source.temperature >= 0 ? row[source.temperature] : unknown,
           source.virial != nullptr ? source.virial + 9 * i : nullptr};
 }
 
@@ -209,15 +208,15 @@ Profile profile(Bodies const& bodies, Box const& box, int axis, double low, doub
 
 namespace {
 
-struct Entry {
+struct ProfiledQuantity {
   ProfileQuantity meaning;
   double (*value)(MatterState const&, int, int);
   int a, b;
 };
 
-std::vector<Entry> entries(int dimension) {
+std::vector<ProfiledQuantity> entries(int dimension) {
   Dimension const volume = pow(dimensions::length, dimension), energy = dimensions::velocity * dimensions::velocity;
-  std::vector<Entry> all;
+  std::vector<ProfiledQuantity> all;
   auto const add = [&](std::string const& name, Dimension unit, double (*value)(MatterState const&, int, int),
                        int a = -1, int b = -1) {
     std::string axes = a < 0 ? "" : std::string(1, "xyz"[a]);
@@ -253,7 +252,7 @@ std::vector<Entry> entries(int dimension) {
   return all;
 }
 
-Entry entry(int dimension, std::string_view name) {
+ProfiledQuantity entry(int dimension, std::string_view name) {
   std::vector<std::string> names;
   for (auto& one : entries(dimension)) {
     if (one.meaning.name == name) return one;
@@ -273,7 +272,7 @@ std::vector<ProfileQuantity> profile_quantities(int dimension) {
 ProfileQuantity profile_quantity(int dimension, std::string_view name) { return entry(dimension, name).meaning; }
 
 std::vector<double> Profile::values(std::string_view quantity) const {
-  Entry const found = entry(dimension, quantity);
+  ProfiledQuantity const found = entry(dimension, quantity);
   std::vector<double> all;
   all.reserve(matter.size());
   for (auto const& one : matter) all.push_back(found.value(one, found.a, found.b));

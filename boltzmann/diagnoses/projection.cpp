@@ -31,7 +31,7 @@ class View {
   double cos_a_, sin_a_, cos_e_, sin_e_;
 };
 
-struct Limits {
+struct Interval {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   void add(double v) {
     if (!std::isfinite(v)) return;
@@ -54,7 +54,7 @@ void each_particle(Canvas::Cloud const& cloud, Visit visit) {
 }
 
 template <class Visit>
-void each_place(Canvas const& space, Visit visit) {
+void each_place_of(Canvas const& space, Visit visit) {
   for (auto const& c : space.circles()) visit(c.x, c.y, c.z);
   for (auto const& p : space.points()) visit(p.x, p.y, p.z);
   for (auto const& l : space.lines()) visit(l.x0, l.y0, l.z0), visit(l.x1, l.y1, l.z1);
@@ -150,9 +150,9 @@ class BoxOutline {
   }
 
   // The range of the picture, with room for the names.
-  std::array<Limits, 2> ranges() const {
+  std::array<Interval, 2> ranges() const {
     double const size = std::max(right_.width(), up_.width());
-    std::array<Limits, 2> both = {right_, up_};
+    std::array<Interval, 2> both = {right_, up_};
     both[0].low -= 0.1 * size;
     both[0].high += 0.07 * size;
     both[1].low -= 0.07 * size;
@@ -182,7 +182,7 @@ class BoxOutline {
   std::array<Axis const*, 3> const& axes_;
   View const& view_;
   int nearest_ = 0, farthest_ = 0;
-  Limits right_, up_;
+  Interval right_, up_;
 };
 
 // All discs of a space, from far to near.
@@ -249,7 +249,7 @@ class Discs {
 
   View const& view_;
   std::vector<Disc> discs_;
-  Limits depth_;
+  Interval depth_;
 };
 
 class Flattening {
@@ -308,9 +308,9 @@ Place Projection::operator()(double x, double y, double z) const { return View(*
 Box3 space_box(Canvas const& space) {
   std::array<Axis const*, 3> const axes{&space.x_axis(), &space.y_axis(), &space.z_axis()};
   auto const given = [](Axis const* axis) { return std::isfinite(axis->low) && std::isfinite(axis->high); };
-  std::array<Limits, 3> content;
+  std::array<Interval, 3> content;
   if (!std::all_of(axes.begin(), axes.end(), given))
-    each_place(space, [&](double x, double y, double z) {
+    each_place_of(space, [&](double x, double y, double z) {
       content[0].add(x);
       content[1].add(y);
       content[2].add(z);

@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@
 namespace boltzmann {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t fewest_bins = 5;  // of which the value behind a front is the mean
 constexpr double certain = 5;           // standard errors that a velocity must have to be no noise
 
@@ -32,13 +32,13 @@ double front_position(std::span<double const> position, std::span<double const> 
   }
   double const middle = 0.5 * (ahead + behind);
   auto const beyond = [&](std::size_t bin) { return (value[bin] - middle) * (behind - ahead) >= 0; };
-  if (!std::isfinite(middle) || ahead == behind || known.empty() || beyond(known.front())) return nan;
+  if (!std::isfinite(middle) || ahead == behind || known.empty() || beyond(known.front())) return unknown;
   for (std::size_t k = 1; k < known.size(); ++k) {
     if (!beyond(known[k]) || (k + 1 < known.size() && !beyond(known[k + 1]))) continue;
     std::size_t const a = known[k - 1], b = known[k];
     return position[a] + (position[b] - position[a]) * (middle - value[a]) / (value[b] - value[a]);
   }
-  return nan;
+  return unknown;
 }
 
 JumpResiduals jump_residuals(ShockState const& ahead, ShockState const& behind, double front_velocity) {
@@ -66,7 +66,7 @@ double strongest(std::vector<double> const& values, double ahead) {
   std::vector<double> known;
   for (double const v : values)
     if (std::isfinite(v)) known.push_back(v);
-  double found = nan;
+  double found = unknown;
   for (std::size_t k = 0; k + 5 <= known.size(); ++k) {
     double mean = 0;
     for (std::size_t n = 0; n < 5; ++n) mean += known[k + n] / 5;
@@ -80,11 +80,11 @@ double mean_between(Profile const& profile, std::vector<double> const& values, d
   for (std::size_t b = 0; b < values.size(); ++b)
     if (profile.position[b] >= low && profile.position[b] <= high && std::isfinite(values[b]))
       sum += values[b], ++count;
-  return count > 0 ? sum / count : nan;
+  return count > 0 ? sum / count : unknown;
 }
 
 double wall_velocity(Box const& box, int axis, Box::End end) {
-  return box.walled(axis, end) ? box.wall(axis, end).velocity[static_cast<std::size_t>(axis)] : nan;
+  return box.walled(axis, end) ? box.wall(axis, end).velocity[static_cast<std::size_t>(axis)] : unknown;
 }
 
 ShockState along(MatterState const& matter, int axis) {
@@ -220,7 +220,7 @@ void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
       by_density ? evened(fine.values("density")) : fine.values(std::string("velocity.") + "xyz"[axis]);
   double const ahead = by_density ? first_density_ : first_velocity_;
   Box::End const undisturbed = upwards ? Box::End::high : Box::End::low;
-  double behind = by_density ? nan : wall_velocity(box, axis, end_);
+  double behind = by_density ? unknown : wall_velocity(box, axis, end_);
   if (std::isnan(behind)) {
     front = front_position(fine.position, values, ahead, strongest(values, ahead), undisturbed);
     double const a = driven + direction * margin_, b = front - direction * margin_;
@@ -252,7 +252,7 @@ void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
 void Shock::measure(Sample const& sample, std::vector<double>& values) {
   Bodies const bodies(sample.ensembles, sample.measures, options_.ensembles);
   if (!begun_) begin(sample.box, bodies, sample.boltzmann_constant);
-  double front = nan;
+  double front = unknown;
   look(sample, bodies, front);
   LineFit const fit = line_.fit();
   MatterState const behind = behind_.matter(dimension_, sample.boltzmann_constant),

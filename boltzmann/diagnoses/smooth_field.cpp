@@ -1,6 +1,7 @@
 // Sums over the particles near a point, their images sorted into cells.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
 
 #include <fmt/format.h>
 
@@ -12,8 +13,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t grain = 512;  // points
+constexpr std::size_t points_per_task = 512;
 constexpr double most_images = 1e9;
 
 /// Numbers of a field at a point: its value, gradient and the upper triangle of its second derivatives.
@@ -191,6 +191,19 @@ void SmoothField::sum(double const* point, double const* const* columns, std::si
   });
 }
 
+SmoothField::Sum SmoothField::sum_for(Derivatives derivatives) const {
+  Sum found = nullptr;
+  for_weight(shape_, [&](auto shape) {
+    using Shape = decltype(shape);
+    static constexpr Sum sums[3][3] = {
+        {&SmoothField::sum<Shape, 1, 0>, &SmoothField::sum<Shape, 1, 1>, &SmoothField::sum<Shape, 1, 2>},
+        {&SmoothField::sum<Shape, 2, 0>, &SmoothField::sum<Shape, 2, 1>, &SmoothField::sum<Shape, 2, 2>},
+        {&SmoothField::sum<Shape, 3, 0>, &SmoothField::sum<Shape, 3, 1>, &SmoothField::sum<Shape, 3, 2>}};
+    found = sums[dimension() - 1][static_cast<int>(derivatives)];
+  });
+  return found;
+}
+
 std::vector<FieldValues> SmoothField::values(std::span<double const> points, std::span<SmoothColumn const> columns,
                                              Derivatives derivatives) const {
   auto const D = static_cast<std::size_t>(dimension());
@@ -215,7 +228,7 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
     for (std::size_t c = 0; c < fields.size(); ++c) {
       double const* F = sums + c * size;
       bool const quotient = c > 0;
-      double const scale = !quotient ? 1 : rho > 0 ? 1 / rho : nan;
+      double const scale = !quotient ? 1 : rho > 0 ? 1 / rho : unknown;
       double const f = F[0] * scale;
       fields[c].value[p] = f;
       if (derivatives == Derivatives::none) continue;
@@ -231,38 +244,26 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
     }
   };
 
-  for_weight(shape_, [&](auto shape) {
-    using Shape = decltype(shape);
-    auto const add = [&](double const* point, double* sums) {
-      auto const with = [&]<int Dim>() {
-        if (derivatives == Derivatives::none) sum<Shape, Dim, 0>(point, of_columns.data(), of_columns.size(), sums);
-        if (derivatives == Derivatives::first) sum<Shape, Dim, 1>(point, of_columns.data(), of_columns.size(), sums);
-        if (derivatives == Derivatives::second) sum<Shape, Dim, 2>(point, of_columns.data(), of_columns.size(), sums);
-      };
-      if (D == 1) with.template operator()<1>();
-      if (D == 2) with.template operator()<2>();
-      if (D == 3) with.template operator()<3>();
-    };
-    for_ranges(count, grain, threads_, [&](std::size_t begin, std::size_t end) {
-      std::vector<double> sums(fields.size() * size);
-      for (std::size_t p = begin; p < end; ++p) {
-        std::fill(sums.begin(), sums.end(), 0.0);
-        double place[3] = {0, 0, 0};
-        bool inside = !sources_.empty();
-        for (std::size_t a = 0; a < D; ++a) {
-          int const axis = static_cast<int>(a);
-          double const x = points[p * D + a];
-          place[a] = box_.periodic(axis) && std::isfinite(x) ? box_.wrapped(x, axis) : x;
-          inside = inside && std::isfinite(x);
-          if (box_.boundary(axis) != Boundary::mirror) continue;
-          double const slack = 1e-12 * box_.length(axis);  // the last node of a grid is on the wall but for rounding
-          if (box_.walled(axis, Box::End::low)) inside = inside && x >= box_.low(axis) - slack;
-          if (box_.walled(axis, Box::End::high)) inside = inside && x <= box_.high(axis) + slack;
-        }
-        if (inside) add(place, sums.data());
-        write(p, sums.data());
+  auto const add = sum_for(derivatives);
+  for_ranges(count, points_per_task, threads_, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> sums(fields.size() * size);
+    for (std::size_t p = begin; p < end; ++p) {
+      std::fill(sums.begin(), sums.end(), 0.0);
+      double place[3] = {0, 0, 0};
+      bool inside = !sources_.empty();
+      for (std::size_t a = 0; a < D; ++a) {
+        int const axis = static_cast<int>(a);
+        double const x = points[p * D + a];
+        place[a] = box_.periodic(axis) && std::isfinite(x) ? box_.wrapped(x, axis) : x;
+        inside = inside && std::isfinite(x);
+        if (box_.boundary(axis) != Boundary::mirror) continue;
+        double const slack = 1e-12 * box_.length(axis);  // the last node of a grid is on the wall but for rounding
+        if (box_.walled(axis, Box::End::low)) inside = inside && x >= box_.low(axis) - slack;
+        if (box_.walled(axis, Box::End::high)) inside = inside && x <= box_.high(axis) + slack;
       }
-    });
+      if (inside) (this->*add)(place, of_columns.data(), of_columns.size(), sums.data());
+      write(p, sums.data());
+    }
   });
   return fields;
 }

@@ -112,6 +112,9 @@ class SmoothField {
 
   template <class Shape, int D, int Order>
   void sum(double const* point, double const* const* columns, std::size_t count, double* sums) const;
+  using Sum = void (SmoothField::*)(double const* point, double const* const* columns, std::size_t count,
+                                    double* sums) const;
+  Sum sum_for(Derivatives derivatives) const;
   void add_images(double const* position, double mass, double range, std::uint32_t particle);
   std::vector<double> of_sources(SmoothColumn const& column) const;
 

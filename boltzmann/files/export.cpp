@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export.hpp>
+#include <boltzmann/files/spatial.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -16,11 +17,6 @@ namespace boltzmann {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the raw data of VTK files say LittleEndian");
-
-bool is_spatial(Field const& field, int dimension) {
-  return (field.name == "position" || field.name == "velocity" || field.name == "force") &&
-         field.components == dimension;
-}
 
 // Names without blanks, which separate columns.
 std::string word(std::string text) {

@@ -3,6 +3,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
+#include <boltzmann/files/spatial.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/files/trajectory_layout.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -39,12 +40,6 @@ bool mdanalysis_reads(std::string const& element, std::string const& unit) {
   if (element == "velocity") return is_one_of(unit, known_velocities);
   if (element == "force") return is_one_of(unit, known_forces);
   return true;  // it doesn't look at the others
-}
-
-// Readers expect these to be vectors of space in every frame.
-bool is_spatial(Field const& field, int dimension) {
-  return (field.name == "position" || field.name == "velocity" || field.name == "force") &&
-         field.components == dimension;
 }
 
 // Chunks of at least 16 kB where many small frames make one, and of at most about 1 MB.

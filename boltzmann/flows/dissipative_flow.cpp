@@ -1,7 +1,7 @@
 // What friction and noise act on: ensembles, their state laws, and the pairs that neighbour lists give.
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/flows/members.hpp>
 #include <boltzmann/flows/splitting.hpp>
 

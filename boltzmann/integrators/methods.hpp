@@ -77,24 +77,24 @@ class MethodOf : public Integrator {
     P::equations(p, influence, [&](auto member, auto const&) { rate(member, derivatives.*member); });
   }
 
-  /// Calls function(i, LargestMove&) for every particle.
+  /// Calls function(i, LargestMove&) for every particle. There is one compiled copy of the loop, for one thread and for
+  /// many: in two copies the compiler may contract a product and a sum in one and not in the other.
   template <class Function>
   void each(Function const& function) {
+    auto const loop = [&](std::size_t begin, std::size_t end) __attribute__((noinline)) {
+      LargestMove part;
+      for (std::size_t i = begin; i < end; ++i) function(i, part);
+      return part;
+    };
     std::size_t const size = ensemble_.size();
-    move_ = {};
-    // What is run must not depend on the threads, not even as two copies of one loop: the compiler may contract a
-    // product and a sum in one and not in the other.
     if (size < integrator_worth_threads) {
-      for (std::size_t i = 0; i < size; ++i) function(i, move_);
+      move_ = loop(0, size);
       return;
     }
     std::vector<LargestMove> parts((size + integrator_grain - 1) / integrator_grain);
-    for_ranges(
-        size, integrator_grain, threads_, [&](std::size_t begin, std::size_t end) __attribute__((noinline)) {
-          LargestMove part;
-          for (std::size_t i = begin; i < end; ++i) function(i, part);
-          parts[begin / integrator_grain] = part;
-        });
+    for_ranges(size, integrator_grain, threads_,
+               [&](std::size_t begin, std::size_t end) { parts[begin / integrator_grain] = loop(begin, end); });
+    move_ = {};
     for (auto const& part : parts) move_.take(part);
   }
 

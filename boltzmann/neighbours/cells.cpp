@@ -12,7 +12,7 @@ namespace {
 // Edges of a cell in units of the reach: long runs along the first axis are cut to measure, the others tell rows of
 // cells that are out of reach.
 constexpr double first_edge = 0.25, other_edge = 0.5;
-constexpr std::size_t grain = 2048;  // points
+constexpr std::size_t points_per_task = 2048;  // points
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Cells::Cells(int dimension, double const* rows, std::size_t stride, std::size_t 
   start_.assign(grid_.cells() + 1, 0);
   items_.resize(count);
   std::vector<std::uint32_t> cell(count);
-  for_ranges(count, grain, threads, [&](std::size_t begin, std::size_t end) {
+  for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid_.cell_of(rows + i * stride));
   });
   for (std::size_t i = 0; i < count; ++i) ++start_[cell[i] + 1];

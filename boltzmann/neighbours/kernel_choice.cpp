@@ -1,5 +1,5 @@
 // Which set's kernels search for neighbours.
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/neighbours/neighbour_kernels.hpp>
 
 namespace boltzmann {

@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t grain = 1024;
+constexpr std::size_t rows_per_task = 1024;
 constexpr std::size_t first_guess = 48;  // entries a row
 
 NearTask task_of(Mirror const& target, Mirror const& source, double cutoff, double skin) {
@@ -65,15 +65,15 @@ void NeighbourList::build(Mirror const& target, Mirror const& source, double cut
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
   row_.resize(rows);
   length_.resize(list_rings * rows);
-  chunks_.resize((rows + grain - 1) / grain);
+  chunks_.resize((rows + rows_per_task - 1) / rows_per_task);
   replaced_.clear();
   std::atomic<std::size_t> entries{0};
-  for_ranges(rows, grain, threads, [&](std::size_t first, std::size_t last) {
+  for_ranges(rows, rows_per_task, threads, [&](std::size_t first, std::size_t last) {
     Scratch scratch;
-    scratch.offset.resize(grain);
-    for (std::size_t begin = first; begin < last; begin += grain) {
-      std::size_t const end = std::min(begin + grain, last);
-      auto& index = chunks_[begin / grain];
+    scratch.offset.resize(rows_per_task);
+    for (std::size_t begin = first; begin < last; begin += rows_per_task) {
+      std::size_t const end = std::min(begin + rows_per_task, last);
+      auto& index = chunks_[begin / rows_per_task];
       if (index.empty()) index.resize(first_guess * (end - begin));
       NearRows out;
       out.offset = scratch.offset.data();

@@ -1,6 +1,7 @@
 // Law binding: from the word of a law and its parameters to the law with its kernels. Private to this room.
 #pragma once
 
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/scenario/law_rows.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 

@@ -2,6 +2,7 @@
 // instantiate law_kernels<this_set, Law, Rows>. Private to this room.
 #pragma once
 
+#include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/scenario/law_rows.hpp>
 #include <boltzmann/schemes/pair/pair_kernels.hpp>

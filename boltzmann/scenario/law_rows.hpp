@@ -2,7 +2,7 @@
 // once per class. Types only: kernel units and ordinary units both read it. Private to this room.
 #pragma once
 
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/particles/smooth.hpp>

@@ -40,16 +40,16 @@ Base read_base(Section& units, std::string const& name) {
     auto const n = unit<number_density>(units, "density", "density = \"1e18 1/m^3\"");
     auto const q = unit<charge>(units, "charge", "charge = \"1.602176634e-19 C\"");
     auto const m = unit<mass>(units, "mass", "mass = \"9.1093837015e-31 kg\"");
-    auto const t = unit<temperature>(units, "temperature", "temperature = \"10000 K\"");
+    auto const t = unit<dimensions::temperature>(units, "temperature", "temperature = \"10000 K\"");
     if (n && q && m && t) return Base::electrostatic_plasma(*n, *q, *m, *t);
   } else if (name == "custom") {
     auto const l = unit<length>(units, "length", "length = \"1 angstrom\"");
     auto const m = unit<mass>(units, "mass", "mass = \"1 amu\"");
     auto const t = unit<time>(units, "time", "time = \"1 ps\"");
-    auto const kelvins = units.quantity("temperature", temperature);
+    auto const kelvins = units.quantity("temperature", dimensions::temperature);
     auto const coulombs = units.quantity("charge", charge);
     if (l && m && t)
-      return Base(*l, *m, *t, kelvins ? Quantity<temperature>{*kelvins} : units::kelvin,
+      return Base(*l, *m, *t, kelvins ? Quantity<dimensions::temperature>{*kelvins} : units::kelvin,
                   coulombs ? Quantity<charge>{*coulombs} : units::elementary_charge);
   }
   return Base::si();

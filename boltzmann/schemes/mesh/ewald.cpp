@@ -17,7 +17,6 @@ namespace boltzmann {
 namespace {
 
 constexpr double euler_gamma = 0.577215664901532860606512;
-constexpr double root_pi = 1.77245385090551602730;
 // The near sum ends at alpha r = reach, the far one at k = 2 alpha reach: exp(-reach^2) = 4e-18.
 constexpr double reach = 6.35;
 

@@ -9,6 +9,8 @@
 
 namespace boltzmann {
 
+inline constexpr double root_pi = 1.77245385090551602730;
+
 /// What ewald_sums() computes; the arrays have one entry for each particle.
 template <int D>
 struct EwaldSums {

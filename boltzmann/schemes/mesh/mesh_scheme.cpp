@@ -1,6 +1,5 @@
 // What a mesh scheme is told, what it refuses, and how it looks to a simulation.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/schemes/mesh/mesh_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 #include <boltzmann/schemes/mesh/step_task.hpp>

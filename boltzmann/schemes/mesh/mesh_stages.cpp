@@ -1,7 +1,7 @@
 // The four stages of a mesh (section 4.4 of the 1990 thesis): from particles to density to potential to field and back
 // to particles.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
 #include <fmt/format.h>

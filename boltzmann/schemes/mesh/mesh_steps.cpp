@@ -1,6 +1,6 @@
 // Whole steps on a mesh: columns sorted in space, slots of the field, and the loop around the kernels.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/schemes/mesh/mesh_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 #include <boltzmann/schemes/mesh/step_task.hpp>

@@ -1,7 +1,7 @@
 // A mesh with the optimal influence function, a pair scheme over copies of the particles, and the choice of both.
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/laws/ewald_short.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/schemes/mesh/point_source.hpp>

@@ -4,6 +4,7 @@
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/schemes/mesh/ewald.hpp>
 #include <boltzmann/schemes/mesh/p3m_tuning.hpp>
+#include <boltzmann/schemes/mesh/spline.hpp>
 
 #include <fmt/format.h>
 
@@ -17,10 +18,8 @@ namespace boltzmann {
 
 namespace {
 
-constexpr int highest_order = 7;
-constexpr double root_pi = 1.77245385090551602730;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-using Cells = std::array<std::size_t, 3>;
+using MeshCells = std::array<std::size_t, 3>;
 using Edges = std::array<double, 3>;
 
 double whole_power(double x, int n) {
@@ -48,7 +47,7 @@ void check(P3mSystem const& system, char const* where) {
   if (!(system.sum_of_squares >= 0) || !std::isfinite(system.sum_of_squares))
     throw Error(fmt::format("{}: sum of squares = {} must not be negative", where, system.sum_of_squares));
 }
-void check_mesh(int dimension, int order, Cells const& cells, double alpha, char const* where) {
+void check_mesh(int dimension, int order, MeshCells const& cells, double alpha, char const* where) {
   if (order < 1 || order > highest_order)
     throw Error(fmt::format("{}: order {} is not 1 to {}", where, order, highest_order));
   for (int a = 0; a < dimension; ++a)
@@ -113,7 +112,8 @@ AxisWave axis_wave(std::size_t j, std::size_t n, double edge, int order, double 
 /// term by term, since it is smaller than the terms by as much as the mesh is good. Vectors are left out where the
 /// Gaussian's square is below 1e-26. Meshes of more than `most` cells on an axis are sampled by one with fewer cells of
 /// the same size, but at least 8 vectors per alpha. An eighth of the vectors in 3D stands for all.
-double sum_of_errors(int dimension, Edges const& edges, int order, Cells const& cells, double alpha, std::size_t most) {
+double sum_of_errors(int dimension, Edges const& edges, int order, MeshCells const& cells, double alpha,
+                     std::size_t most) {
   std::array<std::vector<AxisWave>, 3> waves;
   std::array<std::size_t, 3> n{1, 1, 1};
   double sampled = 1;
@@ -223,7 +223,7 @@ double tail_of_near_potential(int dimension, double alpha, double cutoff) {
 double error_near(P3mSystem const& system, double alpha, double cutoff) {
   return error_scale(system) * std::sqrt(tail_of_near_force(system.dimension, alpha, cutoff));
 }
-double error_mesh(P3mSystem const& system, int order, Cells const& cells, double alpha, std::size_t most) {
+double error_mesh(P3mSystem const& system, int order, MeshCells const& cells, double alpha, std::size_t most) {
   return error_scale(system) *
          std::sqrt(sum_of_errors(system.dimension, system.edges, order, cells, alpha, most) / volume_of(system));
 }
@@ -268,7 +268,7 @@ class MeshErrors {
   explicit MeshErrors(int dimension) {
     for (int order = 1; order <= highest_order; ++order)
       for (int i = 0; i <= points; ++i) {
-        Cells const cells{many, many, many};
+        MeshCells const cells{many, many, many};
         double const edge = many, q = sum_of_errors(dimension, {edge, edge, edge}, order, cells, alpha_h(i), sample) /
                                       whole_power(edge, dimension);
         log_q_[order - 1][i] = std::log(std::max(q, 1e-200));
@@ -303,19 +303,19 @@ std::size_t next_good_size(std::size_t n) {
   return n;
 }
 
-double cells_in_all(int dimension, Cells const& cells) {
+double cells_in_all(int dimension, MeshCells const& cells) {
   double product = 1;
   for (int a = 0; a < dimension; ++a) product *= static_cast<double>(cells[a]);
   return product;
 }
 
 /// Density, field, and the transforms' workspace.
-double bytes_of_mesh(int dimension, Cells const& cells) {
+double bytes_of_mesh(int dimension, MeshCells const& cells) {
   return 8.0 * (dimension + 3) * cells_in_all(dimension, cells);
 }
 
-Cells cells_for(P3mSystem const& system, std::size_t longest, int order) {
-  Cells cells{1, 1, 1};
+MeshCells cells_for(P3mSystem const& system, std::size_t longest, int order) {
+  MeshCells cells{1, 1, 1};
   double const longest_edge = *std::max_element(system.edges.begin(), system.edges.begin() + system.dimension);
   for (int a = 0; a < system.dimension; ++a) {
     double const wanted = static_cast<double>(longest) * system.edges[a] / longest_edge;
@@ -327,7 +327,7 @@ Cells cells_for(P3mSystem const& system, std::size_t longest, int order) {
 
 /// Seconds of one calculation of all forces, roughly, on one core of 2020 per thread: pairs from a list with a skin,
 /// p^D weights for assignment and interpolation, one transform forward and D back, which gain less by threads.
-double seconds_of(P3mSystem const& system, int order, Cells const& cells, double cutoff, int threads) {
+double seconds_of(P3mSystem const& system, int order, MeshCells const& cells, double cutoff, int threads) {
   int const D = system.dimension;
   double const n = static_cast<double>(system.particles), mesh = cells_in_all(D, cells);
   double const ball = D == 1 ? 2 * cutoff : D == 2 ? pi * square(cutoff) : 4 * pi / 3 * cube(cutoff);
@@ -341,7 +341,7 @@ double seconds_of(P3mSystem const& system, int order, Cells const& cells, double
 double shortest_edge(P3mSystem const& system) {
   return *std::min_element(system.edges.begin(), system.edges.begin() + system.dimension);
 }
-double longest_cell(P3mSystem const& system, Cells const& cells) {
+double longest_cell(P3mSystem const& system, MeshCells const& cells) {
   double longest = 0;
   for (int a = 0; a < system.dimension; ++a)
     longest = std::max(longest, system.edges[a] / static_cast<double>(cells[a]));
@@ -352,12 +352,13 @@ constexpr std::size_t most_cells = std::size_t{1} << 20;  // on an axis
 
 struct Candidate {
   int order;
-  Cells cells;
+  MeshCells cells;
   double seconds;
 };
 
 /// The smallest cut-off with which this order and mesh reach the accuracy, and its alpha; nothing if it is too large.
-std::optional<P3mParameters> smallest_cutoff(P3mSystem const& system, int order, Cells const& cells, double accuracy) {
+std::optional<P3mParameters> smallest_cutoff(P3mSystem const& system, int order, MeshCells const& cells,
+                                             double accuracy) {
   double const half = shortest_edge(system) / 2, h = longest_cell(system, cells);
   auto const mesh = [&](double alpha) { return error_mesh(system, order, cells, alpha, finest_sample); };
   auto const cutoff_for = [&](double alpha, double of_mesh) {
@@ -376,7 +377,7 @@ std::optional<P3mParameters> smallest_cutoff(P3mSystem const& system, int order,
 }
 
 /// The smallest error that order and mesh reach with the largest cut-off.
-double smallest_error(P3mSystem const& system, int order, Cells const& cells) {
+double smallest_error(P3mSystem const& system, int order, MeshCells const& cells) {
   double const half = shortest_edge(system) / 2, h = longest_cell(system, cells);
   auto const total = [&](double alpha) {
     return std::hypot(error_near(system, alpha, half), error_mesh(system, order, cells, alpha, finest_sample));
@@ -393,7 +394,7 @@ double rounding_error(P3mSystem const& system) {
 
 }  // namespace
 
-P3mInfluence::P3mInfluence(int dimension, Edges const& edges, int order, Cells const& cells, double alpha)
+P3mInfluence::P3mInfluence(int dimension, Edges const& edges, int order, MeshCells const& cells, double alpha)
     : dimension_(dimension), edges_(edges) {
   check(dimension, edges, "p3m influence function");
   check_mesh(dimension, order, cells, alpha, "p3m influence function");
@@ -454,7 +455,7 @@ double p3m_error_near(P3mSystem const& system, double alpha, double cutoff) {
   return error_near(system, alpha, cutoff);
 }
 
-double p3m_error_mesh(P3mSystem const& system, int order, Cells const& cells, double alpha) {
+double p3m_error_mesh(P3mSystem const& system, int order, MeshCells const& cells, double alpha) {
   check(system, "p3m_error_mesh");
   check_mesh(system.dimension, order, cells, alpha, "p3m_error_mesh");
   return error_mesh(system, order, cells, alpha, finest_sample);
@@ -490,22 +491,22 @@ P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, st
   double const half = shortest_edge(system) / 2;
   double const scale = error_scale(system);
   if (scale == 0) {  // no force, no error
-    Cells const cells = cells_for(system, 4, 2);
+    MeshCells const cells = cells_for(system, 4, 2);
     return {2, cells, 1 / longest_cell(system, cells), half, 0, 0};
   }
 
   MeshErrors const mesh_errors(system.dimension);
   double const volume = volume_of(system);
-  auto const fits = [&](Cells const& cells) {
+  auto const fits = [&](MeshCells const& cells) {
     return bytes_of_mesh(system.dimension, cells) <= static_cast<double>(memory);
   };
   std::vector<Candidate> candidates;
-  Cells finest = cells_for(system, 1, highest_order);
+  MeshCells finest = cells_for(system, 1, highest_order);
   if (!fits(finest)) throw Error(fmt::format("p3m: {} bytes of memory are not enough for any mesh", memory));
   for (int order = 1; order <= highest_order; ++order) {
     double least = infinity;
     for (std::size_t longest = 2; longest <= most_cells; longest = next_good_size(longest + 1 + longest / 32)) {
-      Cells const cells = cells_for(system, longest, order);
+      MeshCells const cells = cells_for(system, longest, order);
       if (!fits(cells)) break;
       if (order == highest_order) finest = cells;
       // Both errors alike: a guess that smallest_cutoff() betters.

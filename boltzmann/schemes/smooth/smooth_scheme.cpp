@@ -2,7 +2,7 @@
 #include <boltzmann/schemes/smooth/loaded.hpp>
 
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 
 #include <fmt/format.h>
 

@@ -1,0 +1,11 @@
+// What a diagnosis gives where a number can't be had.
+#pragma once
+
+#include <limits>
+
+namespace boltzmann {
+
+/// Not a number: a gap in tables and pictures.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace boltzmann
