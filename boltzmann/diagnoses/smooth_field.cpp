@@ -153,9 +153,10 @@ std::vector<double> SmoothField::of_sources(SmoothColumn const& column) const {
 }
 
 // Adds up m w, and m f w for every column, with their derivatives.
-template <class Shape, int D, int Order>
-void SmoothField::sum(double const* point, double const* const* columns, std::size_t count, double* sums) const {
-  constexpr std::size_t size = parts(D, static_cast<Derivatives>(Order));
+template <class Shape, int D>
+void SmoothField::sum(double const* point, double const* const* columns, std::size_t count, Derivatives derivatives,
+                      double* sums) const {
+  std::size_t const size = parts(D, derivatives);
   cells_.near(point, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Source const& source = sources_[k];
@@ -166,11 +167,11 @@ void SmoothField::sum(double const* point, double const* const* columns, std::si
       }
       if (!(r2 < source.range * source.range)) continue;
       auto const weight = weigh<Shape, D>(r2, source.range, source.inverse_range);
-      double part[size];
+      double part[parts(D, Derivatives::second)];
       part[0] = source.mass * weight.value;
-      if constexpr (Order > 0)
+      if (derivatives != Derivatives::none)
         for (int a = 0; a < D; ++a) part[1 + a] = source.mass * weight.slope * way[a];
-      if constexpr (Order > 1) {
+      if (derivatives == Derivatives::second) {
         // w'' along the way to the particle, w'/r across it.
         double const q = std::sqrt(r2) * source.inverse_range;
         double norm = Shape::template norm<D> * source.inverse_range * source.inverse_range;
@@ -191,15 +192,12 @@ void SmoothField::sum(double const* point, double const* const* columns, std::si
   });
 }
 
-SmoothField::Sum SmoothField::sum_for(Derivatives derivatives) const {
+SmoothField::Sum SmoothField::sum_of_weight() const {
   Sum found = nullptr;
   for_weight(shape_, [&](auto shape) {
     using Shape = decltype(shape);
-    static constexpr Sum sums[3][3] = {
-        {&SmoothField::sum<Shape, 1, 0>, &SmoothField::sum<Shape, 1, 1>, &SmoothField::sum<Shape, 1, 2>},
-        {&SmoothField::sum<Shape, 2, 0>, &SmoothField::sum<Shape, 2, 1>, &SmoothField::sum<Shape, 2, 2>},
-        {&SmoothField::sum<Shape, 3, 0>, &SmoothField::sum<Shape, 3, 1>, &SmoothField::sum<Shape, 3, 2>}};
-    found = sums[dimension() - 1][static_cast<int>(derivatives)];
+    constexpr Sum sums[] = {&SmoothField::sum<Shape, 1>, &SmoothField::sum<Shape, 2>, &SmoothField::sum<Shape, 3>};
+    found = sums[dimension() - 1];
   });
   return found;
 }
@@ -244,7 +242,7 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
     }
   };
 
-  auto const add = sum_for(derivatives);
+  Sum const add = sum_of_weight();
   for_ranges(count, points_per_task, threads_, [&](std::size_t begin, std::size_t end) {
     std::vector<double> sums(fields.size() * size);
     for (std::size_t p = begin; p < end; ++p) {
@@ -261,7 +259,7 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
         if (box_.walled(axis, Box::End::low)) inside = inside && x >= box_.low(axis) - slack;
         if (box_.walled(axis, Box::End::high)) inside = inside && x <= box_.high(axis) + slack;
       }
-      if (inside) (this->*add)(place, of_columns.data(), of_columns.size(), sums.data());
+      if (inside) (this->*add)(place, of_columns.data(), of_columns.size(), derivatives, sums.data());
       write(p, sums.data());
     }
   });

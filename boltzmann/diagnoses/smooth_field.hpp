@@ -110,11 +110,12 @@ class SmoothField {
     std::array<signed char, 3> side;
   };
 
-  template <class Shape, int D, int Order>
-  void sum(double const* point, double const* const* columns, std::size_t count, double* sums) const;
+  template <class Shape, int D>
+  void sum(double const* point, double const* const* columns, std::size_t count, Derivatives derivatives,
+           double* sums) const;
   using Sum = void (SmoothField::*)(double const* point, double const* const* columns, std::size_t count,
-                                    double* sums) const;
-  Sum sum_for(Derivatives derivatives) const;
+                                    Derivatives derivatives, double* sums) const;
+  Sum sum_of_weight() const;
   void add_images(double const* position, double mass, double range, std::uint32_t particle);
   std::vector<double> of_sources(SmoothColumn const& column) const;
 
