@@ -14,7 +14,7 @@
 #include <random>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::box_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -642,4 +642,4 @@ TEST(Box, EdgesOnTheGridAreMultiplesOfTheQuantum) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::box_test

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::walls_test {
 namespace {
 
 using End = Box::End;
@@ -681,4 +681,4 @@ TEST(BoundedWalls, AMeshNeedsThemClosedAndAtRest) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::walls_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::recording_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -226,4 +226,4 @@ TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::recording_test

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::instruction_set_test {
 namespace {
 
 using enum InstructionSet;
@@ -186,4 +186,4 @@ TEST_F(Objects, OnlyKernelsOfASetHaveItsInstructions) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::instruction_set_test

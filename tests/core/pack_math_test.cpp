@@ -12,8 +12,7 @@
 #include <random>
 #include <string>
 
-using namespace boltzmann;
-
+namespace boltzmann::pack_math_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -524,3 +523,4 @@ TEST(PackMathFloat, IsTheRoundedDouble) {
 }
 
 }  // namespace
+}  // namespace boltzmann::pack_math_test

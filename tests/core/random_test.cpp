@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::random_test {
 namespace {
 
 using std::numbers::pi;
@@ -405,4 +405,4 @@ static_assert(RandomVariable<Uniform> && RandomVariable<Normal> && RandomVariabl
               RandomVariable<Exponential> && RandomVariable<Ripple> && !RandomVariable<double>);
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::random_test

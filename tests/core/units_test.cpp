@@ -13,7 +13,7 @@
 #include <set>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::units_test {
 namespace {
 
 using namespace literals;
@@ -556,4 +556,4 @@ TEST(UnitTable, EveryNameIsReadOnceAndMeansItsUnit) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::units_test

@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-namespace boltzmann {
+namespace boltzmann::spectrum_test {
 namespace {
 
 using std::numbers::pi;
@@ -292,4 +292,4 @@ TEST(SampleUniformly, WrongInput) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::spectrum_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace boltzmann::guide_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,3 +81,4 @@ TEST(Guide, ScenariosAreRight) {
 }
 
 }  // namespace
+}  // namespace boltzmann::guide_test

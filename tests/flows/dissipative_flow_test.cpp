@@ -25,7 +25,7 @@
 #include <memory>
 #include <sstream>
 
-namespace boltzmann {
+namespace boltzmann::dissipative_flow_test {
 namespace {
 
 enum class Kind { order_free, corrector, splitting, metropolis };
@@ -780,7 +780,7 @@ TEST(DissipativeFlow, Advice) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::dissipative_flow_test
 
 /// With --numbers THREADS: prints what comes out with the instruction set that the environment names.
 int main(int argc, char** argv) {

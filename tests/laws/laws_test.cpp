@@ -28,8 +28,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::laws_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -703,3 +702,4 @@ TYPED_TEST(ExternalLawIn, Values) {
 }
 
 }  // namespace
+}  // namespace boltzmann::laws_test

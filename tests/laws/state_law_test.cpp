@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::state_law_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -371,4 +371,4 @@ TEST(StateLaw, FunctionsWithStepsAndKinksAreTabulatedToo) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::state_law_test

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::ensemble_test {
 namespace {
 
 // Classes of a user's own: new fields in 1D, 2D and 3D.
@@ -681,4 +681,4 @@ TEST(Inviscid3, StretchingOfManyIsTheDerivativeOfTheirFlow) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::ensemble_test

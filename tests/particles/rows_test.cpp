@@ -16,8 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::rows_test {
 namespace {
 
 template <class P>
@@ -153,3 +152,4 @@ TEST(RowsOfAUsersClass, LanesAreRows) {
 }
 
 }  // namespace
+}  // namespace boltzmann::rows_test

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <random>
 
-namespace boltzmann {
+namespace boltzmann::simulation_test {
 namespace {
 
 // A liquid that is out of equilibrium: lists are rebuilt often.
@@ -409,4 +409,4 @@ TEST(Simulation, EnsemblesOfSeveralSchemesAddTheirInfluences) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::simulation_test
