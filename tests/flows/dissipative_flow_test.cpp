@@ -785,7 +785,7 @@ TEST(DissipativeFlow, Advice) {
 /// With --numbers THREADS: prints what comes out with the instruction set that the environment names.
 int main(int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "--numbers") {
-    using namespace boltzmann;
+    using namespace boltzmann::dissipative_flow_test;
     for (Kind const kind : all_kinds) {
       Gas gas(kind, 400, std::stoi(argv[2]));
       gas.simulation.run(5);
