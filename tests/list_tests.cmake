@@ -25,7 +25,7 @@ foreach(line ${lines})
     endif()
     string(APPEND text "add_test(${entry} \"${PROGRAM}\" --gtest_filter=${name})\n"
            "set_tests_properties(${entry} PROPERTIES TIMEOUT 600${cost} ENVIRONMENT \"${environment}\"\n"
-           "  FAIL_REGULAR_EXPRESSION \"Running 0 tests;SKIPPED\")\n")
+           "  FAIL_REGULAR_EXPRESSION \"Running 0 tests;  SKIPPED \")\n")
   endif()
 endforeach()
 file(WRITE ${LIST} "${text}")

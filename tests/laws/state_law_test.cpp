@@ -3,6 +3,7 @@
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/invariant_law.hpp>
 #include <boltzmann/laws/state_law.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -318,15 +319,6 @@ TEST(InvariantLaw, DrawsAreDistributedByIt) {
 }
 
 // ---- what can't be ----
-
-std::string message(auto const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(StateLaw, RefusesWhatIsNoHeatCapacity) {
   EXPECT_EQ(message([] { StateLaw(-1.5); }), "state law: the heat capacity must be positive and finite, it is -1.5");
