@@ -30,15 +30,16 @@ $(BUILD)/build.ninja:
 	@$(MAKE) --no-print-directory dependencies
 	cmake --preset release -DBOLTZMANN_SETS=machine -DBOLTZMANN_TESTS=OFF
 
-install_missing = missing=$$(for p in $(1); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
-	if [ -n "$$missing" ]; then echo "installing" $$missing; \
+install_packages = missing="$(1)"; if [ -n "$$missing" ]; then echo "installing" $$missing; \
 	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
 
-dependencies:
-	@$(call install_missing,$$(cat dependencies.txt))
-
+# A program's package may come from elsewhere (node): what shows that it is there stands beside its name.
 test-dependencies: dependencies
-	@$(call install_missing,$$(cat tests/dependencies.txt))
+	@$(call install_packages,$$(sed '/^#/d' tests/dependencies.txt | while read -r package shown; do \
+	command -v $$shown >/dev/null || [ -e $$shown ] || echo $$package; done))
+
+dependencies:
+	@$(call install_packages,$$(for p in $$(cat dependencies.txt); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done))
 
 # After a change of boltzmann/window/web.
 page:

@@ -7,11 +7,12 @@
 
 namespace boltzmann {
 
-/// What the Error thrown by call() says; "no error" if there is none.
+/// What the Thrown that comes out of call() says; "no error" if there is none.
+template <class Thrown = Error>
 std::string message(auto const& call) {
   try {
     call();
-  } catch (Error const& error) {
+  } catch (Thrown const& error) {
     return error.what();
   }
   return "no error";

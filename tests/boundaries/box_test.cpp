@@ -5,6 +5,7 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,24 +15,13 @@
 #include <random>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::box_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double above(double x) { return std::nextafter(x, infinity); }
 double below(double x) { return std::nextafter(x, -infinity); }
-
-/// What the function throws, which must be of that kind.
-template <class Thrown>
-std::string message(std::function<void()> const& function) {
-  try {
-    function();
-  } catch (Thrown const& failure) {
-    return failure.what();
-  }
-  return "nothing was thrown";
-}
 
 void expect_parts(std::string const& text, std::initializer_list<char const*> parts) {
   for (char const* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
@@ -642,4 +632,4 @@ TEST(Box, EdgesOnTheGridAreMultiplesOfTheQuantum) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::box_test

@@ -7,6 +7,7 @@
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -20,22 +21,11 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::walls_test {
 namespace {
 
 using End = Box::End;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// What the function throws, which must be of that kind.
-template <class Thrown>
-std::string message(std::function<void()> const& function) {
-  try {
-    function();
-  } catch (Thrown const& failure) {
-    return failure.what();
-  }
-  return "nothing was thrown";
-}
 
 void expect_parts(std::string const& text, std::initializer_list<char const*> parts) {
   for (char const* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
@@ -681,4 +671,4 @@ TEST(BoundedWalls, AMeshNeedsThemClosedAndAtRest) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::walls_test

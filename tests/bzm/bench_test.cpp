@@ -4,8 +4,10 @@
 #include <regex>
 #include <set>
 
-namespace boltzmann::test {
+namespace boltzmann::bench_test {
 namespace {
+
+using namespace boltzmann::test;
 
 TEST(Bench, PrintsATableAndWritesTheFigures) {
   Folder const folder;
@@ -51,4 +53,4 @@ TEST(Bench, RefusesWhatItCantDo) {
 }
 
 }  // namespace
-}  // namespace boltzmann::test
+}  // namespace boltzmann::bench_test

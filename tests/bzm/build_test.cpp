@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-namespace boltzmann {
+namespace boltzmann::build_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -77,4 +77,4 @@ TEST(Build, TellsOfMistakes) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::build_test

@@ -1,7 +1,7 @@
 // The command as a user meets it: exit statuses, messages, and what is left in the folder.
 #include "tests/bzm/command.hpp"
+#include "tests/small_disk.hpp"
 
-#include <sys/mount.h>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/version.hpp>
@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <set>
 
-namespace boltzmann {
+namespace boltzmann::command_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -172,29 +172,10 @@ TEST(Run, FoldersThatCannotBeWritten) {
   expect_one_line(folder.run({"--out", "/proc/bzm", "--quiet"}), 2, {"/proc/bzm"});
 }
 
-// A file system of its own that is 1 MB large, where that is allowed.
-class SmallDisk {
- public:
-  explicit SmallDisk(fs::path path, std::string const& size) : path_(std::move(path)) {
-    fs::create_directory(path_);
-    mounted_ = mount("tmpfs", path_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
-  }
-  ~SmallDisk() {
-    if (mounted_) umount(path_.c_str());
-  }
-  SmallDisk(SmallDisk const&) = delete;
-  SmallDisk& operator=(SmallDisk const&) = delete;
-  bool mounted() const { return mounted_; }
-
- private:
-  fs::path path_;
-  bool mounted_;
-};
-
 TEST(Run, ADiskThatIsFullLaterLeavesAGoodCheckpoint) {
   GasFolder folder;
   SmallDisk const disk(folder / "disk", "1m");
-  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system is not allowed here";
+  ASSERT_TRUE(disk.mounted()) << SmallDisk::refused;
   auto const outcome = folder.run({"--steps", "100000", "--out", "disk/out", "--quiet", "--set", "output.trajectory=10",
                                    "--set", "output.checkpoint=20"});
   expect_one_line(outcome, 1,
@@ -210,7 +191,7 @@ TEST(Run, ADiskThatIsFullLaterLeavesAGoodCheckpoint) {
 TEST(Run, ADiskThatIsFullAtTheStartLeavesNothing) {
   GasFolder folder;
   SmallDisk const disk(folder / "disk", "16k");
-  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system is not allowed here";
+  ASSERT_TRUE(disk.mounted()) << SmallDisk::refused;
   expect_one_line(folder.run({"--out", "disk/out", "--quiet"}), 2, {"No space left on device"});
   EXPECT_FALSE(fs::exists(folder / "disk/out"));
 }
@@ -506,4 +487,4 @@ TEST(Render, AMovieNeedsFfmpegAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::command_test

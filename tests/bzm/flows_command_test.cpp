@@ -4,7 +4,7 @@
 
 #include <boltzmann/files/checkpoint.hpp>
 
-namespace boltzmann {
+namespace boltzmann::flows_command_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -116,4 +116,4 @@ TEST(ShockCommand, WarnsOfACoarseStepAndCountsTheWorkOfThePiston) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::flows_command_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::forced_instructions_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -107,4 +107,4 @@ TEST(Instructions, AWrongWordIsOneLineAndStatus2) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::forced_instructions_test

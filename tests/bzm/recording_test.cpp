@@ -7,11 +7,12 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/recording.hpp>
+#include <tests/message.hpp>
 
 #include <cmath>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::recording_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -35,15 +36,6 @@ struct Pair {
     simulation.integrate(atoms, Method::leap_frog);
   }
 };
-
-std::string error_of(std::function<void()> const& call) {
-  try {
-    call();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(Conserved, TotalsOfTwoAtomsByHand) {
   Pair pair;
@@ -119,7 +111,7 @@ TEST(Recording, LeavesFilesThatGoOnWhereTheyEnded) {
   EXPECT_EQ(table.column("step").size(), 11U);
   EXPECT_NEAR(table.column("total energy").front(), -0.515, 1e-14);
   EXPECT_NEAR(table.column("total energy").back(), -0.515, 1e-6);
-  EXPECT_NE(error_of([&] { record("whole", 5, false); }).find("already holds a run"), std::string::npos);
+  EXPECT_NE(message([&] { record("whole", 5, false); }).find("already holds a run"), std::string::npos);
 }
 
 TEST(Recording, TheDestructorFinishesAndNothingIsWrittenBeforeTheRun) {
@@ -141,7 +133,7 @@ TEST(Recording, RefusesPlansThatCannotBe) {
   Folder folder;
   Pair pair;
   auto const plan = [&](std::function<void(Recording&)> const& say) {
-    return error_of([&] {
+    return message([&] {
       Recording recording(pair.simulation, Base::reduced(), folder / "out");
       say(recording);
       recording.check();
@@ -226,4 +218,4 @@ TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::recording_test

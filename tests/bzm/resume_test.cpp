@@ -9,7 +9,7 @@
 #include <bit>
 #include <cstring>
 
-namespace boltzmann {
+namespace boltzmann::resume_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -204,4 +204,4 @@ TEST(Resume, NeedsAFolderWithARun) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::resume_test

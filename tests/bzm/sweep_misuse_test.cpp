@@ -5,7 +5,7 @@
 
 #include <boltzmann/scenario/sweep.hpp>
 
-namespace boltzmann {
+namespace boltzmann::sweep_misuse_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -219,4 +219,4 @@ TEST(SweepMistakes, ZeroHasTheUnitOfTheOthers) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::sweep_misuse_test

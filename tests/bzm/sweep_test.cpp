@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::sweep_test {
 namespace {
 
 using namespace boltzmann::test;
@@ -293,4 +293,4 @@ TEST_F(Sweep, StaysUnlessItIsToBeReplaced) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::sweep_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::dual_test {
 namespace {
 
 /// f'(x) by central differences of two step sizes: error of the fourth order.
@@ -208,3 +207,4 @@ TEST(Dual, VectorAlgebra) {
 }
 
 }  // namespace
+}  // namespace boltzmann::dual_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::incomplete_gamma_test {
 namespace {
 
 double lower(double a, double x) { return std::exp(log_lower_gamma(a, x)); }
@@ -65,4 +65,4 @@ TEST(IncompleteGamma, QuantilesUndoTheFractions) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::incomplete_gamma_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::pack_random_test {
 namespace {
 
 constexpr int W = native_width<double>;
@@ -104,4 +104,4 @@ TEST(PackRandom, normals_are_normal) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::pack_random_test

@@ -10,8 +10,7 @@
 #include <random>
 #include <type_traits>
 
-using namespace boltzmann;
-
+namespace boltzmann::pack_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -226,3 +225,4 @@ TEST(Number, SelectMinMaxOfScalars) {
 }
 
 }  // namespace
+}  // namespace boltzmann::pack_test

@@ -1,6 +1,7 @@
 // Random streams against Random123, and random variables against their exact distribution functions.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
+#include <tests/message.hpp>
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::random_test {
 namespace {
 
 using std::numbers::pi;
@@ -64,16 +65,8 @@ double correlation(Stream a, Stream b, int count = 100'000) {
   return 12.0 * sum / count;
 }
 
-std::string error_of(std::function<void()> const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no Error";
-}
 void expect_one_line(std::function<void()> const& action, std::string const& part) {
-  std::string const line = error_of(action);
+  std::string const line = message(action);
   EXPECT_NE(line.find(part), std::string::npos) << line;
   EXPECT_EQ(line.find('\n'), std::string::npos) << line;
 }
@@ -405,4 +398,4 @@ static_assert(RandomVariable<Uniform> && RandomVariable<Normal> && RandomVariabl
               RandomVariable<Exponential> && RandomVariable<Ripple> && !RandomVariable<double>);
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::random_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::tensor_test {
 namespace {
 
 constexpr Tensor<2> a2{1, 2, 3, 4};
@@ -152,4 +152,4 @@ TEST(Tensor, PacksGiveWhatNumbersGive) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::tensor_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::threads_test {
 namespace {
 
 TEST(Threads, EveryItemIsVisitedOnce) {
@@ -71,4 +71,4 @@ TEST(Threads, ALoopInsideALoopAndLoopsOfSeveralCallers) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::threads_test

@@ -4,6 +4,7 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/core/units.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,21 +14,11 @@
 #include <set>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::units_test {
 namespace {
 
 using namespace literals;
 namespace dim = dimensions;
-
-template <class F>
-std::string message_of(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 void expect_near_relative(double found, double expected, double tolerance, std::string const& what = "") {
   EXPECT_NEAR(found / expected, 1, tolerance) << what << ": " << found << " against " << expected;
@@ -347,13 +338,13 @@ TEST(Bases, RoundTripsKeepTheNumber) {
 }
 
 TEST(Bases, RefuseUnitsThatAreNotPositiveAndFinite) {
-  EXPECT_NE(message_of([] { Base(0_m, 1_kg, 1_s); }).find("length"), std::string::npos);
-  EXPECT_NE(message_of([] { Base(1_m, -1_kg, 1_s); }).find("mass"), std::string::npos);
-  EXPECT_NE(message_of([] { Base(1_m, 1_kg, Time{NAN}); }).find("time"), std::string::npos);
-  EXPECT_NE(message_of([] { Base(1_m, 1_kg, 1_s, Quantity<dim::temperature>{INFINITY}); }).find("temperature"),
+  EXPECT_NE(message([] { Base(0_m, 1_kg, 1_s); }).find("length"), std::string::npos);
+  EXPECT_NE(message([] { Base(1_m, -1_kg, 1_s); }).find("mass"), std::string::npos);
+  EXPECT_NE(message([] { Base(1_m, 1_kg, Time{NAN}); }).find("time"), std::string::npos);
+  EXPECT_NE(message([] { Base(1_m, 1_kg, 1_s, Quantity<dim::temperature>{INFINITY}); }).find("temperature"),
             std::string::npos);
-  EXPECT_NE(message_of([] { Base(1_m, 1_kg, 1_s, 1_K, 0_C); }).find("charge"), std::string::npos);
-  EXPECT_NE(message_of([] { Base::lennard_jones(1_angstrom, 0_eV, 1_amu); }).find("epsilon"), std::string::npos);
+  EXPECT_NE(message([] { Base(1_m, 1_kg, 1_s, 1_K, 0_C); }).find("charge"), std::string::npos);
+  EXPECT_NE(message([] { Base::lennard_jones(1_angstrom, 0_eV, 1_amu); }).find("epsilon"), std::string::npos);
   EXPECT_THROW(Base::electrostatic_plasma(1 / pow<3>(1_m), 0_C, 1_kg, 1_K), Error);
   EXPECT_THROW(Base::gravitational(1_m, 0_kg), Error);
 }
@@ -486,18 +477,18 @@ TEST(Texts, BadOnesAreRefusedInOneLine) {
       {"5 " + std::string(100000, 'x'), "unknown unit"},
   };
   for (auto const& bad : table) {
-    auto const message = message_of([&] { parse_quantity(bad.text); });
+    auto const line = message([&] { parse_quantity(bad.text); });
     auto const shown = bad.text.substr(0, 40);
-    EXPECT_NE(message.find(bad.part), std::string::npos) << "'" << shown << "' gave: " << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << shown;
-    EXPECT_EQ(message.find('\0'), std::string::npos) << shown;
-    EXPECT_LT(message.size(), 400U) << shown;
+    EXPECT_NE(line.find(bad.part), std::string::npos) << "'" << shown << "' gave: " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << shown;
+    EXPECT_EQ(line.find('\0'), std::string::npos) << shown;
+    EXPECT_LT(line.size(), 400U) << shown;
   }
 }
 
 TEST(Texts, DimensionsAreChecked) {
   auto const refusal = [](char const* text, Dimension wanted, Base const& base = Base::cgs()) {
-    return message_of([&] { in_base(text, wanted, base); });
+    return message([&] { in_base(text, wanted, base); });
   };
   EXPECT_EQ(refusal("2.551 angstrom", dim::mass), "'2.551 angstrom' is a length, a mass is needed (e.g. 'kg', 'amu')");
   EXPECT_EQ(refusal("2 kg", dim::velocity), "'2 kg' is a mass, a velocity is needed (e.g. 'm/s', 'cm/s')");
@@ -556,4 +547,4 @@ TEST(UnitTable, EveryNameIsReadOnceAndMeansItsUnit) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::units_test

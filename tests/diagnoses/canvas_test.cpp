@@ -24,9 +24,9 @@
 #include <string>
 #include <vector>
 
+namespace boltzmann::canvas_test {
 namespace {
 
-using namespace boltzmann;
 namespace fs = std::filesystem;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -937,3 +937,4 @@ TEST_F(Drawings, OfNothingAreEmptyPictures) {
 }
 
 }  // namespace
+}  // namespace boltzmann::canvas_test

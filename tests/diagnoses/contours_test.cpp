@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::contours_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
@@ -218,4 +218,4 @@ TEST(Contours, BandsAreDarkBelowAndLightAbove) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::contours_test

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <map>
 
-namespace boltzmann {
+namespace boltzmann::diagnosis_catalogue_test {
 namespace {
 
 /// Two atoms and a fluid particle in 2D, and everything that a diagnosis wants.
@@ -341,4 +341,4 @@ TEST(SpectrumOf, AWaveOfVelocityHasItsWaveNumber) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::diagnosis_catalogue_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::diffusion_test {
 namespace {
 
 std::vector<double> look(Diffusion& diffusion, std::vector<AnyEnsemble*> const& ensembles, Box const& box,
@@ -70,4 +70,4 @@ TEST(Diffusion, OfFlightIsQuadraticAndOfNothingUnknown) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::diffusion_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::entropy_test {
 namespace {
 
 template <int D>
@@ -241,4 +241,4 @@ TEST(EntropyDiagnosis, MistakesInOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::entropy_test

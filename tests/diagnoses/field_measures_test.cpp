@@ -21,7 +21,7 @@
 #include <functional>
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::field_measures_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -510,4 +510,4 @@ TEST(MeshScenarios, MistakesHaveOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::field_measures_test

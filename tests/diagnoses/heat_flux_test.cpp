@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::heat_flux_test {
 namespace {
 
 struct Layer {
@@ -105,4 +105,4 @@ TEST(HeatFlux, IsInTheCatalogue) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::heat_flux_test

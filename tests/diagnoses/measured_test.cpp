@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::measured_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -157,4 +157,4 @@ TEST(MeasuredTimeSeries, HasSomeTwentyBarsForEachCurve) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::measured_test

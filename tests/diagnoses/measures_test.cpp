@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::measures_test {
 namespace {
 
 /// A class with an influence that is no vector of space.
@@ -229,4 +229,4 @@ TEST(Measures, SumsKeepWhatPlainSumsLose) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::measures_test

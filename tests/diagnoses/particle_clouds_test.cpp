@@ -13,9 +13,8 @@
 #include <set>
 #include <vector>
 
+namespace boltzmann::particle_clouds_test {
 namespace {
-
-using namespace boltzmann;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 
@@ -302,3 +301,4 @@ TEST(Turns, MixCloudsWithoutLosingAnybody) {
 }
 
 }  // namespace
+}  // namespace boltzmann::particle_clouds_test

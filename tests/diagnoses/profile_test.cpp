@@ -17,7 +17,7 @@
 #include <limits>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::profile_test {
 namespace {
 
 using List = std::vector<AnyEnsemble const*>;
@@ -248,4 +248,4 @@ TEST(Profile, AsAPicture) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::profile_test

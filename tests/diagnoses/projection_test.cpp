@@ -19,9 +19,8 @@
 #include <string>
 #include <vector>
 
+namespace boltzmann::projection_test {
 namespace {
-
-using namespace boltzmann;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour red{1, 0, 0, 1}, green{0, 1, 0, 1}, blue{0, 0, 1, 1};
@@ -352,3 +351,4 @@ TEST(Clouds, AreRefusedIfTheirArraysDoNotFit) {
 }
 
 }  // namespace
+}  // namespace boltzmann::projection_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::shock_misuse_test {
 namespace {
 
 /// A gas of 2000 particles of temperature 1 between two ends, which a wall may run into.
@@ -93,4 +93,4 @@ TEST(SlabMisuse, LabelsAreOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::shock_misuse_test

@@ -22,7 +22,7 @@
 #include <random>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::shock_test {
 namespace {
 
 // ---- Lines ----
@@ -502,4 +502,4 @@ TEST(ShockScenarios, MistakesHaveOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::shock_test

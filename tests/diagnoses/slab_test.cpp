@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::slab_test {
 namespace {
 
 std::map<std::string, double> look(Diagnosis& slab, std::vector<AnyEnsemble*> const& all, Box const& box,
@@ -166,4 +166,4 @@ TEST(Slab, IsInTheCatalogue) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::slab_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::smooth_field_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -369,4 +369,4 @@ TEST(FieldWaves, NeedPeriodsAndNumbers) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::smooth_field_test

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::smooth_pictures_test {
 namespace {
 
 /// A lattice of particles in a box, 20 along each side, denser by their masses in the half x < 10; atoms have no range.
@@ -145,4 +145,4 @@ TEST(SmoothPictures, MistakesInOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::smooth_pictures_test

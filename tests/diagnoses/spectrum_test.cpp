@@ -2,6 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/diagnoses/spectrum.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@
 #include <string>
 #include <thread>
 
-namespace boltzmann {
+namespace boltzmann::spectrum_test {
 namespace {
 
 using std::numbers::pi;
@@ -48,16 +49,8 @@ double peak(Spectrum const& s) {
   return s.frequency[static_cast<std::size_t>(highest - s.density.begin())];
 }
 
-std::string error_of(std::function<void()> const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no Error";
-}
 void expect_error(std::function<void()> const& action, std::string const& part) {
-  std::string const line = error_of(action);
+  std::string const line = message(action);
   EXPECT_NE(line.find(part), std::string::npos) << line;
 }
 
@@ -292,4 +285,4 @@ TEST(SampleUniformly, WrongInput) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::spectrum_test

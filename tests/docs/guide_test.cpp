@@ -1,82 +1,78 @@
 // The guide's programs compile, run and keep what they promise; its scenarios pass `bzm check`.
+#include "../bzm/command.hpp"
+
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <ostream>
 #include <string>
 #include <vector>
 
+namespace boltzmann::guide_test {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// A block of the guide: ```cpp program or ```toml scenario.
 struct Block {
-  std::string page, kind, text;
+  std::string name;  ///< the page's and which of its blocks it is
+  std::string text;
 };
+void PrintTo(Block const& block, std::ostream* out) { *out << block.name; }
 
-std::vector<Block> blocks() {
+std::vector<Block> blocks(std::string const& beginning) {
   std::vector<Block> all;
   for (auto const& page : fs::directory_iterator(std::string(BOLTZMANN_SOURCE) + "/docs/guide")) {
     if (page.path().extension() != ".md") continue;
     std::ifstream file(page.path());
-    std::string line, text, kind;
-    while (std::getline(file, line)) {
-      if (kind.empty()) {
-        if (line == "```cpp program") kind = "program";
-        if (line == "```toml scenario") kind = "scenario";
-      } else if (line == "```") {
-        all.push_back({page.path().stem().string(), kind, text});
-        kind.clear();
-        text.clear();
-      } else {
-        text += line + "\n";
-      }
+    int count = 0;
+    for (std::string line; std::getline(file, line);) {
+      if (line != beginning) continue;
+      Block block{page.path().stem().string() + "_" + std::to_string(++count), ""};
+      std::replace(block.name.begin(), block.name.end(), '-', '_');
+      while (std::getline(file, line) && line != "```") block.text += line + "\n";
+      all.push_back(block);
     }
   }
+  std::sort(all.begin(), all.end(), [](Block const& a, Block const& b) { return a.name < b.name; });
   return all;
 }
 
-fs::path folder() {
-  fs::path const path = fs::temp_directory_path() / ("boltzmann-guide-" + std::to_string(getpid()));
-  fs::create_directories(path);
-  return path;
+auto const name_of = [](testing::TestParamInfo<Block> const& info) { return info.param.name; };
+
+class GuideProgram : public testing::TestWithParam<Block> {};
+INSTANTIATE_TEST_SUITE_P(Guide, GuideProgram, testing::ValuesIn(blocks("```cpp program")), name_of);
+
+TEST_P(GuideProgram, CompilesAndRuns) {
+  test::Folder const folder;
+  test::write_text(folder / "program.cpp", GetParam().text);
+  auto const since = std::chrono::steady_clock::now();
+  auto const built = test::bzm({"build", "program.cpp", "-o", "program"}, folder.string());
+  ASSERT_EQ(built.status, 0) << built.err;
+  double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+  std::printf("[ COMPILE  ] %.1f s\n", seconds);
+  auto const run = test::Process({(folder / "program").string()}, folder.string()).wait();
+  EXPECT_EQ(run.status, 0) << run.err;
 }
 
-std::string const bzm = std::string(BOLTZMANN_BUILD) + "/bzm";
+class GuideScenario : public testing::TestWithParam<Block> {};
+INSTANTIATE_TEST_SUITE_P(Guide, GuideScenario, testing::ValuesIn(blocks("```toml scenario")), name_of);
 
-TEST(Guide, ProgramsCompileAndRun) {
-  int programs = 0;
-  for (auto const& block : blocks()) {
-    if (block.kind != "program") continue;
-    auto const source = folder() / (block.page + std::to_string(++programs) + ".cpp");
-    std::ofstream(source) << block.text;
-    auto const program = source.parent_path() / source.stem();
-    auto const since = std::chrono::steady_clock::now();
-    ASSERT_EQ(std::system((bzm + " build " + source.string() + " -o " + program.string() + " > /dev/null").c_str()), 0)
-        << block.page;
-    double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
-    std::printf("[ COMPILE  ] %s: %.1f s\n", source.filename().c_str(), seconds);
-    EXPECT_EQ(std::system(("cd " + folder().string() + " && " + program.string()).c_str()), 0) << block.page;
-  }
-  EXPECT_GE(programs, 3);
+TEST_P(GuideScenario, IsRight) {
+  test::Folder const folder;
+  test::write_text(folder / "scenario.toml", GetParam().text);
+  auto const checked = test::bzm({"check", "scenario.toml"}, folder.string());
+  EXPECT_EQ(checked.status, 0) << checked.err;
 }
 
-TEST(Guide, ScenariosAreRight) {
-  int scenarios = 0;
-  for (auto const& block : blocks()) {
-    if (block.kind != "scenario") continue;
-    auto const file = folder() / (block.page + std::to_string(++scenarios) + ".toml");
-    std::ofstream(file) << block.text;
-    EXPECT_EQ(std::system((bzm + " check " + file.string()).c_str()), 0) << block.page;
-  }
-  EXPECT_GE(scenarios, 1);
-  fs::remove_all(folder());
+TEST(Guide, HasProgramsAndScenarios) {
+  EXPECT_GE(blocks("```cpp program").size(), 3u);
+  EXPECT_GE(blocks("```toml scenario").size(), 1u);
 }
 
 }  // namespace
+}  // namespace boltzmann::guide_test

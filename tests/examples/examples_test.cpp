@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::examples_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -62,8 +62,7 @@ class Example {
                    std::vector<std::string> const& files = {"trajectory.h5", "checkpoint.h5", "picture.png"},
                    std::vector<std::string> const& words = {}) {
     std::string const program = std::string(BOLTZMANN_BUILD) + "/examples/" + name;
-    built_ = test::fs::exists(program);
-    if (!built_) return;
+    EXPECT_TRUE(test::fs::exists(program)) << "there is no example " << name;
     std::vector<std::string> command{program, "results"};
     command.insert(command.end(), words.begin(), words.end());
     outcome_ = test::Process(command, folder_.string()).wait();
@@ -71,7 +70,6 @@ class Example {
     for (auto const& file : files)
       EXPECT_TRUE(test::fs::exists(path(file)) && test::fs::file_size(path(file)) > 1000) << name << ": " << file;
   }
-  bool built() const { return built_; }
   bool good() const { return outcome_.status == 0; }
   std::string path(std::string const& file) const { return (folder_ / "results" / file).string(); }
   Table diagnoses() const { return Table(test::text_of(path("diagnoses.csv"))); }
@@ -80,14 +78,12 @@ class Example {
 
  private:
   test::Folder folder_;
-  test::Outcome outcome_{};
-  bool built_ = false;
+  test::Outcome outcome_;
 };
 
 // 2000 mass units at (0.4, -0.45): 362.5 units of energy are knocked in. From there on the total is conserved.
 TEST(Examples, CopperConservesTheEnergyOfTheKnock) {
   Example const example("copper");
-  if (!example.built()) GTEST_SKIP() << "examples/copper is not built";
   ASSERT_TRUE(example.good());
   auto const table = example.diagnoses();
   EXPECT_EQ(table.rows, 101u);
@@ -103,7 +99,6 @@ TEST(Examples, CopperConservesTheEnergyOfTheKnock) {
 
 TEST(Examples, ThreeBodiesComeBackAfterOnePeriod) {
   Example const example("three_body");
-  if (!example.built()) GTEST_SKIP() << "examples/three_body is not built";
   ASSERT_TRUE(example.good());
   auto const table = example.diagnoses();
   EXPECT_NEAR(table["total energy"].front(), -1.287141991766, 1e-11);  // published
@@ -126,7 +121,6 @@ TEST(Examples, ThreeBodiesComeBackAfterOnePeriod) {
 
 TEST(Examples, PendulumsConserveEnergyAndExchangeIt) {
   Example const example("pendulums");
-  if (!example.built()) GTEST_SKIP() << "examples/pendulums is not built";
   ASSERT_TRUE(example.good());
   auto const table = example.diagnoses();
   EXPECT_EQ(table["kinetic energy"].front(), 0);
@@ -149,7 +143,6 @@ TEST(Examples, PendulumsConserveEnergyAndExchangeIt) {
 
 TEST(Examples, RodConservesEnergyAndFollowsItsModes) {
   Example const example("rod");
-  if (!example.built()) GTEST_SKIP() << "examples/rod is not built";
   ASSERT_TRUE(example.good());
   double const spacing = 0.05, mass = spacing * 8.96e3, stiffness = 120e9 / spacing;
   auto const trajectory = example.trajectory();
@@ -195,7 +188,6 @@ TEST(Examples, RodConservesEnergyAndFollowsItsModes) {
 
 TEST(Examples, AtmosphereStaysIsothermalAndExponential) {
   Example const example("atmosphere");
-  if (!example.built()) GTEST_SKIP() << "examples/atmosphere is not built";
   ASSERT_TRUE(example.good());
   auto const table = example.diagnoses();
   double const energy = table["kinetic energy"].front() + table["external energy"].front();
@@ -231,7 +223,6 @@ TEST(Examples, AtmosphereStaysIsothermalAndExponential) {
 // Circle theorem: w(z) = sum of Gamma/(2 pi i) ln of z less each line; the stream function is constant on every track.
 TEST(Examples, CylinderHasSymmetricalTracksThatDoNotEnterIt) {
   Example const example("cylinder");
-  if (!example.built()) GTEST_SKIP() << "examples/cylinder is not built";
   ASSERT_TRUE(example.good());
   auto const trajectory = example.trajectory();
   int const rows = 6, columns = 20;
@@ -279,7 +270,6 @@ double printed_after(std::string const& output, std::string const& text, std::si
 
 TEST(Examples, TwoStreamsGrowAndConserve) {
   Example const example("two_stream");
-  if (!example.built()) GTEST_SKIP() << "examples/two_stream is not built";
   ASSERT_TRUE(example.good());
   auto const table = example.diagnoses();
   EXPECT_EQ(table.rows, 121u);
@@ -292,7 +282,6 @@ TEST(Examples, TwoStreamsGrowAndConserve) {
 
 TEST(Examples, LandauPrintsWhatTheoryHas) {
   Example const example("landau");
-  if (!example.built()) GTEST_SKIP() << "examples/landau is not built";
   ASSERT_TRUE(example.good());
   EXPECT_NEAR(printed_after(example.out(), "frequency "), 1.415662, 0.02 * 1.415662);
   EXPECT_NEAR(printed_after(example.out(), "damping "), 0.153359, 0.03 * 0.153359);
@@ -300,7 +289,6 @@ TEST(Examples, LandauPrintsWhatTheoryHas) {
 
 TEST(Examples, ColdBeamsPrintWhatTheoryHas) {
   Example const example("cold_beams");
-  if (!example.built()) GTEST_SKIP() << "examples/cold_beams is not built";
   ASSERT_TRUE(example.good());
   auto const growth = [&](std::string const& run) {
     return printed_after(example.out(), "growth ", example.out().find("k v0 = " + run));
@@ -313,7 +301,6 @@ TEST(Examples, ColdBeamsPrintWhatTheoryHas) {
 TEST(Examples, PlasmasStayInEquilibrium) {
   for (char const* name : {"langmuir", "electron_gas_2d"}) {
     Example const example(name);
-    if (!example.built()) GTEST_SKIP() << "examples/" << name << " is not built";
     ASSERT_TRUE(example.good());
     auto const table = example.diagnoses();
     EXPECT_EQ(table.rows, name == std::string("langmuir") ? 401u : 201u);
@@ -324,7 +311,6 @@ TEST(Examples, PlasmasStayInEquilibrium) {
 
 TEST(Examples, OwnStagesOfAMeshAreTheBuiltInOnes) {
   Example const example("own_mesh_stages");
-  if (!example.built()) GTEST_SKIP() << "examples/own_mesh_stages is not built";
   ASSERT_TRUE(example.good());
   EXPECT_LT(printed_after(example.out(), "differ by "), 1e-12);
   auto const table = example.diagnoses();
@@ -342,7 +328,6 @@ TEST(Examples, GasesPrintWhatTheoryHas) {
                                  {"free_expansion_1d", "range 16: entropy / N k gained: sum ", 0.55, 0.05},
                                  {"free_expansion", "with fluctuations      sum ", 1.150, 0.03}}) {
     Example const example(promise.example);
-    if (!example.built()) GTEST_SKIP() << "examples/" << promise.example << " is not built";
     ASSERT_TRUE(example.good());
     EXPECT_NEAR(printed_after(example.out(), promise.before), promise.exact, promise.relative * promise.exact)
         << promise.example;
@@ -367,7 +352,6 @@ TEST(Examples, GasesPrintWhatTheoryHas) {
 
 TEST(Examples, FluidsOfLumpsHaveThePublishedPressureAndDiffusion) {
   Example const example("dpd_fluid", {"checkpoint.h5", "picture.png"});
-  if (!example.built()) GTEST_SKIP() << "examples/dpd_fluid is not built";
   ASSERT_TRUE(example.good());
   EXPECT_NEAR(printed_after(example.out(), "temperature "), 1, 0.02);
   EXPECT_NEAR(printed_after(example.out(), "pressure "), 23.65, 0.02 * 23.65);
@@ -376,7 +360,6 @@ TEST(Examples, FluidsOfLumpsHaveThePublishedPressureAndDiffusion) {
 
 TEST(Examples, MesoparticlesHaveOneTemperature) {
   Example const example("dpde_equilibrium");
-  if (!example.built()) GTEST_SKIP() << "examples/dpde_equilibrium is not built";
   ASSERT_TRUE(example.good());
   double const inside = printed_after(example.out(), "harmonic mean of internal ");
   EXPECT_NEAR(printed_after(example.out(), "temperature of motion "), inside, 0.02 * inside);
@@ -387,7 +370,6 @@ TEST(Examples, MesoparticlesHaveOneTemperature) {
 
 TEST(Examples, ShocksInPolymersHeatTheMotionFirst) {
   Example const example("pvdf_shock", {"coupled/picture.png", "coupled/profile.png", "uncoupled/trajectory.h5"});
-  if (!example.built()) GTEST_SKIP() << "examples/pvdf_shock is not built";
   ASSERT_TRUE(example.good());
   Table const coupled(test::text_of(example.path("coupled/diagnoses.csv")));
   Table const uncoupled(test::text_of(example.path("uncoupled/diagnoses.csv")));
@@ -403,7 +385,6 @@ TEST(Examples, ShocksInPolymersHeatTheMotionFirst) {
 
 TEST(Examples, HugoniotsAreLines) {
   Example const example("hugoniot", {"2000/picture.png"});
-  if (!example.built()) GTEST_SKIP() << "examples/hugoniot is not built";
   ASSERT_TRUE(example.good());
   EXPECT_NEAR(printed_after(example.out(), "     2000 "), 7063, 0.04 * 7063);
   EXPECT_NEAR(printed_after(example.out(), "m/s + "), 1.88, 0.15);
@@ -417,7 +398,6 @@ TEST(Examples, HugoniotsAreLines) {
 
 TEST(Examples, LatticesHaveTheDensitiesOfTheTable) {
   Example const example("lattice_density", {});
-  if (!example.built()) GTEST_SKIP() << "examples/lattice_density is not built";
   EXPECT_NE(example.out().find("3.0 0.9972993827 1.0030864198 0.9980326487 1.0029300344  0.997898"), std::string::npos)
       << example.out();
 }
@@ -425,7 +405,6 @@ TEST(Examples, LatticesHaveTheDensitiesOfTheTable) {
 TEST(Examples, LiquidsAndSolidsDoWhatTheySay) {
   for (char const* name : {"cavitation", "penetration"}) {
     Example const example(name);
-    if (!example.built()) GTEST_SKIP() << "examples/" << name << " is not built";
     ASSERT_TRUE(example.good());
     auto const table = example.diagnoses();
     EXPECT_LT(table.drift("total energy"), 1e-3 * table["kinetic energy"].front()) << name;
@@ -440,7 +419,6 @@ TEST(Examples, LiquidsAndSolidsDoWhatTheySay) {
 // A window that nobody looks at: the run is that of a program without one.
 TEST(Examples, AWindowHoldsNothingUp) {
   Example const example("window", {"trajectory.h5", "checkpoint.h5", "picture.png"}, {"--play"});
-  if (!example.built()) GTEST_SKIP() << "examples/window is not built";
   ASSERT_TRUE(example.good());
   EXPECT_NE(example.out().find("window: http://127.0.0.1:"), std::string::npos);
   EXPECT_FALSE(test::fs::exists(example.path("window.txt")));
@@ -458,4 +436,4 @@ TEST(ExampleSources, CopperFitsOnAPage) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::examples_test

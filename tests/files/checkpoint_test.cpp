@@ -1,7 +1,6 @@
 // Checkpoints: every bit comes back, and no damaged file does.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,10 +18,10 @@
 #include <limits>
 #include <random>
 
+#include "../small_disk.hpp"
 #include "temporary_folder.hpp"
 
-using namespace boltzmann;
-
+namespace boltzmann::checkpoint_test {
 namespace {
 
 void put(std::string const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
@@ -177,7 +176,8 @@ TEST(Checkpoint, FailedWritesLeaveTheOldOne) {
   TemporaryFolder const folder;
   EXPECT_EQ(message([&] { write_checkpoint(folder / "no/c.h5", {}); }),
             folder / "no/c.h5.part" + ": can't open it for writing: No such file or directory");
-  if (mount("tmpfs", folder.path.c_str(), "tmpfs", 0, "size=600k") != 0) GTEST_SKIP() << "mounting is refused here";
+  test::SmallDisk const disk(folder.path, "600k");
+  ASSERT_TRUE(disk.mounted()) << test::SmallDisk::refused;
   Checkpoint good = example(), large = example();
   large.ensembles.push_back({"many", "Newton", 20000, 8, std::vector<double>(160000, 1.0)});
   write_checkpoint(folder / "c.h5", good);
@@ -185,7 +185,6 @@ TEST(Checkpoint, FailedWritesLeaveTheOldOne) {
   std::string const later = message([&] { expect_same(read_checkpoint(folder / "c.h5"), good); });
   bool const part = std::filesystem::exists(folder / "c.h5.part");
   std::string const again = message([&] { write_checkpoint(folder / "c.h5", good); });
-  umount(folder.path.c_str());
   EXPECT_EQ(text, folder / "c.h5.part" + ": can't be written: No space left on device");
   EXPECT_EQ(later, "no error");
   EXPECT_FALSE(part);
@@ -235,3 +234,4 @@ TEST(Checkpoint, KilledWritersAlwaysLeaveAGoodOne) {
 }
 
 }  // namespace
+}  // namespace boltzmann::checkpoint_test

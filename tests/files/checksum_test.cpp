@@ -11,6 +11,7 @@
 
 #include "temporary_folder.hpp"
 
+namespace boltzmann::checksum_test {
 namespace {
 
 TEST(Checksum, HasThePublishedCheckValueOfCrc64) {
@@ -55,3 +56,4 @@ TEST(Checksum, AgreesWithWhatHdf5PutsBehindItsSuperblock) {
 }
 
 }  // namespace
+}  // namespace boltzmann::checksum_test

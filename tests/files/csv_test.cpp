@@ -12,8 +12,7 @@
 
 #include "temporary_folder.hpp"
 
-using namespace boltzmann;
-
+namespace boltzmann::csv_test {
 namespace {
 
 void put(std::string const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
@@ -148,3 +147,4 @@ TEST(Csv, FullDiskIsOneErrorLine) {
 }
 
 }  // namespace
+}  // namespace boltzmann::csv_test

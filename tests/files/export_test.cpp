@@ -13,8 +13,7 @@
 
 #include "temporary_folder.hpp"
 
-using namespace boltzmann;
-
+namespace boltzmann::export_test {
 namespace {
 
 BoxEdges box_2d() {
@@ -113,3 +112,4 @@ TEST(Export, FullDiskIsOneErrorLine) {
 }
 
 }  // namespace
+}  // namespace boltzmann::export_test

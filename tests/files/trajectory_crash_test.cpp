@@ -1,7 +1,6 @@
 // Trajectories of runs that are killed, stopped or out of disk: every frame that was written can be read.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -15,10 +14,10 @@
 #include <chrono>
 #include <random>
 
+#include "../small_disk.hpp"
 #include "temporary_folder.hpp"
 
-using namespace boltzmann;
-
+namespace boltzmann::trajectory_crash_test {
 namespace {
 
 // Position and velocity of particle i at a step.
@@ -149,7 +148,8 @@ TEST(TrajectoryCrash, ReadersSeeAWholeFileWheneverTheRunPauses) {
 TEST(TrajectoryCrash, FullDiskIsOneErrorAndKeepsTheFramesBefore) {
   TemporaryFolder const folder;
   for (std::size_t const size : {2, 300, 5000}) {
-    if (mount("tmpfs", folder.path.c_str(), "tmpfs", 0, "size=1m") != 0) GTEST_SKIP() << "mounting is refused here";
+    test::SmallDisk const disk(folder.path, "1m");
+    ASSERT_TRUE(disk.mounted()) << test::SmallDisk::refused;
     std::string const path = folder / "t.h5";
     std::size_t written = 0;
     std::string text, again;
@@ -164,7 +164,6 @@ TEST(TrajectoryCrash, FullDiskIsOneErrorAndKeepsTheFramesBefore) {
       EXPECT_EQ(file.frames(), written);
     }
     std::string const reading = message([&] { readable = good_frames(path, size); });
-    umount(folder.path.c_str());
     EXPECT_TRUE(text.starts_with(path + ": ")) << text;
     EXPECT_NE(text.find("No space left on device"), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
@@ -224,3 +223,4 @@ TEST(TrajectoryCrash, ManySmallFramesAreCheap) {
 }
 
 }  // namespace
+}  // namespace boltzmann::trajectory_crash_test

@@ -1,4 +1,4 @@
-// Trajectories in the hands of other programs: h5py and MDAnalysis (where they are installed), also after a kill.
+// Trajectories in the hands of other programs: h5py and MDAnalysis, also after a kill.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -12,8 +12,7 @@
 
 #include "temporary_folder.hpp"
 
-using namespace boltzmann;
-
+namespace boltzmann::trajectory_readers_test {
 namespace {
 
 // Seven frames in a run that is then killed: particle 1 moves with x = step, v = -step; the box grows.
@@ -54,7 +53,7 @@ std::string unit_known(Dimension d) {
 
 TEST(TrajectoryReaders, H5pyOpensTheFileOfAKilledRun) {
   TemporaryFolder const folder;
-  if (!python("import h5py", folder.path)) GTEST_SKIP() << "h5py is not installed";
+  ASSERT_TRUE(python("import h5py", folder.path)) << "h5py is needed (Debian: apt-get install python3-h5py)";
   write_and_die<2>(folder / "t.h5", true, unit_known);
   EXPECT_TRUE(python(R"(
 import h5py
@@ -78,7 +77,8 @@ assert f['particles/none/position/value'].shape == (7, 0, 3)
 
 TEST(TrajectoryReaders, MdanalysisReadsEveryDimensionWithAndWithoutUnits) {
   TemporaryFolder const folder;
-  if (!python("import MDAnalysis, h5py", folder.path)) GTEST_SKIP() << "MDAnalysis is not installed";
+  ASSERT_TRUE(python("import MDAnalysis, h5py", folder.path))
+      << "MDAnalysis is needed (Debian: apt-get install python3-mdanalysis python3-h5py)";
   write_and_die<3>(folder / "periodic.h5", true, unit_known);
   write_and_die<2>(folder / "plane.h5", true, unit_known);
   write_and_die<1>(folder / "line.h5", false, {});
@@ -110,3 +110,4 @@ assert load('line.h5', convert_units=False)[1].dimensions is None
 }
 
 }  // namespace
+}  // namespace boltzmann::trajectory_readers_test

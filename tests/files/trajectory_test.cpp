@@ -17,8 +17,7 @@
 
 #include "temporary_folder.hpp"
 
-using namespace boltzmann;
-
+namespace boltzmann::trajectory_test {
 namespace {
 
 std::vector<std::uint64_t> bits(std::vector<double> const& values) {
@@ -360,3 +359,4 @@ TEST(Trajectory, ErrorsAreOneLine) {
 }
 
 }  // namespace
+}  // namespace boltzmann::trajectory_test

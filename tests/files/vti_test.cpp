@@ -14,7 +14,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace boltzmann {
+namespace boltzmann::vti_test {
 namespace {
 
 MeshField ramp(std::string name, MeshGrid const& grid, std::size_t components) {
@@ -144,4 +144,4 @@ TEST(MeshFrames, IndexIsWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::vti_test

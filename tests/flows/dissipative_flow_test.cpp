@@ -25,7 +25,7 @@
 #include <memory>
 #include <sstream>
 
-namespace boltzmann {
+namespace boltzmann::dissipative_flow_test {
 namespace {
 
 enum class Kind { order_free, corrector, splitting, metropolis };
@@ -780,12 +780,12 @@ TEST(DissipativeFlow, Advice) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::dissipative_flow_test
 
 /// With --numbers THREADS: prints what comes out with the instruction set that the environment names.
 int main(int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "--numbers") {
-    using namespace boltzmann;
+    using namespace boltzmann::dissipative_flow_test;
     for (Kind const kind : all_kinds) {
       Gas gas(kind, 400, std::stoi(argv[2]));
       gas.simulation.run(5);

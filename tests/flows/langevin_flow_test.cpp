@@ -13,7 +13,7 @@
 
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::langevin_flow_test {
 namespace {
 
 template <class P>
@@ -230,4 +230,4 @@ TEST(LangevinFlow, Errors) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::langevin_flow_test

@@ -14,7 +14,7 @@
 
 #include <memory>
 
-namespace boltzmann {
+namespace boltzmann::order_free_test {
 namespace {
 
 constexpr double tight = 1e-12;
@@ -376,4 +376,4 @@ TEST(OrderFree, MomentumAndEnergyOfAHotGasInASmallPeriodicBox) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::order_free_test

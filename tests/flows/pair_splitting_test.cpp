@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-namespace boltzmann {
+namespace boltzmann::pair_splitting_test {
 namespace {
 
 constexpr double tight = 1e-12;
@@ -435,4 +435,4 @@ TEST(PairSplitting, MetropolisIsRightForGrainsOfManyAtoms) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::pair_splitting_test

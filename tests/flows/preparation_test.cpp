@@ -16,7 +16,7 @@
 
 #include <memory>
 
-namespace boltzmann {
+namespace boltzmann::preparation_test {
 namespace {
 
 /// A cold crystal of soft particles that moves as a whole, rubbed by a flow of its own.
@@ -248,4 +248,4 @@ TEST(Preparation, Errors) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::preparation_test

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <random>
 
-namespace boltzmann {
+namespace boltzmann::integrators_test {
 namespace {
 
 constexpr auto gravity = [](auto const& p, auto const& q) {
@@ -197,4 +197,4 @@ TEST(Integrators, ReversibleLeapFrogRefusesVelocityDependentLaws) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::integrators_test

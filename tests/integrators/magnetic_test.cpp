@@ -16,7 +16,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace boltzmann {
+namespace boltzmann::magnetic_test {
 namespace {
 
 template <int D>
@@ -346,4 +346,4 @@ TEST(Magnetic, MistakesHaveOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::magnetic_test

@@ -14,8 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::by_energy_test {
 namespace {
 
 std::mt19937_64 engine(5);
@@ -262,3 +261,4 @@ TEST(ByEnergy, GivesTheForcesOfTheSchemeByHand) {
 }
 
 }  // namespace
+}  // namespace boltzmann::by_energy_test

@@ -15,8 +15,7 @@
 #include <set>
 #include <string>
 
-using namespace boltzmann;
-
+namespace boltzmann::catalogue_test {
 namespace {
 
 LawParameter const& parameter(std::string_view law, std::string_view name) {
@@ -100,3 +99,4 @@ TEST(LawCatalogue, UnknownNamesAreAnErrorThatHelps) {
 }
 
 }  // namespace
+}  // namespace boltzmann::catalogue_test

@@ -20,8 +20,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::materials_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -656,3 +655,4 @@ TEST(Materials, AUsersOwnIsAPlainStruct) {
 }
 
 }  // namespace
+}  // namespace boltzmann::materials_test

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::mixing_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -226,3 +225,4 @@ TEST(Species, AWrongOneInARunStopsIt) {
 }
 
 }  // namespace
+}  // namespace boltzmann::mixing_test

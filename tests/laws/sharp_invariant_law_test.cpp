@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::sharp_invariant_law_test {
 namespace {
 
 constexpr double k = 0.83, bath = 300;
@@ -113,4 +113,4 @@ TEST(SharpInvariantLaw, FunctionsHaveTemperaturesThatSpanANumber) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::sharp_invariant_law_test

@@ -3,6 +3,7 @@
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/invariant_law.hpp>
 #include <boltzmann/laws/state_law.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::state_law_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -319,15 +320,6 @@ TEST(InvariantLaw, DrawsAreDistributedByIt) {
 
 // ---- what can't be ----
 
-std::string message(auto const& action) {
-  try {
-    action();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(StateLaw, RefusesWhatIsNoHeatCapacity) {
   EXPECT_EQ(message([] { StateLaw(-1.5); }), "state law: the heat capacity must be positive and finite, it is -1.5");
   EXPECT_THROW(StateLaw(0.0), Error);
@@ -371,4 +363,4 @@ TEST(StateLaw, FunctionsWithStepsAndKinksAreTabulatedToo) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::state_law_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::table_test {
 namespace {
 
 double lennard_jones(double r) { return std::pow(r, -12) - 2 * std::pow(r, -6); }
@@ -279,3 +278,4 @@ TEST(Table, RunsConserveEnergy) {
 }
 
 }  // namespace
+}  // namespace boltzmann::table_test

@@ -10,7 +10,7 @@
 #include <functional>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::weight_test {
 namespace {
 
 constexpr WeightShape all_shapes[] = {WeightShape::lucy, WeightShape::wendland, WeightShape::cubic_spline,
@@ -148,4 +148,4 @@ TEST(Weight, NoNumberIsNoWeight) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::weight_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boltzmann {
+namespace boltzmann::filling_test {
 namespace {
 
 TEST(Filling, StretchesToFitInEveryDimension) {
@@ -104,4 +104,4 @@ TEST(Jitter, OfZeroMovesNobodyAndWrongOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::filling_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::internal_energy_load_test {
 namespace {
 
 TEST(InternalEnergyLoad, DrawsFromTheGammaLaw) {
@@ -114,4 +114,4 @@ TEST(InternalEnergyLoad, ClassesWithoutTheFields) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::internal_energy_load_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <map>
 
-namespace boltzmann {
+namespace boltzmann::lattice_test {
 namespace {
 
 /// How many sites are at the shortest distance of each site in the periodic block, and that distance.
@@ -213,4 +213,4 @@ TEST(Fields, EdgeParticlesAreTheFrameOfABlock) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::lattice_test

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::plasma_load_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -309,4 +309,4 @@ TEST(PlasmaScenarios, MistakesHaveOneLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::plasma_load_test

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::random_load_test {
 namespace {
 
 /// The Kolmogorov-Smirnov distance times sqrt(N): below 1.95 with probability 0.999 if the distribution is right. It
@@ -294,4 +294,4 @@ TEST(Gravity, HeavyParticlesLieLower) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::random_load_test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace boltzmann {
+namespace boltzmann::xyz_file_test {
 namespace {
 
 class XyzFile : public testing::Test {
@@ -97,4 +97,4 @@ TEST_F(XyzFile, MistakesNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::xyz_file_test

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::mirror_images_test {
 namespace {
 
 using End = Box::End;
@@ -649,4 +649,4 @@ TEST(WallLists, TheMotionOfWallsIsDisplacementOfAll) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::mirror_images_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::neighbourhood_test {
 namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -184,4 +184,4 @@ TEST(Neighbourhood, NobodyHasNeighboursAlone) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::neighbourhood_test

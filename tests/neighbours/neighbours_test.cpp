@@ -20,20 +20,23 @@
 #include <string>
 #include <vector>
 
+namespace boltzmann::neighbours_test {
 namespace {
 std::size_t largest_allocation = 0;
 }
+}  // namespace boltzmann::neighbours_test
 
 // Watches how much memory is asked for at once.
 [[gnu::noinline]] void* operator new(std::size_t size) {
-  largest_allocation = std::max(largest_allocation, size);
+  auto& largest = boltzmann::neighbours_test::largest_allocation;
+  largest = std::max(largest, size);
   if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
   throw std::bad_alloc();
 }
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
-namespace boltzmann {
+namespace boltzmann::neighbours_test {
 namespace {
 
 // ---- cells --------------------------------------------------------------------------------------------------------
@@ -621,4 +624,4 @@ TEST(Connections, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::neighbours_test

@@ -17,11 +17,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::ensemble_test {
 namespace {
 
 // Classes of a user's own: new fields in 1D, 2D and 3D.
@@ -63,15 +64,95 @@ struct Dye : Euler<D, Real> {
   }
 };
 
-template <class P>
-class EnsembleOf : public testing::Test {};
+/// A field as the class's own member.
+struct Member {
+  char const* name;
+  double* first;
+  int components;
+};
+template <int D>
+Member member(char const* name, Vector<D>& x) {
+  return {name, x.component, D};
+}
+Member member(char const* name, double& x) { return {name, &x, 1}; }
 
-using Classes =
-    testing::Types<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>, Laplace<2>,
-                   Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>, Kepler<3>, Tethered<1>,
-                   Tethered<2>, Tethered<3>, Euler<1>, Euler<2>, Euler<3>, Vortex<2>, Vortex<3>, Inviscid<2>,
-                   Inviscid<3>, Viscous<2>, Viscous<3>, Pendulum<>, Grain<>, Ion<>, Dye<1>, Dye<2>, Dye<3>>;
-TYPED_TEST_SUITE(EnsembleOf, Classes);
+/// Every member that one of the classes has, of particle i.
+template <class P>
+std::vector<Member> members(AnyEnsemble& ensemble, std::size_t i) {
+  P& p = static_cast<Ensemble<P>&>(ensemble)[i];
+  std::vector<Member> all{member("position", p.position)};
+  if constexpr (requires { p.mass; }) all.push_back(member("mass", p.mass));
+  if constexpr (requires { p.velocity; }) all.push_back(member("velocity", p.velocity));
+  if constexpr (requires { p.charge; }) all.push_back(member("charge", p.charge));
+  if constexpr (requires { p.stiffness; }) all.push_back(member("stiffness", p.stiffness));
+  if constexpr (requires { p.anchor; }) all.push_back(member("anchor", p.anchor));
+  if constexpr (requires { p.vorticity; }) all.push_back(member("vorticity", p.vorticity));
+  if constexpr (requires { p.core; }) all.push_back(member("core", p.core));
+  if constexpr (requires { p.viscosity; }) all.push_back(member("viscosity", p.viscosity));
+  if constexpr (requires { p.length; }) all.push_back(member("length", p.length));
+  if constexpr (requires { p.bob_mass; }) all.push_back(member("bob_mass", p.bob_mass));
+  if constexpr (requires { p.pivot; }) all.push_back(member("pivot", p.pivot));
+  if constexpr (requires { p.internal_energy; }) all.push_back(member("internal_energy", p.internal_energy));
+  if constexpr (requires { p.dipole; }) all.push_back(member("dipole", p.dipole));
+  if constexpr (requires { p.colour_charge; }) all.push_back(member("colour_charge", p.colour_charge));
+  if constexpr (requires { p.concentration; }) all.push_back(member("concentration", p.concentration));
+  return all;
+}
+
+/// What the tests do with a class: they are compiled once and not for each.
+struct AnyClass {
+  std::string name;
+  int dimension;
+  std::size_t doubles, influence_size;
+  std::unique_ptr<AnyEnsemble> (*make)(std::string, std::size_t);
+  double* (*first)(AnyEnsemble&);                 ///< of the row where begin() is
+  std::ptrdiff_t (*length)(AnyEnsemble&);         ///< from begin() to end()
+  bool (*consistent)(AnyEnsemble&, std::size_t);  ///< [i] and begin() + i are one particle, whose position is first
+  void (*add)(AnyEnsemble&, std::size_t);         ///< a copy of particle i
+  void (*add_at)(AnyEnsemble&, double);           ///< a particle of zeros but for the first coordinate
+  std::vector<Member> (*members)(AnyEnsemble&, std::size_t);
+};
+
+template <class P>
+AnyClass any_class() {
+  static constexpr auto of = [](AnyEnsemble& e) -> Ensemble<P>& { return static_cast<Ensemble<P>&>(e); };
+  return {.name = P::class_name,
+          .dimension = P::dimension,
+          .doubles = sizeof(P) / sizeof(double),
+          .influence_size = sizeof(typename P::Influence) / sizeof(double),
+          .make = [](std::string name, std::size_t size) -> std::unique_ptr<AnyEnsemble> {
+            return std::make_unique<Ensemble<P>>(std::move(name), size);
+          },
+          .first = [](AnyEnsemble& e) { return &of(e).begin()->position[0]; },
+          .length = [](AnyEnsemble& e) { return of(e).end() - of(e).begin(); },
+          .consistent =
+              [](AnyEnsemble& e, std::size_t i) {
+                return e.row(i) == &of(e)[i].position[0] && static_cast<P*>(of(e).begin() + i) == &of(e)[i];
+              },
+          .add = [](AnyEnsemble& e, std::size_t i) { of(e).add(of(e)[i]); },
+          .add_at =
+              [](AnyEnsemble& e, double x) {
+                P p{};
+                p.position[0] = x;
+                of(e).add(p);
+              },
+          .members = members<P>};
+}
+
+template <class... P>
+std::vector<AnyClass> all_of() {
+  return {any_class<P>()...};
+}
+
+class EnsembleOf : public testing::TestWithParam<AnyClass> {};
+INSTANTIATE_TEST_SUITE_P(
+    Classes, EnsembleOf,
+    testing::ValuesIn(
+        all_of<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>, Laplace<2>,
+               Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>, Kepler<3>, Tethered<1>,
+               Tethered<2>, Tethered<3>, Euler<1>, Euler<2>, Euler<3>, Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>,
+               Viscous<2>, Viscous<3>, Pendulum<>, Grain<>, Ion<>, Dye<1>, Dye<2>, Dye<3>>()),
+    [](auto const& info) { return info.param.name + std::to_string(info.param.dimension) + "D"; });
 
 /// Every double of row i, the padding too.
 std::vector<double> whole_row(AnyEnsemble const& e, std::size_t i) { return {e.row(i), e.row(i) + e.stride()}; }
@@ -99,119 +180,62 @@ void number(AnyEnsemble& e) {
       e.row(i)[k] = 1000 * static_cast<double>(i + 1) + static_cast<double>(k);
 }
 
-/// The components of a field as a span of doubles.
-double* components_of(double& x) { return &x; }
-template <int D>
-double* components_of(Vector<D>& x) {
-  return x.component;
-}
-constexpr int count_of(double const&) { return 1; }
-template <int D>
-constexpr int count_of(Vector<D> const&) {
-  return D;
-}
-
-TYPED_TEST(EnsembleOf, RowsAreTheUsersStructsIn32Bytes) {
-  using P = TypeParam;
-  Ensemble<P> e("e", 5);
-  EXPECT_EQ(e.dimension(), P::dimension);
-  EXPECT_EQ(e.class_name(), P::class_name);
+TEST_P(EnsembleOf, RowsAreTheUsersStructsIn32Bytes) {
+  auto const& of = GetParam();
+  auto const made = of.make("e", 5);
+  auto& e = *made;
+  EXPECT_EQ(e.dimension(), of.dimension);
+  EXPECT_EQ(e.class_name(), of.name);
   EXPECT_EQ(e.stride() % 4, 0u);
-  EXPECT_EQ(e.doubles(), sizeof(P) / sizeof(double));
+  EXPECT_EQ(e.doubles(), of.doubles);
   EXPECT_GE(e.stride(), e.doubles());
   EXPECT_LT(e.stride(), e.doubles() + 4);
-  EXPECT_EQ(e.influence_size(), sizeof(typename P::Influence) / sizeof(double));
-  EXPECT_EQ(e.end() - e.begin(), 5);
+  EXPECT_EQ(e.influence_size(), of.influence_size);
+  EXPECT_EQ(of.length(e), 5);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(e.row(i)) % 32, 0u);
-    EXPECT_EQ(e.row(i), &e[i].position[0]) << "the position comes first";
-    EXPECT_EQ(static_cast<P*>(e.begin() + i), &e[i]);
+    EXPECT_TRUE(of.consistent(e, i)) << "the position comes first";
     expect_new(e, i);
   }
   EXPECT_EQ(e.field("position").offset, 0);
-  EXPECT_EQ(e.field("position").components, P::dimension);
+  EXPECT_EQ(e.field("position").components, of.dimension);
 }
 
-TYPED_TEST(EnsembleOf, DescriptorsPointAtTheMembers) {
-  using P = TypeParam;
-  Ensemble<P> e("e", 3);
-  std::size_t tested = 0;
+TEST_P(EnsembleOf, DescriptorsPointAtTheMembers) {
+  auto const made = GetParam().make("e", 3);
+  auto& e = *made;
   // Writes through the member, reads through the descriptor.
-  auto const follow = [&](char const* name, auto get) {
-    ++tested;
-    for (std::size_t i = 0; i < e.size(); ++i) {
-      auto& member = get(e[i]);
-      for (int c = 0; c < count_of(member); ++c)
-        components_of(member)[c] = 100.0 * static_cast<double>(tested) + 10.0 * static_cast<double>(i) + c;
-    }
+  auto const written = [](std::size_t k, std::size_t i, int c) {
+    return 100.0 * static_cast<double>(k + 1) + 10.0 * static_cast<double>(i) + c;
+  };
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    auto const members = GetParam().members(e, i);
+    for (std::size_t k = 0; k < members.size(); ++k)
+      for (int c = 0; c < members[k].components; ++c) members[k].first[c] = written(k, i, c);
+  }
+  auto const members = GetParam().members(e, 0);
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    char const* const name = members[k].name;
     Field const* field = e.find_field(name);
     ASSERT_NE(field, nullptr) << name;
-    EXPECT_EQ(field->components, count_of(get(e[0]))) << name;
+    EXPECT_EQ(field->components, members[k].components) << name;
     EXPECT_FALSE(field->doc.empty()) << name;
     for (int c = 0; c < field->components; ++c) {
       auto const column = e.column(*field, c);
       ASSERT_EQ(column.size(), 3u);
       for (std::size_t i = 0; i < 3; ++i) {
-        double const written = 100.0 * static_cast<double>(tested) + 10.0 * static_cast<double>(i) + c;
-        EXPECT_EQ(e.row(i)[field->offset + c], written) << name;
-        EXPECT_EQ(column[i], written) << name;
+        EXPECT_EQ(e.row(i)[field->offset + c], written(k, i, c)) << name;
+        EXPECT_EQ(column[i], written(k, i, c)) << name;
       }
     }
-  };
-  follow(
-      "position", [](auto& p) -> auto& { return p.position; });
-  if constexpr (requires(P p) { p.mass; })
-    follow(
-        "mass", [](auto& p) -> auto& { return p.mass; });
-  if constexpr (requires(P p) { p.velocity; })
-    follow(
-        "velocity", [](auto& p) -> auto& { return p.velocity; });
-  if constexpr (requires(P p) { p.charge; })
-    follow(
-        "charge", [](auto& p) -> auto& { return p.charge; });
-  if constexpr (requires(P p) { p.stiffness; })
-    follow(
-        "stiffness", [](auto& p) -> auto& { return p.stiffness; });
-  if constexpr (requires(P p) { p.anchor; })
-    follow(
-        "anchor", [](auto& p) -> auto& { return p.anchor; });
-  if constexpr (requires(P p) { p.vorticity; })
-    follow(
-        "vorticity", [](auto& p) -> auto& { return p.vorticity; });
-  if constexpr (requires(P p) { p.core; })
-    follow(
-        "core", [](auto& p) -> auto& { return p.core; });
-  if constexpr (requires(P p) { p.viscosity; })
-    follow(
-        "viscosity", [](auto& p) -> auto& { return p.viscosity; });
-  if constexpr (requires(P p) { p.length; })
-    follow(
-        "length", [](auto& p) -> auto& { return p.length; });
-  if constexpr (requires(P p) { p.bob_mass; })
-    follow(
-        "bob_mass", [](auto& p) -> auto& { return p.bob_mass; });
-  if constexpr (requires(P p) { p.pivot; })
-    follow(
-        "pivot", [](auto& p) -> auto& { return p.pivot; });
-  if constexpr (requires(P p) { p.internal_energy; })
-    follow(
-        "internal_energy", [](auto& p) -> auto& { return p.internal_energy; });
-  if constexpr (requires(P p) { p.dipole; })
-    follow(
-        "dipole", [](auto& p) -> auto& { return p.dipole; });
-  if constexpr (requires(P p) { p.colour_charge; })
-    follow(
-        "colour_charge", [](auto& p) -> auto& { return p.colour_charge; });
-  if constexpr (requires(P p) { p.concentration; })
-    follow(
-        "concentration", [](auto& p) -> auto& { return p.concentration; });
-  EXPECT_EQ(tested, e.fields().size()) << "a field without a test";
+  }
+  EXPECT_EQ(members.size(), e.fields().size()) << "a field without a test";
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(all_bytes_zero(e.row(i) + e.doubles(), e.row(i) + e.stride()));
 }
 
-TYPED_TEST(EnsembleOf, ResizeKeepsOldRowsAndMakesNewOnesZero) {
-  using P = TypeParam;
-  Ensemble<P> e("e", 3);
+TEST_P(EnsembleOf, ResizeKeepsOldRowsAndMakesNewOnesZero) {
+  auto const made = GetParam().make("e", 3);
+  auto& e = *made;
   std::vector<std::vector<double>> old;
   auto const remember = [&] {
     number(e);
@@ -236,30 +260,28 @@ TYPED_TEST(EnsembleOf, ResizeKeepsOldRowsAndMakesNewOnesZero) {
   for (std::size_t i = 2; i < 30; ++i) expect_new(e, i);
 }
 
-TYPED_TEST(EnsembleOf, NobodyIsAnEnsembleToo) {
-  using P = TypeParam;
-  Ensemble<P> e("nobody");
+TEST_P(EnsembleOf, NobodyIsAnEnsembleToo) {
+  auto const made = GetParam().make("nobody", 0);
+  auto& e = *made;
   EXPECT_EQ(e.size(), 0u);
-  EXPECT_EQ(e.begin(), e.end());
+  EXPECT_EQ(GetParam().length(e), 0);
   EXPECT_TRUE(e.column(e.field("position")).empty());
   e.clear_influence();
   e.resize(2);
   e.resize(0);
   EXPECT_EQ(e.size(), 0u);
-  P p{};
-  p.position[0] = 7;
-  e.add(p);
+  GetParam().add_at(e, 7);
   ASSERT_EQ(e.size(), 1u);
-  EXPECT_EQ(e[0].position[0], 7);
+  EXPECT_EQ(*GetParam().first(e), 7);
 }
 
-TYPED_TEST(EnsembleOf, AddAppendsACopyAlsoOfOneOfItsOwn) {
-  using P = TypeParam;
-  Ensemble<P> e("e", 1);
+TEST_P(EnsembleOf, AddAppendsACopyAlsoOfOneOfItsOwn) {
+  auto const made = GetParam().make("e", 1);
+  auto& e = *made;
   number(e);
   auto const first = whole_row(e, 0);
   for (std::size_t n = 1; n < 200; ++n) {
-    e.add(e[0]);  // the memory that it refers to moves now and then
+    GetParam().add(e, 0);  // the memory that it refers to moves now and then
     ASSERT_EQ(e.size(), n + 1);
     ASSERT_EQ(whole_row(e, n), first) << "particle " << n;
   }
@@ -681,4 +703,4 @@ TEST(Inviscid3, StretchingOfManyIsTheDerivativeOfTheirFlow) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::ensemble_test

@@ -16,8 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::rows_test {
 namespace {
 
 template <class P>
@@ -46,6 +45,11 @@ double const* data_of(std::vector<Row<P>> const& rows) {
   return reinterpret_cast<double const*>(rows.data());
 }
 
+/// Not a template, as the tests below are compiled for many classes and widths.
+void expect_same(double packed, double plain, char const* what, std::size_t k, int lane) {
+  EXPECT_EQ(packed, plain) << what << " " << k << " lane " << lane;
+}
+
 template <class P, int W>
 void expect_lanes_are_rows() {
   using Real = Pack<double, W>;
@@ -64,23 +68,26 @@ void expect_lanes_are_rows() {
     for (int lane = 0; lane < W; ++lane) {
       P const& particle = rows[chosen[lane]];
       auto const values = std::bit_cast<std::array<double, doubles>>(particle);
-      for (std::size_t k = 0; k < doubles; ++k)
-        EXPECT_EQ(columns[k][lane], values[k]) << "column " << k << " lane " << lane;
-      for (int d = 0; d < P::dimension; ++d) EXPECT_EQ(packed.position[d][lane], particle.position[d]);
+      for (std::size_t k = 0; k < doubles; ++k) expect_same(columns[k][lane], values[k], "column", k, lane);
+      auto const same = [&](auto const& of_pack, double plain, char const* what, std::size_t k = 0) {
+        expect_same(of_pack[lane], plain, what, k, lane);
+      };
+      auto const same_vectors = [&](auto const& of_pack, auto const& plain, char const* what) {
+        for (int d = 0; d < P::dimension; ++d) same(of_pack[d], plain[d], what, d);
+      };
+      same_vectors(packed.position, particle.position, "position");
       if constexpr (requires { particle.velocity; }) {
-        EXPECT_EQ(packed.mass[lane], particle.mass);
-        for (int d = 0; d < P::dimension; ++d) EXPECT_EQ(packed.velocity[d][lane], particle.velocity[d]);
+        same(packed.mass, particle.mass, "mass");
+        same_vectors(packed.velocity, particle.velocity, "velocity");
       }
-      if constexpr (requires { particle.strength(); }) {
-        EXPECT_EQ(packed.strength()[lane], particle.strength());
-      }
+      if constexpr (requires { particle.strength(); }) same(packed.strength(), particle.strength(), "strength");
       if constexpr (requires { particle.anchor; }) {
-        EXPECT_EQ(packed.stiffness[lane], particle.stiffness);
-        for (int d = 0; d < P::dimension; ++d) EXPECT_EQ(packed.anchor[d][lane], particle.anchor[d]);
+        same(packed.stiffness, particle.stiffness, "stiffness");
+        same_vectors(packed.anchor, particle.anchor, "anchor");
       }
       if constexpr (requires { particle.vorticity; }) {
-        EXPECT_EQ(packed.core[lane], particle.core);
-        EXPECT_EQ(packed.vorticity[0][lane], particle.vorticity[0]);
+        same(packed.core, particle.core, "core");
+        same(packed.vorticity[0], particle.vorticity[0], "vorticity");
       }
     }
   }
@@ -98,7 +105,7 @@ void expect_broadcast_fills_lanes() {
     P const& particle = rows[i];
     auto const values = std::bit_cast<std::array<double, doubles>>(particle);
     for (std::size_t k = 0; k < doubles; ++k)
-      for (int lane = 0; lane < W; ++lane) EXPECT_EQ(columns[k][lane], values[k]);
+      for (int lane = 0; lane < W; ++lane) expect_same(columns[k][lane], values[k], "column", k, lane);
   }
 }
 
@@ -114,17 +121,20 @@ TYPED_TEST(RowsOf, BroadcastFillsEveryLane) {
   expect_broadcast_fills_lanes<TypeParam, 8>();
 }
 
-TYPED_TEST(RowsOf, RowsAreWholeBlocksOf32Bytes) {
-  EXPECT_EQ(sizeof(Row<TypeParam>) % 32, 0U);
-  EXPECT_EQ(row_stride<TypeParam> % 4, 0U);
-  EXPECT_GE(row_stride<TypeParam>, row_doubles<TypeParam>);
-  EXPECT_LT(row_stride<TypeParam>, row_doubles<TypeParam> + 4);
-  EXPECT_EQ((rebind_t<rebind_t<TypeParam, Pack<double, 4>>, double>::dimension), TypeParam::dimension);
+void expect_whole_blocks(std::size_t bytes, std::size_t stride, std::size_t doubles) {
+  EXPECT_EQ(bytes % 32, 0U);
+  EXPECT_EQ(stride % 4, 0U);
+  EXPECT_GE(stride, doubles);
+  EXPECT_LT(stride, doubles + 4);
 }
 
-TYPED_TEST(RowsOf, FieldTableNamesEveryDouble) {
-  auto const fields = TypeParam::template fields<TypeParam>().fields;
-  std::vector<bool> named(row_doubles<TypeParam>, false);
+TYPED_TEST(RowsOf, RowsAreWholeBlocksOf32Bytes) {
+  expect_whole_blocks(sizeof(Row<TypeParam>), row_stride<TypeParam>, row_doubles<TypeParam>);
+  static_assert(rebind_t<rebind_t<TypeParam, Pack<double, 4>>, double>::dimension == TypeParam::dimension);
+}
+
+void expect_every_double_named(std::vector<Field> const& fields, std::size_t doubles) {
+  std::vector<bool> named(doubles, false);
   for (auto const& field : fields)
     for (int c = 0; c < field.components; ++c) {
       auto const k = static_cast<std::size_t>(field.offset + c);
@@ -134,6 +144,10 @@ TYPED_TEST(RowsOf, FieldTableNamesEveryDouble) {
     }
   for (std::size_t k = 0; k < named.size(); ++k) EXPECT_TRUE(named[k]) << "double " << k << " has no name";
   EXPECT_EQ(fields.front().name, "position");
+}
+
+TYPED_TEST(RowsOf, FieldTableNamesEveryDouble) {
+  expect_every_double_named(TypeParam::template fields<TypeParam>().fields, row_doubles<TypeParam>);
 }
 
 /// A class of a user's own, by the number type alone.
@@ -153,3 +167,4 @@ TEST(RowsOfAUsersClass, LanesAreRows) {
 }
 
 }  // namespace
+}  // namespace boltzmann::rows_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace boltzmann {
+namespace boltzmann::atmosphere_test {
 namespace {
 
 TEST(Atmosphere, StaysExponential) {
@@ -48,4 +48,4 @@ TEST(Atmosphere, StaysExponential) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::atmosphere_test

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::cavitation_test {
 namespace {
 
 // In units of the critical density and temperature, six degrees of freedom.
@@ -177,4 +177,4 @@ TEST(Cavitation, ScenarioConservesEnergy) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::cavitation_test

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::cold_beams_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -104,4 +104,4 @@ TEST(ColdBeams, TheShippedRunGrowsAndTurns) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::cold_beams_test

@@ -18,7 +18,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace boltzmann {
+namespace boltzmann::convection_test {
 namespace {
 
 /// A layer of height 1, one pair of rolls wide. The mean temperature, the gas constant (P + stiffness = rho T) and the
@@ -172,4 +172,4 @@ TEST(Convection, ScenarioMeasuresNusseltsNumber) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::convection_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::copper_test {
 namespace {
 
 // Triangular lattice, spacing r0, cut-off 3 r0: shells of 6 at 1, 6 at sqrt 3, 6 at 2, 12 at sqrt 7 (the shell at 3 is
@@ -65,4 +65,4 @@ TEST(Copper, TheLargeCrystalKeepsItsEnergyToo) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::copper_test

@@ -8,7 +8,7 @@
 
 #include <complex>
 
-namespace boltzmann {
+namespace boltzmann::cylinder_test {
 namespace {
 
 struct Line {
@@ -104,4 +104,4 @@ TEST(Cylinder, NoFlowThroughTheCylinderAndTheCircleTheoremAlongIt) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::cylinder_test

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <optional>
 
-namespace boltzmann {
+namespace boltzmann::dam_break_test {
 namespace {
 
 /// Water that can't be compressed, once the wall at x = 1 is gone, floor at 0, free surface at 2, density and gravity
@@ -151,4 +151,4 @@ TEST(DamBreak, ScenarioRuns) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::dam_break_test

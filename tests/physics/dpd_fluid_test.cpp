@@ -15,7 +15,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::dpd_fluid_test {
 namespace {
 
 constexpr double known_pressure = 23.645, known_diffusion = 0.292;
@@ -82,4 +82,4 @@ TEST_P(DpdFluid, TemperaturePressureAndDiffusion) {
 INSTANTIATE_TEST_SUITE_P(Methods, DpdFluid, testing::Values(FlowMethod::order_free, FlowMethod::pair_splitting));
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::dpd_fluid_test

@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::dpde_equilibrium_test {
 namespace {
 
 struct Case {
@@ -419,4 +419,4 @@ TEST(DpdeDeterministic, TemperaturesMeet) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::dpde_equilibrium_test

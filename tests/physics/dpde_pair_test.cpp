@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::dpde_pair_test {
 namespace {
 
 double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
@@ -395,4 +395,4 @@ TEST(DpdeOrderFree, ACloudWithoutNoiseIsTheOracles) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::dpde_pair_test

@@ -10,7 +10,7 @@
 
 #include <map>
 
-namespace boltzmann {
+namespace boltzmann::electron_gas_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -105,4 +105,4 @@ TEST(ElectronGas, TheShippedRunSettles) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::electron_gas_test

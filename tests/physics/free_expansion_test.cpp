@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::free_expansion_test {
 namespace {
 
 /// n x n particles of mass 1 in the middle of a box four times as large, on a jittered lattice of spacing 1.
@@ -262,4 +262,4 @@ TEST(FreeExpansion1D, AsItIsShipped) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::free_expansion_test

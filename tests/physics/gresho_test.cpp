@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::gresho_test {
 namespace {
 
 constexpr double ratio = 5.0 / 3, base_pressure = 5;
@@ -101,4 +101,4 @@ TEST(Gresho, AsItIsShipped) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::gresho_test

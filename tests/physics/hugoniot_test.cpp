@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::hugoniot_test {
 namespace {
 
 constexpr double area = pvdf::spacing * pvdf::spacing * 0.86602540378443865, rho0 = pvdf::mass / area;
@@ -185,4 +185,4 @@ TEST(Hugoniot, ADrivenShockMeetsTheSamePoint) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::hugoniot_test

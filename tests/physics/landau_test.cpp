@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::landau_test {
 namespace {
 
 // Z by 30-digit arithmetic (erfc), above, on and below the real axis.
@@ -89,4 +89,4 @@ TEST(Landau, TheShippedRunDampsToo) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::landau_test

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::langmuir_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -211,4 +211,4 @@ TEST(Langmuir, TheShippedRunShowsTheBranch) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::langmuir_test

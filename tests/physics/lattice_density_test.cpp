@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::lattice_density_test {
 namespace {
 
 struct Extremes {
@@ -103,4 +103,4 @@ TEST(LatticeDensity, AsItIsShipped) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::lattice_density_test

@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::molten_salt_test {
 namespace {
 
 /// |mean of exp(i G.r)| with G = 2 pi / (half of a cell's edge) along x: 1 for the fcc lattice, 1/sqrt(N) for a liquid.
@@ -57,4 +57,4 @@ TEST(MoltenSalt, BeginsAsACrystalAndMelts) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::molten_salt_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::pendulums_test {
 namespace {
 
 TEST(Pendulums, EnergyIsConserved) {
@@ -57,4 +57,4 @@ TEST(Pendulums, NormalModes) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::pendulums_test

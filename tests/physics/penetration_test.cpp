@@ -16,7 +16,7 @@
 #include <map>
 #include <optional>
 
-namespace boltzmann {
+namespace boltzmann::penetration_test {
 namespace {
 
 using Steel = Elastic<StiffenedGas>;
@@ -256,4 +256,4 @@ TEST(Penetration, ScenarioConservesEnergy) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::penetration_test

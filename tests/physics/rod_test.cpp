@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::rod_test {
 namespace {
 
 TEST(Rod, FollowsTheExactChain) {
@@ -49,4 +49,4 @@ TEST(Rod, FollowsTheExactChain) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::rod_test

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::sedov_test {
 namespace {
 
 constexpr double gamma_of_air = 1.4;
@@ -156,4 +156,4 @@ TEST(Sedov, AsItIsShipped) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::sedov_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::sod_test {
 namespace {
 
 constexpr double end_time = 0.2;
@@ -174,4 +174,4 @@ TEST(Sod, AsItIsShipped) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::sod_test

@@ -11,7 +11,7 @@
 
 #include <numbers>
 
-namespace boltzmann {
+namespace boltzmann::taylor_green_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -96,4 +96,4 @@ TEST(TaylorGreen, AsItIsShipped) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::taylor_green_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace boltzmann {
+namespace boltzmann::three_body_test {
 namespace {
 
 TEST(ThreeBody, Figure8Closes) {
@@ -59,4 +59,4 @@ TEST(ThreeBody, PythagoreanClosestApproach) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::three_body_test

@@ -13,7 +13,7 @@
 
 #include <map>
 
-namespace boltzmann {
+namespace boltzmann::two_stream_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -154,4 +154,4 @@ TEST(TwoStream, ThreeVorticesFromAQuietStart) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::two_stream_test

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::flows_mistakes_test {
 namespace {
 
 using test::Mistake;
@@ -255,4 +255,4 @@ TEST(FlowMistakesInAll, SmoothParticlesAndMeshesHaveNone) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::flows_mistakes_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::flows_test {
 namespace {
 
 using Scenario = std::unique_ptr<ScenarioSimulation>;
@@ -333,4 +333,4 @@ TEST(Flows, AStepTooCoarseForAShockIsWarnedAbout) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::flows_test

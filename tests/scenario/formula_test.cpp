@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::formula_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -167,4 +167,4 @@ TEST(Formula, OfAnyCharactersIsAFormulaOrAMistake) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::formula_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::mistakes_test {
 namespace {
 
 using test::Mistake;
@@ -811,4 +811,4 @@ TEST(Mistakes, OfTheFileSystem) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::mistakes_test

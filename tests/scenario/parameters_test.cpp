@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::parameters_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -368,4 +368,4 @@ TEST(WithValues, RefusesWhatIsNoPlace) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::parameters_test

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::rezone_scenario_test {
 namespace {
 
 // Gas in a tube that flows fastest in the middle.
@@ -149,4 +149,4 @@ TEST(RezoneScenario, FrozenParticlesKeepTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::rezone_scenario_test

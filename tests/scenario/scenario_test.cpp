@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::scenario_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -475,4 +475,4 @@ TEST(ShippedScenario, CylinderIsAStreamline) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::scenario_test

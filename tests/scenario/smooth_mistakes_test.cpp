@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::smooth_mistakes_test {
 namespace {
 
 using test::Mistake;
@@ -427,4 +427,4 @@ TEST(SmoothMistakes, OfTablesInFilesHaveTheFilesPlace) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::smooth_mistakes_test

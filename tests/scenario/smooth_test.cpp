@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::smooth_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -548,4 +548,4 @@ TEST(SmoothScenario, VariableRangesFollowTheDensity) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::smooth_test

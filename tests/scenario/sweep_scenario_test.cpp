@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace boltzmann {
+namespace boltzmann::sweep_scenario_test {
 namespace {
 
 using test::Mistake;
@@ -226,4 +226,4 @@ INSTANTIATE_TEST_SUITE_P(
     test::mistake_name);
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::sweep_scenario_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::views_test {
 namespace {
 
 using test::Mistake;
@@ -182,4 +182,4 @@ TEST(ViewMistakes, OfWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::views_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::walls_scenario_test {
 namespace {
 
 using test::Mistake;
@@ -127,4 +127,4 @@ TEST(WallsScenario, MistakesOfOneWallAreToldTogether) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::walls_scenario_test

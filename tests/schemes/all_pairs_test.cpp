@@ -11,7 +11,7 @@
 #include <cstring>
 #include <random>
 
-namespace boltzmann {
+namespace boltzmann::all_pairs_test {
 namespace {
 
 template <class P>
@@ -200,4 +200,4 @@ TEST(AllPairsOfAScheme, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::all_pairs_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-namespace boltzmann {
+namespace boltzmann::connections_test {
 namespace {
 
 template <int D>
@@ -162,4 +162,4 @@ TEST(ConnectionsOfAScheme, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::connections_test

@@ -16,8 +16,7 @@
 #include <random>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::ewald_test {
 namespace {
 
 constexpr double four_pi = 4 * std::numbers::pi;
@@ -301,3 +300,4 @@ TEST(EwaldShort, ForceIsTheDerivativeOfTheEnergyByDualNumbers) {
 }
 
 }  // namespace
+}  // namespace boltzmann::ewald_test

@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::fast_particles_test {
 namespace {
 
 constexpr auto smooth_law = [](auto const& p, auto const& q) {
@@ -184,4 +184,4 @@ TEST(FastParticles, ABallThroughACrowdOfAnotherEnsemble) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::fast_particles_test

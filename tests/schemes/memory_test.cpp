@@ -12,7 +12,7 @@
 #include <fstream>
 #include <string>
 
-namespace boltzmann {
+namespace boltzmann::memory_test {
 namespace {
 
 /// The largest memory that this process has had, in bytes.
@@ -68,4 +68,4 @@ TEST(Memory, AParticleInListsTakesWhatIsSaid) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::memory_test

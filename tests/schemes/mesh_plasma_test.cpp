@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-using namespace boltzmann;
-using namespace boltzmann::mesh_tests;
-
+namespace boltzmann::mesh_plasma_test {
 namespace {
+
+using namespace boltzmann::mesh_tests;
 
 struct Wave {
   std::size_t cells;  ///< along each axis
@@ -142,3 +142,4 @@ TEST(ColdPlasma, Dispersion3D) {
 }
 
 }  // namespace
+}  // namespace boltzmann::mesh_plasma_test

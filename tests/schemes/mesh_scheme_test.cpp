@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <limits>
 
-using namespace boltzmann;
-using namespace boltzmann::mesh_tests;
-
+namespace boltzmann::mesh_scheme_test {
 namespace {
+
+using namespace boltzmann::mesh_tests;
 
 using enum FieldBoundary;
 constexpr PoissonForm both_forms[] = {PoissonForm::finite_difference, PoissonForm::spectral};
@@ -630,3 +630,4 @@ TEST(MeshOfFew, NoneOneAndTwo) {
 }
 
 }  // namespace
+}  // namespace boltzmann::mesh_scheme_test

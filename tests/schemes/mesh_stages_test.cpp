@@ -7,10 +7,10 @@
 
 #include <algorithm>
 
-using namespace boltzmann;
-using namespace boltzmann::mesh_tests;
-
+namespace boltzmann::mesh_stages_test {
 namespace {
+
+using namespace boltzmann::mesh_tests;
 
 // ---- stages ----
 
@@ -478,3 +478,4 @@ TEST(MeshAdvice, Nobody) {
 }
 
 }  // namespace
+}  // namespace boltzmann::mesh_stages_test

@@ -12,10 +12,10 @@
 #include <limits>
 #include <memory>
 
-using namespace boltzmann;
-using namespace boltzmann::mesh_tests;
-
+namespace boltzmann::mesh_steps_test {
 namespace {
+
+using namespace boltzmann::mesh_tests;
 
 double const nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -484,3 +484,4 @@ TEST(MeshStepsFailures, NotNeutralBetweenRuns) {
 }
 
 }  // namespace
+}  // namespace boltzmann::mesh_steps_test

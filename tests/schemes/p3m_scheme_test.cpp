@@ -8,10 +8,10 @@
 
 #include <memory>
 
-using namespace boltzmann;
-using namespace boltzmann::mesh_tests;
-
+namespace boltzmann::p3m_scheme_test {
 namespace {
+
+using namespace boltzmann::mesh_tests;
 
 constexpr double four_pi = 4 * std::numbers::pi;
 
@@ -348,3 +348,4 @@ TEST(P3MErrors, LostParticle) {
 }
 
 }  // namespace
+}  // namespace boltzmann::p3m_scheme_test

@@ -18,8 +18,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::p3m_tuning_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -393,3 +392,4 @@ TEST(P3mTuning, RefusesWhatCannotBe) {
 }
 
 }  // namespace
+}  // namespace boltzmann::p3m_tuning_test

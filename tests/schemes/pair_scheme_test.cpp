@@ -12,7 +12,7 @@
 
 #include <random>
 
-namespace boltzmann {
+namespace boltzmann::pair_scheme_test {
 namespace {
 
 // A user's own class: a new field, and a law that uses it.
@@ -345,4 +345,4 @@ TEST(PairScheme, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::pair_scheme_test

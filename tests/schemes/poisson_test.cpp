@@ -19,8 +19,7 @@
 #include <random>
 #include <string>
 
-using namespace boltzmann;
-
+namespace boltzmann::poisson_test {
 namespace {
 
 double const pi_ = std::numbers::pi;
@@ -726,3 +725,5 @@ TEST(Poisson, memory_is_known_before) {
   EXPECT_LT(PoissonSolver::bytes_needed(large, {}) + 5 * 8 * large.size(), std::size_t{2} << 30);
 }
 #endif
+
+}  // namespace boltzmann::poisson_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-using namespace boltzmann;
-
+namespace boltzmann::rezone_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -537,3 +536,4 @@ TEST(Rezone, IsTheSameEveryTime) {
 }
 
 }  // namespace
+}  // namespace boltzmann::rezone_test

@@ -13,7 +13,7 @@
 
 #include "../message.hpp"
 
-namespace boltzmann {
+namespace boltzmann::smooth_misuse_test {
 namespace {
 
 /// Fills the unit square with a square lattice of density 1.
@@ -205,4 +205,4 @@ TEST(SmoothMisuse, HeatIsNotSharedWithAMaterialThatKeepsNone) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::smooth_misuse_test

@@ -11,7 +11,7 @@
 
 #include <cstring>
 
-namespace boltzmann {
+namespace boltzmann::smooth_scheme_test {
 namespace {
 
 using Gas = Newtonian<IdealGas>;
@@ -451,4 +451,4 @@ TEST(SmoothScheme, Refusals) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::smooth_scheme_test

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace boltzmann {
+namespace boltzmann::variable_range_test {
 namespace {
 
 /// 40 particles at distance 1, 10 lighter (or the others closer) on the right.
@@ -90,4 +90,4 @@ TEST(VariableRange, EnergyIsConservedAtTheLimit) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::variable_range_test

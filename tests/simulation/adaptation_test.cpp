@@ -19,7 +19,7 @@
 #include <numbers>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::adaptation_test {
 namespace {
 
 void expect_same_bits(AnyEnsemble const& a, AnyEnsemble const& b, std::string const& what) {
@@ -247,4 +247,4 @@ TEST(Adaptation, AnEnsembleMayBecomeEmptyAndFillAgain) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::adaptation_test

@@ -17,7 +17,7 @@
 #include <numbers>
 #include <random>
 
-namespace boltzmann {
+namespace boltzmann::picture_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -548,4 +548,4 @@ TEST(Looking, AtTracksChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::picture_test

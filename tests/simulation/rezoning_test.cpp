@@ -26,7 +26,7 @@
 #include <numbers>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::rezoning_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -375,4 +375,4 @@ TEST(Rezoning, RefusesWhatNeedsNumbersThatStay) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::rezoning_test

@@ -4,13 +4,14 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <tests/message.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <random>
 
-namespace boltzmann {
+namespace boltzmann::simulation_test {
 namespace {
 
 // A liquid that is out of equilibrium: lists are rebuilt often.
@@ -285,12 +286,7 @@ TEST(Simulation, RegionsKeepOutAndIn) {
 
 template <class Thrown>
 std::string message_of(Simulation& simulation, std::uint64_t steps = 1) {
-  try {
-    simulation.run(steps);
-  } catch (Thrown const& failure) {
-    return failure.what();
-  }
-  return "nothing was thrown";
+  return message<Thrown>([&] { simulation.run(steps); });
 }
 
 TEST(Simulation, FailuresNameStepAndParticle) {
@@ -409,4 +405,4 @@ TEST(Simulation, EnsemblesOfSeveralSchemesAddTheirInfluences) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::simulation_test

@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::gallery_test {
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -280,4 +280,4 @@ TEST_F(GalleryTest, PicturesCanBeAskedForMeanwhile) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::gallery_test

@@ -11,9 +11,9 @@
 #include <tests/window/reader.hpp>
 #include <thread>
 
+namespace boltzmann::live_run_test {
 namespace {
 
-using namespace boltzmann;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -471,3 +471,4 @@ TEST(LiveRun, KeepsThePaceThatIsAskedFor) {
 }
 
 }  // namespace
+}  // namespace boltzmann::live_run_test

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace boltzmann {
+namespace boltzmann::page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST(Page, FetchesNothing) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::page_test

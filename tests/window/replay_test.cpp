@@ -13,9 +13,9 @@
 #include <tests/window/reader.hpp>
 #include <thread>
 
+namespace boltzmann::replay_test {
 namespace {
 
-using namespace boltzmann;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -193,3 +193,4 @@ TEST(AddressFile, TellsOfAWindowOnlyWhileItLives) {
 }
 
 }  // namespace
+}  // namespace boltzmann::replay_test

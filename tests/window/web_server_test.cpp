@@ -18,7 +18,7 @@
 #include "tests/message.hpp"
 #include "tests/window/web_client.hpp"
 
-namespace boltzmann {
+namespace boltzmann::web_server_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -1045,4 +1045,4 @@ TEST(WebServer, what_has_been_sent_before_the_end_arrives) {
 }
 
 }  // namespace
-}  // namespace boltzmann
+}  // namespace boltzmann::web_server_test
