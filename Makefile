@@ -30,15 +30,15 @@ $(BUILD)/build.ninja:
 	@$(MAKE) --no-print-directory dependencies
 	cmake --preset release -DBOLTZMANN_SETS=machine -DBOLTZMANN_TESTS=OFF
 
-install_missing = missing=$$(for p in $(1); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
-	if [ -n "$$missing" ]; then echo "installing" $$missing; \
-	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
-
+# Without root the line that installs them is printed, and make stops.
 dependencies:
-	@$(call install_missing,$$(cat dependencies.txt))
+	@packaging/need.sh $$(cat dependencies.txt)
+	@packaging/versions.sh
 
 test-dependencies: dependencies
-	@$(call install_missing,$$(cat tests/dependencies.txt))
+	@packaging/need.sh $$(cat tests/dependencies.txt)
+
+include packaging/package.mk
 
 # After a change of boltzmann/window/web.
 page:
@@ -46,7 +46,7 @@ page:
 
 PREFIX := /usr/local
 install: all-sets
-	$(NINJA) --target boltzmann bzm
+	$(NINJA) --target installable
 	$(SUDO) cmake --install $(BUILD) --prefix $(PREFIX)
 
 bench: all-sets
