@@ -144,7 +144,8 @@ int command_line(int argc, char** argv) {
   sub->add_option("folder", render_options.folder, "the folder of the run")->required();
   sub->add_option("-o,--out", render_options.out,
                   "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
   sub->add_option("--drawing", render_options.drawing,
                   "cartesian, phase-space, histogram, spectrum, time-series, profile, map, contours, bands or mesh");
@@ -186,7 +187,7 @@ int command_line(int argc, char** argv) {
   sub = command("build", "compile a C++ program with the right compiler line, and show the line",
                 [&] { return build(build_options); });
   sub->add_option("program", build_options.program, "program.cpp")->required();
-  sub->add_option("-o,--out", build_options.out, "the program to write [without .cpp]");
+  sub->add_option("-o,--out", build_options.out, "the program to write [without .cpp]")->type_name("FILE");
   sub->add_flag("--dry", build_options.dry, "show the line only");
 
   std::string folder;
