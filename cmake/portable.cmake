@@ -1,8 +1,12 @@
 # The tarball's program: the objects of bzm, with everything but libc and libm linked in. Its archives come with the packages of
 # dependencies.txt on Debian 12.
+set(archive_names hdf5 sz aec fftw3 cairo pixman-1 fontconfig freetype png16 brotlidec brotlicommon expat uuid z)
+# Their packages, whose copyright goes with the program.
+set(archive_packages libhdf5-dev libaec-dev libfftw3-dev libcairo2-dev libpixman-1-dev libfontconfig-dev libfreetype-dev libpng-dev
+    libbrotli-dev libexpat1-dev uuid-dev zlib1g-dev libfmt-dev libstdc++-12-dev)
 set(archives)
 set(archives_missing)
-foreach(name hdf5 sz aec fftw3 cairo pixman-1 fontconfig freetype png16 brotlidec brotlicommon expat uuid z)
+foreach(name ${archive_names})
   find_library(ARCHIVE_${name} NAMES lib${name}.a PATH_SUFFIXES hdf5/serial)
   mark_as_advanced(ARCHIVE_${name})
   if(ARCHIVE_${name})
@@ -26,4 +30,10 @@ else()
   add_dependencies(bzm_portable boltzmann)
   add_custom_target(portable DEPENDS bzm_portable completions)
   install(PROGRAMS $<TARGET_FILE:bzm_portable> DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT portable EXCLUDE_FROM_ALL)
+  foreach(package ${archive_packages})
+    if(EXISTS /usr/share/doc/${package}/copyright)
+      install(FILES /usr/share/doc/${package}/copyright RENAME ${package} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/boltzmann/linked
+              COMPONENT portable EXCLUDE_FROM_ALL)
+    endif()
+  endforeach()
 endif()
