@@ -27,7 +27,7 @@ foreach(shell bash zsh fish)
                      COMMAND bzm completion ${shell} > ${file})
   list(APPEND completions ${file})
 endforeach()
-add_custom_target(completions DEPENDS ${completions})
+add_custom_target(completions ALL DEPENDS ${completions})
 # All that `cmake --install` wants.
 add_custom_target(installable DEPENDS bzm boltzmann completions)
 
@@ -114,3 +114,10 @@ cpack_add_component(program GROUP command)
 cpack_add_component(data GROUP command)
 cpack_add_component(library GROUP dev)
 cpack_add_component(portable)
+
+if(BOLTZMANN_TESTS)
+  add_test(NAME package_scripts COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/package/scripts.sh)
+  if(NOT BOLTZMANN_SANITIZE)  # programs of CMake and pkg-config know nothing of sanitizers
+    add_test(NAME package_installed COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/package/installed.sh ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+endif()
