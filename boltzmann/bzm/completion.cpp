@@ -48,7 +48,7 @@ std::string argument(CommandWords const& command, char const* Argument::*shell) 
   return "";
 }
 
-std::vector<std::string> option_names(CommandWords const& command, char const* value = nullptr) {
+std::vector<std::string> options_of(CommandWords const& command, char const* value = nullptr) {
   std::vector<std::string> names;
   for (auto const& option : command.options)
     if (!value || option.value == value) names.push_back(option.name);
@@ -59,11 +59,11 @@ std::string bash(std::vector<CommandWords> const& commands) {
   std::string names, cases, words, files;
   for (auto const& command : commands) {
     names += command.name + " ";
-    cases += fmt::format("    {}) options='{}' ;;\n", command.name, spaced(option_names(command)));
+    cases += fmt::format("    {}) options='{}' ;;\n", command.name, spaced(options_of(command)));
     if (auto const how = argument(command, &Argument::bash); !how.empty())
       words += fmt::format("    {}) COMPREPLY=({}) ;;\n", command.name, how);
     for (auto const& [value, flag] : {std::pair("DIR", "d"), std::pair("FILE", "f")})
-      for (auto const& name : option_names(command, value))
+      for (auto const& name : options_of(command, value))
         files +=
             fmt::format("    {}\\ {}) COMPREPLY=($(compgen -{} -- \"$word\")); return ;;\n", command.name, name, flag);
   }
