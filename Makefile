@@ -30,16 +30,15 @@ $(BUILD)/build.ninja:
 	@$(MAKE) --no-print-directory dependencies
 	cmake --preset release -DBOLTZMANN_SETS=machine -DBOLTZMANN_TESTS=OFF
 
-install_packages = missing="$(1)"; if [ -n "$$missing" ]; then echo "installing" $$missing; \
-	$(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing; fi
-
-# A program's package may come from elsewhere (node): what shows that it is there stands beside its name.
-test-dependencies: dependencies
-	@$(call install_packages,$$(sed '/^#/d' tests/dependencies.txt | while read -r package shown; do \
-	command -v $$shown >/dev/null || [ -e $$shown ] || echo $$package; done))
-
+# Without root the line that installs them is printed, and make stops.
 dependencies:
-	@$(call install_packages,$$(for p in $$(cat dependencies.txt); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done))
+	@packaging/need.sh $$(cat dependencies.txt)
+	@packaging/versions.sh
+
+test-dependencies: dependencies
+	@packaging/need.sh $$(sed '/^#/d; s/ /=/' tests/dependencies.txt)
+
+include packaging/package.mk
 
 # After a change of boltzmann/window/web.
 page:
@@ -47,7 +46,7 @@ page:
 
 PREFIX := /usr/local
 install: all-sets
-	$(NINJA) --target boltzmann bzm
+	$(NINJA) --target installable
 	$(SUDO) cmake --install $(BUILD) --prefix $(PREFIX)
 
 bench: all-sets

@@ -9,7 +9,6 @@
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/simulation/simulation.hpp>
-#include <boltzmann/simulation/version.hpp>
 
 #include <fmt/format.h>
 
@@ -174,7 +173,7 @@ class FiguresFile {
   void write(std::vector<Row> const& rows, std::string const& instructions) {
     if (!file_) return;
     std::string text = fmt::format("{{\n  \"program\": \"bzm {}\",\n  \"instructions\": \"{}\",\n  \"problems\": [",
-                                   program_version, instructions);
+                                   described_version, instructions);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       Row const& row = rows[k];
       text += fmt::format(
@@ -209,7 +208,7 @@ int bench(BenchOptions const& options) {
       {"Lennard-Jones melt", melt}, {"gravity, all pairs", stars}, {"chain of springs", chain}};
 
   double const share = options.seconds / static_cast<double>(std::size(entries) * counts.size());
-  fmt::print("bzm {}, instructions {}\n\n", program_version, instructions);
+  fmt::print("bzm {}, instructions {}\n\n", described_version, instructions);
   fmt::print("{:20} {:>9} {:>8} {:>17} {:>10}\n", "problem", "particles", "threads", "particle-steps/s", "pairs/s");
   std::vector<Row> rows;
   for (auto const& entry : entries) {

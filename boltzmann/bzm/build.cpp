@@ -20,19 +20,23 @@ struct Installation {
   std::string include, library;
 };
 
-// Where headers and library are: in the source and build folders if this program was built there, else where it is
-// installed.
+// Where headers and library are: in the source and build folders if this program is in its build folder, else where it
+// is installed.
 Installation installation() {
-  fs::path const own = own_path();
-  for (fs::path const& build : {own.parent_path(), fs::path(BOLTZMANN_BUILD)})
-    if (fs::exists(build / "libboltzmann.a") && fs::exists(fs::path(BOLTZMANN_SOURCE) / "boltzmann/core/error.hpp"))
-      return {BOLTZMANN_SOURCE, (build / "libboltzmann.a").string()};
-  fs::path const prefix = own.parent_path().parent_path();
-  if (fs::exists(prefix / "include/boltzmann/core/error.hpp") && fs::exists(prefix / "lib"))
-    for (auto const& entry : fs::recursive_directory_iterator(prefix / "lib"))
-      if (entry.path().filename() == "libboltzmann.a") return {(prefix / "include").string(), entry.path().string()};
-  throw Error(fmt::format("the headers and libboltzmann.a are neither in {} and {} nor below {}", BOLTZMANN_SOURCE,
-                          BOLTZMANN_BUILD, prefix.string()));
+  fs::path const own = own_path(), build = own.parent_path(), prefix = build.parent_path();
+  std::error_code ignored;
+  if (fs::equivalent(build, BOLTZMANN_BUILD, ignored)) {
+    if (!fs::exists(build / "libboltzmann.a"))
+      throw Error(fmt::format("there is no libboltzmann.a in {}; cmake --build {} --target boltzmann makes it",
+                              build.string(), build.string()));
+    return {BOLTZMANN_SOURCE, (build / "libboltzmann.a").string()};
+  }
+  if (fs::exists(prefix / "include/boltzmann/core/error.hpp"))
+    for (auto const* folder : {BOLTZMANN_LIBRARY_FOLDER, "lib", "lib64"})
+      if (auto const library = prefix / folder / "libboltzmann.a"; fs::exists(library))
+        return {(prefix / "include").string(), library.string()};
+  throw Error(fmt::format("headers and libboltzmann.a are not below {} (Debian: apt install libboltzmann-dev)",
+                          prefix.string()));
 }
 
 std::vector<std::string> words_of(std::string const& text) {

@@ -58,6 +58,7 @@ int window(WindowCommand const& command);
 
 /// `kind` empty: all kinds of names; or "scenarios", "classes", "laws", "integrators", "diagnoses", "units".
 int list(std::string const& kind, bool names_only);
+std::vector<std::string> listed_kinds();
 int show(std::string const& name);
 int check(std::string const& scenario);
 int new_scenario(std::string const& name);
@@ -77,11 +78,22 @@ struct BenchOptions {
 };
 int bench(BenchOptions const& options);
 
-/// The completion script of a shell ("bash"); `commands` and their options come from the parser.
+/// What a shell completes of a command; from the parser.
 struct CommandWords {
-  std::string name;
-  std::vector<std::string> options;
+  struct Option {
+    std::string name, doc;  ///< "--set"
+    std::string value;      ///< "" if it takes none; "DIR", "FILE" or another word
+  };
+  std::string name, doc;
+  std::vector<Option> options;
+  std::string
+      argument;  ///< what stands behind the command: "scenario", "folder", "program", "name", ...; "" if nothing
 };
+/// Prints the completion script of a shell: bash, zsh or fish.
 int completion(std::string const& shell, std::vector<CommandWords> const& commands);
+std::vector<std::string> const& completion_shells();
+
+/// The version with its commit, as `git describe` says it; made by the build (cmake/describe.cmake).
+extern char const* const described_version;
 
 }  // namespace boltzmann::bzm

@@ -11,7 +11,6 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/simulation.hpp>
-#include <boltzmann/simulation/version.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -169,7 +168,7 @@ void check_physics(Findings& findings) {
 
 int doctor(std::string const& folder) {
   Findings findings;
-  findings.ok("bzm", fmt::format("{} ({})", program_version, own_path()));
+  findings.ok("bzm", fmt::format("{} ({})", described_version, own_path()));
   findings.ok("processor", cpu_name());
   findings.ok("instructions", instructions());
   findings.ok("threads", fmt::format("{}", default_threads()));

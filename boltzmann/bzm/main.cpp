@@ -4,7 +4,6 @@
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/recording.hpp>
-#include <boltzmann/simulation/version.hpp>
 
 #include <fmt/format.h>
 
@@ -34,6 +33,22 @@ std::vector<std::string> option_names(CLI::App const& app) {
   for (auto const* option : app.get_options())
     for (auto const& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+// All that a shell can complete.
+std::vector<CommandWords> command_words(CLI::App const& app) {
+  std::vector<CommandWords> all;
+  for (auto const* command : app.get_subcommands({})) {
+    CommandWords words{command->get_name(), command->get_description(), {}, ""};
+    for (auto const* option : command->get_options()) {
+      if (option->get_positional()) words.argument = option->get_name(true);
+      std::string const value = option->get_type_size() == 0 ? "" : option->get_type_name();
+      for (auto const& name : option->get_lnames())
+        words.options.push_back({"--" + name, option->get_description(), value});
+    }
+    all.push_back(std::move(words));
+  }
+  return all;
 }
 
 // The first word has to be a command; CLI11 would only say that it is an unexpected argument.
@@ -71,7 +86,7 @@ std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc,
 
 int command_line(int argc, char** argv) {
   CLI::App app("Boltzmann: particle simulations from a scenario file or a C++ program.", "bzm");
-  app.set_version_flag("--version", std::string("bzm ") + program_version);
+  app.set_version_flag("--version", std::string("bzm ") + described_version);
   app.require_subcommand(0, 1);
   app.footer(exit_statuses);
   app.set_help_flag("-h,--help", "say what can be said, and stop");
@@ -129,7 +144,8 @@ int command_line(int argc, char** argv) {
   sub->add_option("folder", render_options.folder, "the folder of the run")->required();
   sub->add_option("-o,--out", render_options.out,
                   "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
   sub->add_option("--drawing", render_options.drawing,
                   "cartesian, phase-space, histogram, spectrum, time-series, profile, map, contours, bands or mesh");
@@ -171,7 +187,7 @@ int command_line(int argc, char** argv) {
   sub = command("build", "compile a C++ program with the right compiler line, and show the line",
                 [&] { return build(build_options); });
   sub->add_option("program", build_options.program, "program.cpp")->required();
-  sub->add_option("-o,--out", build_options.out, "the program to write [without .cpp]");
+  sub->add_option("-o,--out", build_options.out, "the program to write [without .cpp]")->type_name("FILE");
   sub->add_flag("--dry", build_options.dry, "show the line only");
 
   std::string folder;
@@ -188,12 +204,9 @@ int command_line(int argc, char** argv) {
   sub->add_option("--json", bench_options.json, "write the figures into this file too")->type_name("FILE");
 
   std::string shell = "bash";
-  sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"", [&] {
-    std::vector<CommandWords> words;
-    for (auto const* each : app.get_subcommands({})) words.push_back({each->get_name(), option_names(*each)});
-    return completion(shell, words);
-  });
-  sub->add_option("shell", shell, "bash")->capture_default_str();
+  sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"",
+                [&] { return completion(shell, command_words(app)); });
+  sub->add_option("shell", shell, "bash, zsh or fish")->capture_default_str();
 
   check_command(app, argc, argv);
   try {

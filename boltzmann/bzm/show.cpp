@@ -311,9 +311,14 @@ bool show_unit(std::string const& name) {
 
 }  // namespace
 
-int list(std::string const& kind, bool names_only) {
+std::vector<std::string> listed_kinds() {
   std::vector<std::string> kinds;
   for (auto const& section : sections) kinds.emplace_back(section.name);
+  return kinds;
+}
+
+int list(std::string const& kind, bool names_only) {
+  auto const kinds = listed_kinds();
   if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
     throw Error("nothing is listed as '" + kind + "'; there are " + join(kinds) + did_you_mean(kind, kinds));
   bool first = true;

@@ -9,6 +9,7 @@
 #include <cairo/cairo.h>
 #include <cmath>
 #include <cstdint>
+#include <regex>
 #include <set>
 
 namespace boltzmann::command_test {
@@ -32,11 +33,24 @@ void expect_one_line(Outcome const& outcome, int status, std::vector<std::string
   for (auto const& part : parts) EXPECT_TRUE(has(outcome.err, part)) << outcome.err << "\nlacks: " << part;
 }
 
+// 0.1.0, or with commits since and the commit's name, as git describe writes them.
 TEST(Bzm, VersionIsThatOfTheProject) {
   Folder folder;
   auto const outcome = bzm({"--version"}, folder.string());
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(outcome.out, std::string("bzm ") + program_version + "\n");
+  std::smatch parts;
+  ASSERT_TRUE(std::regex_match(outcome.out, parts,
+                               std::regex("bzm ([0-9]+\\.[0-9]+\\.[0-9]+)(-[0-9]+-g([0-9a-f]{7,40}))?(-dirty)?\n")))
+      << outcome.out;
+  if (fs::exists(fs::path(BOLTZMANN_SOURCE) / ".git") && parts[3].matched) {
+    std::string const source = BOLTZMANN_SOURCE;
+    auto const commit = Process({"/usr/bin/env", "git", "-c", "safe.directory=" + source, "-C", source, "cat-file",
+                                 "-e", parts[3].str() + "^{commit}"},
+                                folder.string())
+                            .wait();
+    EXPECT_EQ(commit.status, 0) << commit.err;
+  }
+  EXPECT_EQ(parts[1], program_version);
   EXPECT_TRUE(has(text_of(fs::path(BOLTZMANN_SOURCE) / "CMakeLists.txt"), std::string("VERSION ") + program_version));
 }
 
@@ -439,13 +453,61 @@ TEST(Completion, IsABashScriptThatKnowsTheCommands) {
   Folder folder;
   auto const outcome = bzm({"completion", "bash"}, folder.string());
   ASSERT_EQ(outcome.status, 0);
-  write_text(folder / "complete.sh", outcome.out +
-                                         "COMP_WORDS=(bzm re); COMP_CWORD=1; _bzm; echo ${COMPREPLY[@]}\n"
-                                         "COMP_WORDS=(bzm run --s); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n");
+  fs::create_directory(folder / "results");
+  write_text(folder / "mine.cpp", "");
+  write_text(folder / "complete.sh",
+             "PATH=" BOLTZMANN_BUILD ":$PATH\n" + outcome.out +
+                 "COMP_WORDS=(bzm re); COMP_CWORD=1; _bzm; echo ${COMPREPLY[@]}\n"
+                 "COMP_WORDS=(bzm run --s); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n"
+                 "COMP_WORDS=(bzm run copp); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n"
+                 "COMP_WORDS=(bzm run copper --out re); COMP_CWORD=4; _bzm; echo ${COMPREPLY[@]}\n"
+                 "COMP_WORDS=(bzm build m); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n"
+                 "COMP_WORDS=(bzm list sc); COMP_CWORD=2; _bzm; echo ${COMPREPLY[@]}\n");
   auto const bash = Process({"/bin/bash", "complete.sh"}, folder.string()).wait();
   EXPECT_EQ(bash.status, 0);
-  EXPECT_EQ(bash.out, "resume render\n--set --steps --seed --seeds\n") << bash.err;
-  expect_one_line(bzm({"completion", "fish"}, folder.string()), 2, {"fish"});
+  EXPECT_EQ(bash.out,
+            "resume render\n--set --steps --seed --seeds\ncopper copper-10000\nresults\nmine.cpp\nscenarios\n")
+      << bash.err;
+  expect_one_line(bzm({"completion", "fihs"}, folder.string()), 2, {"bash, zsh, fish", "did you mean 'fish'?"});
+}
+
+// fish completes a line without a terminal.
+TEST(Completion, IsAFishScriptThatKnowsTheCommands) {
+  Folder folder;
+  auto const outcome = bzm({"completion", "fish"}, folder.string());
+  ASSERT_EQ(outcome.status, 0);
+  write_text(folder / "complete.fish", "set PATH " BOLTZMANN_BUILD " $PATH\n" + outcome.out +
+                                           "complete -C 'bzm re' | string replace -r '\\t.*' ''\n"
+                                           "complete -C 'bzm run --thr' | string replace -r '\\t.*' ''\n"
+                                           "complete -C 'bzm run copper-' | string replace -r '\\t.*' ''\n"
+                                           "complete -C 'bzm list sc' | string replace -r '\\t.*' ''\n");
+  auto const fish =
+      Process({"/usr/bin/env", "HOME=" + folder.string(), "fish", "--no-config", "complete.fish"}, folder.string())
+          .wait();
+  EXPECT_EQ(fish.status, 0) << fish.err;
+  EXPECT_EQ(fish.out, "render\nresume\n--threads\ncopper-10000\nscenarios\n") << fish.err;
+}
+
+// zsh completes in a terminal only: what its own functions would be told is looked at.
+TEST(Completion, IsAZshScriptThatKnowsTheCommands) {
+  Folder folder;
+  auto const outcome = bzm({"completion", "zsh"}, folder.string());
+  ASSERT_EQ(outcome.status, 0);
+  write_text(folder / "complete.zsh", "path=(" BOLTZMANN_BUILD
+                                      " $path)\n"
+                                      "compdef() { print compdef $* }\n"
+                                      "compadd() { [[ $1 == -a ]] && print -l ${(P)2} }\n"
+                                      "_describe() { print -l -- ${commands%%:*} }\n"
+                                      "_arguments() { print -l -- ${${@%%\\[*}%%=} }\n" +
+                                          outcome.out +
+                                          "words=(bzm re) CURRENT=2; _bzm | grep ^re\n"
+                                          "words=(bzm resume --) CURRENT=3; _bzm\n"
+                                          "_bzm_names | grep -x copper\n");
+  auto const zsh = Process({"/usr/bin/env", "zsh", "-f", "complete.zsh"}, folder.string()).wait();
+  EXPECT_EQ(zsh.status, 0) << zsh.err;
+  EXPECT_TRUE(has(zsh.out, "compdef _bzm bzm\nresume\nrender\n--help\n--steps\n--threads\n--quiet\n"))
+      << zsh.out << zsh.err;
+  EXPECT_TRUE(has(zsh.out, "1:folder:_files -/\ncopper\n")) << zsh.out << zsh.err;
 }
 
 TEST(Render, DrawsAnyFrame) {
