@@ -7,6 +7,7 @@
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/particles/motion.hpp>
 
 #include <cmath>
 #include <memory>
@@ -22,10 +23,6 @@ template <class P>
 inline constexpr bool has_velocity = requires(P p) {
   p.velocity;
   p.mass;
-};
-template <class P>
-inline constexpr bool has_viscosity = requires(P p) {
-  p.viscosity;
 };
 
 /// Calls f(x, ...) for one number, or for each component of vectors.
@@ -57,10 +54,27 @@ inline constexpr bool is_position = std::is_same_v<Member, decltype(&P::position
   return (x + rounding) - rounding;
 }
 
+/// The rows of an ensemble as particles of P, the class that theirs moves as.
+template <class P>
+class MovingRows {
+ public:
+  explicit MovingRows(AnyEnsemble& ensemble) : ensemble_(ensemble) {}
+  std::size_t size() const { return ensemble_.size(); }
+  std::size_t stride() const { return ensemble_.stride(); }
+  double* row(std::size_t i) const { return ensemble_.row(i); }
+  P& operator[](std::size_t i) const { return *reinterpret_cast<P*>(ensemble_.row(i)); }
+  typename P::Influence const& influence_on(std::size_t i) const {
+    return *reinterpret_cast<typename P::Influence const*>(ensemble_.influence(i));
+  }
+
+ private:
+  AnyEnsemble& ensemble_;
+};
+
 template <class P>
 class MethodOf : public Integrator {
  public:
-  explicit MethodOf(Ensemble<P>& ensemble, Method method) : ensemble_(ensemble), method_(method) {}
+  explicit MethodOf(AnyEnsemble& ensemble, Method method) : ensemble_(ensemble), method_(method) {}
   Method method() const override { return method_; }
 
  protected:
@@ -98,7 +112,7 @@ class MethodOf : public Integrator {
     for (auto const& part : parts) move_.take(part);
   }
 
-  Ensemble<P>& ensemble_;
+  MovingRows<P> ensemble_;
 
  private:
   Method method_;
@@ -214,12 +228,7 @@ class LeapFrog final : public Alternating<P> {
   }
 
  private:
-  static constexpr bool predicts = [] {
-    if constexpr (requires { P::velocity_dependent; })
-      return static_cast<bool>(P::velocity_dependent);
-    else
-      return false;
-  }();
+  static constexpr bool predicts = depends_on_velocity<P>;
   /// How many numbers of a particle are kicked.
   static std::size_t kicked() {
     std::size_t count = 0;
@@ -247,7 +256,8 @@ class ReversibleLeapFrog final : public Alternating<P> {
   using Alternating<P>::Alternating;
   void prepare(FixedPoint const& grid) override {
     grid_ = grid;
-    for (P& p : this->ensemble_) {
+    for (std::size_t i = 0; i < this->ensemble_.size(); ++i) {
+      P& p = this->ensemble_[i];
       p.position = map(p.position, [&](double x) { return on_grid(x, grid.position); });
       p.velocity = map(p.velocity, [&](double v) { return on_grid(v, grid.velocity); });
     }
@@ -400,22 +410,24 @@ std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method
     return refuse("viscous vortices diffuse; use random-walk (or the class Inviscid)");
   if (!detail::has_viscosity<P> && method == Method::random_walk)
     return refuse("the class has no viscosity; use euler, rk2 or rk4");
+  using Moving = detail::MovesAs<P>;
   switch (method) {
     case Method::euler:
-      return std::make_unique<detail::EulerMethod<P>>(ensemble, method);
+      return std::make_unique<detail::EulerMethod<Moving>>(ensemble, method);
     case Method::rk2:
-      return std::make_unique<detail::Rk2<P>>(ensemble, method);
+      return std::make_unique<detail::Rk2<Moving>>(ensemble, method);
     case Method::rk4:
-      return std::make_unique<detail::Rk4<P>>(ensemble, method);
+      return std::make_unique<detail::Rk4<Moving>>(ensemble, method);
     case Method::random_walk:
-      return std::make_unique<detail::RandomWalk<P>>(ensemble, method);
+      return std::make_unique<detail::RandomWalk<Moving>>(ensemble, method);
     case Method::deactivate:
-      return std::make_unique<detail::Deactivate<P>>(ensemble, method);
+      return std::make_unique<detail::Deactivate<Moving>>(ensemble, method);
     case Method::leap_frog:
-      if constexpr (detail::has_velocity<P>) return std::make_unique<detail::LeapFrog<P>>(ensemble, method);
+      if constexpr (detail::has_velocity<P>) return std::make_unique<detail::LeapFrog<Moving>>(ensemble, method);
       break;
     case Method::reversible_leap_frog:
-      if constexpr (detail::has_velocity<P>) return std::make_unique<detail::ReversibleLeapFrog<P>>(ensemble, method);
+      if constexpr (detail::has_velocity<P>)
+        return std::make_unique<detail::ReversibleLeapFrog<Moving>>(ensemble, method);
       break;
   }
   return refuse("unknown method");

@@ -1,7 +1,7 @@
 // What a mesh must know of a particle class: its strength, and whether it moves as Newton says.
 #pragma once
 
-#include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
 
 #include <concepts>
@@ -26,13 +26,6 @@ struct MeshKind {
   int mass = 0, velocity = 0;  ///< where they stand in the row
 };
 
-namespace detail {
-struct AnyRate {
-  template <class Member, class Derivative>
-  void operator()(Member, Derivative const&) const {}
-};
-}  // namespace detail
-
 template <class P>
 MeshKind mesh_kind() {
   MeshKind kind;
@@ -41,11 +34,7 @@ MeshKind mesh_kind() {
     for (std::size_t i = begin; i < end; ++i) strengths[i] = particles[i].strength();
   };
   if constexpr (requires { P::sign; }) kind.sign = P::sign;
-  // A class that inherits its equations has the very same function.
-  using Plain = Newton<P::dimension>;
-  if constexpr (std::is_base_of_v<Plain, P>)
-    kind.newton = &P::template equations<P, Vector<P::dimension>, detail::AnyRate> ==
-                  &Plain::template equations<P, Vector<P::dimension>, detail::AnyRate>;
+  kind.newton = detail::moves_as<Newton<P::dimension>, P>();
   kind.mass = offset_of<P>(&P::mass);
   kind.velocity = offset_of<P>(&P::velocity);
   return kind;
