@@ -241,7 +241,7 @@ class LeapFrog final : public Alternating<P> {
   void turn(Rotation const& rotation, double time) {
     auto const& only = rotation.only;
     std::size_t const count = only ? only->size() : this->ensemble_.size();
-    RotationTask const task{this->ensemble_.row(0), only ? only->data() : nullptr, time};
+    RotationTask const task{this->ensemble_.row(0), this->ensemble_.stride(), only ? only->data() : nullptr, time};
     for_ranges(count, integrator_grain, count < integrator_worth_threads ? 1 : this->threads_,
                [&](std::size_t begin, std::size_t end) { rotation.kernel(rotation.law, task, begin, end); });
   }

@@ -37,12 +37,11 @@ struct BoundLaw {
   std::vector<ExternalChoice> externals;
 };
 
-/// True if rows of the ensemble can be read as rows of P: same distance from row to row, and every field of P is there
-/// under its name, with its dimension, at the same offset. A law that needs P then runs on the ensemble's class,
-/// whatever else that has.
+/// True if rows of the ensemble can be read as rows of P: every field of P is there under its name, with its dimension,
+/// at the same offset. A law that needs P then runs on the ensemble's class, whatever else that has.
 template <class P>
 bool has_rows(AnyEnsemble const& ensemble) {
-  if (ensemble.dimension() != P::dimension || ensemble.stride() != row_stride<P>) return false;
+  if (ensemble.dimension() != P::dimension) return false;
   for (auto const& wanted : P::template fields<P>().fields) {
     Field const* field = ensemble.find_field(wanted.name);
     if (!field || field->offset != wanted.offset || field->components != wanted.components ||
@@ -74,8 +73,12 @@ void bind_kernels(BoundLaw& bound, LawRows<Layouts<On<P, Q>...>, Layouts<Connect
 /// The law with its kernels for these rows, in the instruction set in use.
 template <class Rows, class Law>
 BoundLaw bind_law(Law const& law) {
-  BoundLaw bound{
-      PairScheme::keep(law), PairScheme::traits_of(law), symmetry_of<Law>() == Symmetry::one_way, {}, {}, {}};
+  BoundLaw bound{PairScheme::keep(OfScenario<Law>{law}),
+                 PairScheme::traits_of(law),
+                 symmetry_of<Law>() == Symmetry::one_way,
+                 {},
+                 {},
+                 {}};
   detail::bind_kernels<Law>(bound, Rows{});
   return bound;
 }

@@ -15,9 +15,9 @@ struct LawTables;
 template <InstructionSet set, class Law, class... P, class... Q, class... Connected, class... Outside>
 struct LawTables<set, Law, LawRows<Layouts<On<P, Q>...>, Layouts<Connected...>, Layouts<Outside...>>> {
   // An empty entry stands at the end: there are no arrays without any.
-  static constexpr PairKernels pairs[] = {near_kernels<P, Q, Law>()..., {}};
-  static constexpr PairKernels connections[] = {connection_kernels<Connected, Law>()..., {}};
-  static constexpr ExternalKernels externals[] = {external_kernels<Outside, Law>()..., {}};
+  static constexpr PairKernels pairs[] = {near_kernels<P, Q, OfScenario<Law>>()..., {}};
+  static constexpr PairKernels connections[] = {connection_kernels<Connected, OfScenario<Law>>()..., {}};
+  static constexpr ExternalKernels externals[] = {external_kernels<Outside, OfScenario<Law>>()..., {}};
 };
 
 }  // namespace detail

@@ -1,5 +1,6 @@
-// Law rows: the memory layouts that each law of a scenario runs on, so that a law is compiled once per layout and not
-// once per class. Types only: kernel units and ordinary units both read it. Private to this room.
+// Law rows: the classes that each law of a scenario is compiled for. It runs on every class that has their fields at
+// the same places of its rows, however long these are. Types only: kernel units and ordinary units both read it.
+// Private to this room.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -13,17 +14,6 @@
 
 namespace boltzmann {
 
-/// Newton particles in rows of 8 numbers in 1D and 12 in 3D (in 2D plain Newton rows have 8 and room for 3 more).
-template <int D, class Real = double>
-struct LongNewton : Newton<D, Real> {
-  Vector<2, Real> more;
-};
-
-template <int D, class Real = double>
-struct LongKepler : Kepler<D, Real> {
-  Vector<2, Real> more;
-};
-
 /// Q acts on P.
 template <class P, class Q>
 struct On {};
@@ -36,60 +26,44 @@ struct Layouts {};
 template <class Pairs, class Connections = Layouts<>, class Externals = Layouts<>>
 struct LawRows {};
 
-/// A short layout (Newton, Kepler) and its long one, within each dimension.
-template <class S1, class L1, class S2, class S3, class L3>
-using ShortAndLong = LawRows<Layouts<On<S1, S1>, On<S1, L1>, On<L1, S1>, On<L1, L1>,  //
-                                     On<S2, S2>,                                      //
-                                     On<S3, S3>, On<S3, L3>, On<L3, S3>, On<L3, L3>>,
-                             Layouts<S1, L1, S2, S3, L3>>;
+/// A law among particles of each class, and over their connections.
+template <class... P>
+using Among = LawRows<Layouts<On<P, P>...>, Layouts<P...>>;
 
 /// An external law.
 template <class... P>
 using Outside = LawRows<Layouts<>, Layouts<>, Layouts<P...>>;
 
 /// Every classical particle.
-using NewtonRows = ShortAndLong<Newton<1>, LongNewton<1>, Newton<2>, Newton<3>, LongNewton<3>>;
-using OnNewton = Outside<Newton<1>, LongNewton<1>, Newton<2>, Newton<3>, LongNewton<3>>;
+using NewtonRows = Among<Newton<1>, Newton<2>, Newton<3>>;
+using OnNewton = Outside<Newton<1>, Newton<2>, Newton<3>>;
 template <int D>
-using OnNewtonIn = std::conditional_t<D == 2, Outside<Newton<D>>, Outside<Newton<D>, LongNewton<D>>>;
+using OnNewtonIn = Outside<Newton<D>>;
 
-using KeplerRows = ShortAndLong<Kepler<1>, LongKepler<1>, Kepler<2>, Kepler<3>, LongKepler<3>>;
-using CoulombRows = LawRows<Layouts<On<Coulomb<1>, Coulomb<1>>, On<Coulomb<2>, Coulomb<2>>, On<Coulomb<3>, Coulomb<3>>>,
-                            Layouts<Coulomb<1>, Coulomb<2>, Coulomb<3>>>;
+using KeplerRows = Among<Kepler<1>, Kepler<2>, Kepler<3>>;
+using CoulombRows = Among<Coulomb<1>, Coulomb<2>, Coulomb<3>>;
 template <int D>
 using OnCoulombIn = Outside<Coulomb<D>>;
-using PendulumRows = LawRows<Layouts<On<Pendulum<1>, Pendulum<1>>>, Layouts<Pendulum<1>>>;
+using PendulumRows = Among<Pendulum<1>>;
 using OnPendulum = Outside<Pendulum<1>>;
 using OnTethered = Outside<Tethered<1>, Tethered<2>, Tethered<3>>;
 
 /// Vortices carry each other and test particles.
-using VortexRows = LawRows<Layouts<On<Vortex<2>, Vortex<2>>, On<Vortex<2>, Viscous<2>>, On<Viscous<2>, Vortex<2>>,
-                                   On<Viscous<2>, Viscous<2>>, On<Euler<2>, Vortex<2>>, On<Euler<2>, Viscous<2>>,  //
+using VortexRows = LawRows<Layouts<On<Vortex<2>, Vortex<2>>, On<Euler<2>, Vortex<2>>,  //
                                    On<Inviscid<3>, Vortex<3>>, On<Vortex<3>, Vortex<3>>, On<Euler<3>, Vortex<3>>>,
-                           Layouts<Vortex<2>, Viscous<2>, Inviscid<3>, Vortex<3>>>;
+                           Layouts<Vortex<2>, Inviscid<3>, Vortex<3>>>;
 template <int D>
-using OnFlowIn = std::conditional_t<
-    D == 1, Outside<Euler<1>>,
-    std::conditional_t<D == 2, Outside<Euler<2>, Viscous<2>>, Outside<Euler<3>, Vortex<3>, Inviscid<3>>>>;
+using OnFlowIn = std::conditional_t<D == 3, Outside<Euler<D>, Inviscid<3>>, Outside<Euler<D>>>;
 
 /// Smooth particles, of fluids and of solids.
 using OnSmooth = Outside<Smooth<1>, Smooth<2>, Smooth<3>, Solid<1>, Solid<2>, Solid<3>>;
 template <int D>
 using OnSmoothIn = Outside<Smooth<D>, Solid<D>>;
 
-/// The classical particle in any class that derives from it.
-template <int D, class Real>
-[[gnu::always_inline]] inline Newton<D, Real> const& newton_in(Newton<D, Real> const& particle) {
-  return particle;
-}
-
-/// A law that sees two classical particles of one type, whatever rows they come from.
+/// A law of a scenario, which runs on whatever classes have the fields that it needs.
 template <class Law>
-struct BetweenNewton : Law {
-  template <class P, class Q>
-  auto operator()(P const& p, Q const& q) const {
-    return Law::operator()(newton_in(p), newton_in(q));
-  }
+struct OfScenario : Law {
+  static constexpr bool on_longer_rows = true;
 };
 
 /// Kernels of a law for the layouts of its rows, in their order.

@@ -17,12 +17,6 @@
 namespace boltzmann {
 namespace {
 
-/// A law between classical particles, and over connections, in one, two and three dimensions.
-template <class Law>
-BoundLaw between_newton(Law const& law) {
-  return bind_law<NewtonRows>(BetweenNewton<Law>{law});
-}
-
 /// Law<D>{vector} for the dimension of the space.
 template <template <int> class Law, template <int> class Rows>
 BoundLaw uniform(LawValues const& v, std::string_view name) {
@@ -43,23 +37,23 @@ std::vector<LawBinder> const& law_binders() {
   static std::vector<LawBinder> const all = {
       {"lennard-jones",
        [](Values v) {
-         return between_newton(LennardJones{v("depth"), v("r0")});
+         return bind_law<NewtonRows>(LennardJones{v("depth"), v("r0")});
        }},
       {"morse",
        [](Values v) {
-         return between_newton(Morse{v("depth"), v("r0"), v("a")});
+         return bind_law<NewtonRows>(Morse{v("depth"), v("r0"), v("a")});
        }},
       {"rydberg",
        [](Values v) {
-         return between_newton(Rydberg{v("depth"), v("r0"), v("a"), v("alpha")});
+         return bind_law<NewtonRows>(Rydberg{v("depth"), v("r0"), v("a"), v("alpha")});
        }},
       {"spring",
        [](Values v) {
-         return between_newton(Spring{v("stiffness"), v("rest_length")});
+         return bind_law<NewtonRows>(Spring{v("stiffness"), v("rest_length")});
        }},
       {"soft",
        [](Values v) {
-         return between_newton(Soft{v("repulsion"), v("range")});
+         return bind_law<NewtonRows>(Soft{v("repulsion"), v("range")});
        }},
       {"coulomb", [](Values v) { return bind_law<CoulombRows>(coulomb(v("k"), v("softening"))); }},
       {"gravity", [](Values v) { return bind_law<KeplerRows>(gravity(v("G"), v("softening"))); }},

@@ -4,6 +4,6 @@
 
 namespace boltzmann {
 
-template LawKernels law_kernels<this_set, BetweenNewton<LennardJones>, NewtonRows>();
+template LawKernels law_kernels<this_set, LennardJones, NewtonRows>();
 
 }  // namespace boltzmann

@@ -4,6 +4,6 @@
 
 namespace boltzmann {
 
-template LawKernels law_kernels<this_set, BetweenNewton<Morse>, NewtonRows>();
+template LawKernels law_kernels<this_set, Morse, NewtonRows>();
 
 }  // namespace boltzmann

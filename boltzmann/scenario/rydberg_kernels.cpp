@@ -4,6 +4,6 @@
 
 namespace boltzmann {
 
-template LawKernels law_kernels<this_set, BetweenNewton<Rydberg>, NewtonRows>();
+template LawKernels law_kernels<this_set, Rydberg, NewtonRows>();
 
 }  // namespace boltzmann

@@ -4,6 +4,6 @@
 
 namespace boltzmann {
 
-template LawKernels law_kernels<this_set, BetweenNewton<Soft>, NewtonRows>();
+template LawKernels law_kernels<this_set, Soft, NewtonRows>();
 
 }  // namespace boltzmann

@@ -4,6 +4,6 @@
 
 namespace boltzmann {
 
-template LawKernels law_kernels<this_set, BetweenNewton<Spring>, NewtonRows>();
+template LawKernels law_kernels<this_set, Spring, NewtonRows>();
 
 }  // namespace boltzmann

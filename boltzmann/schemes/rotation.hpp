@@ -13,6 +13,7 @@ namespace boltzmann {
 
 struct RotationTask {
   double* rows = nullptr;
+  std::size_t row_stride = 0;           ///< doubles from row to row
   std::uint32_t const* only = nullptr;  ///< the particles that it turns; null: all
   double time = 0;                      ///< each velocity turns by the angle atan(|Omega| time)
 };

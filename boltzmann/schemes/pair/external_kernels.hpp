@@ -13,6 +13,7 @@ namespace boltzmann {
 
 struct ExternalTask {
   double const* rows = nullptr;
+  std::size_t row_stride = 0;           ///< doubles from row to row
   std::uint32_t const* only = nullptr;  ///< the particles it acts on; null: all
   double time = 0;
   double* influence = nullptr;
@@ -48,11 +49,12 @@ template <Pass pass, int W, class P, class Law>
 [[gnu::flatten]] void over_particles(void const* the_law, ExternalTask const& task, std::size_t begin,
                                      std::size_t end) {
   Held<Law> law = *static_cast<Law const*>(the_law);
-  auto const* rows = reinterpret_cast<Row<P> const*>(task.rows);
+  double const* const rows = task.rows;
+  std::size_t const stride = stride_of<P, Law>(task.row_stride);
   constexpr std::size_t components = sizeof(typename P::Influence) / sizeof(double);
   for (std::size_t k = begin; k < end; ++k) {
     std::size_t const i = task.only ? task.only[k] : k;
-    P const& p = rows[i];
+    P const& p = particle_at<P>(rows + i * stride);
     auto const result = external_result(law, p, task.time);
     if constexpr (pass == Pass::measure) {
       if constexpr (has_energy<decltype(result)>) task.energy[i] += result.energy;
@@ -72,9 +74,10 @@ template <int W, class P, class Law>
 [[gnu::flatten]] void turn_particles(void const* the_law, RotationTask const& task, std::size_t begin,
                                      std::size_t end) {
   Held<Law> law = *static_cast<Law const*>(the_law);
-  auto* rows = reinterpret_cast<Row<P>*>(task.rows);
+  double* const rows = task.rows;
+  std::size_t const stride = stride_of<P, Law>(task.row_stride);
   for (std::size_t k = begin; k < end; ++k) {
-    P& p = rows[task.only ? task.only[k] : k];
+    P& p = particle_at<P>(rows + (task.only ? task.only[k] : k) * stride);
     p.velocity = turned(p.velocity, law.rotation(p) * task.time);
   }
 }

@@ -83,11 +83,12 @@ class LaneSum {
 
 /// The particles first, first + 1, ... as one particle of packs; past the last one, that one again.
 template <class P, int W>
-[[gnu::always_inline]] inline rebind_t<P, Pack<double, W>> load_neighbouring_rows(double const* rows, std::size_t first,
+[[gnu::always_inline]] inline rebind_t<P, Pack<double, W>> load_neighbouring_rows(double const* rows,
+                                                                                  std::size_t stride, std::size_t first,
                                                                                   std::size_t size) {
   return load_rows<P, W>([&](int lane) {
     std::size_t const i = first + lane;
-    return rows + (i < size ? i : size - 1) * row_stride<P>;
+    return rows + (i < size ? i : size - 1) * stride;
   });
 }
 

@@ -24,9 +24,12 @@ template <Pass pass, int W, class P, class Q, class Law>
   constexpr std::size_t block = packs * W;
   using Real = Pack<double, W>;
   Held<Law> law = *static_cast<Law const*>(the_law);
+  std::size_t const target_stride = stride_of<P, Law>(task.target_row_stride);
+  std::size_t const source_stride = stride_of<Q, Law>(task.source_row_stride);
   for (std::size_t first = begin / block * block; first < end; first += block) {
     rebind_t<P, Real> p[packs];
-    for (int t = 0; t < packs; ++t) p[t] = load_neighbouring_rows<P, W>(task.target, first + t * W, task.targets);
+    for (int t = 0; t < packs; ++t)
+      p[t] = load_neighbouring_rows<P, W>(task.target, target_stride, first + t * W, task.targets);
     std::size_t j = 0;
     do {
       bool const overwrite = task.overwrite && j == 0;
@@ -37,11 +40,11 @@ template <Pass pass, int W, class P, class Q, class Law>
       // Up to the block's own particles without a mask, past them with one, and on without.
       for (std::size_t const pause : {self_begin, group_end}) {
         for (; j < pause; ++j) {
-          auto const q = broadcast<Q, Real>(task.source + j * row_stride<Q>);
+          auto const q = broadcast<Q, Real>(task.source + j * source_stride);
           for (int t = 0; t < packs; ++t) sum[t].add(law, p[t], q, every_lane<W>());
         }
         for (; j < self_end; ++j) {
-          auto const q = broadcast<Q, Real>(task.source + j * row_stride<Q>);
+          auto const q = broadcast<Q, Real>(task.source + j * source_stride);
           for (int t = 0; t < packs; ++t)
             sum[t].add(law, p[t], q, lanes_from<W>(static_cast<double>(first + t * W)) != static_cast<double>(j));
         }

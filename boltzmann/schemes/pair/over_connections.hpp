@@ -28,6 +28,7 @@ template <Pass pass, int W, class P, class Law>
 [[gnu::flatten]] void over_connections(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
   using Real = Pack<double, W>;
   Held<Law> law = *static_cast<Law const*>(the_law);
+  std::size_t const stride = stride_of<P, Law>(task.target_row_stride);
   for (std::size_t first = begin; first < end; first += W) {
     std::size_t next[W], last[W];
     for (std::size_t lane = 0; lane < W; ++lane) {
@@ -35,7 +36,7 @@ template <Pass pass, int W, class P, class Law>
       next[lane] = i < end ? task.start[i] : 0;
       last[lane] = i < end ? task.start[i + 1] : 0;
     }
-    auto const p = load_neighbouring_rows<P, W>(task.target, first, task.targets);
+    auto const p = load_neighbouring_rows<P, W>(task.target, stride, first, task.targets);
     LaneSum<pass, W, P, P, Law> sum;
     for (;;) {
       std::size_t partner[W];
@@ -49,7 +50,7 @@ template <Pass pass, int W, class P, class Law>
         away.native[lane] = j != i ? 1.0 : 0.0;
       }
       if (somebody == 0) break;
-      auto q = load_rows<P, W>([&](int lane) { return task.source + partner[lane] * row_stride<P>; });
+      auto q = load_rows<P, W>([&](int lane) { return task.source + partner[lane] * stride; });
       auto d = q.position - p.position;
       nearest_image(d, task);
       q.position = p.position + d;

@@ -17,12 +17,13 @@ template <class P, class Law, class Count>
 [[gnu::always_inline]] inline void each_pair(Law const& law, PairTask const& task, Count count) {
   constexpr std::size_t components = sizeof(typename P::Influence) / sizeof(double);
   constexpr std::size_t most = few_particles;
-  auto const* rows = reinterpret_cast<Row<P> const*>(task.target);
+  double const* const rows = task.target;
+  std::size_t const stride = stride_of<P, Law>(task.target_row_stride);
   std::array<std::array<double, components>, most> total;
   for (std::size_t i = 0; i < count; ++i) total[i] = {};
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
-      P const &p = rows[i], &q = rows[j];
+      P const &p = particle_at<P>(rows + i * stride), &q = particle_at<P>(rows + j * stride);
       auto const on_p = as_array<double>(influence_of(law(p, q)));
       if constexpr (symmetry_of<Law>() == Symmetry::antisymmetric) {
         for (std::size_t c = 0; c < components; ++c) total[i][c] += on_p[c], total[j][c] -= on_p[c];

@@ -13,9 +13,9 @@ template <Pass pass, int W, class P, class Q, class Law>
   Held<Law> law = *static_cast<Law const*>(the_law);
   typename S::Real const cutoff2 = task.cutoff2, rounding = task.rounding;
   double const* const source = task.source;
-  std::size_t const stride = task.source_stride;
+  std::size_t const stride = task.source_block_stride;
   for (std::size_t i = begin; i < end; ++i) {
-    auto const p = broadcast<P, Pack<double, W>>(task.target + row_block * i, task.target_stride);
+    auto const p = broadcast<P, Pack<double, W>>(task.target + row_block * i, task.target_block_stride);
     S sum;
     std::uint32_t const* j = task.row[i];
     for (std::uint32_t const* const last = j + task.length[i]; j < last; j += W) {

@@ -41,6 +41,8 @@ struct PairScheme::Near {
       task.source = source->row(0);
       task.targets = target->size();
       task.sources = source->size();
+      task.target_row_stride = target->stride();
+      task.source_row_stride = source->stride();
       pairs = task.targets * task.sources;
     } else {
       Mirror const &targets = neighbourhood.target(list), &sources = neighbourhood.source(list);
@@ -50,8 +52,8 @@ struct PairScheme::Near {
       task.targets = targets.owned();
       task.sources = sources.total();
       task.order = targets.order();
-      task.target_stride = targets.block_stride();
-      task.source_stride = sources.block_stride();
+      task.target_block_stride = targets.block_stride();
+      task.source_block_stride = sources.block_stride();
       task.row = neighbours.rows();
       task.length = neighbours.lengths(neighbourhood.ring());
       task.rounding = 1.5 * 4503599627370496.0 * quantum;
@@ -81,6 +83,7 @@ struct PairScheme::Connected {
     t.same = true;
     t.target = t.source = ensemble->row(0);
     t.targets = t.sources = ensemble->size();
+    t.target_row_stride = t.source_row_stride = ensemble->stride();
     t.start = list.start.data();
     t.index = list.index.data();
     for (int a = 0; a < box.dimension(); ++a)
@@ -109,6 +112,7 @@ struct PairScheme::External {
                               ensemble->name(), ensemble->size()));
     ExternalTask t;
     t.rows = ensemble->row(0);
+    t.row_stride = ensemble->stride();
     t.only = everyone ? nullptr : only.data();
     t.time = time;
     t.influence = ensemble->influence(0);

@@ -41,6 +41,32 @@ enum class Pass { influence, reversible, measure };
 template <class Law>
 using Held = std::conditional_t<std::is_trivially_copyable_v<Law>, Law const, Law const&>;
 
+/// A law may be compiled for a class P and run on all longer ones that begin like it: it says so by `static constexpr
+/// bool on_longer_rows = true`.
+template <class Law>
+constexpr bool runs_on_longer_rows() {
+  if constexpr (requires { Law::on_longer_rows; })
+    return Law::on_longer_rows;
+  else
+    return false;
+}
+
+/// Doubles from one row to the next: those of P, or what the task says.
+template <class P, class Law>
+[[gnu::always_inline]] constexpr std::size_t stride_of([[maybe_unused]] std::size_t given) {
+  return runs_on_longer_rows<Law>() ? given : row_stride<P>;
+}
+
+/// The particle that a row begins with.
+template <class P>
+[[gnu::always_inline]] inline P const& particle_at(double const* row) {
+  return *reinterpret_cast<Row<P> const*>(row);
+}
+template <class P>
+[[gnu::always_inline]] inline P& particle_at(double* row) {
+  return *reinterpret_cast<Row<P>*>(row);
+}
+
 /// Sums what a law returns over the neighbours of one particle.
 template <Pass pass, int W, class P, class Q, class Law>
 class Sum {

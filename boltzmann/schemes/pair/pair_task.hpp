@@ -10,15 +10,18 @@ namespace boltzmann {
 struct PairTask {
   double const* target = nullptr;  ///< rows of those that are influenced
   std::size_t targets = 0;
+  std::size_t target_row_stride = 0;     ///< doubles from one of them to the next (all but lists)
   std::uint32_t const* order = nullptr;  ///< row -> particle number; null: they are the same
   double const* source = nullptr;        ///< rows of those that influence
   std::size_t sources = 0;
+  std::size_t source_row_stride = 0;
   bool overwrite = false;                     ///< the influence is stored, not added
   bool same = false;                          ///< target and source are one ensemble: nobody influences itself
   std::uint32_t const* const* row = nullptr;  ///< neighbour list: where each row starts; its entries are 4 times a row
-  std::size_t target_stride = 4, source_stride = 4;  ///< from one block of a row to the next (lists)
-  std::uint32_t const* length = nullptr;             ///< and how far it is read
-  std::size_t const* start = nullptr;                ///< connections
+  std::size_t target_block_stride = 0;        ///< doubles from one block of a row to the next (lists)
+  std::size_t source_block_stride = 0;
+  std::uint32_t const* length = nullptr;  ///< and how far it is read
+  std::size_t const* start = nullptr;     ///< connections
   std::uint32_t const* index = nullptr;
   double cutoff2 = 0;                    ///< square of the cut-off (lists)
   double rounding = 0;                   ///< 3/2 2^52 times the quantum of the reversible form (lists)

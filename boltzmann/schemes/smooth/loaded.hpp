@@ -27,6 +27,7 @@ struct SmoothScheme::Outside {
   ExternalTask task(double time) const {
     ExternalTask task;
     task.rows = ensemble->row(0);
+    task.row_stride = ensemble->stride();
     task.influence = ensemble->influence(0);
     task.time = time;
     return task;

@@ -258,7 +258,7 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double co
   task.sources = mirror.total();
   task.overwrite = true;
   task.same = true;
-  task.target_stride = task.source_stride = mirror.block_stride();
+  task.target_block_stride = task.source_block_stride = mirror.block_stride();
   task.row = list.rows();
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
