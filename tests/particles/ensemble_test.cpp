@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -112,6 +113,8 @@ struct AnyClass {
   void (*add_at)(AnyEnsemble&, double);           ///< a particle of zeros but for the first coordinate
   std::vector<Member> (*members)(AnyEnsemble&, std::size_t);
 };
+
+void PrintTo(AnyClass const& of, std::ostream* out) { *out << of.name; }
 
 template <class P>
 AnyClass any_class() {

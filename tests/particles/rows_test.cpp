@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstddef>
 #include <numeric>
+#include <ostream>
 #include <random>
 #include <string>
 #include <type_traits>
@@ -18,15 +19,6 @@
 
 namespace boltzmann::rows_test {
 namespace {
-
-template <class P>
-class RowsOf : public testing::Test {};
-
-using Classes = testing::Types<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>,
-                               Laplace<2>, Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>,
-                               Kepler<3>, Tethered<1>, Tethered<2>, Tethered<3>, Euler<1>, Euler<2>, Euler<3>,
-                               Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>;
-TYPED_TEST_SUITE(RowsOf, Classes);
 
 /// Rows whose every double is another number; padding is filled too, and must not be seen.
 template <class P>
@@ -109,32 +101,64 @@ void expect_broadcast_fills_lanes() {
   }
 }
 
-TYPED_TEST(RowsOf, LanesAreRows) {
-  expect_lanes_are_rows<TypeParam, 2>();
-  expect_lanes_are_rows<TypeParam, 4>();
-  expect_lanes_are_rows<TypeParam, 8>();
+/// What is tested of a class; the tests themselves are compiled once and not for each.
+struct RowClass {
+  std::string name;
+  void (*expect_lanes_are_rows)();
+  void (*expect_broadcast_fills_lanes)();
+  std::size_t bytes, stride, doubles;
+  std::vector<Field> fields;
+};
+void PrintTo(RowClass const& of, std::ostream* out) { *out << of.name; }
+
+template <class P>
+RowClass row_class() {
+  static_assert(rebind_t<rebind_t<P, Pack<double, 4>>, double>::dimension == P::dimension);
+  return {P::class_name + std::to_string(P::dimension) + "D",
+          [] {
+            expect_lanes_are_rows<P, 2>();
+            expect_lanes_are_rows<P, 4>();
+            expect_lanes_are_rows<P, 8>();
+          },
+          [] {
+            expect_broadcast_fills_lanes<P, 2>();
+            expect_broadcast_fills_lanes<P, 4>();
+            expect_broadcast_fills_lanes<P, 8>();
+          },
+          sizeof(Row<P>),
+          row_stride<P>,
+          row_doubles<P>,
+          P::template fields<P>().fields};
+}
+template <class... P>
+std::vector<RowClass> row_classes() {
+  return {row_class<P>()...};
 }
 
-TYPED_TEST(RowsOf, BroadcastFillsEveryLane) {
-  expect_broadcast_fills_lanes<TypeParam, 2>();
-  expect_broadcast_fills_lanes<TypeParam, 4>();
-  expect_broadcast_fills_lanes<TypeParam, 8>();
+class RowsOf : public testing::TestWithParam<RowClass> {};
+INSTANTIATE_TEST_SUITE_P(
+    Classes, RowsOf,
+    testing::ValuesIn(row_classes<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>,
+                                  Laplace<2>, Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>,
+                                  Kepler<3>, Tethered<1>, Tethered<2>, Tethered<3>, Euler<1>, Euler<2>, Euler<3>,
+                                  Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>()),
+    [](auto const& info) { return info.param.name; });
+
+TEST_P(RowsOf, LanesAreRows) { GetParam().expect_lanes_are_rows(); }
+
+TEST_P(RowsOf, BroadcastFillsEveryLane) { GetParam().expect_broadcast_fills_lanes(); }
+
+TEST_P(RowsOf, RowsAreWholeBlocksOf32Bytes) {
+  auto const& of = GetParam();
+  EXPECT_EQ(of.bytes % 32, 0U);
+  EXPECT_EQ(of.stride % 4, 0U);
+  EXPECT_GE(of.stride, of.doubles);
+  EXPECT_LT(of.stride, of.doubles + 4);
 }
 
-void expect_whole_blocks(std::size_t bytes, std::size_t stride, std::size_t doubles) {
-  EXPECT_EQ(bytes % 32, 0U);
-  EXPECT_EQ(stride % 4, 0U);
-  EXPECT_GE(stride, doubles);
-  EXPECT_LT(stride, doubles + 4);
-}
-
-TYPED_TEST(RowsOf, RowsAreWholeBlocksOf32Bytes) {
-  expect_whole_blocks(sizeof(Row<TypeParam>), row_stride<TypeParam>, row_doubles<TypeParam>);
-  static_assert(rebind_t<rebind_t<TypeParam, Pack<double, 4>>, double>::dimension == TypeParam::dimension);
-}
-
-void expect_every_double_named(std::vector<Field> const& fields, std::size_t doubles) {
-  std::vector<bool> named(doubles, false);
+TEST_P(RowsOf, FieldTableNamesEveryDouble) {
+  auto const& fields = GetParam().fields;
+  std::vector<bool> named(GetParam().doubles, false);
   for (auto const& field : fields)
     for (int c = 0; c < field.components; ++c) {
       auto const k = static_cast<std::size_t>(field.offset + c);
@@ -144,10 +168,6 @@ void expect_every_double_named(std::vector<Field> const& fields, std::size_t dou
     }
   for (std::size_t k = 0; k < named.size(); ++k) EXPECT_TRUE(named[k]) << "double " << k << " has no name";
   EXPECT_EQ(fields.front().name, "position");
-}
-
-TYPED_TEST(RowsOf, FieldTableNamesEveryDouble) {
-  expect_every_double_named(TypeParam::template fields<TypeParam>().fields, row_doubles<TypeParam>);
 }
 
 /// A class of a user's own, by the number type alone.
