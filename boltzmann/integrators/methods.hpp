@@ -394,43 +394,53 @@ class RandomWalk final : public Rk2<P> {
   }
 };
 
+/// The rows of an ensemble, moved as class P moves; null where that method can't move it.
+template <class P>
+std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
+  switch (method) {
+    case Method::deactivate:
+      return std::make_unique<Deactivate<P>>(ensemble, method);
+    case Method::random_walk:
+      if constexpr (has_viscosity<P>) return std::make_unique<RandomWalk<P>>(ensemble, method);
+      break;
+    case Method::euler:
+      if constexpr (!has_viscosity<P>) return std::make_unique<EulerMethod<P>>(ensemble, method);
+      break;
+    case Method::rk2:
+      if constexpr (!has_viscosity<P>) return std::make_unique<Rk2<P>>(ensemble, method);
+      break;
+    case Method::rk4:
+      if constexpr (!has_viscosity<P>) return std::make_unique<Rk4<P>>(ensemble, method);
+      break;
+    case Method::leap_frog:
+      if constexpr (has_velocity<P>) return std::make_unique<LeapFrog<P>>(ensemble, method);
+      break;
+    case Method::reversible_leap_frog:
+      if constexpr (has_velocity<P>) return std::make_unique<ReversibleLeapFrog<P>>(ensemble, method);
+      break;
+  }
+  return nullptr;
+}
+// These are in the library.
+extern template std::unique_ptr<Integrator> method_of<Newton<1>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Newton<2>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Newton<3>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Euler<1>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Euler<2>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Euler<3>>(AnyEnsemble&, Method);
+
 }  // namespace detail
 
 /// The integrator of an ensemble. Error if its class can't be advanced that way.
 template <class P>
 std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method) {
-  auto const refuse = [&](std::string const& reason) -> std::unique_ptr<Integrator> {
-    throw Error("ensemble '" + ensemble.name() + "' of class " + ensemble.class_name() + " can't be advanced by " +
-                to_string(method) + ": " + reason);
-  };
-  if constexpr (!detail::has_velocity<P>)
-    if (method == Method::leap_frog || method == Method::reversible_leap_frog)
-      return refuse("the class has no velocity that a force could change; use euler, rk2 or rk4");
-  if (detail::has_viscosity<P> && method != Method::random_walk && method != Method::deactivate)
-    return refuse("viscous vortices diffuse; use random-walk (or the class Inviscid)");
-  if (!detail::has_viscosity<P> && method == Method::random_walk)
-    return refuse("the class has no viscosity; use euler, rk2 or rk4");
-  using Moving = detail::MovesAs<P>;
-  switch (method) {
-    case Method::euler:
-      return std::make_unique<detail::EulerMethod<Moving>>(ensemble, method);
-    case Method::rk2:
-      return std::make_unique<detail::Rk2<Moving>>(ensemble, method);
-    case Method::rk4:
-      return std::make_unique<detail::Rk4<Moving>>(ensemble, method);
-    case Method::random_walk:
-      return std::make_unique<detail::RandomWalk<Moving>>(ensemble, method);
-    case Method::deactivate:
-      return std::make_unique<detail::Deactivate<Moving>>(ensemble, method);
-    case Method::leap_frog:
-      if constexpr (detail::has_velocity<P>) return std::make_unique<detail::LeapFrog<Moving>>(ensemble, method);
-      break;
-    case Method::reversible_leap_frog:
-      if constexpr (detail::has_velocity<P>)
-        return std::make_unique<detail::ReversibleLeapFrog<Moving>>(ensemble, method);
-      break;
-  }
-  return refuse("unknown method");
+  if (auto integrator = detail::method_of<detail::MovesAs<P>>(ensemble, method)) return integrator;
+  throw Error("ensemble '" + ensemble.name() + "' of class " + ensemble.class_name() + " can't be advanced by " +
+              to_string(method) + ": " +
+              (detail::has_viscosity<P>        ? "viscous vortices diffuse; use random-walk (or the class Inviscid)"
+               : method == Method::random_walk ? "the class has no viscosity; use euler, rk2 or rk4"
+                                               : "the class has no velocity that a force could change; use euler, "
+                                                 "rk2 or rk4"));
 }
 
 }  // namespace boltzmann
