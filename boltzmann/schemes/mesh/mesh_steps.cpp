@@ -225,7 +225,8 @@ class MeshSteps final : public WholeSteps {
     for (int b = 0; b < dimension_; ++b) {
       std::copy_n(columns.ensemble->row(0), columns.ensemble->stride(), row);
       for (int a = 0; a < dimension_; ++a) row[columns.kind.velocity + a] = a == b ? 1 : 0;
-      for (auto const& rotation : rotations) rotation.kernel(rotation.law, {row, nullptr, dt_ / 2}, 0, 1);
+      for (auto const& rotation : rotations)
+        rotation.kernel(rotation.law, {row, columns.ensemble->stride(), nullptr, dt_ / 2}, 0, 1);
       for (int a = 0; a < dimension_; ++a)
         columns.task.turn[3 * a + b] = static_cast<Real>(row[columns.kind.velocity + a]);
     }
