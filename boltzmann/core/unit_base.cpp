@@ -117,7 +117,7 @@ std::string composed(std::vector<Factor> const& factors) {
     if (std::abs(exponent) != 1) side += '^' + std::to_string(std::abs(exponent));
     number_below += exponent < 0 ? 1 : 0;
   }
-  if (above.empty()) above = "1";
+  if (above.empty()) above += '1';
   if (number_below > 1) return above + "/(" + below + ")";
   return number_below == 1 ? above + "/" + below : above;
 }
