@@ -49,6 +49,17 @@ SpeciesTable<K, N> numbered() {
   return table;
 }
 
+/// What stands in a table for a pair of species: in a lane, alone and as it was set.
+void expect_number(double in_lane, double alone, double was_set, double expected) {
+  EXPECT_EQ(in_lane, expected);
+  EXPECT_EQ(alone, expected);
+  EXPECT_EQ(was_set, expected);
+}
+void expect_no_number(double in_lane, double alone, double a, double b) {
+  EXPECT_TRUE(std::isnan(in_lane)) << a << ' ' << b;
+  EXPECT_TRUE(std::isnan(alone)) << a << ' ' << b;
+}
+
 template <int K, int N, int W>
 void expect_lookup() {
   auto const table = numbered<K, N>();
@@ -72,12 +83,9 @@ void expect_lookup() {
       for (std::size_t n = 0; n < N; ++n) {
         if (known) {
           double const expected = 1000.0 * static_cast<double>(n) + 40 * std::max(a, b) + std::min(a, b) + 0.5;
-          EXPECT_EQ(numbers[n][lane], expected) << a << ' ' << b;
-          EXPECT_EQ(single[n], expected);
-          EXPECT_EQ(table.get(static_cast<int>(a), static_cast<int>(b))[n], expected);
+          expect_number(numbers[n][lane], single[n], table.get(static_cast<int>(a), static_cast<int>(b))[n], expected);
         } else {
-          EXPECT_TRUE(std::isnan(numbers[n][lane])) << a << ' ' << b;
-          EXPECT_TRUE(std::isnan(single[n])) << a << ' ' << b;
+          expect_no_number(numbers[n][lane], single[n], a, b);
         }
       }
     }
