@@ -33,8 +33,8 @@ consteval bool moves_as() {
   using Influence = typename B::Influence;
   if constexpr (std::is_base_of_v<B, P> && std::is_same_v<typename P::Influence, Influence> &&
                 depends_on_velocity<P> == depends_on_velocity<B> && !has_viscosity<P> &&
-                requires { &P::template equations<B, Influence, AnyRate>; })
-    return &P::template equations<B, Influence, AnyRate> == &B::template equations<B, Influence, AnyRate>;
+                requires { &P::template equations<P, Influence, AnyRate>; })
+    return &P::template equations<P, Influence, AnyRate> == &B::template equations<P, Influence, AnyRate>;
   else
     return false;
 }
