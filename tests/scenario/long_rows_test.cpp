@@ -1,6 +1,7 @@
 // The laws of scenarios on classes with longer rows than those that they are compiled for: the same bits, by whatever
 // traversal.
 #include <boltzmann/core/pack_math.hpp>
+#include <boltzmann/core/tensor.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/particles/tethered.hpp>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
 #include <random>
 #include <string>
@@ -24,23 +26,25 @@ namespace {
 
 template <class P>
 struct Long : P {
-  Vector<9> more;
+  Tensor<3> more;
 };
 static_assert(row_doubles<Long<Newton<3>>> > 12 && row_doubles<Long<Newton<2>>> > 8);
 
 using Particles = std::unique_ptr<AnyEnsemble>;
 
-/// Every field of every particle has a number of its own; those that no law can know are none.
+/// Every field of every particle has a number of its own; what no law knows is so large that it would be seen.
 template <class P>
 Particles particles(std::size_t count, unsigned seed) {
-  auto ensemble = std::make_unique<Ensemble<P>>("particles", count);
+  auto ensemble = std::make_unique<Ensemble<P>>("seed " + std::to_string(seed), count);
   std::mt19937_64 random(seed);
   for (std::size_t i = 0; i < count; ++i) {
     for (auto const& field : ensemble->fields())
       for (int c = 0; c < field.components; ++c)
         ensemble->row(i)[field.offset + c] =
             std::uniform_real_distribution(0.5, field.name == "position" ? 9.5 : 2.0)(random);
-    if constexpr (requires(P p) { p.more; }) (*ensemble)[i].more = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    if constexpr (requires(P p) { p.more; })
+      for (auto& row : (*ensemble)[i].more.component)
+        for (double& x : row) x = 1e300;
   }
   return ensemble;
 }
@@ -80,8 +84,9 @@ std::vector<Class> classes_among(LawInfo const& law, int dimension) {
 LawParameters parameters_of(LawInfo const& law) {
   LawParameters values;
   for (auto const& parameter : law.parameters)
-    values.push_back(
-        {std::string(parameter.name), parameter.vector ? std::vector{0.7, 0.6, 0.9} : std::vector<double>{0.7}});
+    values.push_back({std::string(parameter.name), parameter.vector            ? std::vector{0.7, 0.6, 0.9}
+                                                   : parameter.name == "range" ? std::vector{20.0}
+                                                                               : std::vector{0.7}});
   return values;
 }
 
@@ -209,7 +214,7 @@ TEST(LongRows, TurnInAMagneticField) {
     install_external(scheme, *find_law("uniform-magnetic-field"), {{"field", {0.1, 0.2, 3}}}, *ensemble, nullptr);
     install_pairs(scheme, *find_law("coulomb"), {{"k", {1}}, {"softening", {0.1}}}, LawUse::internal, *ensemble,
                   *ensemble, no_cutoff);
-    Simulation simulation(scheme, 0.01);
+    Simulation simulation(scheme, 0.001);
     simulation.integrate(*ensemble, Method::leap_frog);
     simulation.run(20);
     std::vector<double> all;
