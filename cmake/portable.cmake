@@ -21,7 +21,8 @@ if(archives_missing)
   add_custom_target(portable COMMAND ${CMAKE_COMMAND} -E echo "no tarball here: not found: ${archives_missing}"
                     COMMAND ${CMAKE_COMMAND} -E false)
 else()
-  add_executable(bzm_portable EXCLUDE_FROM_ALL $<TARGET_OBJECTS:bzm> ${CMAKE_CURRENT_LIST_DIR}/static_fmt.cpp)
+  add_executable(bzm_portable EXCLUDE_FROM_ALL $<TARGET_OBJECTS:bzm> $<TARGET_OBJECTS:described_version>
+                 ${CMAKE_CURRENT_LIST_DIR}/static_fmt.cpp)
   set_target_properties(bzm_portable PROPERTIES OUTPUT_NAME bzm RUNTIME_OUTPUT_DIRECTORY portable UNITY_BUILD OFF
                         DISABLE_PRECOMPILE_HEADERS ON)
   target_link_options(bzm_portable PRIVATE -static-libgcc -static-libstdc++)
