@@ -8,6 +8,7 @@
 #include <tests/message.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cmath>
 #include <functional>
@@ -48,7 +49,7 @@ std::vector<double> interesting(Box const& box, int a, std::mt19937_64& random) 
 
 template <int D>
 void wraps() {
-  std::mt19937_64 random(D);
+  std::mt19937_64 random(test_seed(D));
   for (int trial = 0; trial < 300; ++trial) {
     Box const box = random_box<D>(random, Boundary::periodic);
     for (int a = 0; a < D; ++a)
@@ -87,7 +88,7 @@ TEST(Periodic, WrapsByOneLengthAlsoAtTheEdges) {
 
 template <int D>
 void reflects() {
-  std::mt19937_64 random(10 + D);
+  std::mt19937_64 random(test_seed(10 + D));
   for (int trial = 0; trial < 300; ++trial) {
     Box const box = random_box<D>(random, Boundary::bounded);
     for (int a = 0; a < D; ++a)
@@ -227,7 +228,7 @@ TEST(Boundaries, WhoIsFarOutsideHasEscaped) {
 /// rule; along the other axes and before the walls nothing changes.
 template <int D>
 void mirrors(bool slips) {
-  std::mt19937_64 random(40 + D);
+  std::mt19937_64 random(test_seed(40 + D));
   auto const number = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   for (int trial = 0; trial < 200; ++trial) {
     Box box = random_box<D>(random, Boundary::mirror);
@@ -435,7 +436,7 @@ TEST(MirrorWalls, MistakesAreNamed) {
 /// A ball that flies about between walls and around (or in) a region: speed to the last bit, and always on its side.
 template <int D>
 void flies(Region::Side side) {
-  std::mt19937_64 random(20 + D);
+  std::mt19937_64 random(test_seed(20 + D));
   Vector<D> low, high, region_low, region_high;
   for (int a = 0; a < D; ++a) low[a] = -2, high[a] = 2, region_low[a] = -0.7 - 0.1 * a, region_high[a] = 0.9;
   Box box(low, high, Boundary::bounded);
@@ -578,7 +579,7 @@ TEST(Box, LengthsVolumesAndWords) {
 
 template <int D>
 void nearest() {
-  std::mt19937_64 random(30 + D);
+  std::mt19937_64 random(test_seed(30 + D));
   for (int trial = 0; trial < 500; ++trial) {
     Vector<D> low, high;
     std::array<Boundary, D> kinds;

@@ -10,6 +10,7 @@
 #include <tests/message.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +59,7 @@ Box cube(double length, Boundary boundary) {
 /// All axes, both ends, in and out, faster and slower than the wall.
 template <int D>
 void reflects_in_the_frame_of_the_wall() {
-  std::mt19937_64 random(D);
+  std::mt19937_64 random(test_seed(D));
   auto const number = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   int reflected = 0;
   for (int axis = 0; axis < D; ++axis)
@@ -354,7 +355,7 @@ template <int D>
 void compresses_adiabatically() {
   double const L = 4, u = 0.01;
   Ensemble<Newton<D>> gas("gas", 400);
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(test_seed(7));
   for (auto& p : gas) {
     p.mass = 1.5;
     for (int a = 0; a < D; ++a) {
@@ -398,7 +399,7 @@ TEST(Piston, CompressesAnIdealGasAdiabatically) {
 TEST(Piston, WorkIsTheEnergyGainedForAnyNumberOfThreads) {
   std::size_t const count = 20001;
   auto const run = [&](int threads) {
-    std::mt19937_64 random(3);
+    std::mt19937_64 random(test_seed(3));
     Ensemble<Newton<2>> gas("gas", count);
     for (std::size_t i = 0; i < count; ++i) {
       gas[i].mass = std::uniform_real_distribution(0.5, 2.0)(random);
@@ -428,7 +429,7 @@ TEST(Piston, WorkIsTheEnergyGainedForAnyNumberOfThreads) {
 /// A block of a lattice, a little hot, some of it heavier; the same for every call.
 template <int D>
 void load_block(Ensemble<Newton<D>>& atoms, int side, double first, double speed) {
-  std::mt19937_64 random(11);
+  std::mt19937_64 random(test_seed(11));
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     std::size_t rest = i;
     for (int a = 0; a < D; ++a, rest /= side) {

@@ -2,6 +2,7 @@
 #include <boltzmann/core/pack_random.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <array>
@@ -67,9 +68,9 @@ TEST(PackRandom, normals_lie_where_their_words_say) {
 }
 
 TEST(PackRandom, normals_are_normal) {
-  // Moments of 2 * 10^6 numbers, and Kolmogorov and Smirnov's largest distance.
+  // Moments of 2 * 10^6 numbers within 5 standard errors, and Kolmogorov and Smirnov's largest distance.
   std::vector<double> x;
-  PhiloxKey const key(42);
+  PhiloxKey const key(test_seed(42));
   for (std::uint32_t n = 0; x.size() < 2000000; ++n) {
     std::array<std::uint32_t, W> numbers;
     for (int lane = 0; lane < W; ++lane) numbers[lane] = n * W + lane;
@@ -90,17 +91,17 @@ TEST(PackRandom, normals_are_normal) {
     for (int k = 1; k < 5; ++k) moment[k] += std::pow(x[i], k) / n;
     if (i > 0) neighbours += x[i] * x[i - 1] / n;
   }
-  EXPECT_NEAR(moment[1], 0, 4 / std::sqrt(n));
-  EXPECT_NEAR(moment[2], 1, 4 * std::sqrt(2 / n));
-  EXPECT_NEAR(moment[3], 0, 4 * std::sqrt(15 / n));
-  EXPECT_NEAR(moment[4], 3, 4 * std::sqrt(96 / n));
-  EXPECT_NEAR(neighbours, 0, 4 / std::sqrt(n));
+  EXPECT_NEAR(moment[1], 0, 5 / std::sqrt(n));
+  EXPECT_NEAR(moment[2], 1, 5 * std::sqrt(2 / n));
+  EXPECT_NEAR(moment[3], 0, 5 * std::sqrt(15 / n));
+  EXPECT_NEAR(moment[4], 3, 5 * std::sqrt(96 / n));
+  EXPECT_NEAR(neighbours, 0, 5 / std::sqrt(n));
   std::sort(x.begin(), x.end());
   double distance = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     distance =
         std::max(distance, std::abs(0.5 * std::erfc(-x[i] / std::sqrt(2.0)) - (static_cast<double>(i) + 0.5) / n));
-  EXPECT_LT(distance, 1.95 / std::sqrt(n));  // exceeded once in a thousand
+  EXPECT_LT(distance, 2.74 / std::sqrt(n));  // exceeded once in 2 million times
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/diagnoses/projection.hpp>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <array>
@@ -223,7 +224,7 @@ TEST(Ticks, LogarithmicOnesAreDecadesOrOneTwoFive) {
 }
 
 TEST(Ticks, OfAnyRangeAreFewInsideEvenAndReadRight) {
-  std::mt19937 random(7);
+  std::mt19937 random(test_seed(7));
   std::uniform_real_distribution<double> uniform(-1, 1), power(-12, 12);
   for (int n = 0; n < 3000; ++n) {
     double const width = std::pow(10.0, power(random));
@@ -733,7 +734,7 @@ TEST_F(Pictures, SayHowManyPointsWereLeftOut) {
 }
 
 TEST_F(Pictures, OfAHundredThousandCirclesTakeLessThanTwoSeconds) {
-  std::mt19937 random(1);
+  std::mt19937 random(test_seed(1));
   std::uniform_real_distribution<double> uniform;
   Canvas canvas;
   for (int i = 0; i < 100000; ++i)

@@ -5,6 +5,7 @@
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/particles/smooth.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -107,7 +108,7 @@ TEST(Entropy, FluctuationsAreThoseOfFewNeighbours) {
     Ensemble<Smooth<2>> gas("gas");
     fill(gas, along, 1, range, 1);
     for (std::size_t i = 0; i < gas.size(); ++i) {
-      Stream stream(11, 0, i, Purpose::velocity);
+      Stream stream(test_seed(11), 0, i, Purpose::velocity);
       gas[i].velocity = {5 + s * stream.normal(), -2 + s * stream.normal()};  // in a wind, which is no heat
     }
     double weights = 0, squares = 0;

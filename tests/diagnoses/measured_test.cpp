@@ -5,6 +5,7 @@
 #include <boltzmann/diagnoses/statistics.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cmath>
 #include <random>
@@ -34,7 +35,7 @@ TEST(MeanWithError, OfAFewNumbers) {
 }
 
 TEST(MeanWithError, IsHalfTheSpreadOfMeansOfFourNumbers) {
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(test_seed(7));
   std::normal_distribution<double> normal(3, 2);
   double squares = 0, variances = 0;
   constexpr int tries = 20000;
@@ -83,7 +84,7 @@ TEST(FitLine, IsExactOnALineAndSilentWithoutOne) {
 }
 
 TEST(FitLine, HasTheErrorsThatRepeatedMeasurementsShow) {
-  std::mt19937_64 random(11);
+  std::mt19937_64 random(test_seed(11));
   std::normal_distribution<double> normal(0, 0.5);
   Values const x{0, 1, 2, 4, 7, 9};
   Values slopes, intercepts;

@@ -9,6 +9,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cmath>
 
@@ -89,8 +90,8 @@ TEST(Measures, AnIdealGasHasThePressureNkTOverV) {
   Ensemble<Newton<3>> light("light", 1000), heavy("heavy", 500);
   for (auto& p : light) p.mass = 6.6e-27;
   for (auto& p : heavy) p.mass = 2.2e-25;
-  maxwellian_load(light, t, k, 1, {.exact_temperature = true});
-  maxwellian_load(heavy, t, k, 1, {.exact_temperature = true});
+  maxwellian_load(light, t, k, test_seed(1), {.exact_temperature = true});
+  maxwellian_load(heavy, t, k, test_seed(1), {.exact_temperature = true});
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 2, 3});
   std::vector<AnyEnsemble*> const both{&light, &heavy};
   EXPECT_NEAR(pressure(both, Measures{}, box) / (1500 * k * t / 6), 1, 1e-12);
@@ -103,7 +104,7 @@ TEST(Measures, AnIdealGasHasThePressureNkTOverV) {
 
 TEST(Measures, DriftIsNoHeatIfItIsSubtracted) {
   Ensemble<Newton<2>> beam("beam", 4000);
-  maxwellian_load(beam, 1e-4, 1, 5, {.remove_drift = true, .exact_temperature = true, .drift = {1e4, 0, 0}});
+  maxwellian_load(beam, 1e-4, 1, test_seed(5), {.remove_drift = true, .exact_temperature = true, .drift = {1e4, 0, 0}});
   EXPECT_NEAR(temperature(beam, 1, true).total, 1e-4, 1e-10);
   EXPECT_NEAR(temperature(beam, 1).component[0], 1e8, 1);
 }

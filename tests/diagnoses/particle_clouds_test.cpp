@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/particle_clouds.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 
 template <int D>
 void fill(Ensemble<Newton<D>>& all, unsigned seed = 1) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   std::uniform_real_distribution<double> place(10, 20);
   std::normal_distribution<double> speed(0, 3);
   for (auto& p : all) {

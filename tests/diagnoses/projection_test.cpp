@@ -6,6 +6,7 @@
 #include <boltzmann/diagnoses/drawings.hpp>
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/projection.hpp>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -291,7 +292,7 @@ TEST(PictureBytes, AreThoseOfTheFile) {
 
 // A cloud's picture is that of its circles or points, to the pixel.
 TEST(Clouds, LookLikeTheirParticles) {
-  std::mt19937 random(3);
+  std::mt19937 random(test_seed(3));
   std::uniform_real_distribution<float> place(0, 1);
   for (int const kind : {0, 1, 2}) {
     Canvas together, one_by_one;

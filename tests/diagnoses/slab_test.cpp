@@ -7,6 +7,7 @@
 #include <boltzmann/particles/meso.hpp>
 
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -98,7 +99,7 @@ TEST(Slab, SqueezedCrystalHasItsDensity) {
 TEST(Slab, GoesThroughAPeriodicWall) {
   Box const box(Vector{-5.0}, Vector{5.0}, Boundary::periodic);
   Ensemble<Newton<1>> gas("gas", 1000);
-  random_load(gas, box, 2);
+  random_load(gas, box, test_seed(2));
   std::vector<AnyEnsemble*> const all{&gas};
   Slab slab({&gas}, {.axis = 0, .from = 1, .to = 4});
   auto const before = look(slab, all, box);

@@ -7,6 +7,7 @@
 #include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/smooth.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Particles at random with random masses, velocities and ranges of their own.
 template <int D>
 void scatter(Ensemble<Smooth<D>>& matter, Box const& box, double least_range, double greatest_range) {
-  Stream stream(7, 0, 0, Purpose::position);
+  Stream stream(test_seed(7), 0, 0, Purpose::position);
   auto const random = [&] { return stream.uniform(); };
   for (auto& p : matter) {
     for (int a = 0; a < D; ++a) p.position[a] = box.low(a) + box.length(a) * random();
@@ -112,7 +113,7 @@ void derivatives_are_differences(Box const& box) {
   SmoothField const field(matter, box);
   double const h = 1e-4;
   std::vector<double> points;
-  Stream stream(3, 0, 0, Purpose::position);
+  Stream stream(test_seed(3), 0, 0, Purpose::position);
   auto const random = [&] { return stream.uniform(); };
   for (int p = 0; p < 20; ++p)
     for (int a = 0; a < D; ++a) points.push_back(box.low(a) + box.length(a) * (0.01 + 0.98 * random()));

@@ -5,6 +5,7 @@
 #include <tests/message.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ Series series(std::size_t n, double spacing, std::function<double(double)> const
 }
 
 Series noise(std::size_t n, double standard_deviation, std::uint64_t seed) {
-  Stream stream(seed, 0, 0, Purpose::user);
+  Stream stream(test_seed(seed), 0, 0, Purpose::user);
   Normal const variable(0.0, standard_deviation);
   Series samples(n);
   for (double& value : samples) value = variable(stream);
@@ -240,7 +241,7 @@ TEST(SampleUniformly, UniformParticlesInAnyOrderGiveTheirOwnValues) {
 }
 
 TEST(SampleUniformly, AStraightLineStaysStraight) {
-  Stream stream(9, 0, 0, Purpose::position);
+  Stream stream(test_seed(9), 0, 0, Purpose::position);
   Series positions(300), values(300);
   for (std::size_t i = 0; i < 300; ++i) {
     positions[i] = 10 * stream.uniform();
@@ -255,7 +256,7 @@ TEST(SampleUniformly, AStraightLineStaysStraight) {
 
 TEST(SampleUniformly, GivesTheWaveOfDisplacedParticles) {
   // A wave of 8 periods on [0, 1] carried by 400 particles that are displaced by up to a third of their distance.
-  Stream stream(10, 0, 0, Purpose::position);
+  Stream stream(test_seed(10), 0, 0, Purpose::position);
   Series positions, values;
   for (int i = 0; i < 400; ++i) {
     positions.push_back((i + 0.5 + (stream.uniform() - 0.5) / 1.5) / 400);

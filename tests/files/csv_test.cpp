@@ -3,6 +3,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <bit>
 #include <cmath>
@@ -41,7 +42,7 @@ TEST(Csv, QuotesAsRfc4180AndReadsItBack) {
 
 TEST(Csv, DoublesComeBackWithTheSameBits) {
   TemporaryFolder const folder;
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(test_seed(1));
   std::vector<double> written{0.0,
                               -0.0,
                               std::numeric_limits<double>::denorm_min(),

@@ -10,6 +10,7 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <chrono>
 #include <random>
@@ -108,7 +109,7 @@ struct Writer {
 
 TEST(TrajectoryCrash, KilledRunsLeaveEveryFrameAndGoOn) {
   TemporaryFolder const folder;
-  std::mt19937 random(3);
+  std::mt19937 random(test_seed(3));
   for (int trial = 0; trial < 40; ++trial) {
     std::size_t const size = trial % 3 == 0 ? 3000 : trial % 3 == 1 ? 40 : 1;
     std::string const path = folder / "t.h5";
@@ -130,7 +131,7 @@ TEST(TrajectoryCrash, KilledRunsLeaveEveryFrameAndGoOn) {
 
 TEST(TrajectoryCrash, ReadersSeeAWholeFileWheneverTheRunPauses) {
   TemporaryFolder const folder;
-  std::mt19937 random(4);
+  std::mt19937 random(test_seed(4));
   std::string const path = folder / "t.h5";
   Writer writer(path, 500, 0);
   writer.wait_for(0);

@@ -8,6 +8,7 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <bit>
 #include <cmath>
@@ -30,7 +31,7 @@ std::vector<std::uint64_t> bits(std::vector<double> const& values) {
 // velocities.
 template <class E>
 void set_state(E& ensemble, std::int64_t step) {
-  std::mt19937_64 random(static_cast<std::uint64_t>(step) * 1000 + ensemble.size());
+  std::mt19937_64 random(test_seed(static_cast<std::uint64_t>(step) * 1000 + ensemble.size()));
   for (std::size_t i = 0; i < ensemble.size(); ++i)
     for (int k = 0; k < ensemble[i].position.dimension; ++k) {
       ensemble[i].position[k] = static_cast<double>(step) + 0.001 * static_cast<double>(i) + 0.1 * k;

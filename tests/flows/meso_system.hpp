@@ -6,6 +6,8 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/meso.hpp>
 
+#include <tests/seed.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -34,7 +36,7 @@ inline void scatter(AnyEnsemble& ensemble, Box const& box, std::size_t count, Ma
   Field const* internal = ensemble.find_field("internal_energy");
   for (std::size_t i = 0; i < count; ++i) {
     double* row = ensemble.row(i);
-    Stream stream(seed, 0, i, Purpose::user);
+    Stream stream(test_seed(seed), 0, i, Purpose::user);
     row[m] = masses == Masses::equal ? 1 : 0.5 * std::pow(16, stream.uniform());
     for (int a = 0; a < box.dimension(); ++a) {
       row[a] = box.low(a) + box.length(a) * stream.uniform();

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <fmt/format.h>
 
@@ -103,7 +104,7 @@ template <int D>
 void put_pairs(AnyEnsemble& ensemble, Box const& box, std::size_t count) {
   scatter(ensemble, box, 2 * count, Masses::unequal, 16, 4);
   for (std::size_t n = 0; n < count; ++n) {
-    Stream stream(3, 0, n, Purpose::user);
+    Stream stream(test_seed(3), 0, n, Purpose::user);
     double* p = ensemble.row(2 * n);
     double* q = ensemble.row(2 * n + 1);
     double const x = 0.2 + 1.4 * stream.uniform();
@@ -140,7 +141,7 @@ void pairs_are_as_by_hand(std::size_t count, Dissipation const& d, bool metropol
   double const before = kinetic_of({&matter});
   std::size_t pairs = 0;
   for (std::uint64_t step = 3; step < 6; ++step) {
-    StepContext const context{metropolis ? 0.2 : 0.02, step, 99};
+    StepContext const context{metropolis ? 0.2 : 0.02, step, test_seed(99)};
     flow.advance(context);
     OracleMatter const now = oracle;
     now.each_pair({d}, [&](std::size_t i, std::size_t j, double chi, std::array<double, 3> const& e) {
@@ -310,7 +311,7 @@ TEST(PairSplitting, MetropolisKeepsTheLawOfAPairHoweverLongTheStep) {
     double sum = 0, lowest = energy;
     std::uint64_t const steps = 200000;
     for (std::uint64_t step = 0; step < steps; ++step) {
-      flow.advance({dt, step, 5});
+      flow.advance({dt, step, test_seed(5)});
       double const v = pair[0].velocity[0] - pair[1].velocity[0];
       sum += 0.25 * v * v;
       lowest = std::min({lowest, pair[0].internal_energy, pair[1].internal_energy});
@@ -357,7 +358,7 @@ TEST(PairSplitting, MetropolisConductsByTheLawOfAPair) {
   double sum = 0, squares = 0;
   int const steps = 200000;
   for (int step = 0; step < steps; ++step) {
-    flow.advance({1.0, static_cast<std::uint64_t>(step), 5});
+    flow.advance({1.0, static_cast<std::uint64_t>(step), test_seed(5)});
     sum += one[0].internal_energy;
     squares += one[0].internal_energy * one[0].internal_energy;
   }
@@ -381,6 +382,7 @@ TEST(PairSplitting, MetropolisGoesOnWhereThePlainFormFails) {
     Simulation simulation(scheme, 0.05);
     simulation.add(flow);
     simulation.integrate(matter, Method::leap_frog);
+    simulation.seed(test_seed(1));
     double const total = kinetic_of({&matter}) + internal_of({&matter});
     simulation.run(200);
     lowest = 1e9;
@@ -425,6 +427,7 @@ TEST(PairSplitting, MetropolisIsRightForGrainsOfManyAtoms) {
   Simulation simulation(scheme, 0.02);
   simulation.add(flow);
   simulation.integrate(grains, Method::leap_frog);
+  simulation.seed(test_seed(1));
   simulation.run(300);
   double mean = 0;
   for (int look = 0; look < 60; ++look) {

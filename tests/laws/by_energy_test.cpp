@@ -5,6 +5,7 @@
 #include <boltzmann/boltzmann.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <array>
 #include <bit>
@@ -17,7 +18,7 @@
 namespace boltzmann::by_energy_test {
 namespace {
 
-std::mt19937_64 engine(5);
+std::mt19937_64 engine(test_seed(5));
 double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
 
 template <class P>
@@ -219,7 +220,7 @@ template <class P, class Law>
 double drift(Law const& law, double cutoff, auto const& prepare) {
   Ensemble<P> atoms("atoms", 125);
   block_load(atoms, Lattice::square, 1.3, {5, 5, 5});
-  maxwellian_load(atoms, 0.5, 1, 1);
+  maxwellian_load(atoms, 0.5, 1, test_seed(1));
   prepare(atoms);
   PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::bounded), cutoff);
   space.internal(atoms, law);

@@ -6,6 +6,7 @@
 #include <tests/message.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -188,7 +189,7 @@ TEST(StateLaw, TemperaturesTakeNanoseconds) {
   for (int i = 0; i < 1000; ++i) T.push_back(10 + i), capacity.push_back(1 + 15 * std::tanh(T.back() / 300));
   StateLaw const law(T, capacity);
   std::vector<double> energies(4096);
-  Stream stream(1, 0, 0, Purpose::user);
+  Stream stream(test_seed(1), 0, 0, Purpose::user);
   for (double& x : energies) x = law.energy(1200 * stream.uniform());
   double sum = 0, best = infinity;
   for (int repetition = 0; repetition < 20; ++repetition) {
@@ -302,7 +303,7 @@ TEST(InvariantLaw, DrawsAreDistributedByIt) {
   for (StateLaw const* law : {&constant, &peak}) {
     std::vector<double> sample;
     for (std::uint64_t i = 0; i < 2000; ++i) {
-      Stream stream(7, 0, i, Purpose::internal_energy), copy = stream;
+      Stream stream(test_seed(7), 0, i, Purpose::internal_energy), copy = stream;
       sample.push_back(law->draw(330, 1, stream));
       copy.uniform();  // one number of the stream
       EXPECT_EQ(stream.bits(), copy.bits());
@@ -346,7 +347,7 @@ TEST(StateLaw, RefusesWhatIsNoHeatCapacity) {
 
 TEST(InvariantLaw, RefusesWhatIsNoBath) {
   StateLaw const law(16);
-  Stream stream(1, 0, 0, Purpose::user);
+  Stream stream(test_seed(1), 0, 0, Purpose::user);
   EXPECT_EQ(message([&] { law.draw(0, 1, stream); }), "internal energies: the temperature must be positive, it is 0");
   EXPECT_THROW(law.draw(300, 0, stream), Error);
   EXPECT_THROW(law.draw(nan_value, 1, stream), Error);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <array>
 #include <cmath>
@@ -37,7 +38,7 @@ Known const known[] = {
 
 /// The real errors at random distances, with the derivatives by hand.
 TableError real_error(Table const& table, Known const& law, double from, double to, int trials = 100000) {
-  std::mt19937_64 random(3);
+  std::mt19937_64 random(test_seed(3));
   std::uniform_real_distribution<double> uniform(from, to);
   TableError worst;
   for (int trial = 0; trial < trials; ++trial) {
@@ -101,7 +102,7 @@ template <int D>
 void expect_it_is_the_law() {
   Table const table([](double r) { return 1.3 * lennard_jones(r / 1.1); }, 0.5, 4, Tolerance{1e-7});
   LennardJones const by_hand{1.3, 1.1};
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(test_seed(7));
   std::uniform_real_distribution<double> uniform(-2, 2);
   for (int trial = 0; trial < 200; ++trial) {
     Newton<D> p{}, q{};
@@ -124,7 +125,7 @@ TEST(Table, IsALawIn1D2D3D) {
 template <int W>
 void expect_packs_are_scalars() {
   Table const table(lennard_jones, 0.7, 3, PerOctave{64});
-  std::mt19937_64 random(11);
+  std::mt19937_64 random(test_seed(11));
   std::uniform_real_distribution<double> uniform(-0.1, 12);
   double const odd[] = {0, 0.49, 9, 9.0000001, 1e300, std::numeric_limits<double>::quiet_NaN()};
   for (int trial = 0; trial < 2000; ++trial) {
@@ -268,7 +269,7 @@ TEST(Table, RunsConserveEnergy) {
   Ensemble<Newton<3>> atoms("atoms", 125);
   for (std::size_t const fineness : {8, 512}) {
     block_load(atoms, Lattice::square, 1.2, {5, 5, 5});
-    maxwellian_load(atoms, 0.5, 1, 1);
+    maxwellian_load(atoms, 0.5, 1, test_seed(1));
     PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::bounded), 3);
     space.internal(atoms, Table(lennard_jones, 0.6, 3, PerOctave{fineness}));
     Simulation simulation(space, 0.002);

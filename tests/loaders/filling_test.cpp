@@ -4,6 +4,7 @@
 #include <boltzmann/particles/newton.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cmath>
 #include <limits>
@@ -77,9 +78,9 @@ TEST(Filling, RefusesWhatCantBeFilled) {
 
 TEST(Jitter, MovesEachParticleByItsOwnNumbers) {
   Ensemble<Newton<3>> few("a", 5), many("a", 1000), other("b", 5), nobody("a", 0);
-  jitter(few, 0.5, 3);
-  jitter(many, 0.5, 3);
-  jitter(other, 0.5, 3);
+  jitter(few, 0.5, test_seed(3));
+  jitter(many, 0.5, test_seed(3));
+  jitter(other, 0.5, test_seed(3));
   jitter(nobody, 0.5, 3);
   for (std::size_t i = 0; i < 5; ++i)
     for (int a = 0; a < 3; ++a) {

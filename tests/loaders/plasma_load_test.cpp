@@ -5,6 +5,7 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -68,7 +69,7 @@ void ripples(int axis) {
   EXPECT_NEAR(wave.wave_number, 2 * pi * 3 / 5, 1e-15);
   std::size_t const size = 40000;
   Ensemble<Coulomb<D>> random("random", size), quiet("quiet", size);
-  ripple_load(random, box, wave, amplitude, 7);
+  ripple_load(random, box, wave, amplitude, test_seed(7));
   quiet_load(quiet, box, wave, amplitude);
   box.check(random);
   box.check(quiet);
@@ -96,10 +97,10 @@ TEST(RippleLoad, DependsOnSeedAndNameAndNothingElse) {
   Box const box = periodic<2>();
   Wave const wave = wave_of_mode(box, 0, 1);
   Ensemble<Coulomb<2>> few("ions", 10), many("ions", 20), other("ions", 10), electrons("electrons", 10);
-  ripple_load(few, box, wave, 0.5, 1);
-  ripple_load(many, box, wave, 0.5, 1);
-  ripple_load(other, box, wave, 0.5, 2);
-  ripple_load(electrons, box, wave, 0.5, 1);
+  ripple_load(few, box, wave, 0.5, test_seed(1));
+  ripple_load(many, box, wave, 0.5, test_seed(1));
+  ripple_load(other, box, wave, 0.5, test_seed(2));
+  ripple_load(electrons, box, wave, 0.5, test_seed(1));
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(few[i].position, many[i].position);
     EXPECT_NE(few[i].position, other[i].position);
@@ -111,7 +112,7 @@ TEST(RippleLoad, KeepsOutOfRegions) {
   Box box = periodic<1>(0, 10);
   box.install(Region{{2}, {6}, Region::Side::keep_out});
   Ensemble<Coulomb<1>> ions("ions", 2000);
-  ripple_load(ions, box, wave_of_mode(box, 0, 1), 0.9, 3);
+  ripple_load(ions, box, wave_of_mode(box, 0, 1), 0.9, test_seed(3));
   for (auto const& ion : ions) EXPECT_TRUE(ion.position[0] <= 2 || ion.position[0] >= 6);
   EXPECT_NE(message([&] { quiet_load(ions, box); }).find("regions"), std::string::npos);
 }

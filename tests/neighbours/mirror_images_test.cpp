@@ -6,6 +6,7 @@
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -303,7 +304,7 @@ void each_kind_of_box(Test const& test) {
 
 template <int D>
 void images_are_right(std::array<Ends, 3> const& ends, std::size_t count, double reach) {
-  std::mt19937_64 random(count + 100U * D);
+  std::mt19937_64 random(test_seed(count + 100U * D));
   Box box = make_box<D>(ends, {1.7, 1.9, 1.8}, random);
   for (int a = 0; a < D; ++a)  // shorter than the reach: several images
     if (ends[a] == Ends::periodic && a == 0) box = make_box<D>(ends, {1.1, 1.9, 1.8}, random);
@@ -510,7 +511,7 @@ std::size_t expect_complete(NeighbourList const& list, Mirror const& mirror, Ens
 /// Walls that go to and fro, particles that wander, some of which get new references on the way.
 template <int D>
 void lists_hold(std::array<Ends, 3> const& ends, std::size_t count) {
-  std::mt19937_64 random(200U * D);
+  std::mt19937_64 random(test_seed(200U * D));
   double const cutoff = 0.8, skin = 0.4;
   Box box = make_box<D>(ends, {1.7, 1.6, 1.5}, random, 0.05);
   Ensemble<Gas<D>> e("gas", count);
@@ -566,7 +567,7 @@ TEST(WallLists, AreReadFurtherAsWallsComeCloser) {
     wall.velocity[a] = -u;
     box.wall(a, End::high, wall);
   }
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(test_seed(7));
   Ensemble<Gas<2>> e("gas", 150);
   scatter<2>(e, box, random);
   for (auto& p : e) p.position *= 0.9;  // so that the walls don't reach them

@@ -5,6 +5,7 @@
 #include <boltzmann/particles/newton.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 struct Gas {
   Box box{Vector{-1.0, 0.0}, Vector{9.0, 11.0}, {Boundary::periodic, Boundary::bounded}};
   Ensemble<Newton<2>> few{"few", 40}, many{"many", 900};
-  std::mt19937_64 random{3};
+  std::mt19937_64 random{test_seed(3)};
 
   Gas() {
     scatter(few);

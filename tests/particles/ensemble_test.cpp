@@ -14,6 +14,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -462,7 +463,7 @@ TEST(UsersInfluence, TwoLumpsExchangeHeatWhileTheyOscillate) {
 
 template <class P>
 void scatter(Ensemble<P>& particles, Box const& box, unsigned seed) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   for (std::size_t i = 0; i < particles.size(); ++i) {
     for (std::size_t k = 0; k < particles.doubles(); ++k)
       particles.row(i)[k] = std::uniform_real_distribution(0.5, 2.0)(random);

@@ -26,7 +26,7 @@ TEST(Atmosphere, StaysExponential) {
   double const loaded = 250;
   double const deviations = loaded * std::sqrt(2.0 / static_cast<double>(air.size()));
   auto const check = [&](char const* when) {
-    EXPECT_NEAR(temperature(), loaded, 4 * deviations) << when;
+    EXPECT_NEAR(temperature(), loaded, 5 * deviations) << when;
     // Kolmogorov and Smirnov against the truncated exponential.
     std::vector<double> h(air.size());
     for (std::size_t i = 0; i < air.size(); ++i) h[i] = air.row(i)[up] - box.low(up);
@@ -38,7 +38,7 @@ TEST(Atmosphere, StaysExponential) {
       distance =
           std::max(distance, std::abs(expected - (static_cast<double>(i) + 0.5) / static_cast<double>(h.size())));
     }
-    EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(h.size()))) << when;  // 0.1 % level
+    EXPECT_LT(distance, 2.74 / std::sqrt(static_cast<double>(h.size()))) << when;  // 2 exp(-2 x^2): once in 2 million
   };
   check("at the start");
   double const start = total_energy(*run);

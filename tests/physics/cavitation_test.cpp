@@ -1,6 +1,7 @@
 // Cavitation: van der Waals' liquid under tension, up to the density at which it can bear no more (the spinodal, where
 // the speed of sound is zero) and beyond, where voids open.
 #include <tests/physics/shipped.hpp>
+#include <tests/seed.hpp>
 
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
@@ -103,7 +104,7 @@ TEST(Cavitation, ExpandingLiquidTearsAtTheSpinodal) {
   constexpr double rate = 0.05, half = side / 2.0;
   Ensemble<Smooth<2>> square_of_liquid("liquid", 0);
   block_load(square_of_liquid, Lattice::square, 1, {side, side, 1}, {0.5 - half, 0.5 - half, 0}, true);
-  jitter(square_of_liquid, 0.02, 1);
+  jitter(square_of_liquid, 0.02, test_seed(1));
   for (auto& p : square_of_liquid) {
     p.mass = first_density;
     p.range = 4;

@@ -46,6 +46,7 @@ struct Layer {
     box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
     StiffenedGas const gas{gamma, 0.6, cv};
     block_load(fluid, Lattice::square, spacing, {2 * rows, rows, 1}, {spacing / 2, spacing / 2, 0});
+    nudge(fluid);
     for (auto& p : fluid) {
       double const x = p.position[0], y = p.position[1], stir = 0.3 * free_fall;
       p.mass = spacing * spacing;

@@ -3,6 +3,7 @@
 #include <tests/physics/mesoparticle_gas.hpp>
 #include <tests/physics/pvdf.hpp>
 #include <tests/physics/statistics.hpp>
+#include <tests/seed.hpp>
 
 #include <boltzmann/diagnoses/measures.hpp>
 
@@ -35,18 +36,20 @@ Tabulated gamma_law(double shape, double kt) {
 double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 /// Runs a gas to equilibrium, from equal internal energies or (`loaded`) from those of another temperature, and
-/// compares it with the exact law of its total energy. `most`: the error of temperatures that is allowed beyond chance.
+/// compares it with the exact law of its total energy. Standard errors (of 22 runs): of the kinetic temperature, which
+/// varies by sqrt(1/N) and forgets within half a unit of time, 0.6 % in 14 units; of the internal one, which forgets
+/// slowly, a third of what its samples have, 1/sqrt((C - 1) N).
 void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, double dt, bool loaded, double rest,
-                       std::uint64_t samples, double most) {
+                       std::uint64_t samples) {
   MesoparticleGas<2> g(count, 1.5, 1.6);
   if (c.unequal)
     for (std::size_t i = 0; i < count; ++i) g.gas[i].mass = i % 3 == 0 ? 2.0 : 0.7;
   g.kinetic_temperature(1.1);
   for (auto& p : g.gas) p.internal_energy = heat_capacity * 0.9;
-  if (loaded) internal_energy_load(g.gas, StateLaw(heat_capacity), 0.9, 1, 6);
+  if (loaded) internal_energy_load(g.gas, StateLaw(heat_capacity), 0.9, 1, test_seed(6));
   g.flow.state(g.gas, StateLaw(heat_capacity));
   g.flow.internal(g.gas, {.convention = c.convention,
-                          .friction = 1,
+                          .friction = c.projected ? 2.0 : 1,  // of one direction of two
                           .temperature = c.convention == Convention::constant_noise ? 1.0 : 0,
                           .range = 1.6,
                           .projected = c.projected});
@@ -54,6 +57,7 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
   g.flow.corrector(c.method == FlowMethod::order_free);
   g.flow.metropolis(c.metropolis);
   Simulation simulation(g.scheme, dt);
+  simulation.seed(test_seed(1));
   simulation.add(g.flow);
   simulation.integrate(g.gas, Method::leap_frog);
   double const total = g.kinetic_energy() + g.internal_energy();
@@ -71,18 +75,18 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
   SCOPED_TRACE(name);
   std::printf("%s: T_kin %.4f(%.4f) T_int %.4f(%.4f)\n", name.c_str(), t.mean / kt, t.error / kt, t_int.mean / kt,
               t_int.error / kt);
-  ASSERT_LT(t.error, 0.007 * kt);
-  // Blocks of one unit of time depend on each other a little where particles are heavy.
-  EXPECT_NEAR(t.mean / kt, 1, 5.5 * t.error / kt + most);
-  EXPECT_NEAR(t_int.mean / kt, 1, 0.01);
-  EXPECT_NEAR(g.internal_energy() / g.size() / heat_capacity / kt, 1 + 1 / heat_capacity, 0.01);
+  EXPECT_NEAR(t.mean / kt, 1, 0.035);
+  EXPECT_NEAR(t_int.mean / kt, 1, 2 / std::sqrt((heat_capacity - 1) * g.size()));
+  // Its motion varies by k T / sqrt(N) of each particle, and what is inside by as much.
+  EXPECT_NEAR(g.internal_energy() / g.size() / heat_capacity / kt, 1 + 1 / heat_capacity,
+              5 / (heat_capacity * std::sqrt(g.size())));
   std::vector<double> energies, velocities;
   for (auto const& p : g.gas) {
     energies.push_back(p.internal_energy);
     velocities.push_back(p.velocity[0] * std::sqrt(p.mass / kt));
   }
-  EXPECT_LT(kolmogorov_smirnov(energies, gamma_law(heat_capacity, kt)), 2.23);
-  EXPECT_LT(kolmogorov_smirnov(velocities, normal_distribution), 2.23);
+  EXPECT_LT(kolmogorov_smirnov(energies, gamma_law(heat_capacity, kt)), kolmogorov_smirnov_limit);
+  EXPECT_LT(kolmogorov_smirnov(velocities, normal_distribution), kolmogorov_smirnov_limit);
   // Conserved to rounding.
   EXPECT_NEAR((g.kinetic_energy() + g.internal_energy()) / total, 1, 1e-12);
   auto const p = momentum(g.gas);
@@ -91,7 +95,7 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
     double light = 0, heavy = 0;
     for (std::size_t i = 0; i < count; ++i) (i % 3 == 0 ? heavy : light) += g.gas[i].internal_energy;
     double const n = std::ceil(g.size() / 3);
-    EXPECT_NEAR(heavy / n / (light / (g.size() - n)), 1, 0.04 + 4 * std::sqrt(4.5 / (heat_capacity + 1) / g.size()));
+    EXPECT_NEAR(heavy / n / (light / (g.size() - n)), 1, 5 * std::sqrt(4.5 / (heat_capacity + 1) / g.size()));
   }
 }
 
@@ -100,17 +104,17 @@ TEST(DpdeEquilibrium, EveryKindOfFlowHasTheSame) {
     for (bool const projected : {false, true})
       for (auto const method : {FlowMethod::order_free, FlowMethod::pair_splitting})
         check_equilibrium({convention, projected, true, method, false}, 1200, 12,
-                          method == FlowMethod::order_free ? 0.01 : 0.02, true, 6, 140, 0.004);
+                          method == FlowMethod::order_free ? 0.01 : 0.02, true, 6, 140);
 }
 
 TEST(DpdeEquilibrium, MolecularHeatCapacityFromEqualEnergies) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
-    check_equilibrium({convention, false, false, FlowMethod::order_free, false}, 1200, 16, 0.02, false, 32, 140, 0.003);
+    check_equilibrium({convention, false, false, FlowMethod::order_free, false}, 1200, 16, 0.02, false, 32, 140);
 }
 
 TEST(DpdeEquilibrium, AcceptedOrRefusedStepsMayBeLong) {
   check_equilibrium({Convention::constant_friction, true, true, FlowMethod::pair_splitting, true}, 1200, 5, 0.1, false,
-                    20, 140, 0.004);
+                    20, 140);
 }
 
 // At the start the rate at which motion warms what is inside is a sum over pairs: of gamma' chi^2 v_ij^2, what friction
@@ -118,8 +122,8 @@ TEST(DpdeEquilibrium, AcceptedOrRefusedStepsMayBeLong) {
 // once it rests: noise. On the average this is d T_kin / dt = -2 (G / m) (T_kin - T_int), G = gamma <sum chi^2>.
 TEST(DpdeRelaxation, TwoTemperaturesApproachAtTheKnownRate) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
-    for (double const hot : {300.0, 0.0}) {
-      double const c = 16, friction = 1.7, range = 1.6, mass = 1.4;
+    for (double const hot : {1000.0, 0.0}) {
+      double const c = 160, friction = 1.7, range = 1.6, mass = 1.4;
       bool const constant_noise = convention == Convention::constant_noise;
       MesoparticleGas<2> g(12000, 1.5, range);
       for (auto& p : g.gas) {
@@ -154,6 +158,7 @@ TEST(DpdeRelaxation, TwoTemperaturesApproachAtTheKnownRate) {
       double const rate = drag * squares - 2 * noise2 * weights / mass;
       double const time = 0.004 * mass / (2 * sum * friction), before = g.internal_energy();
       Simulation simulation(g.scheme, time / 2);
+      simulation.seed(test_seed(1));
       simulation.add(g.flow);
       simulation.integrate(g.gas, Method::leap_frog);
       simulation.run(2);
@@ -161,64 +166,89 @@ TEST(DpdeRelaxation, TwoTemperaturesApproachAtTheKnownRate) {
       std::printf("%s from %g: %.4f of the known rate\n", to_string(convention).c_str(), hot, found);
       // Convention A's friction falls as 1 / T_int, which rises: (eps / eps_0)^2 = 1 + 2x.
       double const x = rate * time / before, expected = constant_noise ? (std::sqrt(1 + 2 * x) - 1) / x : 1;
-      EXPECT_NEAR(found / expected, 1, 0.03) << to_string(convention) << " from " << hot;
+      // Noise makes an error of sqrt(2 T / (gamma time sum chi^2 v^2)), 0.6 %, where it is hot, of 0.8 % where not.
+      EXPECT_NEAR(found / expected, 1, 0.045) << to_string(convention) << " from " << hot;
     }
 }
 
-// Two halves of different internal temperature, at rest, without friction: heat flows along the gradient. The lowest
-// wave of temperature decays at kappa / (C T^2) sum_j chi^2 (1 - cos q x_ij), exactly, where amplitudes are small.
-TEST(DpdeConduction, HalvesBecomeEqualAtTheKnownRate) {
-  std::size_t const nx = 24, ny = 80;
-  double const c = 16, conduction = 2.5, range = 2.3, exponent = 0.5;
-  Ensemble<Meso<2>> lattice("lattice", nx * ny);
-  block_load(lattice, {Lattice::square, 1, {nx, ny, 1}, {0.5, 0.5, 0}});
-  PairScheme scheme(Box(Vector{0.0, 0.0}, Vector{double(nx), double(ny)}, Boundary::periodic), range);
-  scheme.load(lattice);
-  DissipativeFlow flow(scheme, 1);
-  flow.state(lattice, StateLaw(c));
-  flow.internal(lattice, {.range = range, .exponent = exponent, .conduction = conduction});
-  double const hot = 1.4, cold = 0.6, q = 2 * std::numbers::pi / static_cast<double>(nx);
-  for (auto& p : lattice) p.internal_energy = c * (p.position[0] < double(nx) / 2 ? hot : cold);
-  double sum = 0, all = 0;  // over the neighbours of a site
-  for (int x = -3; x <= 3; ++x)
-    for (int y = -3; y <= 3; ++y) {
-      double const r = std::hypot(x, y);
-      if (r == 0 || r >= range) continue;
-      sum += std::pow(1 - r / range, 2 * exponent) * (1 - std::cos(q * x));
-      all += std::pow(1 - r / range, 2 * exponent);
-    }
-  auto const wave = [&] {
+/// Two halves of different internal temperature (1 + or - step), at rest, without friction: heat flows along the
+/// gradient.
+struct Halves {
+  static constexpr std::size_t nx = 24;
+  static constexpr double conduction = 2.5, range = 2.3, exponent = 0.5, q = 2 * std::numbers::pi / nx;
+  double capacity, n, dt, rate;
+  Ensemble<Meso<2>> lattice;
+  PairScheme scheme;
+  DissipativeFlow flow;
+  Simulation simulation;
+
+  Halves(double capacity, double step, std::size_t ny)
+      : capacity(capacity),
+        n(static_cast<double>(nx * ny)),
+        lattice("lattice", nx * ny),
+        scheme(Box(Vector{0.0, 0.0}, Vector{double(nx), double(ny)}, Boundary::periodic), range),
+        flow(scheme, 1),
+        simulation(scheme, 1) {
+    block_load(lattice, {Lattice::square, 1, {nx, ny, 1}, {0.5, 0.5, 0}});
+    scheme.load(lattice);
+    flow.state(lattice, StateLaw(capacity));
+    flow.internal(lattice, {.range = range, .exponent = exponent, .conduction = conduction});
+    for (auto& p : lattice) p.internal_energy = capacity * (p.position[0] < nx / 2.0 ? 1 + step : 1 - step);
+    double sum = 0, all = 0;  // over the neighbours of a site
+    for (int x = -3; x <= 3; ++x)
+      for (int y = -3; y <= 3; ++y) {
+        double const r = std::hypot(x, y);
+        if (r == 0 || r >= range) continue;
+        sum += std::pow(1 - r / range, 2 * exponent) * (1 - std::cos(q * x));
+        all += std::pow(1 - r / range, 2 * exponent);
+      }
+    rate = conduction / capacity * sum;
+    dt = 0.02 * capacity / (conduction * all);  // short beside the exchange of a particle with its neighbours
+    simulation.step_size(dt);
+    simulation.add(flow);
+    simulation.seed(test_seed(1));
+    simulation.integrate(lattice, Method::leap_frog);
+  }
+  double wave() const {
     double amplitude = 0;
     for (auto const& p : lattice) amplitude += p.internal_energy * std::sin(q * p.position[0]);
-    return amplitude / static_cast<double>(nx * ny);
-  };
-  auto const total = [&] {
+    return amplitude / n;
+  }
+  double total() const {
     double energy = 0;
     for (auto const& p : lattice) energy += p.internal_energy;
     return energy;
-  };
-  double const rate = conduction / c * sum, start = wave(), energy = total();
-  // Steps short beside the exchange of a particle with its neighbours.
-  double const dt = 0.02 * c / (conduction * all);
-  Simulation simulation(scheme, dt);
-  simulation.add(flow);
-  simulation.integrate(lattice, Method::leap_frog);
-  // sigma^2 of the waves in equilibrium: k C T^2 / 2N.
-  double const chance = std::sqrt(c / (2.0 * nx * ny)) / std::abs(start);
-  auto const steps = static_cast<std::uint64_t>(0.7 / rate / dt);
-  simulation.run(steps);
-  EXPECT_NEAR(wave() / start / std::exp(-rate * dt * static_cast<double>(steps)), 1, 4 * chance + 0.03);
-  EXPECT_LT(chance, 0.02);
-  simulation.run(4 * steps);
-  EXPECT_NEAR(total() / energy, 1, 1e-12);
+  }
+  void run(double times) { simulation.run(static_cast<std::uint64_t>(times / rate / dt)); }
+};
+
+// The lowest wave of temperature decays at kappa / (C T^2) sum_j chi^2 (1 - cos q x_ij), exactly, where amplitudes are
+// small; with so large a heat capacity those of chance are smaller yet: sigma^2 of waves in equilibrium is k C T^2 /
+// 2N.
+TEST(DpdeConduction, HalvesBecomeEqualAtTheKnownRate) {
+  Halves halves(16000, 0.15, 40);
+  double const start = halves.wave(), chance = std::sqrt(halves.capacity / (2 * halves.n)) / std::abs(start);
+  halves.run(0.7);
+  double const expected = std::exp(-halves.rate * halves.simulation.time());
+  EXPECT_LT(chance, 0.002);
+  EXPECT_NEAR(halves.wave() / start / expected, 1, 5 * chance / expected + 0.01);
+}
+
+TEST(DpdeConduction, HalvesComeToEquilibrium) {
+  Halves halves(16, 0.4, 80);
+  double const energy = halves.total();
+  halves.run(3.5);
+  EXPECT_NEAR(halves.total() / energy, 1, 1e-12);
   std::vector<double> energies;
-  for (auto const& p : lattice) energies.push_back(p.internal_energy);
-  double const kt = energy / static_cast<double>(nx * ny) / (c + 1);
-  EXPECT_LT(kolmogorov_smirnov(energies, gamma_law(c, kt)), 2.23);
-  for (auto const& p : lattice) ASSERT_EQ(magnitude(p.velocity), 0);
+  for (auto const& p : halves.lattice) energies.push_back(p.internal_energy);
+  double const kt = energy / halves.n / (halves.capacity + 1);
+  EXPECT_LT(kolmogorov_smirnov(energies, gamma_law(halves.capacity, kt)), kolmogorov_smirnov_limit);
+  for (auto const& p : halves.lattice) ASSERT_EQ(magnitude(p.velocity), 0);
 }
 
 // A heat capacity that doubles within the range of energies: its own exact law, found here by quadrature from Cv alone.
+// Energies near 0 have a density of energy^4, and noise may take what is not there of any of them, however short the
+// step: once in 2000 steps of 0.02 with 2000 particles. So steps are accepted or refused, which is exact.
 TEST(DpdeEquilibrium, HeatCapacityByATable) {
   std::vector<double> const temperatures{0.5, 0.8, 1.3, 2.0}, capacities{4, 5, 9, 10};
   StateLaw const law(temperatures, capacities);
@@ -259,8 +289,10 @@ TEST(DpdeEquilibrium, HeatCapacityByATable) {
   for (auto& p : g.gas) p.internal_energy = energy[place(0.95)];
   g.flow.state(g.gas, law);
   g.flow.internal(g.gas, {.friction = 1, .range = 1.6});
-  g.flow.corrector(true);
-  Simulation simulation(g.scheme, 0.02);
+  g.flow.method(FlowMethod::pair_splitting);
+  g.flow.metropolis(true);
+  Simulation simulation(g.scheme, 0.04);
+  simulation.seed(test_seed(1));
   simulation.add(g.flow);
   simulation.integrate(g.gas, Method::leap_frog);
   double const total = g.kinetic_energy() / g.size() + g.internal_energy() / g.size();
@@ -270,24 +302,25 @@ TEST(DpdeEquilibrium, HeatCapacityByATable) {
     (middle + mean(middle) < total ? low : high) = middle;
   }
   double const kt = low;
-  simulation.run(1000);
+  simulation.run(700);
   std::vector<double> kinetic, harmonic;
   for (int sample = 0; sample < 200; ++sample) {
-    simulation.run(5);
+    simulation.run(3);
     kinetic.push_back(g.kinetic_temperature());
     harmonic.push_back(g.harmonic_temperature([&](double e) { return law.temperature(e); }));
   }
   auto const t = estimate(kinetic, 20), t_int = estimate(harmonic, 20);
-  ASSERT_LT(t.error, 0.006 * kt);
-  EXPECT_NEAR(t.mean / kt, 1, 4 * t.error / kt + 0.002);
-  EXPECT_NEAR(t_int.mean / kt, 1, 4 * t_int.error / kt + 0.002);
+  // As in check_equilibrium: standard errors are 0.4 % and 0.4 %.
+  EXPECT_NEAR(t.mean / kt, 1, 0.03);
+  EXPECT_NEAR(t_int.mean / kt, 1, 0.025);
   std::vector<double> found;
   for (auto const& p : g.gas) {
     auto const i =
         static_cast<std::size_t>(std::lower_bound(energy.begin(), energy.end(), p.internal_energy) - energy.begin());
     found.push_back(step * static_cast<double>(i));
   }
-  EXPECT_LT(kolmogorov_smirnov(found, Tabulated([&](double x) { return density(x, kt); }, 0, 4)), 2.23);
+  EXPECT_LT(kolmogorov_smirnov(found, Tabulated([&](double x) { return density(x, kt); }, 0, 4)),
+            kolmogorov_smirnov_limit);
   EXPECT_NEAR(g.kinetic_energy() / g.size() + g.internal_energy() / g.size(), total, 1e-11);
 }
 
@@ -308,10 +341,11 @@ TEST(DpdeCrystal, AtThreeHundredKelvin) {
   std::size_t const nx = 30, ny = 32;
   pvdf::Crystal crystal(nx, ny);
   auto& molecules = crystal.molecules;
-  internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, 3);
+  internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, test_seed(3));
   crystal.flow.internal(molecules, pvdf::dissipation(10));
   crystal.flow.corrector(true);
   Simulation simulation(crystal.scheme, 0.005);
+  simulation.seed(test_seed(1));
   simulation.add(crystal.flow);
   simulation.integrate(molecules, Method::leap_frog);
   auto const bath = std::make_shared<LangevinFlow>(300, 2, pvdf::boltzmann_constant);
@@ -328,11 +362,11 @@ TEST(DpdeCrystal, AtThreeHundredKelvin) {
     pressure.push_back((p[0][0] + p[1][1]) / 2 / pvdf::newton_per_metre);
   }
   auto const t_kin = estimate(kinetic, 14), t_int = estimate(internal, 14), p = estimate(pressure, 14);
-  double const error = std::hypot(t_kin.error, t_int.error);
-  ASSERT_LT(error, 0.007 * 300);
-  EXPECT_NEAR(t_kin.mean, t_int.mean, 4 * error);
-  EXPECT_NEAR(t_int.mean, 300, 6);
-  EXPECT_NEAR(p.mean, 0, 0.002 + 3 * p.error);
+  // Standard errors: 0.25 % of the two temperatures' ratio; of the temperature itself what n energies make that are
+  // loaded with a spread of sqrt(17)/16; 0.0015 N/m of the pressure, most by that.
+  EXPECT_NEAR(t_kin.mean / t_int.mean, 1, 0.02);
+  EXPECT_NEAR(t_int.mean, 300, 5 * 300 * std::sqrt(17 / n) / 16);
+  EXPECT_NEAR(p.mean, 0, 0.01);
   std::printf("T_kin %.2f(%.2f) T_int %.2f(%.2f) pressure %.5f(%.5f) N/m\n", t_kin.mean, t_kin.error, t_int.mean,
               t_int.error, p.mean, p.error);
   double arithmetic = 0;
@@ -341,8 +375,9 @@ TEST(DpdeCrystal, AtThreeHundredKelvin) {
     arithmetic += m.internal_energy / pvdf::heat_capacity / n;
     energies.push_back(m.internal_energy);
   }
-  EXPECT_NEAR(arithmetic / t_int.mean, 1 + 1.0 / 16, 0.012);
-  EXPECT_LT(kolmogorov_smirnov(energies, gamma_law(16, pvdf::boltzmann_constant * t_int.mean)), 2.23);
+  EXPECT_NEAR(arithmetic / t_int.mean, 1 + 1.0 / 16, 0.018);  // motion takes and gives sqrt(2 / n) / 16: 0.3 %
+  EXPECT_LT(kolmogorov_smirnov(energies, gamma_law(16, pvdf::boltzmann_constant * t_int.mean)),
+            kolmogorov_smirnov_limit);
   auto const momentum_left = momentum(molecules);
   EXPECT_LT(std::hypot(momentum_left[0], momentum_left[1]), 1e-9 * n * pvdf::mass);
 }
@@ -352,9 +387,10 @@ TEST(DpdeCrystal, EnergyErrorIsOfSecondOrder) {
   for (double const dt : {0.0025, 0.005, 0.01}) {
     pvdf::Crystal crystal(16, 16);
     auto& molecules = crystal.molecules;
-    internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, 3);
+    internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, test_seed(3));
     crystal.flow.internal(molecules, pvdf::dissipation());
     Simulation simulation(crystal.scheme, dt);
+    simulation.seed(test_seed(1));
     simulation.add(crystal.flow);
     simulation.integrate(molecules, Method::leap_frog);
     auto const bath = std::make_shared<LangevinFlow>(300, 2, pvdf::boltzmann_constant);
@@ -379,8 +415,8 @@ TEST(DpdeCrystal, EnergyErrorIsOfSecondOrder) {
     EXPECT_LT(std::hypot(after[0] - before[0], after[1] - before[1]), 1e-9 * 256 * pvdf::mass);
   }
   std::printf("energy errors %.5f %.5f %.5f K\n", error[0], error[1], error[2]);
-  EXPECT_NEAR(std::log2(error[1] / error[0]), 2, 0.3);
-  EXPECT_NEAR(std::log2(error[2] / error[1]), 2, 0.3);
+  // Each error is known to 5 %, so that the order has a standard error of 0.05.
+  EXPECT_NEAR(std::log2(error[2] / error[0]) / 2, 2, 0.3);
 }
 
 // Without noise: hotter motion warms what is inside and the other way round, until both are equal, but for the two
@@ -395,13 +431,14 @@ TEST(DpdeDeterministic, TemperaturesMeet) {
     d.temperature = 300;
     crystal.flow.internal(molecules, d);
     Simulation simulation(crystal.scheme, 0.005);
+    simulation.seed(test_seed(1));
     simulation.add(crystal.flow);
     simulation.integrate(molecules, Method::leap_frog);
     auto const bath = std::make_shared<LangevinFlow>(warm, 2, pvdf::boltzmann_constant);
     bath->on(molecules);
     simulation.prepare(bath, 600);
     simulation.run(1);
-    EXPECT_NEAR(temperature(molecules, pvdf::boltzmann_constant, true).total, warm, 0.2 * warm);
+    EXPECT_NEAR(temperature(molecules, pvdf::boltzmann_constant, true).total, warm, 5 * warm / std::sqrt(256.0));
     double const start = total_energy(simulation, molecules);
     simulation.run(5000);
     std::vector<double> kinetic, internal;
@@ -414,7 +451,8 @@ TEST(DpdeDeterministic, TemperaturesMeet) {
     std::printf("deterministic: T_kin %.2f(%.2f) T_int %.2f(%.2f)\n", t_kin.mean, t_kin.error, t_int.mean, t_int.error);
     EXPECT_NEAR(t_kin.mean / t_int.mean, 1.02, 0.03);
     EXPECT_GT(std::abs(t_int.mean - 300), 5);
-    EXPECT_NEAR((total_energy(simulation, molecules) - start) / 256 / pvdf::boltzmann_constant, 0, 0.4);  // kelvin
+    EXPECT_NEAR((total_energy(simulation, molecules) - start) / 256 / pvdf::boltzmann_constant, 0,
+                1);  // kelvin; one end is off by 0.15
   }
 }
 

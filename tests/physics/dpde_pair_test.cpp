@@ -2,6 +2,7 @@
 #include <tests/physics/dpde_oracle.hpp>
 #include <tests/physics/mesoparticle_pairs.hpp>
 #include <tests/physics/statistics.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -60,13 +61,13 @@ TEST(DpdeOracle, MeetsTheStationaryDistribution) {
     std::vector<double> roots;
     for (std::uint64_t sample = 0; sample < 3000; ++sample) {
       oracle::Lump<2> i{{0, 0}, {0, 0}, 1, 5, 4}, j{{1, 0}, {0, 0}, 2, 7, 6};
-      Stream stream(3, sample, 0, Purpose::user);
+      Stream stream(test_seed(3), sample, 0, Purpose::user);
       for (int step = 0; step < 200; ++step) oracle::pair_step<2>(d, i, j, 1, 0.03, {stream.normal(), stream.normal()});
       auto const v = oracle::difference<2>(i.velocity, j.velocity);
       roots.push_back(std::sqrt(oracle::inner<2>(v, v) / 3));
       EXPECT_NEAR(i.energy + j.energy + oracle::inner<2>(v, v) / 3, 12, 1e-9);
     }
-    EXPECT_LT(kolmogorov_smirnov(roots, stationary(2, 5, 7, 4, 6)), 2.23) << to_string(convention);
+    EXPECT_LT(kolmogorov_smirnov(roots, stationary(2, 5, 7, 4, 6)), kolmogorov_smirnov_limit) << to_string(convention);
   }
 }
 
@@ -122,7 +123,7 @@ TYPED_TEST(DpdePair, KeepsMomentumAndEnergyToRounding) {
         choose(pairs.flow, way);
         pairs.dissipation(dissipation(convention, projected));
         for (std::size_t i = 0; i < 50; ++i) {
-          Stream stream(5, 0, i, Purpose::user);
+          Stream stream(test_seed(5), 0, i, Purpose::user);
           pairs.first[i].mass = 0.5 + 3 * stream.uniform();
           pairs.second[i].mass = 0.5 + 3 * stream.uniform();
           pairs.first[i].internal_energy = 10 + 10 * stream.uniform();
@@ -205,11 +206,11 @@ TYPED_TEST(DpdePair, FrictionAndNoiseAreTheOracles) {
         }
         std::string const where = std::string(way.name) + " " + to_string(convention) + (projected ? " projected" : "");
         auto const check = [&](std::vector<double> const& u) {
-          EXPECT_NEAR(estimate(u).mean, 0, 4 / std::sqrt(count)) << where;
+          EXPECT_NEAR(estimate(u).mean, 0, 5 / std::sqrt(count)) << where;
           double square = 0;
           for (double const x : u) square += x * x / static_cast<double>(count);
-          EXPECT_NEAR(square, 1, 4 * std::sqrt(2.0 / count)) << where;
-          EXPECT_LT(kolmogorov_smirnov(u, normal_distribution), 2.23) << where;
+          EXPECT_NEAR(square, 1, 5 * std::sqrt(2.0 / count)) << where;
+          EXPECT_LT(kolmogorov_smirnov(u, normal_distribution), kolmogorov_smirnov_limit) << where;
         };
         check(along);
         if (!projected) check(across);
@@ -250,7 +251,7 @@ TYPED_TEST(DpdePair, RelaxesAtItsRateToItsTemperature) {
     pairs.advance(500, dt);
     auto v = moments();
     for (double& x : v) x = (x - 30 * std::exp(-6.0)) * (x - 30 * std::exp(-6.0)) * mu / (k * d.temperature);
-    EXPECT_NEAR(estimate(v).mean, 1, 4 * std::sqrt(2.0 / count) + 0.005) << way.name;
+    EXPECT_NEAR(estimate(v).mean, 1, 5 * std::sqrt(2.0 / count) + 0.005) << way.name;
   }
 }
 
@@ -285,23 +286,24 @@ TYPED_TEST(DpdePair, SmallStepsMeetTheStationaryDistribution) {
         EXPECT_LT(
             distance_from_stationary<TypeParam::value>(
                 way, convention, projected, way.method == FlowMethod::order_free && !way.corrector ? 0.015 : 0.04, 8),
-            2.23)
+            kolmogorov_smirnov_limit)
             << way.name << " " << to_string(convention) << (projected ? " projected" : "");
 }
 
-// A step as long as the time of relaxation: a plain step is off, an accepted or refused one exact.
+// A step as long as the time of relaxation: an accepted or refused one is exact.
 TYPED_TEST(DpdePair, MetropolisIsExactAtAnyStep) {
   constexpr int D = TypeParam::value;
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction}) {
     for (bool const projected : {true, false})
-      EXPECT_LT(distance_from_stationary<D>(ways[3], convention, projected, 1.0, 8, 8000), 2.23)
+      EXPECT_LT(distance_from_stationary<D>(ways[3], convention, projected, 1.0, 8, 8000), kolmogorov_smirnov_limit)
           << to_string(convention) << (projected ? " projected" : "");
     // Hardly any heat capacity: without refusals energies would become negative.
-    EXPECT_LT(distance_from_stationary<D>(ways[3], convention, false, 0.5, 2, 8000), 2.23) << to_string(convention);
+    EXPECT_LT(distance_from_stationary<D>(ways[3], convention, false, 0.5, 2, 8000), kolmogorov_smirnov_limit)
+        << to_string(convention);
   }
-  if (D > 1) {
-    EXPECT_GT(distance_from_stationary<D>(ways[2], Convention::constant_friction, false, 1.5, 8, 8000), 2.23);
-  }
+  // Of thousands of energies a plain step, here as before, soon takes what is not there.
+  EXPECT_THROW(distance_from_stationary<D>(ways[2], Convention::constant_friction, false, 0.5, 2, 8000),
+               PhysicsFailure);
 }
 
 // ---- Several at once ----
@@ -363,7 +365,7 @@ TEST(DpdeOrderFree, ACloudWithoutNoiseIsTheOracles) {
       Ensemble<Meso<2>> cloud("cloud", count);
       std::vector<oracle::Lump<2>> lumps;
       for (std::size_t i = 0; i < count; ++i) {
-        Stream stream(8, 0, i, Purpose::user);
+        Stream stream(test_seed(8), 0, i, Purpose::user);
         auto& p = cloud[i];
         p.position = {length * stream.uniform(), length * stream.uniform()};
         p.velocity = {stream.normal(), stream.normal()};

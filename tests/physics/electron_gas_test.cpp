@@ -2,6 +2,7 @@
 // has.
 #include <tests/physics/shipped.hpp>
 #include <tests/physics/waves.hpp>
+#include <tests/seed.hpp>
 
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -41,10 +42,10 @@ TEST(ElectronGas, WavesHaveTheEnergyOfEquilibrium) {
   Box const box(Vector{0.0, 0.0}, Vector{edge, edge}, Boundary::periodic);
   Ensemble<Coulomb<2>> electrons("electrons", 4096);
   reduced_plasma(electrons, box);
-  random_load(electrons, box, 3);
+  random_load(electrons, box, test_seed(3));
   MaxwellianOptions options;
   options.exact_temperature = true;
-  maxwellian_load(electrons, electrons[0].mass, 1, 3, options);
+  maxwellian_load(electrons, electrons[0].mass, 1, test_seed(3), options);
   MeshScheme mesh(box, {cells, cells}, reduced_law());
   mesh.assignment(Assignment::tsc);
   mesh.form(PoissonForm::spectral);

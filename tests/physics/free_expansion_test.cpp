@@ -2,6 +2,7 @@
 // heats it, what is conserved, smooth particles as atoms, and rarefactions into vacuum.
 #include <tests/physics/shipped.hpp>
 #include <tests/physics/smooth_gas.hpp>
+#include <tests/seed.hpp>
 
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/laws/materials/ideal_gas.hpp>
@@ -28,7 +29,7 @@ struct Fourfold {
   Fourfold(std::size_t count, double range, Boundary boundary, std::uint64_t seed)
       : n(static_cast<double>(count)), box(Vector{0.0, 0.0}, Vector{2 * n, 2 * n}, boundary), scheme(box) {
     fill<2>(gas, Vector{n / 2, n / 2}, 1, {count, count});
-    jitter(gas, 0.1, seed);
+    jitter(gas, 0.1, test_seed(seed));
     for (auto& p : gas) p.mass = 1, p.range = range;
     scheme.material(gas, QuadraticGas{});
   }
@@ -127,7 +128,9 @@ TEST(FreeExpansion, IsMolecularDynamicsWithTheWeightAsPotential) {
       apart = std::max(apart, magnitude(atoms[i].position - run.gas[i].position));
       moved = std::max(moved, magnitude(run.gas[i].velocity) * 50);
     }
-    EXPECT_LT(apart, 1e-10) << "range " << range;
+    // Two ways to sum the same forces differ by 1e-14 at first; chaos makes 1e-11 to 1e-9 of it. An error of a millionth
+    // in the forces would be 1e-5.
+    EXPECT_LT(apart, 1e-6) << "range " << range;
     EXPECT_GT(moved, 20);
     // The potential energy, with w(0)/2 for each, is the internal energy.
     double kinetic = 0;
@@ -146,7 +149,7 @@ Twofold expand_1d(std::size_t count, double range, double sound_times) {
   Box const box(Vector{0.0}, Vector{2 * n}, Boundary::mirror);
   Ensemble<Smooth<1>> gas("gas");
   fill<1>(gas, Vector{n / 2}, 1, {count});
-  jitter(gas, 0.1, 1);
+  jitter(gas, 0.1, test_seed(1));
   for (auto& p : gas) p.mass = 1, p.range = range, p.specific_energy = 1.0 / 6;
   SmoothScheme scheme(box);
   scheme.material(gas, IdealGas{3});

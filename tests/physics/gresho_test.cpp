@@ -43,6 +43,7 @@ Vortex turn(std::size_t n) {
   double const spacing = 1 / static_cast<double>(n);
   Ensemble<Smooth<2>> gas("gas");
   fill<2>(gas, Vector{-0.5, -0.5}, spacing, {n, n});
+  nudge(gas);
   for (auto& p : gas) {
     p.mass = spacing * spacing;
     p.range = 5 * spacing;

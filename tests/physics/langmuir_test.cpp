@@ -183,16 +183,17 @@ TEST(Langmuir, UpperHybridOscillation) {
 }
 
 // The shipped run shows the branch of Bohm and Gross in its noise: of each wave the frequency with the largest power
-// among steps of 0.005, where 300/wp resolve 0.01.
+// among steps of 0.005, where 300/wp resolve 0.01. Landau damping widens the lines of these waves by 0.002 at most
+// (that of mode 6 by 0.02, and what is largest of it is chance).
 TEST(Langmuir, TheShippedRunShowsTheBranch) {
   auto const run = shipped("langmuir");
-  std::vector<std::vector<Complex>> waves(7);
+  std::vector<std::vector<Complex>> waves(6);
   run->simulation->observe(10, [&](Simulation const&) {
     auto const& field = mesh_field(*run->scheme, "field");
-    for (int mode : {3, 4, 6}) waves[static_cast<std::size_t>(mode)].push_back(mode_of(field, 0, {mode, 0, 0}));
+    for (int mode : {3, 4, 5}) waves[static_cast<std::size_t>(mode)].push_back(mode_of(field, 0, {mode, 0, 0}));
   });
   run->simulation->run(3000);
-  for (int mode : {3, 4, 6}) {
+  for (int mode : {3, 4, 5}) {
     auto const& wave = waves[static_cast<std::size_t>(mode)];
     double largest = 0, frequency = 0;
     for (double omega = 0.5; omega < 2; omega += 0.005)

@@ -10,6 +10,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cmath>
+#include <tests/seed.hpp>
 
 namespace boltzmann {
 
@@ -24,11 +25,11 @@ struct MesoparticleGas {
         k(k) {
     scheme.load(gas);
     scheme.skin(0.3 * range);  // ideal particles are fast
-    random_load(gas, scheme.box(), 4);
+    random_load(gas, scheme.box(), test_seed(4));
   }
   /// Velocities of this kinetic temperature (exactly), no momentum.
   void kinetic_temperature(double temperature) {
-    maxwellian_load(gas, temperature, k, 5, {.remove_drift = true, .exact_temperature = true});
+    maxwellian_load(gas, temperature, k, test_seed(5), {.remove_drift = true, .exact_temperature = true});
   }
   double kinetic_energy() const {
     double sum = 0;

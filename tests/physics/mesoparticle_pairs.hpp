@@ -7,6 +7,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <cmath>
+#include <tests/seed.hpp>
 
 namespace boltzmann {
 
@@ -21,7 +22,7 @@ struct MesoparticlePairs {
         flow(scheme, k) {
     std::size_t const n = side(count);
     for (std::size_t i = 0; i < count; ++i) {
-      Stream stream(11, 0, i, Purpose::position);
+      Stream stream(test_seed(11), 0, i, Purpose::position);
       Vector<D> direction{};
       do
         for (int d = 0; d < D; ++d) direction[d] = stream.normal();
@@ -38,7 +39,7 @@ struct MesoparticlePairs {
   void dissipation(Dissipation const& dissipation) { flow.between(first, second, dissipation); }
 
   /// Steps of the flow alone.
-  void advance(int steps, double dt, std::uint64_t seed = 1) {
+  void advance(int steps, double dt, std::uint64_t seed = test_seed(1)) {
     if (step_ == 0) {
       scheme.calculate();
       flow.check();

@@ -159,6 +159,8 @@ struct Impact {
     StiffenedGas const compression{4, density * sound * sound / 4};
     block_load(rod, Lattice::square, spacing, {30, 10, 1}, {-1.475, -0.225, 0}, true);
     block_load(plate, Lattice::square, spacing, {40, 60, 1}, {0.025, -1.475, 0}, true);
+    nudge(rod);
+    nudge(plate);
     for (auto* solid : {&rod, &plate})
       for (auto& p : *solid) {
         p.mass = density * spacing * spacing;

@@ -63,6 +63,7 @@ Blast explode(std::size_t along, double spacings, double hot, double longest) {
   counts.fill(along);
   Ensemble<Smooth<D>> gas("gas");
   fill<D>(gas, low, spacing, counts);
+  nudge(gas);
   double energy = 0, moment = 0;
   for (auto& p : gas) {
     double const r = magnitude(p.position);

@@ -3,12 +3,18 @@
 
 #include <boltzmann/scenario/scenario.hpp>
 
+#include <tests/nudge.hpp>
+
 #include <stdexcept>
 
 namespace boltzmann {
 
-inline std::unique_ptr<ScenarioSimulation> shipped(std::string const& name, Overrides const& overrides = {}) {
-  return load_scenario(std::string(BOLTZMANN_SOURCE) + "/scenarios/" + name + ".toml", overrides);
+/// With the seed of the scenario; with another one and other roundings where BOLTZMANN_TEST_SEED asks for them.
+inline std::unique_ptr<ScenarioSimulation> shipped(std::string const& name, Overrides overrides = {}) {
+  if (!overrides.seed && test_seed(0) != 0) overrides.seed = test_seed(0);
+  auto run = load_scenario(std::string(BOLTZMANN_SOURCE) + "/scenarios/" + name + ".toml", overrides);
+  for (auto& ensemble : run->ensembles) nudge(*ensemble);
+  return run;
 }
 
 inline AnyEnsemble& ensemble(ScenarioSimulation& run, std::string const& name) {

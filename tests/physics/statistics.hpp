@@ -30,8 +30,11 @@ inline Estimate estimate(std::vector<double> const& series, std::size_t blocks) 
   return estimate(means);
 }
 
-/// sqrt(n) times the largest distance of the samples' distribution from the given one: above 2.23 once in 10 000 times
-/// if they are independent samples of it.
+/// What `kolmogorov_smirnov` of independent samples of the distribution is above with the probability of five standard
+/// errors: 2 exp(-2 x^2) = 6e-7.
+inline constexpr double kolmogorov_smirnov_limit = 2.74;
+
+/// sqrt(n) times the largest distance of the samples' distribution from the given one.
 template <class Distribution>
 double kolmogorov_smirnov(std::vector<double> samples, Distribution const& distribution) {
   std::sort(samples.begin(), samples.end());

@@ -34,6 +34,7 @@ Decay decay(std::size_t n, double viscosity, double end_time) {
   double const spacing = 1 / static_cast<double>(n);
   Ensemble<Smooth<2>> fluid("fluid");
   fill<2>(fluid, Vector{0.0, 0.0}, spacing, {n, n});
+  nudge(fluid);
   for (auto& p : fluid) {
     p.mass = spacing * spacing;
     p.range = 5 * spacing;

@@ -7,6 +7,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cstring>
 #include <random>
@@ -16,7 +17,7 @@ namespace {
 
 template <class P>
 void scatter(Ensemble<P>& particles, unsigned seed) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   for (auto& p : particles) {
     for (int a = 0; a < P::dimension; ++a) p.position[a] = std::uniform_real_distribution(-1.0, 1.0)(random);
     p.mass = std::uniform_real_distribution(0.5, 2.0)(random);

@@ -5,6 +5,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cstring>
 #include <random>
@@ -15,7 +16,7 @@ namespace {
 
 template <int D>
 void scatter(Ensemble<Newton<D>>& lumps, double length) {
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(test_seed(1));
   std::uniform_real_distribution<double> place(0, length);
   for (auto& lump : lumps) {
     for (int a = 0; a < D; ++a) lump.position[a] = place(random);

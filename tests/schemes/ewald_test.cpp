@@ -9,6 +9,7 @@
 #include <boltzmann/schemes/mesh/ewald.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cmath>
 #include <limits>
@@ -35,7 +36,7 @@ struct System {
 template <int D>
 System<D> random_system(std::size_t n, Vector<D> const& edges, bool neutral, unsigned seed) {
   System<D> system{edges, {}, {}};
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   std::uniform_real_distribution<double> uniform(0, 1);
   for (std::size_t i = 0; i < n; ++i) {
     Vector<D> x;

@@ -5,6 +5,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cstdio>
 #include <cstring>
@@ -27,7 +28,7 @@ struct Crowd {
   Box box;
   Ensemble<Newton<D>> atoms;
   PairScheme scheme;
-  std::mt19937_64 random{5};
+  std::mt19937_64 random{test_seed(5)};
   std::vector<std::size_t> fast{1, 100, 101};
 
   static Box make_box(Boundary kind) {

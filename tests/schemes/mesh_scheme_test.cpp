@@ -2,6 +2,7 @@
 #include <boltzmann/schemes/mesh/ewald.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <tests/schemes/mesh_systems.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ std::vector<std::size_t> cubic(std::size_t n) {
 /// the source in its cell, as a part of the force.
 template <int D>
 double error_in_open_space(std::size_t cells, int order, PoissonForm form) {
-  std::mt19937_64 random(11);
+  std::mt19937_64 random(test_seed(11));
   std::uniform_real_distribution<double> uniform(0, 1);
   std::normal_distribution<double> normal;
   double errors = 0, squares = 0;

@@ -4,6 +4,7 @@
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <tests/schemes/mesh_systems.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -50,7 +51,7 @@ struct Plasma {
       high[a] = low[a] + 2 + 0.5 * a;
       cells.push_back(options.cells + static_cast<std::size_t>(a));
     }
-    std::mt19937_64 random(options.seed);
+    std::mt19937_64 random(test_seed(options.seed));
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
     Box const box(low, high, options.boundary);
@@ -404,7 +405,7 @@ struct Failing {
   std::unique_ptr<Simulation> simulation;
 
   explicit Failing(Boundary boundary, Precision precision = Precision::full) {
-    std::mt19937_64 random(1);
+    std::mt19937_64 random(test_seed(1));
     std::uniform_real_distribution<double> uniform(0.1, 0.9);
     for (auto& p : ions) {
       p.position = {uniform(random), uniform(random)};

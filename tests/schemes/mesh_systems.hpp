@@ -11,6 +11,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <tests/seed.hpp>
 #include <vector>
 
 namespace boltzmann::mesh_tests {
@@ -31,7 +32,7 @@ Vector<D> filled(double x) {
 template <int D>
 void scatter(Ensemble<Coulomb<D>>& particles, std::size_t count, Vector<D> const& low, Vector<D> const& high,
              unsigned seed, double apart = 0) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   std::uniform_real_distribution<double> uniform(0, 1);
   particles.resize(count);
   for (std::size_t i = 0; i < count; ++i) {

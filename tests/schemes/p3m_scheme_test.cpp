@@ -3,6 +3,7 @@
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <tests/schemes/mesh_systems.hpp>
+#include <tests/seed.hpp>
 
 #include <gtest/gtest.h>
 
@@ -113,7 +114,7 @@ TEST(P3M, SeveralClasses) {
   Ensemble<Coulomb<3>> ions("ions"), nobody("nobody");
   Ensemble<Bead<3>> beads("beads", 30);
   scatter<3>(ions, 31, Vector<3>{}, edges, 71);
-  std::mt19937_64 random(72);
+  std::mt19937_64 random(test_seed(72));
   std::uniform_real_distribution<double> uniform(0, 1);
   for (std::size_t i = 0; i < 30; ++i) {
     for (int a = 0; a < 3; ++a) beads[i].position[a] = edges[a] * uniform(random);
@@ -226,7 +227,7 @@ struct MoltenSalt {
   std::unique_ptr<Simulation> simulation;
 
   explicit MoltenSalt(double dt, int threads = 1, Method method = Method::leap_frog) {
-    std::mt19937_64 random(81);
+    std::mt19937_64 random(test_seed(81));
     std::normal_distribution<double> normal;
     for (int i = 0; i < 216; ++i) {
       int const x = i % 6, y = i / 6 % 6, z = i / 36;

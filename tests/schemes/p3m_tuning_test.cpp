@@ -7,6 +7,7 @@
 #include <boltzmann/schemes/mesh/p3m_tuning.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -192,7 +193,7 @@ double rms(std::vector<Vector<D>> const& a) {
 template <int D>
 System<D> random_system(std::size_t n, Vector<D> const& edges, bool neutral, unsigned seed) {
   System<D> system{edges, {}, {}};
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   std::uniform_real_distribution<double> uniform(0, 1);
   for (std::size_t i = 0; i < n; ++i) {
     Vector<D> x;

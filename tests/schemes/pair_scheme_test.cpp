@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <random>
 
@@ -30,7 +31,7 @@ constexpr auto smooth_law = [](auto const& p, auto const& q) {
 
 template <class P>
 void scatter(Ensemble<P>& particles, Box const& box, unsigned seed, double margin = 0) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test_seed(seed));
   for (auto& p : particles) {
     for (int a = 0; a < P::dimension; ++a)
       p.position[a] = std::uniform_real_distribution(box.low(a) + margin, box.high(a) - margin)(random);
@@ -67,7 +68,7 @@ void compare_lists_with_oracle(std::array<double, 3> length, Boundary kind, doub
   EXPECT_LT(difference(atoms, oracle::influences(atoms, atoms, smooth_law, box, cutoff)), 1e-13)
       << D << "D " << to_string(kind) << " cutoff " << cutoff << " N " << count;
   // Move without rebuilding, then far enough to rebuild, in- and outside of the box.
-  std::mt19937_64 random(3);
+  std::mt19937_64 random(test_seed(3));
   for (double const step : {0.02, 0.02, 0.3}) {
     for (auto& p : atoms)
       for (int a = 0; a < D; ++a) p.position[a] += std::uniform_real_distribution(-step, step)(random);

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -31,7 +32,7 @@ Box space(double low, double high, Boundary boundary = Boundary::open) {
 /// Random particles of different masses; their density is `density(position)`.
 template <class P, class Density>
 void fill(Ensemble<P>& particles, std::size_t count, Density const& density) {
-  std::mt19937_64 random(count + 5);
+  std::mt19937_64 random(test_seed(count + 5));
   std::uniform_real_distribution<double> uniform;
   particles.resize(count);
   for (auto& p : particles) {
@@ -340,7 +341,7 @@ TEST(Rezone, HalvesStayInside) {
   // In the corner of a bounded box, on a wall, and at the face of a block that keeps particles out.
   auto box = space<2>(0, 10, Boundary::bounded);
   box.install(Vector{4.0, 4.0}, Vector{6.0, 6.0}, Region::Side::keep_out);
-  std::mt19937_64 random(4);
+  std::mt19937_64 random(test_seed(4));
   std::uniform_real_distribution<double> uniform(0, 0.02);
   Ensemble<Smooth<2>> particles("gas", 300);
   for (std::size_t i = 0; i < 300; ++i) {

@@ -8,6 +8,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/seed.hpp>
 
 #include <cstring>
 
@@ -21,7 +22,7 @@ Gas viscous_gas() { return {IdealGas{1.4, 2.0}, 0.07, 0.03, 0.11}; }
 template <int D>
 void fill(Ensemble<Smooth<D>>& gas, double spread_of_ranges) {
   for (std::size_t i = 0; i < gas.size(); ++i) {
-    Stream s(3, 0, i, Purpose::position);
+    Stream s(test_seed(3), 0, i, Purpose::position);
     auto& p = gas[i];
     for (int a = 0; a < D; ++a) {
       p.position[a] = 0.02 + 4.96 * s.uniform();

@@ -6,6 +6,7 @@
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/simulation/picture.hpp>
 #include <tests/message.hpp>
+#include <tests/seed.hpp>
 
 #include <cairo/cairo.h>
 
@@ -142,7 +143,7 @@ TEST(ParticlePictures, ColoursOfAPalette) {
 
 TEST(ParticlePictures, LimitsAndRegionsAreTold) {
   Atoms<2> plane;
-  std::mt19937 random(1);
+  std::mt19937 random(test_seed(1));
   std::uniform_real_distribution<double> place(0, 10);
   std::size_t inside = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -267,7 +268,7 @@ TEST(HistogramPictures, OfAMillionNormalNumbersAreTheGaussian) {
   constexpr double mean = 2, sigma = 0.5;
   Atoms<2> plane;
   plane.atoms.resize(count);
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(test_seed(7));
   std::normal_distribution<double> normal(mean, sigma);
   for (auto& p : plane.atoms) p.velocity = {normal(random), 0};
   Canvas const canvas = plane.drawn({.drawing = "histogram", .x = "velocity.x"});
@@ -302,7 +303,7 @@ TEST(HistogramPictures, BinsScalesAndRefusals) {
   Atoms<2> plane;
   EXPECT_EQ(message([&] { plane.drawn({.drawing = "histogram"}); }),
             "a histogram of speed needs particles; there are none");
-  std::mt19937_64 random(3);
+  std::mt19937_64 random(test_seed(3));
   std::uniform_real_distribution<double> place(0, 10);
   for (int i = 0; i < 800; ++i) plane.add({place(random), 1}, {1, 0});
   auto const bins = [](Canvas const& canvas) { return (canvas.curves()[0].x.size() - 2) / 2; };
@@ -428,7 +429,7 @@ struct SlowedLiquid {
   Simulation simulation{scheme, 0.004};
 
   SlowedLiquid() {
-    std::mt19937_64 random(5);
+    std::mt19937_64 random(test_seed(5));
     for (std::size_t i = 0; i < 400; ++i) {
       auto& p = i % 2 == 0 ? slowed[i / 2] : free[i / 2];
       p.position = {1.1 * (static_cast<double>(i % 20) + 0.5), 1.1 * (static_cast<double>(i / 20) + 0.5)};
@@ -451,7 +452,7 @@ struct Vortices {
   Simulation simulation{scheme, 0.02};
 
   Vortices() {
-    std::mt19937_64 random(5);
+    std::mt19937_64 random(test_seed(5));
     std::uniform_real_distribution<double> place(0, 10);
     for (auto& v : vortices) {
       v.position = {place(random), place(random)};
