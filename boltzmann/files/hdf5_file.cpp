@@ -67,6 +67,13 @@ std::string last_reason() {
   return text;
 }
 
+// A property list for something that is made: without times in its header, so that two runs give the same bytes.
+hid_t creation_list(hid_t kind) {
+  hid_t const list = H5Pcreate(kind);
+  H5Pset_obj_track_times(list, false);
+  return list;
+}
+
 hid_t file_type(Number number) { return number == Number::real ? H5T_IEEE_F64LE : H5T_STD_I64LE; }
 
 hid_t variable_text_type() {
@@ -206,7 +213,7 @@ std::unique_ptr<File> File::create(std::string path, bool ordered, std::uint64_t
   Silence const silence;
   std::unique_ptr<File> file(new File(std::move(path)));
   file->disk_->open(file->path_, Disk::Use::create);
-  Properties const access(access_list(file->disk_.get(), ordered)), creation(H5Pcreate(H5P_FILE_CREATE));
+  Properties const access(access_list(file->disk_.get(), ordered)), creation(creation_list(H5P_FILE_CREATE));
   if (user_block > 0) H5Pset_userblock(creation, user_block);
   file->id_ = H5Fcreate(file->path_.c_str(), H5F_ACC_TRUNC, creation, access);
   if (file->id_ < 0 || file->disk_->error != 0) file->fail("can't be made");
@@ -298,7 +305,8 @@ std::vector<std::string> File::children(std::string const& group) const {
 
 void File::create_group(std::string const& group) {
   Silence const silence;
-  Object const made(H5Gcreate2(id_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  Properties const creation(creation_list(H5P_GROUP_CREATE));
+  Object const made(H5Gcreate2(id_, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT));
   if (made.bad()) fail("can't make the group " + group);
 }
 
@@ -320,7 +328,7 @@ Dataset File::create_growing(std::string const& dataset, Number number, Extents 
   for (std::size_t k = 0; k < growing.size(); ++k)
     if (growing[k]) limits[k] = H5S_UNLIMITED;
   Space const space(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), limits.data()));
-  Properties const creation(H5Pcreate(H5P_DATASET_CREATE));
+  Properties const creation(creation_list(H5P_DATASET_CREATE));
   if (number == Number::real && !chunks.empty()) {
     double const missing = std::numeric_limits<double>::quiet_NaN();
     H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &missing);
@@ -351,7 +359,8 @@ void File::write_text(std::string const& dataset, std::string const& text) {
   H5Tset_strpad(type, H5T_STR_NULLPAD);
   H5Tset_cset(type, H5T_CSET_UTF8);
   Space const space(H5Screate(H5S_SCALAR));
-  Opened const made(H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  Properties const creation(creation_list(H5P_DATASET_CREATE));
+  Opened const made(H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
   if (made.bad() || H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0)
     fail("can't write " + dataset);
 }
