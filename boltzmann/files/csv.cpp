@@ -9,9 +9,8 @@
 #include <optional>
 
 namespace boltzmann {
-namespace {
 
-std::string quoted(std::string const& word) {
+std::string csv_word(std::string const& word) {
   if (word.find_first_of(",\"\r\n") == std::string::npos) return word;
   std::string text = "\"";
   for (char const c : word) {
@@ -21,9 +20,11 @@ std::string quoted(std::string const& word) {
   return text + '"';
 }
 
+namespace {
+
 std::string header_row(std::vector<std::string> const& header) {
   std::string row;
-  for (std::size_t k = 0; k < header.size(); ++k) row += (k > 0 ? "," : "") + quoted(header[k]);
+  for (std::size_t k = 0; k < header.size(); ++k) row += (k > 0 ? "," : "") + csv_word(header[k]);
   return row + '\n';
 }
 

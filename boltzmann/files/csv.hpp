@@ -12,6 +12,9 @@
 
 namespace boltzmann {
 
+/// A word of a row: in quotation marks where it needs them.
+std::string csv_word(std::string const& word);
+
 /// A table whose first column is the step. Every row is with the system when `write` returns.
 class CsvFile {
  public:

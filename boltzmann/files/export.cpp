@@ -1,4 +1,4 @@
-// Extended XYZ, VTK PolyData and ImageData.
+// Extended XYZ, LAMMPS dumps, VTK PolyData and ImageData.
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export.hpp>
@@ -8,9 +8,11 @@
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace boltzmann {
@@ -46,20 +48,6 @@ std::string xml(std::string const& text) {
   return result;
 }
 
-// The fields that every ensemble has, as the first one describes them, position first.
-std::vector<Field> common_fields(std::span<AnyEnsemble const* const> ensembles) {
-  std::vector<Field> fields;
-  if (ensembles.empty()) return fields;
-  for (auto const& field : ensembles[0]->fields()) {
-    bool const everywhere = std::all_of(ensembles.begin(), ensembles.end(), [&](AnyEnsemble const* other) {
-      Field const* found = other->find_field(field.name);
-      return found != nullptr && found->components == field.components;
-    });
-    if (everywhere) fields.push_back(field);
-  }
-  return fields;
-}
-
 /// What stands behind the XML of a VTK file: every array is its length in bytes as a 64-bit number, then the numbers.
 struct AppendedData {
   std::string data;
@@ -76,10 +64,16 @@ struct AppendedData {
   }
 };
 
-std::string array_tag(char const* type, std::string const& name, int components, std::size_t offset) {
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-      xml(name), components, offset);
+std::string array_tag(char const* type, std::string const& name, int components, std::size_t offset,
+                      std::string const& unit = "") {
+  std::string const tag =
+      fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"",
+                  type, xml(name), components, offset);
+  if (unit.empty()) return tag + "/>\n";
+  return tag + fmt::format(
+                   ">\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n"
+                   "</DataArray>\n",
+                   xml(unit));
 }
 
 /// Everything before the pieces of a data set of this kind, which has these attributes.
@@ -124,64 +118,202 @@ std::string lattice(BoxEdges const& box) {
   return fmt::format("Lattice=\"{}\" Origin=\"{}\" ", edges, origin);
 }
 
-}  // namespace
+int columns_of(ExportField const& field, int dimension) { return is_spatial(field, dimension) ? 3 : field.components; }
 
-void write_xyz(std::string const& path, double time, std::span<AnyEnsemble const* const> ensembles, BoxEdges const& box,
-               bool append, std::function<std::string(Dimension)> const& unit_name) {
-  std::vector<Field> const fields = common_fields(ensembles);
+double value_of(ExportField const& field, std::size_t particle, int component) {
+  return component < field.components
+             ? field.factor * field.first[particle * field.stride + static_cast<std::size_t>(component)]
+             : 0.0;
+}
+
+// The fields of `wanted`, in that order, as these particles have them.
+std::vector<ExportField const*> own_fields(ExportParticles const& particles, std::vector<ExportField> const& wanted) {
+  std::vector<ExportField const*> own;
+  for (auto const& field : wanted)
+    own.push_back(&*std::find_if(particles.fields.begin(), particles.fields.end(),
+                                 [&](ExportField const& candidate) { return candidate.name == field.name; }));
+  return own;
+}
+
+std::string species_of(ExportParticles const& particles) {
+  return word(particles.species.empty() ? particles.name : particles.species);
+}
+
+std::size_t count_of(ExportFrame const& frame) {
   std::size_t total = 0;
-  for (auto const* ensemble : ensembles) total += ensemble->size();
-  std::string text = fmt::format("{}\n{}Properties=species:S:1", total, lattice(box));
-  auto const columns = [&](Field const& field) {
-    return !ensembles.empty() && is_spatial(field, ensembles[0]->dimension()) ? 3 : field.components;
-  };
-  for (auto const& field : fields) {
-    std::string const name = field.name == "position" ? "pos" : field.name == "velocity" ? "velo" : word(field.name);
-    text += fmt::format(":{}:R:{}", name, columns(field));
-  }
+  for (auto const& particles : frame.particles) total += particles.size;
+  return total;
+}
+
+std::string xyz_name(std::string const& field) {
+  return field == "position" ? "pos" : field == "velocity" ? "velo" : word(field);
+}
+
+std::string xyz(ExportFrame const& frame, bool complete) {
+  std::vector<ExportField> const fields = common_fields(frame.particles);
+  int const dimension = frame.particles.empty() ? 3 : frame.particles.front().dimension;
+  std::string text = fmt::format("{}\n{}Properties=species:S:1", count_of(frame), lattice(frame.box));
+  // The identifier stands behind the position, for readers that know name x y z and no more.
+  auto const with_id = [&](ExportField const& field) { return complete && field.name == "position"; };
+  for (auto const& field : fields)
+    text +=
+        fmt::format(":{}:R:{}{}", xyz_name(field.name), columns_of(field, dimension), with_id(field) ? ":id:I:1" : "");
   if (fields.empty()) text += ":pos:R:3";
   text += " pbc=\"";
   for (int axis = 0; axis < 3; ++axis)
-    text += fmt::format("{}{}", axis > 0 ? " " : "", axis < box.dimension && box.periodic[axis] ? "T" : "F");
+    text +=
+        fmt::format("{}{}", axis > 0 ? " " : "", axis < frame.box.dimension && frame.box.periodic[axis] ? "T" : "F");
   text += "\" Time=";
-  append_number(text, time);
-  auto const unit = [&](char const* key, Dimension dimension) {
-    std::string const name = unit_name ? unit_name(dimension) : "";
-    if (!name.empty()) text += fmt::format(" {}=\"{}\"", key, name);
-  };
-  unit("Length_unit", dimensions::length);
-  unit("Time_unit", dimensions::time);
+  append_number(text, frame.time);
+  if (complete) text += fmt::format(" Step={}", frame.step);
+  if (!frame.length_unit.empty()) text += fmt::format(" Length_unit=\"{}\"", frame.length_unit);
+  if (!frame.time_unit.empty()) text += fmt::format(" Time_unit=\"{}\"", frame.time_unit);
+  for (auto const& field : fields)
+    if (complete && !field.unit.empty() && field.name != "position")
+      text += fmt::format(" {}_unit=\"{}\"", xyz_name(field.name), field.unit);
   text += '\n';
-
-  TextFile file(path, append ? TextFile::Mode::append : TextFile::Mode::replace);
-  for (auto const* ensemble : ensembles) {
-    std::string const species = word(ensemble->name());
-    std::vector<int> offsets;
-    offsets.reserve(fields.size());
-    for (auto const& field : fields) offsets.push_back(ensemble->find_field(field.name)->offset);
-    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+  for (auto const& particles : frame.particles) {
+    std::string const species = species_of(particles);
+    auto const own = own_fields(particles, fields);
+    for (std::size_t i = 0; i < particles.size; ++i) {
       text += species;
-      for (std::size_t k = 0; k < fields.size(); ++k)
-        for (int c = 0; c < columns(fields[k]); ++c) {
+      for (auto const* field : own) {
+        for (int c = 0; c < columns_of(*field, dimension); ++c) {
           text += ' ';
-          append_number(text, c < fields[k].components ? ensemble->row(i)[offsets[k] + c] : 0.0);
+          append_number(text, value_of(*field, i, c));
+        }
+        if (with_id(*field)) text += ' ', append_number(text, particles.first_id + static_cast<std::int64_t>(i));
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+// How LAMMPS calls the columns of a field.
+std::vector<std::string> dump_columns(ExportField const& field, int dimension) {
+  if (field.name == "position") return {"x", "y", "z"};
+  if (field.name == "velocity" && is_spatial(field, dimension)) return {"vx", "vy", "vz"};
+  if (field.name == "force" && is_spatial(field, dimension)) return {"fx", "fy", "fz"};
+  if (field.name == "charge" && field.components == 1) return {"q"};
+  std::string const name = word(field.name);
+  if (field.components == 1) return {name};
+  std::vector<std::string> names;
+  for (int c = 0; c < field.components; ++c) {
+    if (field.components == dimension)
+      names.push_back(fmt::format("{}_{}", name, "xyz"[c]));
+    else if (field.components == dimension * dimension)
+      names.push_back(fmt::format("{}_{}{}", name, "xyz"[c / dimension], "xyz"[c % dimension]));
+    else
+      names.push_back(fmt::format("{}_{}", name, c + 1));
+  }
+  return names;
+}
+
+}  // namespace
+
+ExportParticles export_particles(AnyEnsemble const& ensemble) {
+  ExportParticles particles{ensemble.name(), ensemble.dimension(), ensemble.size(), 1, {}};
+  for (auto const& field : ensemble.fields())
+    particles.fields.push_back({field.name, field.components,
+                                ensemble.size() > 0 ? ensemble.row(0) + field.offset : nullptr, ensemble.stride()});
+  return particles;
+}
+
+std::vector<ExportField> common_fields(std::span<ExportParticles const> particles) {
+  std::vector<ExportField> fields;
+  if (particles.empty()) return fields;
+  for (auto const& field : particles.front().fields) {
+    bool const everywhere = std::all_of(particles.begin(), particles.end(), [&](ExportParticles const& other) {
+      return std::any_of(other.fields.begin(), other.fields.end(), [&](ExportField const& candidate) {
+        return candidate.name == field.name && candidate.components == field.components;
+      });
+    });
+    if (everywhere) fields.push_back(field);
+  }
+  return fields;
+}
+
+std::string xyz_text(ExportFrame const& frame) { return xyz(frame, true); }
+
+std::string dump_text(ExportFrame const& frame) {
+  std::vector<ExportField> const fields = common_fields(frame.particles);
+  int const dimension = frame.particles.empty() ? 3 : frame.particles.front().dimension;
+  std::array<double, 3> low{-0.5, -0.5, -0.5}, high{0.5, 0.5, 0.5};
+  std::string text =
+      fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS", frame.step, count_of(frame));
+  for (int axis = 0; axis < 3; ++axis) {
+    bool const there = axis < frame.box.dimension;
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (auto const& particles : frame.particles)
+      for (auto const& field : particles.fields)
+        if (there && field.name == "position")
+          for (std::size_t i = 0; i < particles.size; ++i) {
+            first = std::min(first, value_of(field, i, axis));
+            last = std::max(last, value_of(field, i, axis));
+          }
+    if (!(first <= last)) first = last = 0;
+    text += ' ';
+    for (bool const lower : {true, false}) {
+      double const edge = !there ? 0 : lower ? frame.box.low[axis] : frame.box.high[axis];
+      if (there)
+        (lower ? low : high)[static_cast<std::size_t>(axis)] = std::isfinite(edge) ? edge : lower ? first : last;
+      text += !std::isfinite(edge) ? 's' : there && frame.box.periodic[axis] ? 'p' : 'f';
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    text += '\n';
+    append_number(text, low[axis]);
+    text += ' ';
+    append_number(text, high[axis]);
+  }
+  text += "\nITEM: ATOMS id type element";
+  for (auto const& field : fields)
+    for (auto const& name : dump_columns(field, dimension)) text += " " + name;
+  text += '\n';
+  for (std::size_t e = 0; e < frame.particles.size(); ++e) {
+    auto const& particles = frame.particles[e];
+    std::string const kind = fmt::format(" {} {}", e + 1, species_of(particles));
+    auto const own = own_fields(particles, fields);
+    for (std::size_t i = 0; i < particles.size; ++i) {
+      append_number(text, particles.first_id + static_cast<std::int64_t>(i));
+      text += kind;
+      for (auto const* field : own)
+        for (int c = 0; c < columns_of(*field, dimension); ++c) {
+          text += ' ';
+          append_number(text, value_of(*field, i, c));
         }
       text += '\n';
     }
   }
-  file.write(text);
+  return text;
+}
+
+void write_xyz(std::string const& path, double time, std::span<AnyEnsemble const* const> ensembles, BoxEdges const& box,
+               bool append, std::function<std::string(Dimension)> const& unit_name) {
+  ExportFrame frame{0, time, box, {}};
+  for (auto const* ensemble : ensembles) frame.particles.push_back(export_particles(*ensemble));
+  if (unit_name) frame.length_unit = unit_name(dimensions::length), frame.time_unit = unit_name(dimensions::time);
+  TextFile file(path, append ? TextFile::Mode::append : TextFile::Mode::replace);
+  file.write(xyz(frame, false));
   file.close();
 }
 
 void write_vtp(std::string const& path, double time, AnyEnsemble const& ensemble) {
-  std::size_t const n = ensemble.size();
+  auto particles = export_particles(ensemble);
+  particles.first_id = 0;
+  write_vtp(path, time, particles);
+}
+
+void write_vtp(std::string const& path, double time, ExportParticles const& particles) {
+  std::size_t const n = particles.size;
   AppendedData appended;
-  auto const add_field = [&](Field const& field) {
-    int const columns = is_spatial(field, ensemble.dimension()) ? 3 : field.components;
+  auto const add_field = [&](ExportField const& field) {
+    int const columns = columns_of(field, particles.dimension);
     std::size_t const offset = appended.begin_array(n * static_cast<std::size_t>(columns) * sizeof(double));
     for (std::size_t i = 0; i < n; ++i)
-      for (int c = 0; c < columns; ++c) appended.put(c < field.components ? ensemble.row(i)[field.offset + c] : 0.0);
-    return array_tag("Float64", field.name, columns, offset);
+      for (int c = 0; c < columns; ++c) appended.put(value_of(field, i, c));
+    return array_tag("Float64", field.name, columns, offset, field.unit);
   };
   auto const add_integers = [&](char const* name, std::int64_t first) {
     std::size_t const offset = appended.begin_array(n * sizeof(std::int64_t));
@@ -195,11 +327,12 @@ void write_vtp(std::string const& path, double time, AnyEnsemble const& ensemble
       "NumberOfPolys=\"0\">\n",
       n, n);
   text += "<PointData>\n";
-  for (auto const& field : ensemble.fields())
+  for (auto const& field : particles.fields)
     if (field.name != "position") text += add_field(field);
-  text += add_integers("id", 0);
+  text += add_integers("id", particles.first_id);
   text += "</PointData>\n<Points>\n";
-  text += add_field(ensemble.field("position"));
+  for (auto const& field : particles.fields)
+    if (field.name == "position") text += add_field(field);
   text += "</Points>\n<Verts>\n";
   text += add_integers("connectivity", 0);
   text += add_integers("offsets", 1);

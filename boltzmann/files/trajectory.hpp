@@ -75,6 +75,7 @@ class TrajectoryReader {
     int components;    ///< without the zeros that pad position and velocity
     bool constant;     ///< written once
     std::string unit;  ///< as the simulation said it; "" if there were no units
+    double factor;     ///< the simulation's numbers were written times this, to be in that unit
   };
   struct StoredEnsemble {
     std::string name, class_name;
@@ -96,9 +97,13 @@ class TrajectoryReader {
 
   /// Number of particles of an ensemble in a frame.
   std::size_t size(std::size_t frame, std::string const& ensemble) const;
+  /// Which numbers are wanted: the simulation's own, or as they are in the file, in the units that it names.
+  enum class Numbers { simulation, written };
   /// A field of a frame, particle after particle: size * components doubles.
-  std::vector<double> read(std::size_t frame, std::string const& ensemble, std::string const& field) const;
-  BoxEdges box(std::size_t frame) const;
+  std::vector<double> read(std::size_t frame, std::string const& ensemble, std::string const& field,
+                           Numbers numbers = Numbers::simulation) const;
+  BoxEdges box(std::size_t frame, Numbers numbers = Numbers::simulation) const;
+  double written_time(std::size_t frame) const { return times_.at(frame) * time_factor_; }
   /// Fills the ensemble (resizing it) with the stored ensemble of the same name: every field of its class that the file
   /// has. Error if the file has no such ensemble, or it is of another class or dimension.
   void load(std::size_t frame, AnyEnsemble& ensemble) const;
@@ -114,6 +119,7 @@ class TrajectoryReader {
   std::vector<std::int64_t> steps_;
   std::vector<double> times_;
   std::string time_unit_;
+  double time_factor_ = 1;
 };
 
 /// A unit as H5MD writes it, "Angstrom ps-1" for "angstrom/ps", "" for a text that is not made of units (a number with

@@ -79,9 +79,9 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
       if (element == "box" || element == "count" || element == "id" || element == "species") continue;
       bool const constant = file.is_dataset(group + "/" + element);
       std::string const values = group + "/" + element + (constant ? "" : "/value");
-      fields.emplace_back(
-          file.integer(values, "offset"),
-          StoredField{element, static_cast<int>(file.integer(values, "components")), constant, unit(values)});
+      fields.emplace_back(file.integer(values, "offset"),
+                          StoredField{element, static_cast<int>(file.integer(values, "components")), constant,
+                                      unit(values), state_->factor(values)});
     }
     std::sort(fields.begin(), fields.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
     for (auto& [offset, field] : fields) ensemble.fields.push_back(std::move(field));
@@ -90,8 +90,8 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
   auto stored = layout::frames(file);
   steps_ = std::move(stored.steps);
   times_ = std::move(stored.times);
-  double const time_factor = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
-  for (double& time : times_) time /= time_factor;
+  time_factor_ = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
+  for (double& time : times_) time /= time_factor_;
   time_unit_ = unit("/particles/" + ensembles_[0].name + "/position/time");
 }
 
@@ -133,8 +133,8 @@ std::size_t TrajectoryReader::size(std::size_t frame, std::string const& ensembl
   return static_cast<std::size_t>(count);
 }
 
-std::vector<double> TrajectoryReader::read(std::size_t frame, std::string const& ensemble,
-                                           std::string const& field) const {
+std::vector<double> TrajectoryReader::read(std::size_t frame, std::string const& ensemble, std::string const& field,
+                                           Numbers numbers) const {
   StoredField const& stored = find(find(ensemble), field);
   std::size_t const n = size(frame, ensemble);
   auto const components = static_cast<std::size_t>(stored.components);
@@ -151,13 +151,13 @@ std::vector<double> TrajectoryReader::read(std::size_t frame, std::string const&
   if (vector) extents.back() = components;
   std::vector<double> result(n * components);
   values.read(result.data(), start, extents);
-  double const factor = state_->factor(dataset);
+  double const factor = numbers == Numbers::written ? 1 : state_->factor(dataset);
   if (factor != 1)
     for (double& value : result) value /= factor;
   return result;
 }
 
-BoxEdges TrajectoryReader::box(std::size_t frame) const {
+BoxEdges TrajectoryReader::box(std::size_t frame, Numbers numbers) const {
   hdf5::File const& file = *state_->file;
   std::string const group = "/particles/" + ensembles_[0].name + "/box";
   BoxEdges box;
@@ -170,7 +170,7 @@ BoxEdges TrajectoryReader::box(std::size_t frame) const {
   box.dimension = static_cast<int>(d);
   values.read(box.low, {checked(frame), 0, 0}, {1, 1, d});
   values.read(box.high, {frame, 1, 0}, {1, 1, d});
-  double const factor = state_->factor(group + "/bounds/value");
+  double const factor = numbers == Numbers::written ? 1 : state_->factor(group + "/bounds/value");
   for (std::size_t axis = 0; axis < d; ++axis) box.low[axis] /= factor, box.high[axis] /= factor;
   for (std::size_t axis = 0; axis < d; ++axis) box.periodic[axis] = boundary[axis] == "periodic";
   return box;

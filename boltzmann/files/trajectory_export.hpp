@@ -1,0 +1,57 @@
+// Export of trajectories: all frames of a run, or some of them, in a format that another program opens.
+#pragma once
+
+#include <boltzmann/files/trajectory.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+
+/// What a file with some ending is. Help, errors and the guide's table are made of these.
+struct ExportFormat {
+  std::string_view name;      ///< "extended XYZ"
+  std::string_view suffixes;  ///< separated by blanks: ".xyz .extxyz"
+  std::string_view holds;
+  std::string_view readers;  ///< who opens it
+};
+std::span<ExportFormat const> export_formats();
+/// The format that a path's ending asks for; Error that names all if it asks for none.
+ExportFormat const& export_format(std::string const& path);
+
+/// The frames that "a:b:c" means, as Python has it: from a, to before b, every c-th; each may be left out, and negative
+/// ones count from the end. "7" is one frame. Error with the line of what is wrong, or if no frame is chosen.
+std::vector<std::size_t> chosen_frames(std::string_view text, std::size_t count);
+
+struct ExportOptions {
+  std::vector<std::size_t> frames = {};     ///< empty: all
+  std::vector<std::string> ensembles = {};  ///< empty: all
+  std::vector<std::string> fields = {};     ///< beside the position; empty: all (that the ensembles share, in columns)
+  std::vector<std::pair<std::string, std::string>> species =
+      {};  ///< ensemble, and what stands for its particles ("Cu")
+  /// "metal" (LAMMPS' word: angstrom, ps, amu, eV, K, elementary charge, bar), "si", "run" (those of trajectory.h5).
+  /// Empty: for .xyz and .dump metal where the run has lengths in angstrom, nm, pm or fm, and si where it has others;
+  /// run in all other formats, and where a run has no units.
+  std::string units = {};
+  std::function<void(std::size_t done, std::size_t all)> progress = {};
+};
+
+struct ExportReport {
+  std::size_t frames = 0;
+  std::string units;               ///< "metal", "si", "run", or "none": the run has none
+  std::vector<std::string> names;  ///< of the fields
+};
+
+/// Writes the frames into the file `path`; .pvd: into it and a folder of the same name. What is being written has
+/// ".part" behind its name until it is whole. Identifiers count from 1 through all exported ensembles; .csv has the
+/// particle's number in its ensemble, from 0. Error, one line, if something is asked for that the trajectory doesn't
+/// have, or a file can't be written.
+ExportReport export_trajectory(TrajectoryReader const& reader, std::string const& path,
+                               ExportOptions const& options = {});
+
+}  // namespace boltzmann
