@@ -66,6 +66,18 @@ double FormulaNames::evaluate(Formula const& formula, double const* row) {
   return formula(values_);
 }
 
+void formula_mistake(Item const& item, std::string_view key, FormulaError const& error, Reading& reading) {
+  Place place = item.place;
+  bool const in_file = place.override_number < 0;
+  if (in_file) {  // columns are characters, not bytes
+    place.column += 1;
+    for (std::size_t i = 0; i < error.offset; ++i)
+      if ((static_cast<unsigned char>(item.text[i]) & 0xC0) != 0x80) ++place.column;
+  }
+  reading.mistake(place, fmt::format("{}: {}{}", key, error.what(),
+                                     in_file ? "" : fmt::format(" (at '{}')", item.text.substr(error.offset))));
+}
+
 std::optional<Formula> read_formula(Item const& item, std::string_view key, FormulaNames const& names,
                                     std::vector<std::string> const& unknown, Reading& reading) {
   if (reading.context.recorder) reading.context.recorder->plain(item, item.is_number() ? "number" : "text");
@@ -75,28 +87,18 @@ std::optional<Formula> read_formula(Item const& item, std::string_view key, Form
                     fmt::format("{}: a formula in quotes is needed, e.g. \"sin(2*pi*x)\", not {}", key, found(item)));
     return std::nullopt;
   }
-  auto const wrong = [&](std::size_t offset, std::string const& message) {
-    Place place = item.place;
-    bool const in_file = place.override_number < 0;
-    if (in_file) {  // columns are characters, not bytes
-      place.column += 1;
-      for (std::size_t i = 0; i < offset; ++i)
-        if ((static_cast<unsigned char>(item.text[i]) & 0xC0) != 0x80) ++place.column;
-    }
-    reading.mistake(place, fmt::format("{}: {}{}", key, message,
-                                       in_file ? "" : fmt::format(" (at '{}')", item.text.substr(offset))));
-    return std::nullopt;
-  };
   try {
     Formula formula(item.text, names.names());
     for (std::size_t const name : formula.used())
       if (std::find(unknown.begin(), unknown.end(), names.field(name)) != unknown.end())
-        return wrong(item.text.find(names.names()[name]),
-                     fmt::format("'{}' is not known when particles are loaded; only the fields that the file gives are",
-                                 names.names()[name]));
+        throw FormulaError(
+            item.text.find(names.names()[name]),
+            fmt::format("'{}' is not known when particles are loaded; only the fields that the file gives are",
+                        names.names()[name]));
     return formula;
   } catch (FormulaError const& error) {
-    return wrong(error.offset, error.what());
+    formula_mistake(item, key, error, reading);
+    return std::nullopt;
   }
 }
 

@@ -37,6 +37,9 @@ class FormulaNames {
   std::vector<double> values_;
 };
 
+/// A mistake at the column of an item where its formula is wrong.
+void formula_mistake(Item const& item, std::string_view key, FormulaError const& error, Reading& reading);
+
 /// A formula that stands in an item; a mistake at its column if it is none. `unknown` are fields that have no values
 /// yet.
 std::optional<Formula> read_formula(Item const& item, std::string_view key, FormulaNames const& names,

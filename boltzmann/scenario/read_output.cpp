@@ -6,7 +6,9 @@
 #include <boltzmann/diagnoses/profile.hpp>
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/scenario/stop_condition.hpp>
 
 #include <fmt/format.h>
 
@@ -190,6 +192,30 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
   if (!has_interval && document.has("diagnoses")) {
     plan.diagnoses = std::max<std::int64_t>(1, reading.run.steps / 200);
     set_default(resolved, "output", "diagnoses", Item::of_integer(plan.diagnoses));
+  }
+}
+
+void read_stop(Reading& reading) {
+  if (!reading.run.stop) return;
+  Item const& item = *reading.run.stop;
+  if (reading.context.recorder) reading.context.recorder->plain(item, "text");
+  if (!item.is(Item::Kind::text))
+    return reading.mistake(
+        item.place, fmt::format("stop: a condition in quotes is needed, e.g. \"time > 5\", not {}", found(item)));
+  if (!reading.diagnoses_known || !all_loaded(reading) || !reading.base_known) return;
+  std::vector<Column> columns;
+  for (auto const& diagnosis : reading.result->diagnoses)
+    for (auto& column : diagnosis->columns()) columns.push_back(std::move(column));
+  if (columns.empty() || reading.result->output.diagnoses == 0)
+    return reading.mistake(
+        item.place, columns.empty() ? "stop: it looks at the columns of diagnoses, and there are no [[diagnoses]]"
+                                    : "stop: it looks at each row of diagnoses.csv, and diagnoses = 0 in "
+                                      "[output] asks for none");
+  try {
+    reading.result->stop_when = stop_condition(item.text, columns, reading.result->base);
+    reading.result->stop = item.text;
+  } catch (FormulaError const& error) {
+    formula_mistake(item, "stop", error, reading);
   }
 }
 

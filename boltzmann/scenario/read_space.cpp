@@ -273,6 +273,7 @@ void read_run(Section& document, Reading& reading) {
   run.cutoff_place = section.place("cutoff");
   run.skin = section.quantity("skin", dimensions::length, not_negative);
   run.skin_place = section.place("skin");
+  if (Item const* stop = section.find("stop")) run.stop = *stop;
   section.finish();
   if (run.cutoff && reading.box)
     for (int a = 0; a < reading.dimension; ++a)

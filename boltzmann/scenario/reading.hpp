@@ -38,6 +38,7 @@ struct ReadRun {
   std::uint64_t seed = 1;
   int threads = 0;
   bool cutoff_known = true;  ///< false: there is one, but it could not be read
+  std::optional<Item> stop;  ///< the condition that ends the run, once the diagnoses are known
   Place place, cutoff_place, skin_place, step_place, time_place;
 };
 
@@ -158,6 +159,8 @@ void add_flows(Reading const& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.
 void read_output(Section& document, Item& resolved, Reading& reading);
+/// Reads the condition of [run] stop, when diagnoses and their interval are known.
+void read_stop(Reading& reading);
 /// The columns that diagnoses.csv will have; the axes that the box has (all three if it is not known).
 std::vector<std::string> column_names(Reading const& reading);
 std::vector<std::string> axis_names(Reading const& reading);

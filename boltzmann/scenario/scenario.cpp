@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <new>
 
@@ -38,6 +39,7 @@ void build(Item& document, Reading& reading) {
   read_flows(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
+  read_stop(reading);
   read_views(top, reading);
   read_sweep(top, reading);
   top.finish();
@@ -122,8 +124,14 @@ Place place_of(std::string const& message, Reading const& reading) {
 
 ScenarioErrors::ScenarioErrors(std::vector<std::string> all) : Error(all_lines(all)), lines(std::move(all)) {}
 
-std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides) {
+ScenarioText read_scenario(std::string const& path) {
   namespace fs = std::filesystem;
+  if (path == "-") {
+    std::string const text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
+    if (std::cin.bad()) throw Error("can't read standard input");
+    if (text.empty()) throw Error("there is no scenario on standard input");
+    return {text, "standard input", "stdin", ""};
+  }
   std::error_code failure;
   if (fs::is_directory(path, failure)) throw Error(fmt::format("'{}' is a directory; a scenario is a file", path));
   errno = 0;
@@ -132,7 +140,15 @@ std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overr
   std::string const text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (in.bad()) throw Error(fmt::format("can't read '{}'", path));
   fs::path const file(path);
-  return parse(text, path, file.stem().string(), file.parent_path().string(), overrides);
+  return {text, path, file.stem().string(), file.parent_path().string()};
+}
+
+std::unique_ptr<ScenarioSimulation> load_scenario(ScenarioText const& text, Overrides const& overrides) {
+  return parse(text.text, text.file, text.name, text.folder, overrides);
+}
+
+std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides) {
+  return load_scenario(read_scenario(path), overrides);
 }
 
 std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name,

@@ -15,9 +15,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,6 +89,8 @@ struct ScenarioSimulation {
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;
+  std::string stop;  ///< the condition that ends the run before; empty: none
+  std::function<bool(std::int64_t step, std::span<double const> values)> stop_when;  ///< the same, for Recording
   OutputPlan output;
   std::vector<PicturePlan> views;  ///< diagnoses for the window, by name
   std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
@@ -94,6 +98,19 @@ struct ScenarioSimulation {
   std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
 };
 
+/// The text of a scenario, and where it comes from.
+struct ScenarioText {
+  std::string text;
+  std::string file;    ///< what stands before line and column in messages
+  std::string name;    ///< of the scenario: the file's without its ending
+  std::string folder;  ///< where the files that it names are; empty: the present one
+};
+/// The text of a file; of standard input, whose scenario is called "stdin", if the path is "-". Error if it can't be
+/// read.
+ScenarioText read_scenario(std::string const& path);
+
+/// Makes a simulation of a text. Throws ScenarioErrors with all its mistakes.
+std::unique_ptr<ScenarioSimulation> load_scenario(ScenarioText const& text, Overrides const& overrides = {});
 /// Reads a scenario file. Throws ScenarioErrors with all its mistakes, or Error if the file can't be read.
 std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides = {});
 /// The same from text; `name` stands for the file in messages.
@@ -103,7 +120,7 @@ std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std:
 /// The folder of shipped scenarios, and the names in it ("copper", ...), sorted.
 std::string scenario_folder();
 std::vector<std::string> shipped_scenarios();
-/// The path of a scenario given as file or as shipped name; Error with the nearest name.
+/// The path of a scenario given as file, as shipped name or as "-", standard input; Error with the nearest name.
 std::string find_scenario(std::string const& file_or_name);
 
 }  // namespace boltzmann

@@ -34,6 +34,7 @@ std::vector<std::string> shipped_scenarios() {
 
 std::string find_scenario(std::string const& file_or_name) {
   namespace fs = std::filesystem;
+  if (file_or_name == "-") return file_or_name;
   std::error_code failure;
   if (fs::is_regular_file(file_or_name, failure)) return file_or_name;
   fs::path const shipped = fs::path(scenario_folder()) / (file_or_name + ".toml");

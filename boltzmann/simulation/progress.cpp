@@ -94,10 +94,38 @@ class ProgressLine {
   double shown_ = 0;
 };
 
+// Whether another few steps, and what is written at the end, fit into the time that is left.
+class TimeLimit {
+ public:
+  TimeLimit(double seconds, std::function<double()> seconds_at_end)
+      : seconds_(seconds), seconds_at_end_(std::move(seconds_at_end)) {}
+
+  /// After a step.
+  bool reached() {
+    if (++steps_ < between_looks_) return false;
+    double const now = seconds_since(start_), took = now - last_look_;
+    steps_ = 0;
+    if (last_look_ > 0) longest_ = std::max(longest_, took);  // not what came before the first step
+    last_look_ = now;
+    // The clock costs what ten pairs cost; it is read after every step unless they are short.
+    between_looks_ =
+        took > 1e-3 ? std::max<std::int64_t>(between_looks_ / 2, 1) : std::min<std::int64_t>(2 * between_looks_, 64);
+    return now + 2 * longest_ + 2 * (seconds_at_end_ ? seconds_at_end_() : 0) >= seconds_;
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double seconds_, last_look_ = 0, longest_ = 0;
+  std::function<double()> seconds_at_end_;
+  std::int64_t steps_ = 0, between_looks_ = 1;
+};
+
 }  // namespace
 
 RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options,
-                   Interrupt const& interrupt) {
+                   Interrupt const& interrupt, std::function<double()> const& seconds_at_end) {
+  auto const limit = std::make_shared<std::unique_ptr<TimeLimit>>();
+  if (options.seconds > 0) *limit = std::make_unique<TimeLimit>(options.seconds, seconds_at_end);
   simulation.check();
   RunReport report;
   for (auto const* ensemble : simulation.ensembles()) report.particles += static_cast<std::int64_t>(ensemble->size());
@@ -125,6 +153,13 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
       for (auto const* ensemble : now.ensembles()) **counted += static_cast<double>(ensemble->size());
     });
   }
+  auto const out_of_time = std::make_shared<bool>(false);
+  if (*limit)
+    simulation.observe_progress([limit, out_of_time, &simulation](Simulation const&) {
+      if (!*limit || *out_of_time || !(*limit)->reached()) return;
+      *out_of_time = true;
+      simulation.pause();
+    });
   auto const start = Clock::now();
   auto const end_line = [&] {
     if (*line) (*line)->clear();
@@ -138,15 +173,19 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   } catch (...) {
     end_line();
     counted->reset();
+    limit->reset();
     throw;
   }
   end_line();
+  limit->reset();
   report.seconds = seconds_since(start);
   report.steps = simulation.step() - first;
   report.particle_steps = counted->value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
   counted->reset();
   report.signalled = interrupt.seen();
-  report.interrupted = report.signalled && report.steps < static_cast<std::int64_t>(steps);
+  bool const early = report.steps < static_cast<std::int64_t>(steps);
+  report.interrupted = report.signalled && early;
+  report.out_of_time = *out_of_time && early && !report.interrupted;
   return report;
 }
 

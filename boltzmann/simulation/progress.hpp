@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace boltzmann {
 
@@ -14,6 +15,9 @@ struct ProgressOptions {
   bool warnings = true;      ///< false: the caller tells those of schemes and flows
   /// Does the steps, in place of Simulation::run: a window, where somebody may pause, go back, or go on.
   std::function<void(std::uint64_t steps)> drive = {};
+  /// Wall time in seconds that is left for the run and its files: it ends early, after a whole step, where another step
+  /// and a checkpoint might not fit any more. One step at least is done. 0: no limit.
+  double seconds = 0;
 };
 
 /// How a run went.
@@ -24,6 +28,8 @@ struct RunReport {
   double seconds = 0;          ///< of the loop, with all observers
   bool interrupted = false;    ///< by Ctrl-C or SIGTERM, before its last step
   bool signalled = false;      ///< one of them has come, perhaps after the last step
+  bool out_of_time = false;    ///< ended by ProgressOptions::seconds, before its last step
+  std::string condition;       ///< of Recording::stop_when, if it has ended the run; else empty
 };
 
 /// Says what schemes and flows advise (Scheme::advice, Flow::advice; if quiet, their warnings only), and runs with a

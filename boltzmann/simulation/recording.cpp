@@ -64,6 +64,11 @@ struct Recording::State {
   std::vector<std::unique_ptr<Diagnosis>> list;
   std::vector<Picture> pictures;
   std::vector<std::function<void(std::int64_t, std::span<double const>)>> on_row;
+  std::string stop_what;
+  std::function<bool(std::int64_t, std::span<double const>)> stop_when;  // empty once it has said true
+  std::optional<std::int64_t> met;  // the step at which it has, in this run or an earlier part of it
+  std::string ended_by;
+  std::int64_t ended_step = -1;
 
   bool open = false, finished = false;
   std::int64_t next = 0;  // the next step at which something is written
@@ -75,7 +80,7 @@ struct Recording::State {
   std::vector<Checkpoint::Rows> last_rows;  // of the last recorded state
   std::int64_t last_step = -1;
   double last_time = 0;
-  double seconds = 0;
+  double seconds = 0, checkpoint_seconds = 0;
 
   std::string path(std::string const& file) const { return folder + "/" + file; }
 
@@ -110,10 +115,16 @@ struct Recording::State {
     return all;
   }
 
+  std::vector<Column> columns() const {
+    std::vector<Column> all;
+    for (auto const& diagnosis : list)
+      for (auto& column : diagnosis->columns()) all.push_back(std::move(column));
+    return all;
+  }
+
   std::vector<std::string> column_names() const {
     std::vector<std::string> names;
-    for (auto const& diagnosis : list)
-      for (auto const& column : diagnosis->columns()) names.push_back(column.name);
+    for (auto& column : columns()) names.push_back(std::move(column.name));
     return names;
   }
 
@@ -160,6 +171,8 @@ struct Recording::State {
                         diagnosis->columns().front().name));
     if (every_mesh > 0 && mesh_fields().empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
+    if (stop_when && every_diagnoses == 0)
+      throw Error("a run can't be ended by a condition on its diagnoses: there are none");
     std::set<std::string> files;
     for (auto const& picture : pictures) {
       boltzmann::check(picture, ensembles(), columns,
@@ -295,6 +308,15 @@ struct Recording::State {
                         on_nodes};
     std::vector<double> values{simulation.time()};
     for (auto const& diagnosis : list) diagnosis->measure(sample, values);
+    if (stop_when && stop_when(simulation.step(), values)) {
+      // The checkpoint that is written last says that this was the end.
+      met = simulation.step();
+      ended_by = stop_what;
+      ended_step = simulation.step();
+      planned = simulation.step();
+      stop_when = {};
+      simulation.pause();
+    }
     if (column_factors.empty()) column_factors = factors();
     for (std::size_t c = 0; c < values.size(); ++c) values[c] *= column_factors[c];
     csv->write(simulation.step(), values);
@@ -308,6 +330,7 @@ struct Recording::State {
   }
 
   void write_checkpoint() {
+    auto const since = Clock::now();
     Checkpoint checkpoint;
     checkpoint.program_version = program_version;
     checkpoint.scenario = scenario;
@@ -318,9 +341,11 @@ struct Recording::State {
     for (auto const* ensemble : ensembles()) checkpoint.ensembles.push_back(copy_rows(*ensemble));
     checkpoint.state["simulation"] = simulation.state();
     checkpoint.state["planned"] = {static_cast<double>(planned)};
+    if (met) checkpoint.state["stopped"] = {static_cast<double>(*met)};
     for (std::size_t d = 0; d < list.size(); ++d) checkpoint.state[fmt::format("diagnosis {}", d)] = list[d]->state();
     boltzmann::write_checkpoint(path("checkpoint.h5"), checkpoint);
     checkpoint_step = simulation.step();
+    checkpoint_seconds = std::max(checkpoint_seconds, std::chrono::duration<double>(Clock::now() - since).count());
   }
 
   void resume() {
@@ -341,6 +366,10 @@ struct Recording::State {
     simulation.restore(checkpoint.step, checkpoint.step_size, checkpoint.seed, part("simulation"));
     for (std::size_t d = 0; d < list.size(); ++d) list[d]->restore(part(fmt::format("diagnosis {}", d)));
     if (planned < 0 && !part("planned").empty()) planned = static_cast<std::int64_t>(part("planned")[0]);
+    if (checkpoint.state.contains("stopped")) {
+      met = static_cast<std::int64_t>(part("stopped").at(0));
+      stop_when = {};
+    }
     scenario = checkpoint.scenario;
     if (every_diagnoses > 0) csv.emplace(CsvFile::append_to(path("diagnoses.csv"), header(), checkpoint.step));
     if (every_trajectory > 0)
@@ -449,6 +478,10 @@ void Recording::picture(Picture picture) { state_->pictures.push_back(std::move(
 void Recording::title(std::string title) { state_->title = std::move(title); }
 void Recording::scenario(std::string text) { state_->scenario = std::move(text); }
 void Recording::planned(std::int64_t last_step) { state_->planned = last_step; }
+void Recording::stop_when(std::string what, std::function<bool(std::int64_t, std::span<double const>)> condition) {
+  state_->stop_what = std::move(what);
+  state_->stop_when = std::move(condition);
+}
 void Recording::check() { state_->check(); }
 void Recording::resume() { state_->resume(); }
 void Recording::finish() { state_->finish(); }
@@ -469,10 +502,14 @@ std::string const& Recording::title() const { return state_->title; }
 std::vector<std::string> Recording::header() const {
   return state_->every_diagnoses > 0 ? state_->header() : std::vector<std::string>{};
 }
+std::vector<Column> Recording::columns() const { return state_->columns(); }
 std::vector<Picture> const& Recording::pictures() const { return state_->pictures; }
 std::vector<Diagnosis const*> Recording::instruments() const { return state_->instruments(); }
 std::int64_t Recording::checkpoint_step() const { return state_->checkpoint_step; }
 double Recording::seconds() const { return state_->seconds; }
+double Recording::checkpoint_seconds() const { return state_->checkpoint_seconds; }
+std::string const& Recording::ended_by() const { return state_->ended_by; }
+std::int64_t Recording::ended_step() const { return state_->ended_step; }
 
 std::vector<std::string> Recording::files() const {
   std::vector<std::string> files;
@@ -515,6 +552,8 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
     if (auto const line = flow->report(); !line.empty()) fmt::print("  flow     {}\n", line);
   for (auto const* adaptation : simulation.adaptations())
     if (auto const line = adaptation->report(recording.base()); !line.empty()) fmt::print("  changes  {}\n", line);
+  if (!report.condition.empty())
+    fmt::print("  stop     {}: true at step {}\n", report.condition, recording.ended_step());
   fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));
   std::fflush(stdout);
 }
@@ -532,7 +571,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   double const before = recording.seconds();
   RunReport report;
   try {
-    report = run_loop(simulation, steps, options, interrupt);
+    report = run_loop(simulation, steps, options, interrupt, [&] { return recording.checkpoint_seconds(); });
   } catch (PhysicsFailure const& failure) {
     recording.give_up();
     if (recording.checkpoint_step() < 0) throw;
@@ -542,10 +581,16 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   double const recorded = recording.seconds() - before;
   recording.finish();
   report.signalled = interrupt.seen();
+  report.condition = recording.ended_by();
+  if (!report.condition.empty() && recording.ended_step() == simulation.step())
+    report.interrupted = report.out_of_time = false;
   if (!options.quiet) print_summary(recording, report, *start, recorded);
   if (report.interrupted)
     fmt::print(stderr, "stopped by a signal after step {}; its checkpoint is written: {}/checkpoint.h5\n",
                simulation.step(), recording.folder());
+  if (report.out_of_time)
+    fmt::print(stderr, "out of time after step {}; its checkpoint is written: {}/checkpoint.h5\n", simulation.step(),
+               recording.folder());
   return report;
 }
 

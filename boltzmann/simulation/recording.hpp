@@ -70,6 +70,12 @@ class Recording {
   void scenario(std::string text);
   /// Stored in the checkpoint: the step at which the run is meant to end.
   void planned(std::int64_t last_step);
+  /// Ends the run when the condition holds for a row of diagnoses.csv, after its step is finished: it is asked about
+  /// each row, the first one too, with the step and the time and columns() in the simulation's own units, until it has
+  /// said true once; run_with_progress then ends, `what` stands in its report, and the checkpoint says that the run is
+  /// at its end. (Without a recording, an observer calls Simulation::stop().) Error when the run starts, if there are
+  /// no diagnoses.
+  void stop_when(std::string what, std::function<bool(std::int64_t step, std::span<double const> values)> condition);
 
   /// Throws Error if the folder can't be used or the pictures can't be drawn. Writes nothing. The start of the run
   /// calls it.
@@ -89,7 +95,8 @@ class Recording {
   /// Writes checkpoint.h5 now, between two steps of a run that has begun; returns its path. Error if it has not, or the
   /// file can't be written.
   std::string save_checkpoint();
-  /// Called with the step and the numbers of each row that goes to diagnoses.csv (time first, in the units of header()).
+  /// Called with the step and the numbers of each row that goes to diagnoses.csv (time first, in the units of
+  /// header()).
   void on_row(std::function<void(std::int64_t step, std::span<double const> values)> function);
 
   Simulation& simulation() const;
@@ -98,10 +105,18 @@ class Recording {
   std::string const& title() const;
   /// The header of diagnoses.csv: "step", "time (ps)", "total energy (eV)", ...; empty if there are no diagnoses.
   std::vector<std::string> header() const;
+  /// The columns of diagnoses.csv behind step and time.
+  std::vector<Column> columns() const;
   std::vector<Picture> const& pictures() const;
   std::vector<Diagnosis const*> instruments() const;
   /// The step of checkpoint.h5; -1 before there is one.
   std::int64_t checkpoint_step() const;
+  /// The longest time that a checkpoint has taken so far.
+  double checkpoint_seconds() const;
+  /// What ended the run (stop_when); empty if nothing has.
+  std::string const& ended_by() const;
+  /// At which step; -1 if nothing has.
+  std::int64_t ended_step() const;
   /// Seconds spent in measuring and writing so far.
   double seconds() const;
   /// The files written, as they are listed at the end: "diagnoses.csv", ...

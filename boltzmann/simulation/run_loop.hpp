@@ -4,9 +4,12 @@
 #include <boltzmann/simulation/interrupt.hpp>
 #include <boltzmann/simulation/progress.hpp>
 
+#include <functional>
+
 namespace boltzmann {
 
+/// `seconds_at_end` says how long it takes to write what is written when the loop has ended.
 RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options,
-                   Interrupt const& interrupt);
+                   Interrupt const& interrupt, std::function<double()> const& seconds_at_end = {});
 
 }  // namespace boltzmann

@@ -79,6 +79,7 @@ struct LiveRun::State {
   // The start.
   std::vector<Checkpoint::Rows> start;
   bool start_kept = false;
+  bool told_of_end = false;  // that a condition of the recording has ended the run
 
   // Called after every step, often more than once; what it says of a step holds until the next one.
   bool look(std::int64_t step) {
@@ -242,6 +243,13 @@ struct LiveRun::State {
     else
       simulation.run(steps);
     if (goal == simulation.step()) goal.reset();
+    if (recording && recording->ended_step() == simulation.step() && what == Wish::play && !told_of_end) {
+      told_of_end = true;
+      target = simulation.step();
+      goal.reset();
+      want(Wish::pause);
+      tell("the run has ended: " + recording->ended_by());
+    }
     ++scene;
   }
 
