@@ -1,5 +1,5 @@
 // The commands of bzm: what each is told, and the exit status that it gives (0 done, 1 internal error, 2 wrong input,
-// 3 the physics failed, 130 stopped by a signal). Mistakes are thrown as Error and PhysicsFailure.
+// 3 the physics failed, 4 out of time, 130 stopped by a signal). Mistakes are thrown as Error and PhysicsFailure.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace boltzmann::bzm {
+
+/// A status of its own: a script that has to submit the rest of a run must tell it from a run that is done.
+inline constexpr int out_of_time_status = 4;
 
 /// How a run is looked at.
 struct WindowRun {
@@ -22,6 +25,7 @@ struct RunOptions {
   std::optional<std::int64_t> steps;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
+  std::optional<double> hours;        ///< of wall time
   std::vector<std::string> vary;      ///< "key=[values]": a sweep over these
   std::optional<std::int64_t> seeds;  ///< a sweep over so many seeds
   std::string out;                    ///< empty: results/<name>
@@ -34,6 +38,7 @@ struct ResumeOptions {
   std::string folder;
   std::optional<std::int64_t> steps;
   std::optional<int> threads;
+  std::optional<double> hours;  ///< of wall time
   bool quiet = false;
   WindowRun window;
 };
@@ -49,6 +54,17 @@ struct RenderOptions {
   double scale = 1;
 };
 int render(RenderOptions const& options);
+
+struct ExportRun {
+  std::string folder, out;
+  std::string frames;                          ///< "a:b:c"; empty: all
+  std::vector<std::string> ensembles, fields;  ///< with commas or several; empty: all
+  std::vector<std::string> species;            ///< "ensemble=Cu"
+  std::string units;                           ///< empty: those of the format
+};
+int export_run(ExportRun const& options);
+/// What stands below the options in its help: the formats.
+std::string export_help();
 
 struct WindowCommand {
   std::string folder;  ///< of a stored run; empty: the gallery

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 
@@ -20,7 +21,16 @@ using namespace boltzmann::bzm;
 
 constexpr char const* exit_statuses =
     "Exit status: 0 done; 1 internal error, or a file could not be written during the run; 2 your input is wrong;\n"
-    "3 the physics failed (the message names step, particle and the last good checkpoint); 130 stopped by Ctrl-C.";
+    "3 the physics failed (the message names step, particle and the last good checkpoint); 4 out of time (--hours): "
+    "bzm\n"
+    "resume goes on; 130 stopped by Ctrl-C.";
+
+constexpr char const* hours_doc =
+    "of wall time: stops before they are over, as Ctrl-C does, with status 4; bzm resume goes on";
+
+std::string hours_above_zero(std::string const& text) {
+  return std::strtod(text.c_str(), nullptr) > 0 ? "" : "'" + text + "' is no time; hours are above 0, for example 3.5";
+}
 
 std::vector<std::string> command_names(CLI::App const& app) {
   std::vector<std::string> names;
@@ -105,13 +115,16 @@ int command_line(int argc, char** argv) {
   };
   RunOptions run_options;
   auto* sub = command("run", "run a scenario; results go into a folder", [&] { return run(run_options); });
-  sub->add_option("scenario", run_options.scenario, "a file, or the name of a shipped scenario (bzm list)")->required();
+  sub->add_option("scenario", run_options.scenario,
+                  "a file, the name of a shipped scenario (bzm list), or -: standard input")
+      ->required();
   sub->add_option("--set", run_options.set, "change the scenario: key.path=value (may be given again)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   sub->add_option("--steps", run_options.steps, "number of steps")->check(CLI::NonNegativeNumber);
   sub->add_option("--seed", run_options.seed, "seed of all random numbers");
   sub->add_option("--threads", run_options.threads, "number of threads")->check(CLI::Range(1, 4096));
+  sub->add_option("--hours", run_options.hours, hours_doc)->check(hours_above_zero);
   sub->add_option("--vary", run_options.vary,
                   "one run for each value of a key; given again, another key goes along with it")
       ->type_name("KEY=[VALUES]")
@@ -130,6 +143,7 @@ int command_line(int argc, char** argv) {
   sub->add_option("--steps", resume_options.steps, "so many steps from the checkpoint on [to the planned end]")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--threads", resume_options.threads, "number of threads")->check(CLI::Range(1, 4096));
+  sub->add_option("--hours", resume_options.hours, hours_doc)->check(hours_above_zero);
   sub->add_flag("--quiet", resume_options.quiet, "no progress line and no table");
   window_options(sub, resume_options.window);
 
@@ -167,6 +181,30 @@ int command_line(int argc, char** argv) {
   sub->add_option("--scale", render_options.scale, "1: 1200 x 900 pixels")->capture_default_str();
   sub->add_flag("--dark", render_options.dark, "light on dark");
 
+  ExportRun export_options;
+  sub = command("export", "write a run's trajectory for OVITO, VMD, ParaView, ASE, MDAnalysis or a spreadsheet",
+                [&] { return export_run(export_options); });
+  sub->footer(export_help());
+  sub->add_option("folder", export_options.folder, "the folder of the run, or a trajectory.h5")->required();
+  sub->add_option("-o,--out", export_options.out, "the file; its ending says what it is")
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--frames", export_options.frames,
+                  "one, 7, or from:to:every, 10:100:5; from 0, negative: from the end")
+      ->type_name("A:B:C");
+  sub->add_option("--ensemble", export_options.ensembles, "only these (may be given again, or with commas)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  sub->add_option("--fields", export_options.fields, "only these, beside the position: velocity,mass")
+      ->type_name("NAMES")
+      ->allow_extra_args(false);
+  sub->add_option("--species", export_options.species, "what stands for the particles of an ensemble: atoms=Cu")
+      ->type_name("NAME=SYMBOL")
+      ->allow_extra_args(false);
+  sub->add_option("--units", export_options.units,
+                  "metal (angstrom, ps, amu, eV, K, e), si, or run: those of trajectory.h5 "
+                  "[.xyz, .dump: metal for atoms, si for larger things; else run]");
+
   std::string kind;
   bool names_only = false;
   sub = command("list", "list scenarios, particle classes, laws, materials, flows, integrators, diagnoses",
@@ -179,7 +217,7 @@ int command_line(int argc, char** argv) {
   sub = command("show", "explain a scenario, class, law, integrator, diagnosis or unit", [&] { return show(name); });
   sub->add_option("name", name, "a word that bzm list shows, or a unit")->required();
   sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name); });
-  sub->add_option("scenario", name, "a file, or the name of a shipped scenario")->required();
+  sub->add_option("scenario", name, "a file, the name of a shipped scenario, or -: standard input")->required();
   sub = command("new", "write a commented scenario to start from", [&] { return new_scenario(name); });
   sub->add_option("name", name, "the scenario's name; NAME.toml is written here")->required();
 

@@ -17,12 +17,18 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
   std::fflush(stdout);
 }
 
+void refuse_hours_in_window(std::optional<double> const& hours, WindowRun const& window) {
+  if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
+}
+
 }  // namespace
 
 int run(RunOptions const& options) {
-  std::string const path = find_scenario(options.scenario);
+  WallTime const wall(options.hours);
+  refuse_hours_in_window(options.hours, options.window);
+  ScenarioText const text = read_scenario(find_scenario(options.scenario));
   Overrides const overrides{options.set, options.steps, options.seed, options.threads, options.vary, options.seeds, {}};
-  auto scenario = load_scenario(path, overrides);
+  auto scenario = load_scenario(text, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
   if (holds_sweep(folder) && !options.force)
     throw Error("'" + folder +
@@ -32,18 +38,21 @@ int run(RunOptions const& options) {
     if (!options.quiet) fmt::print("this scenario is a sweep; the window shows the first of its runs\n");
     Overrides first = overrides;
     first.sweep_run = 0;
-    scenario = load_scenario(path, first);
+    scenario = load_scenario(text, first);
   }
-  if (scenario->sweep) return run_sweep({path, overrides, folder, options.quiet, options.force}, std::move(scenario));
+  if (scenario->sweep)
+    return run_sweep({text, overrides, folder, options.quiet, options.force}, wall, std::move(scenario));
   auto const recording = make_recording(*scenario, folder, options.force);
   scenario->simulation->check();
   recording->check();
   if (holds_sweep(folder)) remove_sweep(folder);
   if (!options.quiet) print_heading(*scenario, folder);
-  return run_recording(*scenario, *recording, scenario->steps, scenario->steps, options.quiet, options.window);
+  return run_recording(*scenario, *recording, scenario->steps, scenario->steps, options.quiet, wall, options.window);
 }
 
 int resume(ResumeOptions const& options) {
+  WallTime const wall(options.hours);
+  refuse_hours_in_window(options.hours, options.window);
   std::string const path = options.folder + "/checkpoint.h5";
   if (!std::filesystem::is_directory(options.folder))
     throw Error("there is no folder '" + options.folder + "' with a run to resume");
@@ -52,7 +61,7 @@ int resume(ResumeOptions const& options) {
       throw Error("'" + options.folder +
                   "' holds a sweep, whose runs go to their planned ends; --steps N is for one of "
                   "its folders");
-    return resume_sweep(options.folder, options.threads, options.quiet);
+    return resume_sweep(options.folder, options.threads, options.quiet, wall);
   }
   auto const checkpoint = read_checkpoint(path);
   if (checkpoint.scenario.empty())
@@ -70,16 +79,19 @@ int resume(ResumeOptions const& options) {
     print_heading(*scenario, options.folder);
     if (steps > 0)
       fmt::print("goes on from step {} to {}\n", checkpoint.step, planned);
+    else if (auto const met = checkpoint.state.find("stopped");
+             met != checkpoint.state.end() && met->second.at(0) == static_cast<double>(checkpoint.step))
+      fmt::print("has ended at step {} ({}); --steps N goes on from there\n", checkpoint.step, scenario->stop);
     else
       fmt::print("is already at its last step, {}; --steps N goes on from there\n", checkpoint.step);
     std::fflush(stdout);
   }
-  return run_recording(*scenario, *recording, steps, planned, options.quiet, options.window);
+  return run_recording(*scenario, *recording, steps, planned, options.quiet, wall, options.window);
 }
 
 int check(std::string const& name) {
-  std::string const path = find_scenario(name);
-  auto const scenario = load_scenario(path);
+  ScenarioText const text = read_scenario(find_scenario(name));
+  auto const scenario = load_scenario(text);
   std::size_t particles = 0, bytes = 0;
   for (auto const& ensemble : scenario->ensembles) {
     particles += ensemble->size();
@@ -90,7 +102,7 @@ int check(std::string const& name) {
   recording->check();
   std::string each;
   if (scenario->sweep) {
-    check_sweep(path, {}, *scenario->sweep);
+    check_sweep(text, {}, *scenario->sweep);
     each = fmt::format(" in each of {} runs", scenario->sweep->runs());
   }
   fmt::print("ok: {} particle{} ({:.3g} MB), {} step{}{}\n", particles, particles == 1 ? "" : "s",

@@ -229,13 +229,15 @@ void warn(Simulation& simulation, std::string const& name, std::vector<std::stri
 
 /// Does one run, or the rest of it.
 RunReport do_run(std::string const& folder, Run const& run, std::size_t number, std::string const& name,
-                 std::optional<int> threads, Progress& progress, std::vector<std::string>& told) {
+                 std::optional<int> threads, WallTime const& wall, Progress& progress, std::vector<std::string>& told) {
   std::string const place = folder + "/" + run.folder, stored = place + "/checkpoint.h5";
   std::unique_ptr<ScenarioSimulation> scenario;
   std::unique_ptr<Recording> recording;
   std::int64_t first = 0;
+  bool ended = false;
   if (fs::exists(stored)) {
     auto const checkpoint = read_checkpoint(stored);
+    ended = checkpoint.state.contains("stopped");
     check_scenario(folder, run, number, checkpoint.scenario, "checkpoint.h5");
     scenario = parse_scenario(checkpoint.scenario, stored, {{}, {}, {}, threads});
     recording = make_recording(*scenario, place, true);
@@ -249,8 +251,9 @@ RunReport do_run(std::string const& folder, Run const& run, std::size_t number, 
   }
   progress.follow(*scenario->simulation, first, scenario->steps);
   warn(*scenario->simulation, name, told);
-  auto const steps = static_cast<std::uint64_t>(std::max<std::int64_t>(scenario->steps - first, 0));
-  return run_with_progress(*recording, steps, {true, scenario->steps, false});
+  auto const steps = static_cast<std::uint64_t>(ended ? 0 : std::max<std::int64_t>(scenario->steps - first, 0));
+  return run_with_progress(*recording, steps,
+                           {.quiet = true, .planned = scenario->steps, .warnings = false, .seconds = wall.seconds()});
 }
 
 std::string one_line(std::string text) {
@@ -259,7 +262,7 @@ std::string one_line(std::string text) {
 }
 
 int do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title, std::optional<int> threads,
-            bool quiet) {
+            bool quiet, WallTime const& wall) {
   auto runs = runs_of(plan);
   read_states(folder, runs);
   check_runs_before(folder, runs);
@@ -281,11 +284,12 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
     Run& run = runs[r];
     if (run.state == State::waiting) {
       progress.begin(r);
-      bool stopped = false;
+      bool stopped = false, out_of_time = false;
       try {
-        auto const report = do_run(folder, run, r, run_name(plan, r), threads, progress, told);
+        auto const report = do_run(folder, run, r, run_name(plan, r), threads, wall, progress, told);
         progress.clear();
-        if (!report.interrupted) run.state = State::done;
+        if (!report.interrupted && !report.out_of_time) run.state = State::done;
+        out_of_time = report.out_of_time;
         stopped = report.signalled && (report.interrupted || r + 1 < runs.size());
       } catch (PhysicsFailure const& failure) {
         run.state = State::failed;
@@ -296,9 +300,9 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
       }
       if (run.state != State::waiting) progress.end(run.state == State::done);
       write_runs(folder, plan, runs);
-      if (stopped) {
+      if (stopped || out_of_time) {
         fmt::print(stderr, "bzm resume {} goes on with the sweep\n", folder);
-        return 130;
+        return stopped ? 130 : out_of_time_status;
       }
     }
     if (run.state == State::failed) {
@@ -327,7 +331,7 @@ void try_run(ScenarioSimulation& scenario, std::string const& folder) {
 
 }  // namespace
 
-void check_sweep(std::string const& path, Overrides const& overrides, SweepPlan const& plan) {
+void check_sweep(ScenarioText const& text, Overrides const& overrides, SweepPlan const& plan) {
   std::vector<std::string> mistakes;
   auto const add = [&](std::string const& line) {
     if (std::find(mistakes.begin(), mistakes.end(), line) == mistakes.end()) mistakes.push_back(line);
@@ -336,14 +340,14 @@ void check_sweep(std::string const& path, Overrides const& overrides, SweepPlan 
     Overrides chosen = overrides;
     chosen.sweep_run = v * plan.seeds;
     try {
-      auto const scenario = load_scenario(path, chosen);
+      auto const scenario = load_scenario(text, chosen);
       auto const columns = sweep_columns(*scenario);
       for (std::size_t c = 0; c < plan.columns.size(); ++c)
         if (c >= columns.size() || columns[c].title() != plan.columns[c].title())
           throw Error(
               fmt::format("{}: with {} there is no column '{}' of diagnoses any more; a sweep needs the same for "
                           "all values",
-                          path, plan.labels[v], plan.columns[c].title()));
+                          text.file, plan.labels[v], plan.columns[c].title()));
       try_run(*scenario, fs::temp_directory_path().string());
     } catch (ScenarioErrors const& errors) {
       for (auto const& line : errors.lines) add(line);
@@ -369,7 +373,7 @@ void remove_sweep(std::string const& folder) {
     fs::remove(fs::path(folder) / file, ignored);
 }
 
-int run_sweep(SweepOptions const& options, std::unique_ptr<ScenarioSimulation> scenario) {
+int run_sweep(SweepOptions const& options, WallTime const& wall, std::unique_ptr<ScenarioSimulation> scenario) {
   std::string folder = options.folder;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   auto const plan = *scenario->sweep;
@@ -380,7 +384,7 @@ int run_sweep(SweepOptions const& options, std::unique_ptr<ScenarioSimulation> s
     recording->check();
   }
   scenario.reset();
-  check_sweep(options.path, options.overrides, plan);
+  check_sweep(options.text, options.overrides, plan);
   if (options.force) {
     remove_sweep(folder);
     std::error_code ignored;
@@ -391,16 +395,16 @@ int run_sweep(SweepOptions const& options, std::unique_ptr<ScenarioSimulation> s
   fs::create_directories(folder, error);
   if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
   write_whole(folder + "/sweep.toml", plan.text);
-  return do_runs(folder, plan, title, options.overrides.threads, options.quiet);
+  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall);
 }
 
-int resume_sweep(std::string const& place, std::optional<int> threads, bool quiet) {
+int resume_sweep(std::string const& place, std::optional<int> threads, bool quiet, WallTime const& wall) {
   std::string folder = place;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   auto const scenario = load_scenario(folder + "/sweep.toml", {{}, {}, {}, threads});
   if (!scenario->sweep) throw Error("'" + folder + "/sweep.toml' has no [sweep]");
   std::string const title = title_of(*scenario, folder);
-  return do_runs(folder, *scenario->sweep, title, threads, quiet);
+  return do_runs(folder, *scenario->sweep, title, threads, quiet, wall);
 }
 
 }  // namespace boltzmann::bzm

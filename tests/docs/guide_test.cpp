@@ -1,4 +1,4 @@
-// The guide's programs compile, run and keep what they promise; its scenarios pass `bzm check`.
+// The guide's programs compile, run and keep what they promise; its scenarios pass `bzm check`; its commands run.
 #include "../bzm/command.hpp"
 
 #include <gtest/gtest.h>
@@ -69,9 +69,20 @@ TEST_P(GuideScenario, IsRight) {
   EXPECT_EQ(checked.status, 0) << checked.err;
 }
 
+class GuideCommands : public testing::TestWithParam<Block> {};
+INSTANTIATE_TEST_SUITE_P(Guide, GuideCommands, testing::ValuesIn(blocks("```sh commands")), name_of);
+
+TEST_P(GuideCommands, Run) {
+  test::Folder const folder;
+  test::write_text(folder / "commands.sh", "set -e\nPATH=" BOLTZMANN_BUILD ":$PATH\n" + GetParam().text);
+  auto const run = test::Process({"/bin/sh", "commands.sh"}, folder.string()).wait();
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
 TEST(Guide, HasProgramsAndScenarios) {
   EXPECT_GE(blocks("```cpp program").size(), 3u);
   EXPECT_GE(blocks("```toml scenario").size(), 1u);
+  EXPECT_GE(blocks("```sh commands").size(), 2u);
 }
 
 }  // namespace

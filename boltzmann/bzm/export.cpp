@@ -1,0 +1,92 @@
+// bzm export: the trajectory of a run in a format that another program opens.
+#include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/sweep.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/files/trajectory_export.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+namespace boltzmann::bzm {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// The trajectory of a folder, or the file itself.
+std::string trajectory_of(std::string const& folder) {
+  if (fs::is_regular_file(folder)) return folder;
+  if (!fs::is_directory(folder)) throw Error("there is no folder '" + folder + "' with a run to export");
+  if (holds_sweep(folder))
+    throw Error("'" + folder + "' holds a sweep; export one of its runs, whose folders begin with their numbers");
+  if (!fs::exists(folder + "/trajectory.h5"))
+    throw Error("'" + folder +
+                "' has no trajectory.h5 to export: the run was not asked for one (trajectory = 10 in [output] stores a "
+                "frame every 10 steps)");
+  return folder + "/trajectory.h5";
+}
+
+std::vector<std::string> separated(std::vector<std::string> const& texts) {
+  std::vector<std::string> words;
+  for (auto const& text : texts)
+    for (std::size_t from = 0; from <= text.size();) {
+      std::size_t const comma = std::min(text.find(',', from), text.size());
+      if (comma > from) words.push_back(text.substr(from, comma - from));
+      from = comma + 1;
+    }
+  return words;
+}
+
+}  // namespace
+
+int export_run(ExportRun const& options) {
+  export_format(options.out);  // before anything else, its mistakes
+  TrajectoryReader const reader(trajectory_of(options.folder));
+  ExportOptions chosen;
+  if (!options.frames.empty()) chosen.frames = chosen_frames(options.frames, reader.frames());
+  chosen.ensembles = separated(options.ensembles);
+  chosen.fields = separated(options.fields);
+  chosen.units = options.units;
+  for (auto const& text : options.species) {
+    std::size_t const equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw Error("--species '" + text + "': write an ensemble and what stands for its particles, as in atoms=Cu");
+    chosen.species.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  bool const terminal = isatty(STDERR_FILENO) == 1;
+  auto shown = Clock::now();
+  chosen.progress = [&](std::size_t done, std::size_t all) {
+    if (!terminal || Clock::now() - shown < std::chrono::milliseconds(200)) return;
+    shown = Clock::now();
+    fmt::print(stderr, "\rframe {} of {}\033[K", done, all);
+    std::fflush(stderr);
+  };
+  auto const clear = [&] {
+    if (terminal) fmt::print(stderr, "\r\033[K");
+  };
+  ExportReport report;
+  try {
+    report = export_trajectory(reader, options.out, chosen);
+  } catch (...) {
+    clear();
+    throw;
+  }
+  clear();
+  fmt::print("{}: {} frame{}, {}, units: {}\n", options.out, report.frames, report.frames == 1 ? "" : "s",
+             join(report.names), report.units);
+  return 0;
+}
+
+std::string export_help() {
+  std::string text = "The ending of FILE says what it is:\n";
+  for (auto const& format : export_formats())
+    text += fmt::format("  {:<18} {}: {}.\n  {:<18} For {}.\n", format.suffixes, format.name, format.holds, "",
+                        format.readers);
+  return text;
+}
+
+}  // namespace boltzmann::bzm
