@@ -480,7 +480,8 @@ TEST(Completion, IsAFishScriptThatKnowsTheCommands) {
                                            "complete -C 'bzm re' | string replace -r '\\t.*' ''\n"
                                            "complete -C 'bzm run --thr' | string replace -r '\\t.*' ''\n"
                                            "complete -C 'bzm run copper-' | string replace -r '\\t.*' ''\n"
-                                           "complete -C 'bzm list sc' | string replace -r '\\t.*' ''\n");
+                                           "complete -C 'bzm list sc' | string replace -r '\\t.*' ''\n"
+                                           "true\n");  // replacing nothing is a failure of string
   auto const fish =
       Process({"/usr/bin/env", "HOME=" + folder.string(), "fish", "--no-config", "complete.fish"}, folder.string())
           .wait();
@@ -505,7 +506,7 @@ TEST(Completion, IsAZshScriptThatKnowsTheCommands) {
                                           "_bzm_names | grep -x copper\n");
   auto const zsh = Process({"/usr/bin/env", "zsh", "-f", "complete.zsh"}, folder.string()).wait();
   EXPECT_EQ(zsh.status, 0) << zsh.err;
-  EXPECT_TRUE(has(zsh.out, "compdef _bzm bzm\nresume\nrender\n--help\n--steps\n--threads\n--quiet\n"))
+  EXPECT_TRUE(has(zsh.out, "compdef _bzm bzm\nresume\nrender\n--help\n--steps\n--threads\n--hours\n--quiet\n"))
       << zsh.out << zsh.err;
   EXPECT_TRUE(has(zsh.out, "1:folder:_files -/\ncopper\n")) << zsh.out << zsh.err;
 }

@@ -13,7 +13,6 @@
 #include <fstream>
 #include <functional>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -139,8 +138,13 @@ struct Advanced {
 Advanced advanced_in(std::vector<std::string> const& objects) {
   Advanced found;
   std::string file, function;
-  static std::regex const bits(
-      "^(andn|bextr|blsi|blsmsk|blsr|bzhi|mulx|pdep|pext|rorx|sarx|shlx|shrx|lzcnt|movbe)[lqw]?$");
+  static std::set<std::string> const bits = {"andn", "bextr", "blsi", "blsmsk", "blsr", "bzhi",  "mulx", "pdep",
+                                             "pext", "rorx",  "sarx", "shlx",   "shrx", "lzcnt", "movbe"};
+  auto const is_bits = [](std::string mnemonic) {
+    if (bits.contains(mnemonic)) return true;
+    if (!mnemonic.empty() && std::string("lqw").find(mnemonic.back()) != std::string::npos) mnemonic.pop_back();
+    return bits.contains(mnemonic);
+  };
   each_line("objdump -d --no-show-raw-insn", objects, [&](std::string const& line) {
     if (line.empty()) return;
     if (auto const at = line.find(":     file format"); at != std::string::npos)
@@ -157,7 +161,7 @@ Advanced advanced_in(std::vector<std::string> const& objects) {
     bool const vector = instruction.find("mm") != std::string::npos && instruction.find('%') != std::string::npos;
     bool const avx = vector && (instruction[0] == 'v' || instruction.find("%ymm") != std::string::npos ||
                                 instruction.find("%zmm") != std::string::npos);
-    if (avx || std::regex_match(instruction.substr(0, instruction.find(' ')), bits))
+    if (avx || is_bits(instruction.substr(0, instruction.find(' '))))
       found.functions.insert(file + ": " + readable(function));
     if (instruction.find("%zmm") != std::string::npos) ++found.zmm;
   });
