@@ -56,8 +56,8 @@ TEST(MoltenSalt, BeginsAsACrystalAndMelts) {
     mean += kinetic_energy(*run) / 20;
   }
   EXPECT_NEAR(total_energy(*run), start, 2e-3 * kinetic);
-  // The motion of 512 ions whose energy is conserved varies by 2.5 %, its mean over a few vibrations by less.
-  EXPECT_NEAR(mean / kinetic, 1250.0 / 3000, 0.05);
+  // The motion of 512 ions whose energy is conserved varies by 2.5 %, its mean over a few vibrations by 1.1 %.
+  EXPECT_NEAR(mean / kinetic, 1250.0 / 3000, 0.03);
   // The square of either has the mean 1/256, or twice that, and an exponential distribution.
   EXPECT_LT(order(sodium, cell), 0.35);
   EXPECT_LT(order(chloride, cell), 0.35);
