@@ -394,9 +394,8 @@ double potential_of(double density, double temperature) {
          over_pairs([&](double r, double v) { return v * std::exp(-v / temperature) * r; });
 }
 
-// The gas ahead is cold and even (particles anywhere in cells of a lattice). Standard errors, of four runs: 0.5 % of
-// the speed of the front, 0.3 % of the density, 0.5 % of the temperature, 1.4 % of what is left of jumps, by the
-// pressure.
+// The gas ahead is cold and even (particles anywhere in cells of a lattice). Standard errors, of eight runs: 0.5 % of
+// the speed of the front and of the density, 0.7 % of the temperature, 1.5 % of what is left of jumps, by the pressure.
 TEST(Shock, InAGasOfHardDiscs) {
   double const n0 = 0.2, t0 = 1e-4, up = 1, length = 300, thickness = 40;
   // m = k = 1. Solve the three jumps for us.
@@ -433,7 +432,7 @@ TEST(Shock, InAGasOfHardDiscs) {
   EXPECT_GT(shock.looks(), 200U);
   EXPECT_NEAR(v.at("shock speed") / us, 1, 0.035);
   EXPECT_LT(v.at("shock speed error") / us, 0.01);
-  EXPECT_NEAR(v.at("density behind") / n, 1, 0.02);
+  EXPECT_NEAR(v.at("density behind") / n, 1, 0.035);
   EXPECT_NEAR(v.at("velocity behind"), up, 0.02);
   EXPECT_NEAR(v.at("kinetic temperature behind") / t, 1, 0.04);
   EXPECT_NEAR(v.at("kinetic temperature x behind") / v.at("kinetic temperature y behind"), 1, 0.04);
