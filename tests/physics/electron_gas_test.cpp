@@ -102,7 +102,7 @@ TEST(ElectronGas, TheShippedRunSettles) {
     mean += run->simulation->measure().potential / 25;
   }
   EXPECT_NEAR(total_energy(*run) / start, 1, 1e-3);
-  EXPECT_NEAR(mean / expected, 1, 0.12);
+  EXPECT_NEAR(mean / expected, 1, 0.13);  // five standard errors of 2.2 % (3 runs), and 1.6 %
 }
 
 }  // namespace

@@ -49,11 +49,18 @@ TEST(MoltenSalt, BeginsAsACrystalAndMelts) {
   EXPECT_NEAR(order(sodium, cell), 1, 1e-9);
 
   double const start = total_energy(*run), kinetic = kinetic_energy(*run);
-  run->simulation->run(600);
+  run->simulation->run(400);
+  double mean = 0;
+  for (int look = 0; look < 20; ++look) {
+    run->simulation->run(10);
+    mean += kinetic_energy(*run) / 20;
+  }
   EXPECT_NEAR(total_energy(*run), start, 2e-3 * kinetic);
-  EXPECT_NEAR(kinetic_energy(*run) / kinetic, 1250.0 / 3000, 0.04);
-  EXPECT_LT(order(sodium, cell), 0.2);
-  EXPECT_LT(order(chloride, cell), 0.2);
+  // The motion of 512 ions whose energy is conserved varies by 2.5 %, its mean over a few vibrations by 1.1 %.
+  EXPECT_NEAR(mean / kinetic, 1250.0 / 3000, 0.03);
+  // The square of either has the mean 1/256, or twice that, and an exponential distribution.
+  EXPECT_LT(order(sodium, cell), 0.35);
+  EXPECT_LT(order(chloride, cell), 0.35);
 }
 
 }  // namespace
