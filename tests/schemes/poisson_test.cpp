@@ -677,6 +677,8 @@ double measured_peak(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends,
   if (pipe(ends_of_pipe) != 0) return NAN;
   pid_t const child = fork();
   if (child == 0) {
+    // Large blocks go back to the system when they are freed, whatever this program has freed before.
+    mallopt(M_MMAP_THRESHOLD, 128 << 10);
     std::vector<double> const density(grid.size(), 1.0);
     std::vector<double> potential(grid.size(), 1.0);
     Fields field(grid.dimension, potential);
