@@ -62,8 +62,7 @@ int main(int argc, char** argv) try {
   std::string const folder = argc > 1 ? argv[1] : "results/hugoniot-cpp";
   Base const base(1 * angstrom, 1 * amu, 1 * picosecond);
   std::vector<Point> points;
-  for (double const speed : {1500, 2000, 2500, 3000})
-    points.push_back(shock(base, folder, base(speed * meter / second)));
+  for (double const speed : {1500, 2000, 3000}) points.push_back(shock(base, folder, base(speed * meter / second)));
   std::vector<double> pistons, shocks;
   std::printf("\nu_p (m/s)  u_s (m/s)    rho/rho0\n");
   for (auto const& p : points) {

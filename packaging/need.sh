@@ -1,7 +1,7 @@
 #!/bin/sh
-# need.sh PACKAGE[=SHOWN]...: the Debian packages that are missing are installed (not where SHOWN, a command or a file, is there
-# without the package); without root, and without a sudo that asks for nothing,
-# the line that installs them is printed, and the status is 1. Where there is no dpkg, the configuration says what is missing.
+# need.sh PACKAGE[=SHOWN]...: installs the Debian packages that are missing, but for those whose SHOWN (a command or a file)
+# is there. Without root and without a sudo that asks for nothing it prints the line that installs them; the status is 1.
+# Where there is no dpkg it does nothing, and the configuration says what is missing.
 set -eu
 command -v dpkg-query >/dev/null || exit 0
 missing=

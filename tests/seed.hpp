@@ -1,5 +1,6 @@
 // Seeds of tests with chance in them: all of them change with BOLTZMANN_TEST_SEED, so that a bound can be tried over
-// many seeds (tests/seeds.sh), not found by one.
+// many seeds (tests/seeds.sh), not found by one. A result that is the same but for rounding everywhere has a fixed
+// seed.
 #pragma once
 
 #include <cstdint>

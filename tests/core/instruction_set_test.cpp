@@ -74,9 +74,7 @@ std::vector<std::string> objects_of(std::string const& target) {
 }
 
 /// Calls take(line) for each line that the command prints about the objects.
-void each_line(std::string command, std::vector<std::string> const& objects,
-               std::function<void(std::string const&)> const& take) {
-  for (auto const& object : objects) command += " '" + object + "'";
+void each_line(std::string const& command, std::function<void(std::string const&)> const& take) {
   FILE* const pipe = popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   char* line = nullptr;
@@ -87,13 +85,20 @@ void each_line(std::string command, std::vector<std::string> const& objects,
   EXPECT_EQ(pclose(pipe), 0) << command;
 }
 
+std::string quoted(std::vector<std::string> const& objects) {
+  std::string words;
+  for (auto const& object : objects) words += " '" + object + "'";
+  return words;
+}
+
 /// Names that the linker may take for the same name in other objects.
 std::set<std::string> symbols_of(std::vector<std::string> const& objects) {
   std::set<std::string> names;
-  each_line("nm -P -g --defined-only", objects, [&](std::string const& line) {  // "name type value size", "file:"
-    auto const end = line.find(' ');
-    if (end != std::string::npos) names.insert(line.substr(0, end));
-  });
+  each_line("nm -P -g --defined-only" + quoted(objects),
+            [&](std::string const& line) {  // "name type value size", "file:"
+              auto const end = line.find(' ');
+              if (end != std::string::npos) names.insert(line.substr(0, end));
+            });
   return names;
 }
 
@@ -145,7 +150,14 @@ Advanced advanced_in(std::vector<std::string> const& objects) {
     if (!mnemonic.empty() && std::string("lqw").find(mnemonic.back()) != std::string::npos) mnemonic.pop_back();
     return bits.contains(mnemonic);
   };
-  each_line("objdump -d --no-show-raw-insn", objects, [&](std::string const& line) {
+  // objdump takes a time that grows as the square of the number of sections: each object gets one.
+  std::string const disassemble =
+      "t=$(mktemp -d) && trap 'rm -r $t' EXIT && echo 'SECTIONS { .text : { *(.text .text.*) } }' > $t/script && "
+      "for o in" +
+      quoted(objects) +
+      "; do ld -r --force-group-allocation -T $t/script $o -o $t/${o##*/} && objdump -d --no-show-raw-insn "
+      "$t/${o##*/} || exit; rm $t/${o##*/}; done";
+  each_line(disassemble, [&](std::string const& line) {
     if (line.empty()) return;
     if (auto const at = line.find(":     file format"); at != std::string::npos)
       file = line.substr(line.rfind('/', at) + 1, at - line.rfind('/', at) - 1);

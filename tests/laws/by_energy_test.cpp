@@ -224,7 +224,7 @@ double drift(Law const& law, double cutoff, auto const& prepare) {
   prepare(atoms);
   PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::bounded), cutoff);
   space.internal(atoms, law);
-  Simulation simulation(space, 0.002);
+  Simulation simulation(space, 0.001);
   simulation.integrate(atoms, Method::leap_frog);
   return energy_change(simulation, atoms, 300);
 }
