@@ -2,6 +2,7 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/files/standard_streams.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/recording.hpp>
 
@@ -264,6 +265,7 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
   try {
     return command_line(argc, argv);

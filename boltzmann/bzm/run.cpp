@@ -3,6 +3,7 @@
 #include <boltzmann/bzm/scenario_recording.hpp>
 #include <boltzmann/bzm/sweep.hpp>
 #include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/folder_lock.hpp>
 
 #include <fmt/format.h>
 
@@ -30,6 +31,7 @@ int run(RunOptions const& options) {
   Overrides const overrides{options.set, options.steps, options.seed, options.threads, options.vary, options.seeds, {}};
   auto scenario = load_scenario(text, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
+  FolderLock const lock = lock_folder(folder);
   if (holds_sweep(folder) && !options.force)
     throw Error("'" + folder +
                 "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
@@ -56,6 +58,7 @@ int resume(ResumeOptions const& options) {
   std::string const path = options.folder + "/checkpoint.h5";
   if (!std::filesystem::is_directory(options.folder))
     throw Error("there is no folder '" + options.folder + "' with a run to resume");
+  FolderLock const lock = lock_folder(options.folder);
   if (holds_sweep(options.folder)) {
     if (options.steps)
       throw Error("'" + options.folder +

@@ -4,6 +4,7 @@
 #include <boltzmann/bzm/sweep.hpp>
 #include <boltzmann/bzm/sweep_results.hpp>
 #include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/text_file.hpp>
 
 #include <fmt/format.h>
@@ -394,6 +395,7 @@ int run_sweep(SweepOptions const& options, WallTime const& wall, std::unique_ptr
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
+  FolderLock const lock = lock_folder(folder);
   write_whole(folder + "/sweep.toml", plan.text);
   return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall);
 }

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
@@ -119,6 +120,7 @@ void write_contents(File& file, Checkpoint const& checkpoint) {
 
 // What must be true before HDF5 may look at the file.
 void check_label(std::string const& path) {
+  need_regular_file(path);
   Descriptor const file(path, O_RDONLY);
   std::uint64_t const size = file.size();
   std::string const head = file.read(0, label_size);

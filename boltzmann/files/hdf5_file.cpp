@@ -1,5 +1,6 @@
 // HDF5 files on the C API.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/hdf5_driver.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -222,6 +223,7 @@ std::unique_ptr<File> File::create(std::string path, bool ordered, std::uint64_t
 
 std::unique_ptr<File> File::open(std::string path) {
   Silence const silence;
+  need_regular_file(path);
   std::unique_ptr<File> file(new File(std::move(path)));
   file->disk_->open(file->path_, Disk::Use::read);
   if (file->disk_->size == 0) throw Error(file->path_ + ": is empty");

@@ -1,5 +1,6 @@
 // Text files on the system's own calls.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/text_file.hpp>
 
 #include <fcntl.h>
@@ -84,6 +85,7 @@ void TextFile::close() {
 }
 
 std::string read_text(std::string const& path) {
+  need_regular_file(path);
   int const descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw Error(path + ": can't open it: " + reason(errno));
   std::string text;

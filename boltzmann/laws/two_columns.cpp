@@ -1,5 +1,6 @@
 // Reading a table by points.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/laws/two_columns.hpp>
 
 #include <fmt/format.h>
@@ -14,11 +15,12 @@ namespace boltzmann {
 
 std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std::string const& first,
                                                     std::string const& second, bool positive) {
+  need_regular_file(path);
   std::ifstream file(path);
   if (!file) throw Error(fmt::format("{}: can't open the table", path));
   std::vector<std::array<double, 2>> points;
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  for (int number = 1; read_line(file, line, path); ++number) {
     std::string_view text = line;
     text = text.substr(0, text.find('#'));
     std::vector<double> values;

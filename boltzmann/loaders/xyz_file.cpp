@@ -1,5 +1,6 @@
 // Reading XYZ text: lines into columns, columns into fields.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
 
 #include <fmt/format.h>
@@ -74,12 +75,14 @@ struct Layout {
 
 class Reader {
  public:
-  explicit Reader(std::string const& path) : path_(path), file_(path) {
+  explicit Reader(std::string const& path) : path_(path) {
+    need_regular_file(path);
+    file_.open(path);
     if (!file_) throw Error(fmt::format("{}: can't open the XYZ file", path));
   }
 
   bool next() {
-    if (!std::getline(file_, line_)) return false;
+    if (!read_line(file_, line_, path_)) return false;
     ++number_;
     return true;
   }

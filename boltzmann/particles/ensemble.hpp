@@ -83,8 +83,7 @@ class Ensemble final : public AnyEnsemble {
  public:
   using Particle = P;
   using Influence = typename P::Influence;
-  static_assert(sizeof(P) % sizeof(double) == 0 && std::is_trivially_copyable_v<P>,
-                "a particle class holds nothing but Real and Vector<D, Real>");
+  static_assert(holds_only_reals<P>(), "a particle class holds nothing but Real and Vector<D, Real>");
 
   /// `size` particles, every field zero (and mass one where the class has a mass).
   explicit Ensemble(std::string name, std::size_t size = 0)

@@ -23,18 +23,15 @@ struct Field {
 };
 
 namespace detail {
+/// Of a member that can be a field; 0 for any other.
 template <class Member>
-struct component_count {
-  static constexpr int value = 1;
-};
-template <int D, class Real>
-struct component_count<Vector<D, Real>> {
-  static constexpr int value = D;
-};
-template <int D, class Real>
-struct component_count<Tensor<D, Real>> {
-  static constexpr int value = D * D;
-};
+inline constexpr int component_count = 0;
+template <>
+inline constexpr int component_count<double> = 1;
+template <int D>
+inline constexpr int component_count<Vector<D, double>> = D;
+template <int D>
+inline constexpr int component_count<Tensor<D, double>> = D* D;
 }  // namespace detail
 
 /// The row offset of a member, in doubles.
@@ -54,8 +51,9 @@ struct FieldTable {
 
   template <class Class, class Member>
   FieldTable&& add(Member Class::*member, std::string name, Dimension dimension, std::string doc) && {
+    static_assert(detail::component_count<Member> > 0, "a field is a Real, a Vector<D, Real> or a Tensor<D, Real>");
     fields.push_back(
-        {std::move(name), offset_of<P>(member), detail::component_count<Member>::value, dimension, std::move(doc)});
+        {std::move(name), offset_of<P>(member), detail::component_count<Member>, dimension, std::move(doc)});
     return std::move(*this);
   }
 };

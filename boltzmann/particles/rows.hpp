@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 namespace boltzmann {
@@ -42,6 +43,23 @@ struct rebind<P<D, Old>, Real> {
 template <class P, class Real>
 using rebind_t = typename detail::rebind<P, Real>::type;
 
+namespace detail {
+/// Stands for Real to show what else a class holds: anything else has another alignment, or a size that isn't a
+/// multiple.
+struct OddReal {
+  char bytes[67];
+};
+}  // namespace detail
+
+/// Whether a class (or influence) holds nothing but Real and Vector<D, Real>: an int would be read as a double, and a
+/// double of its own not be packed.
+template <class P>
+constexpr bool holds_only_reals() {
+  using Odd = rebind_t<P, detail::OddReal>;
+  return std::is_trivially_copyable_v<P> && alignof(Odd) == 1 &&
+         sizeof(Odd) == row_doubles<P> * sizeof(detail::OddReal);
+}
+
 /// Doubles of a block: rows consist of blocks, one behind the other, or each in an array of its own.
 inline constexpr std::size_t row_block = 4;
 
@@ -49,8 +67,7 @@ inline constexpr std::size_t row_block = 4;
 template <class P, class Real = Pack<double>>
 [[gnu::always_inline]] inline rebind_t<P, Real> broadcast(double const* row, std::size_t stride = row_block) {
   using Packed = rebind_t<P, Real>;
-  static_assert(sizeof(Packed) == row_doubles<P> * sizeof(Real),
-                "a particle class holds nothing but Real and Vector<D, Real>");
+  static_assert(holds_only_reals<P>(), "a particle class holds nothing but Real and Vector<D, Real>");
   std::array<Real, row_doubles<P>> columns;
   for (std::size_t k = 0; k < row_doubles<P>; ++k) columns[k] = row[k / row_block * stride + k % row_block];
   return std::bit_cast<Packed>(columns);
@@ -110,8 +127,7 @@ template <int W, class RowOf>
 template <class P, int W = native_width<double>, class RowOf>
 [[gnu::always_inline]] inline rebind_t<P, Pack<double, W>> load_rows(RowOf row, std::size_t stride = row_block) {
   using Packed = rebind_t<P, Pack<double, W>>;
-  static_assert(sizeof(Packed) == row_doubles<P> * sizeof(Pack<double, W>),
-                "a particle class holds nothing but Real and Vector<D, Real>");
+  static_assert(holds_only_reals<P>(), "a particle class holds nothing but Real and Vector<D, Real>");
   std::array<Pack<double, W>, row_doubles<P>> columns;
   [&]<std::size_t... Block>(std::index_sequence<Block...>) {
     (detail::transpose_block<W>(row, stride * Block, columns.data() + row_block * Block,

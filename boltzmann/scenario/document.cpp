@@ -1,5 +1,6 @@
 // TOML to tree and back, with the third-party parser kept in this file.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/nesting.hpp>
 #include <boltzmann/scenario/document.hpp>
 
 #include <fmt/format.h>
@@ -216,11 +217,39 @@ Item parse_document(std::string const& text, Mistakes& mistakes) {
                                                   static_cast<unsigned char>(text[*at])));
     return {};
   }
+  if (nested_too_deep(text)) {
+    mistakes.add({}, fmt::format("tables and arrays are nested more than {} deep", deepest_nesting));
+    return {};
+  }
   try {
     return item_of(toml::parse(text));
   } catch (toml::parse_error const& error) {
     mistakes.add(place_of(error.source()), syntax_message(std::string(error.description())));
     return {};
+  }
+}
+
+namespace {
+
+/// What a terminal would obey, and what would cut a name off: all of ASCII's but tab and ends of lines, and Unicode's
+/// C1.
+bool has_control(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    auto const c = static_cast<unsigned char>(text[i]);
+    if ((c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f) return true;
+    if (c == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void check_letters(Item const& item, Mistakes& mistakes) {
+  if (has_control(item.text)) mistakes.add(item.place, "a text has a control character");
+  for (auto const& element : item.elements) check_letters(element, mistakes);
+  for (auto const& entry : item.entries) {
+    if (has_control(entry.key)) mistakes.add(entry.place, "a key has a control character");
+    check_letters(entry.item, mistakes);
   }
 }
 
@@ -271,6 +300,7 @@ Item* element_of(Item& array, std::string const& step) {
 Item value_of(std::string const& text, Place const& place) {
   Item value;
   try {
+    if (nested_too_deep(text)) throw Error("no value of a scenario");
     auto const table = toml::parse("value = " + text);
     if (table.size() != 1) throw Error("more than a value");
     value = item_of(*table.get("value"));
@@ -297,6 +327,8 @@ void apply_override(Item& document, std::string const& assignment, std::string c
 
 void assign(Item& document, std::string const& path, Item value, Place const& place, Mistakes& mistakes) {
   auto const steps = steps_of(path);
+  if (steps.size() > deepest_nesting)
+    return mistakes.add(place, fmt::format("a path has at most {} parts, not {}", deepest_nesting, steps.size()));
   Item* at = &document;
   std::string so_far;
   for (std::size_t k = 0; k < steps.size(); ++k) {

@@ -78,6 +78,10 @@ struct Entry {
 /// empty.
 Item parse_document(std::string const& text, Mistakes& mistakes);
 
+/// Control characters in texts and keys are mistakes, but for tabs and ends of lines: they would reach terminals, and
+/// names of files.
+void check_letters(Item const& item, Mistakes& mistakes);
+
 /// Applies "run.step=0.1", "ensembles.0.mass='63.5 amu'", "ensembles.atoms.mass=2" (`option` is what precedes it in
 /// messages: "--set"). The value is TOML; what is no TOML is a text, so that quotes may be left out.
 void apply_override(Item& document, std::string const& assignment, std::string const& option, Mistakes& mistakes);

@@ -1,4 +1,5 @@
 // From the text of a scenario to a simulation: the tables in order, every mistake in one go.
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/sweep_values.hpp>
@@ -82,6 +83,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
     apply_override(document, fmt::format("run.threads={}", *overrides.threads), "--threads", mistakes);
   if (overrides.seeds) apply_override(document, fmt::format("sweep.seeds={}", *overrides.seeds), "--seeds", mistakes);
   override_vary(document, overrides.vary, mistakes);
+  check_letters(document, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
     set_default(document, "run", "seed", Item::of_integer(1));
@@ -132,8 +134,7 @@ ScenarioText read_scenario(std::string const& path) {
     if (text.empty()) throw Error("there is no scenario on standard input");
     return {text, "standard input", "stdin", ""};
   }
-  std::error_code failure;
-  if (fs::is_directory(path, failure)) throw Error(fmt::format("'{}' is a directory; a scenario is a file", path));
+  need_regular_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(fmt::format("can't read '{}': {}", path, std::strerror(errno == 0 ? EIO : errno)));

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 
@@ -15,7 +16,8 @@ namespace {
 std::atomic<Simulation*> stopped_by_signal{nullptr};
 std::atomic<int> signals_seen{0};
 static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
-struct sigaction interrupt_before, terminate_before;
+std::array<int, 3> constexpr signals{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, 3> before;
 
 extern "C" void on_signal(int) {
   if (signals_seen.fetch_add(1) > 0) _exit(130);
@@ -33,13 +35,14 @@ Interrupt::Interrupt(Simulation& simulation) {
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;  // a write to a file goes on
-  sigaction(SIGINT, &action, &interrupt_before);
-  sigaction(SIGTERM, &action, &terminate_before);
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    sigaction(signals[i], &action, &before[i]);
+    if (signals[i] == SIGHUP && before[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &before[i], nullptr);
+  }
 }
 
 Interrupt::~Interrupt() {
-  sigaction(SIGINT, &interrupt_before, nullptr);
-  sigaction(SIGTERM, &terminate_before, nullptr);
+  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
   stopped_by_signal = nullptr;
 }
 

@@ -4,7 +4,9 @@
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/mesh_frames.hpp>
+#include <boltzmann/files/standard_streams.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/recording.hpp>
@@ -70,12 +72,14 @@ struct Recording::State {
   std::string ended_by;
   std::int64_t ended_step = -1;
 
+  FolderLock lock;  // from the first change to the last
   bool open = false, finished = false;
   std::int64_t next = 0;  // the next step at which something is written
   std::int64_t checkpoint_step = -1;
   std::optional<CsvFile> csv;
   std::vector<double> column_factors;
   std::optional<Trajectory> frames;
+  std::int64_t stopped_frame = -1;  // of the state in which the run was stopped, between two others; -1: none
   std::optional<MeshFrames> mesh_frames;
   std::vector<Checkpoint::Rows> last_rows;  // of the last recorded state
   std::int64_t last_step = -1;
@@ -215,6 +219,8 @@ struct Recording::State {
     bool const there = fs::is_directory(folder, error);
     fs::create_directories(folder, error);
     if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
+    lock = lock_folder(folder);
+    check_folder();  // another run may have come and gone
     for (auto const* file : result_files) fs::remove(path(file), error);
     fs::remove(path("checkpoint.h5.previous"), error);
     MeshFrames::remove(folder);
@@ -228,9 +234,7 @@ struct Recording::State {
       write_due(simulation.step(), true);
     } catch (...) {
       // Nothing of a run that could not start is left.
-      csv.reset();
-      frames.reset();
-      finished = true;
+      end();
       for (auto const* file : result_files) fs::remove(path(file), error);
       if (mesh_frames) MeshFrames::remove(folder);
       mesh_frames.reset();
@@ -264,10 +268,8 @@ struct Recording::State {
         write_checkpoint();  // the last one, so that it holds the state after all looks
     } catch (Error const& error) {
       if (first) throw;
-      finished = true;  // nothing more is written: what is there stays whole
-      frames.reset();
-      csv.reset();
-      throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), intact()));
+      end();  // nothing more is written: what is there stays whole
+      throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), checkpoint_left()));
     }
     next = next_look(step);
   }
@@ -277,8 +279,14 @@ struct Recording::State {
                      next_multiple(step, every_mesh), next_multiple(step, every_checkpoint)});
   }
 
-  std::string intact() const {
-    return fmt::format("the last checkpoint is intact: {} (step {})", path("checkpoint.h5"), checkpoint_step);
+  /// What a failure leaves to go on from.
+  std::string checkpoint_left() const {
+    try {
+      return fmt::format("the last checkpoint is intact: {} (step {})", path("checkpoint.h5"),
+                         read_checkpoint(path("checkpoint.h5")).step);
+    } catch (Error const& error) {
+      return fmt::format("the last checkpoint (step {}) is lost: {}", checkpoint_step, error.what());
+    }
   }
 
   void remember() {
@@ -323,7 +331,20 @@ struct Recording::State {
     for (auto const& function : on_row) function(simulation.step(), values);
   }
 
+  void reopen_frames(std::int64_t last_step) {
+    stopped_frame = -1;
+    TrajectoryReader const stored(path("trajectory.h5"));
+    for (std::int64_t const step : stored.steps())
+      if (step <= last_step && step % every_trajectory != 0) stopped_frame = step;
+    frames.emplace(Trajectory::append_to(path("trajectory.h5"), last_step, trajectory_options()));
+  }
+
   void write_frame() {
+    if (stopped_frame >= 0) {  // a run without a stop doesn't have it
+      frames->close();
+      frames.reset();
+      reopen_frames((simulation.step() - 1) / every_trajectory * every_trajectory);
+    }
     auto const all = ensembles();
     std::vector<AnyEnsemble const*> const list_of(all.begin(), all.end());
     frames->write(simulation.step(), simulation.time(), list_of, edges(simulation.schemes().front()->box()));
@@ -350,6 +371,7 @@ struct Recording::State {
 
   void resume() {
     if (open) throw Error("a run that has begun can't be resumed");
+    lock = lock_folder(folder);
     check_names();
     auto const checkpoint = read_checkpoint(path("checkpoint.h5"));
     auto const all = ensembles();
@@ -372,8 +394,7 @@ struct Recording::State {
     }
     scenario = checkpoint.scenario;
     if (every_diagnoses > 0) csv.emplace(CsvFile::append_to(path("diagnoses.csv"), header(), checkpoint.step));
-    if (every_trajectory > 0)
-      frames.emplace(Trajectory::append_to(path("trajectory.h5"), checkpoint.step, trajectory_options()));
+    if (every_trajectory > 0) reopen_frames(checkpoint.step);
     if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder, checkpoint.step));
     checkpoint_step = checkpoint.step;
     open = true;
@@ -395,17 +416,29 @@ struct Recording::State {
     csv.reset();
   }
 
+  /// Nothing is written any more.
+  void end() {
+    finished = true;
+    frames.reset();
+    csv.reset();
+    lock.reset();
+  }
+
   void finish() {
     if (!open || finished) return;
-    finished = true;
     auto const since = Clock::now();
     try {
+      finished = true;
       if (checkpoint_step != simulation.step()) write_checkpoint();
+      if (frames && simulation.step() % every_trajectory != 0 && simulation.step() != stopped_frame) write_frame();
       close_files();
       draw_pictures(simulation.step(), simulation.time(), "");
     } catch (Error const& error) {
-      throw RecordingFailure(fmt::format("{}; {}", error.what(), intact()));
+      std::string const left = checkpoint_left();
+      end();
+      throw RecordingFailure(fmt::format("{}; {}", error.what(), left));
     }
+    end();
     seconds += std::chrono::duration<double>(Clock::now() - since).count();
   }
 
@@ -421,11 +454,13 @@ struct Recording::State {
     } catch (std::exception const& error) {
       fmt::print(stderr, "the last recorded state could not be drawn: {}\n", error.what());
     }
+    end();
   }
 };
 
 Recording::Recording(Simulation& simulation, Base const& base, std::string folder, bool overwrite)
     : state_(std::make_shared<State>(simulation, base, std::move(folder), overwrite)) {
+  open_standard_streams();
   while (state_->folder.size() > 1 && state_->folder.back() == '/') state_->folder.pop_back();
   if (state_->folder.empty()) throw Error("the folder of the results has no name");
   state_->title = fs::path(state_->folder).filename().string();

@@ -55,7 +55,7 @@ class Recording {
   void diagnoses(std::uint64_t every, std::vector<std::unique_ptr<Diagnosis>> list) {
     for (auto& diagnosis : list) add(every, std::move(diagnosis));
   }
-  /// A frame of trajectory.h5 every so many steps.
+  /// A frame of trajectory.h5 every so many steps, and one of the last state.
   void trajectory(std::uint64_t every);
   /// What a mesh has on its nodes (density, potential, field) every so many steps: mesh/000000100.vti, ..., and
   /// mesh.pvd, which ParaView opens as a time series. Error when the run starts, if no scheme has a mesh.

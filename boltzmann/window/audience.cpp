@@ -1,5 +1,6 @@
 // Who looks at what, and the messages to and fro. Browsers speak on the server's thread, which only notes it down.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/nesting.hpp>
 #include <boltzmann/window/audience.hpp>
 #include <boltzmann/window/page.hpp>
 #include <boltzmann/window/wire.hpp>
@@ -99,7 +100,7 @@ struct Audience::State {
   }
 
   void heard(std::uint64_t id, std::string_view text) {
-    json request = json::parse(text, nullptr, false);
+    json request = nested_too_deep(text) ? json() : json::parse(text, nullptr, false);
     if (!request.is_object() || !request.contains("do") || !request["do"].is_string()) {
       if (WebServer* const open = speaks)
         open->send(id, reply_message(nullptr, {{"error", "what was said is no request: {\"do\": \"play\"}"}}));

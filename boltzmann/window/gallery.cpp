@@ -1,4 +1,5 @@
 // The gallery's answers.
+#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/window/gallery.hpp>
 
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ bool is_shipped(std::vector<std::string> const& shipped, std::string const& name
 std::string shipped_path(std::string const& name) { return (fs::path(scenario_folder()) / (name + ".toml")).string(); }
 
 std::string text_of(std::string const& path) {
+  need_regular_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(fmt::format("can't read '{}': {}", path, std::strerror(errno == 0 ? EIO : errno)));
@@ -172,6 +174,17 @@ bool is_plain_name(std::string_view name) {
          });
 }
 
+/// A folder below the one in which the window was opened: a page leads nowhere else.
+bool is_plain_folder(std::string_view path) {
+  if (path.size() > 400) return false;
+  while (true) {
+    auto const slash = path.find('/');
+    if (!is_plain_name(path.substr(0, slash))) return false;
+    if (slash == std::string_view::npos) return true;
+    path.remove_prefix(slash + 1);
+  }
+}
+
 json picture_of(std::string const& name) {
   std::error_code failure;
   if (!fs::is_regular_file(fs::path(gallery_folder()) / (name + ".png"), failure)) return nullptr;
@@ -273,6 +286,15 @@ json Gallery::check(std::string const& name, json const& set) const {
     load_scenario(choice(name, folder_).path, overrides_of(values));
     return {{"ok", true}};
   });
+}
+
+json Gallery::check_run(std::string const& name, json const& set, std::string const& out) const {
+  if (!out.empty() && !is_plain_folder(out))
+    return refusal(
+        fmt::format("'{}' is no folder for results; it is below the present one, of names of letters, digits, blanks "
+                    "and - _ + , .",
+                    out));
+  return check(name, set);
 }
 
 json Gallery::save(std::string const& name, json const& set, std::string const& as, bool replace) const {

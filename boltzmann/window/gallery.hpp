@@ -32,6 +32,8 @@ class Gallery {
   nlohmann::json scenario(std::string const& name) const;
   /// Would it run? If not, "errors": [{"path": which of those set is wrong, or null, "message"}].
   nlohmann::json check(std::string const& name, nlohmann::json const& set) const;
+  /// The same, and whether its results may go into the folder `out`, which is below the present one ("": a new one).
+  nlohmann::json check_run(std::string const& name, nlohmann::json const& set, std::string const& out) const;
   /// Writes the scenario with these values into the folder, as `as`.toml; {"path"}. Refuses what is not right, and to
   /// replace a file unless told.
   nlohmann::json save(std::string const& name, nlohmann::json const& set, std::string const& as, bool replace) const;

@@ -92,7 +92,7 @@ json GalleryShow::perform(json const& request) {
                          request.value("replace", json(false)) == json(true));
   if (what == "run") {
     Choice const choice{need_text(request, "name"), changes(request), text_or_nothing(request, "out")};
-    json const answer = gallery_.check(choice.name, choice.set);
+    json const answer = gallery_.check_run(choice.name, choice.set, choice.out);
     if (!answer.contains("error")) choice_ = choice;
     return answer;
   }

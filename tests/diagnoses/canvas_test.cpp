@@ -9,11 +9,11 @@
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/diagnoses/projection.hpp>
+#include <tests/cpu_time.hpp>
 #include <tests/seed.hpp>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -739,11 +739,11 @@ TEST_F(Pictures, OfAHundredThousandCirclesTakeLessThanTwoSeconds) {
   Canvas canvas;
   for (int i = 0; i < 100000; ++i)
     canvas.circle(uniform(random), uniform(random), 0.004, map_colour(ColourMap::viridis, uniform(random)));
-  auto const start = std::chrono::steady_clock::now();
+  double const start = cpu_seconds();
   write_png(canvas, in_folder("a.png"));
-  std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - start;
-  RecordProperty("seconds", std::to_string(taken.count()));
-  EXPECT_LT(taken.count(), 2);
+  double const taken = cpu_seconds() - start;
+  RecordProperty("seconds", std::to_string(taken));
+  EXPECT_LT(taken, 2);
 }
 
 TEST_F(Pictures, OfLongCurvesKeepTheirPeaks) {

@@ -226,7 +226,7 @@ double drift(Law const& law, double cutoff, auto const& prepare) {
   space.internal(atoms, law);
   Simulation simulation(space, 0.001);
   simulation.integrate(atoms, Method::leap_frog);
-  return energy_change(simulation, atoms, 300);
+  return energy_change(simulation, atoms, 600);
 }
 
 TEST(ByEnergy, RunsConserveEnergy) {

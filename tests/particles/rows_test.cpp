@@ -187,5 +187,36 @@ TEST(RowsOfAUsersClass, LanesAreRows) {
   for (int lane = 0; lane < 8; ++lane) EXPECT_EQ(packed.internal_energy[lane], rows[lane].internal_energy);
 }
 
+/// Not of a Real: no pack can be made of it.
+template <class Wrong>
+struct With {
+  template <class Real>
+  struct Class : Newton<2, Real> {
+    Wrong member;
+  };
+};
+template <class Real>
+struct Flagged : Newton<2, Real> {
+  bool flags[8];
+};
+template <class Real>
+struct Late : Newton<2, Real> {
+  bool first;
+  Real last;
+};
+
+TEST(Rows, OfAnythingButRealsDoNotCompile) {
+  EXPECT_TRUE(holds_only_reals<Newton<1>>() && holds_only_reals<Tethered<3>>() && holds_only_reals<Ion<double>>());
+  EXPECT_FALSE(holds_only_reals<With<int>::Class<double>>());
+  EXPECT_FALSE(holds_only_reals<With<float>::Class<double>>());
+  EXPECT_FALSE(holds_only_reals<With<double>::Class<double>>()) << "packs would share it";
+  EXPECT_FALSE(holds_only_reals<With<long>::Class<double>>());
+  EXPECT_FALSE(holds_only_reals<With<bool>::Class<double>>());
+  EXPECT_FALSE(holds_only_reals<With<char*>::Class<double>>());
+  EXPECT_FALSE(holds_only_reals<With<Vector<2>>::Class<double>>());
+  EXPECT_FALSE(holds_only_reals<Flagged<double>>());
+  EXPECT_FALSE(holds_only_reals<Late<double>>());
+}
+
 }  // namespace
 }  // namespace boltzmann::rows_test

@@ -24,10 +24,24 @@
 namespace boltzmann::long_rows_test {
 namespace {
 
-template <class P>
-struct Long : P {
-  Tensor<3> more;
+template <class P, class Real>
+struct LongRow : rebind_t<P, Real> {
+  Tensor<3, Real> more;
 };
+template <class P>
+using Long = LongRow<P, double>;
+
+}  // namespace
+}  // namespace boltzmann::long_rows_test
+
+template <class P, class Old, class Real>
+struct boltzmann::detail::rebind<boltzmann::long_rows_test::LongRow<P, Old>, Real> {
+  using type = boltzmann::long_rows_test::LongRow<P, Real>;
+};
+
+namespace boltzmann::long_rows_test {
+namespace {
+
 static_assert(row_doubles<Long<Newton<3>>> > 12 && row_doubles<Long<Newton<2>>> > 8);
 
 using Particles = std::unique_ptr<AnyEnsemble>;

@@ -1,0 +1,16 @@
+// One writer for a folder of results.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace boltzmann {
+
+/// Held by whoever writes into a folder; given up when the last copy goes away, or the process ends in any way.
+using FolderLock = std::shared_ptr<void const>;
+
+/// Locks a folder that exists; this process may hold it already. Error if another process holds it, before anything in
+/// it has changed. Empty where the file system knows no locks.
+FolderLock lock_folder(std::string const& folder);
+
+}  // namespace boltzmann
