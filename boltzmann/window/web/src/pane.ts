@@ -45,6 +45,7 @@ export class Pane {
   private selectedAt: number[] | null = null;
   private held = "";
   private columns = "";
+  private plotted = ""; // the diagnosis whose quantities the plot shows
 
   constructor(
     private readonly session: Session,
@@ -257,7 +258,7 @@ export class Pane {
     this.fault.hidden = true;
     if (!hello) return;
     const table = this.drawing === "table";
-    if (table ? this.painter : this.plot) {
+    if (table ? this.painter || this.plotted !== this.diagnosis : this.plot) {
       this.recorder.stop();
       this.painter?.dispose();
       this.plot?.dispose();
@@ -265,6 +266,7 @@ export class Pane {
       this.board.replaceChildren();
     }
     if (table && !this.plot) {
+      this.plotted = this.diagnosis;
       this.plot = new TablePlot(this.board, hello, session.rows, {
         chosen: this.own.y ?? "",
         logarithmic: this.has("logarithmic") === true,
