@@ -38,6 +38,7 @@ export class Pane {
   private readonly close: HTMLButtonElement;
   private region: [number, number][] | undefined;
   private frames = 0;
+  private readonly steps = new WeakMap<Canvas, number>();
   private paintedCanvas: Canvas | null = null;
   private slowPaints = 0;
   private quickPaints = 0;
@@ -202,6 +203,7 @@ export class Pane {
       this.board.classList.toggle("blank", mine.error !== undefined && this.canvas === null);
       if (mine.canvas) {
         this.canvas = mine.canvas;
+        this.steps.set(mine.canvas, update.step);
         this.head();
         this.painter?.show(mine.canvas);
       }
@@ -297,6 +299,7 @@ export class Pane {
     const box = this.painter?.frameBox();
     if (box) this.element.dataset.box = [box.left, box.top, box.width, box.height].map((v) => v.toFixed(2)).join(" ");
     if (again) return;
+    this.element.dataset.step = String(this.steps.get(canvas));
     this.element.dataset.milliseconds = String(Math.round(milliseconds));
     this.slowPaints = milliseconds > slow ? this.slowPaints + 1 : 0;
     this.quickPaints = milliseconds < quick ? this.quickPaints + 1 : 0;
