@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { answer, atStep, browser, bzm, cloud, data, keep, ownFolder, painted, share, until, watch } from "./window.mjs";
+import { after, before } from "node:test";
+import { answer, atStep, browser, bzm, cloud, data, keep, ownFolder, painted, share, test, until, watch } from "./window.mjs";
 
 let chromium;
 before(async () => (chromium = await browser()));

@@ -2,8 +2,8 @@
 // its socket, and none that has made its own name lead here gets anything. The run goes on.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
-import { after, before, test } from "node:test";
-import { atEnd, atStep, browser, bzm, painted, until, watch } from "./window.mjs";
+import { after, before } from "node:test";
+import { atEnd, atStep, browser, bzm, painted, test, until, watch } from "./window.mjs";
 
 let chromium;
 before(async () => (chromium = await browser("--host-resolver-rules=MAP rebound.example 127.0.0.1, MAP foreign.example 127.0.0.1")));

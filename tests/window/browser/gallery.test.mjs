@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { browser, bzm, data, keep, open, until } from "./window.mjs";
+import { after, before } from "node:test";
+import { browser, bzm, data, keep, open, test, until } from "./window.mjs";
 
 const shipped = readdirSync(new URL("../../../scenarios/", import.meta.url))
   .filter((file) => file.endsWith(".toml"))

@@ -1,8 +1,8 @@
 // Every shipped scenario in the window: it opens, paints, and goes a step; a picture of each is kept for people.
 import assert from "node:assert/strict";
 import { readdirSync } from "node:fs";
-import { after, before, test } from "node:test";
-import { browser, bzm, data, keep, painted, until, watch } from "./window.mjs";
+import { after, before } from "node:test";
+import { browser, bzm, data, keep, painted, test, until, watch } from "./window.mjs";
 
 let chromium;
 before(async () => (chromium = await browser()));

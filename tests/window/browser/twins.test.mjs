@@ -5,8 +5,8 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { browser, bzm, data, keep, ownFolder, until, watch } from "./window.mjs";
+import { after, before } from "node:test";
+import { browser, bzm, data, keep, ownFolder, test, until, watch } from "./window.mjs";
 
 let chromium;
 before(async () => (chromium = await browser()));
