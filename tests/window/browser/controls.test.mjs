@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { answer, atStep, browser, bzm, cloud, data, keep, ownFolder, painted, share, until, watch } from "./window.mjs";
+import { after, before } from "node:test";
+import { answer, atStep, browser, bzm, choose, cloud, data, keep, ownFolder, painted, pictureOf, share, test, until, watch } from "./window.mjs";
 
 let chromium;
 before(async () => (chromium = await browser()));
@@ -20,8 +20,8 @@ async function copper(t, { words = [], ...options } = {}) {
 }
 
 const near = (found, wanted, by) => assert.ok(Math.abs(found - wanted) <= by, `${found} instead of ${wanted} +- ${by}`);
-const state = (page, word, seconds) =>
-  until(async () => page.wire.update?.state === word && (await data(page, "body")).state === word, `the state is ${word}`, seconds);
+const state = (page, word) =>
+  until(async () => page.wire.update?.state === word && (await data(page, "body")).state === word, `the state is ${word}`);
 const panel = async (page) => {
   await page.click("#popup");
   await page.waitForSelector("#panel:not([hidden])");
@@ -37,6 +37,27 @@ const commit = async (page, selector, text) => {
   await page.press(selector, "Enter");
 };
 
+/** So many steps between two pictures. */
+async function pace(page, steps) {
+  await panel(page);
+  await commit(page, "#steps-per-frame", String(steps));
+  await until(() => page.wire.update.steps_per_frame === steps, `${steps} steps a frame`);
+  await page.click("#done");
+}
+
+async function toTheEnd(page, steps) {
+  await pace(page, 1000);
+  await page.click("#play");
+  await atStep(page, steps);
+}
+
+/** A run that does not end before a test does, however slow the browser. */
+async function endless(t, options) {
+  const { run, page } = await copper(t, { words: ["--steps", "100000000"], ...options });
+  await pace(page, 1);
+  return { run, page };
+}
+
 test("STEP goes one step, forwards and backwards", async (t) => {
   const { page } = await copper(t);
   await painted(page, 1);
@@ -48,7 +69,7 @@ test("STEP goes one step, forwards and backwards", async (t) => {
   await atStep(page, 1);
   assert.match(await page.textContent("#status"), /step 1 of 2,000/);
   near(page.wire.update.time_number, 0.01, 1e-12);
-  await until(() => page.wire.views.get(1).step === 1, "the picture of step 1");
+  await pictureOf(page, 1);
   // The knock-on has gone velocity times step, (0.4, -0.45) * 0.01.
   near(cloud(page).at(60)[0] - start[0], 0.004, 2e-4);
   near(cloud(page).at(60)[1] - start[1], -0.0045, 2e-4);
@@ -61,7 +82,8 @@ test("STEP goes one step, forwards and backwards", async (t) => {
 });
 
 test("PLAY goes on, STOP stands still; Space does both, and a played run arrives at its end", async (t) => {
-  const { page } = await copper(t, { words: ["--steps", "400"] });
+  const { page } = await copper(t, { words: ["--steps", "6000"] });
+  await pace(page, 1); // the end is a hundred seconds away
   await page.click("#play");
   await state(page, "playing");
   assert.equal(await page.getAttribute("#play", "aria-pressed"), "true");
@@ -69,39 +91,36 @@ test("PLAY goes on, STOP stands still; Space does both, and a played run arrives
   await page.click("#stop");
   await state(page, "paused");
   const { step } = page.wire.update;
-  assert.ok(step > 5 && step < 400, `stopped at ${step}`);
+  assert.ok(step > 5 && step < 6000, `stopped at ${step}`);
   await new Promise((resolve) => setTimeout(resolve, 300));
   assert.equal(page.wire.update.step, step);
   await page.keyboard.press("Space");
   await until(() => page.wire.update.step > step, "more steps");
   await page.keyboard.press("Space");
   await state(page, "paused");
-  await page.keyboard.press("Space");
-  await state(page, "done", 60);
-  await atStep(page, 400);
+  await toTheEnd(page, 6000);
+  await state(page, "done");
 });
 
 test("REWD runs back to the start and says by how much it is missed", async (t) => {
   const { page } = await copper(t, { words: ["--steps", "60"] });
   const start = cloud(page);
-  await page.click("#play");
-  await atStep(page, 60, 60);
+  await toTheEnd(page, 60);
   assert.notDeepEqual(cloud(page).at(60), start.at(60));
   await page.click("#rewind");
-  await atStep(page, 0, 60);
+  await atStep(page, 0);
   const missed = await until(() => page.wire.update.missed, "what is missed");
   assert.ok(missed.position < 1e-9 && missed.velocity < 1e-9, JSON.stringify(missed));
   await until(async () => (await page.textContent("#notices")).includes("missed by up to"), "a line about it");
-  await until(() => page.wire.views.get(1).step === 0, "the picture of the start");
+  await pictureOf(page, 0);
   for (const k of [0, 60, 249]) cloud(page).at(k).forEach((x, a) => near(x, start.at(k)[a], 1e-5));
 });
 
 test("the reversible leap-frog comes back exactly, by key R", async (t) => {
   const { page } = await copper(t, { words: ["--steps", "60", "--set", "ensembles.atoms.integrator=reversible-leap-frog"] });
-  await page.keyboard.press("Space");
-  await atStep(page, 60, 60);
+  await toTheEnd(page, 60);
   await page.keyboard.press("r");
-  await atStep(page, 0, 60);
+  await atStep(page, 0);
   const missed = await until(() => page.wire.update.missed, "what is missed");
   assert.deepEqual([missed.position, missed.velocity], [0, 0]);
   await until(async () => (await page.textContent("#notices")).includes("exactly"), "a line about it");
@@ -122,11 +141,11 @@ test("the step size is set, with a unit, and the next step has it; a mass is ref
 });
 
 test("steps per frame: number, slider, keys, full speed", async (t) => {
-  const { page } = await copper(t);
-  const pace = (steps) => until(() => page.wire.update.steps_per_frame === steps, () => `${steps} steps per frame, not ${page.wire.update.steps_per_frame}`);
+  const { page } = await endless(t);
+  const paced = (steps) => until(() => page.wire.update.steps_per_frame === steps, () => `${steps} steps per frame, not ${page.wire.update.steps_per_frame}`);
   await panel(page);
   await commit(page, "#steps-per-frame", "25");
-  await pace(25);
+  await paced(25);
   page.wire.steps.length = 0;
   await page.click("#play");
   await until(() => page.wire.steps.length > 4, "some frames");
@@ -135,41 +154,36 @@ test("steps per frame: number, slider, keys, full speed", async (t) => {
   for (const step of page.wire.steps.slice(1, 5)) assert.equal(step % 25, 0, page.wire.steps.join(" "));
   await page.focus("#steps-slider");
   await page.keyboard.press("Home");
-  await pace(1);
+  await paced(1);
   await page.keyboard.press("ArrowRight");
-  await pace(2);
+  await paced(2);
   await page.locator("#panel").focus();
   await page.keyboard.press("]");
-  await pace(4);
+  await paced(4);
   await page.keyboard.press("[");
-  await pace(2);
+  await paced(2);
   await page.check("#full-speed");
-  await pace(0);
+  await paced(0);
   const from = page.wire.update.step;
   await page.click("#play");
-  await until(() => page.wire.update.step > from + 200, "200 steps", 10);
+  await until(() => page.wire.update.step > from + 200, "200 steps");
   await page.click("#stop");
   await page.uncheck("#full-speed");
-  await pace(1);
+  await paced(1);
 });
 
 test("every diagnosis can be chosen and paints something; D and shift-D go through them", async (t) => {
   const { page } = await copper(t, { words: ["--steps", "200"] });
-  await panel(page);
-  await page.check("#full-speed");
-  await page.click("#play");
-  await atStep(page, 200, 60);
-  await page.click("#done");
+  await toTheEnd(page, 200);
   const names = page.wire.hello.diagnoses.map(({ name }) => name);
   assert.ok(names.includes("Particles") && names.length >= 5, names.join());
   for (const name of names) {
-    await page.selectOption("#pane-1-chooser", name);
-    assert.equal((await data(page, "[data-view='1']")).diagnosis, name);
+    await choose(page, name);
     await painted(page, 1, 2e-4);
     assert.equal(await page.locator(".fault:visible").count(), 0, name);
     await keep(page, `diagnosis-${name.replace(/\W+/g, "-")}`);
   }
-  await page.selectOption("#pane-1-chooser", names[0]);
+  await choose(page, names[0]);
   await page.locator("[data-view='1'] canvas").first().focus();
   await page.keyboard.press("d");
   assert.equal((await data(page, "[data-view='1']")).diagnosis, names[1]);
@@ -179,8 +193,7 @@ test("every diagnosis can be chosen and paints something; D and shift-D go throu
 
 test("several diagnoses stand side by side, six at most, and each is sent", async (t) => {
   const { page } = await copper(t, { words: ["--steps", "200"] });
-  await page.click("#play");
-  await atStep(page, 200, 60);
+  await toTheEnd(page, 200);
   await panel(page);
   await page.click("#add-pane");
   await page.locator("#panel").focus();
@@ -266,16 +279,16 @@ test("axes of phase space, bins and logarithm of a histogram", async (t) => {
 });
 
 test("TRACK keeps what was drawn, until it is turned off", async (t) => {
-  const { page } = await copper(t);
+  const { page } = await endless(t);
   await panel(page);
-  await commit(page, "#steps-per-frame", "10");
+  await commit(page, "#steps-per-frame", "100");
   await page.check("#track");
   await page.click("#play");
-  await until(() => page.wire.update.step > 500, "some way", 60);
+  await until(() => page.wire.update.step > 500, "some way");
   await page.click("#stop");
   await state(page, "paused");
-  await until(() => page.wire.views.get(1).step === page.wire.update.step, "the last picture");
-  await until(async () => Number((await data(page, "[data-view='1']")).frames) > 3, "some frames");
+  await pictureOf(page);
+  assert.ok(Number((await data(page, "[data-view='1']")).frames) > 3);
   await keep(page, "track");
   const tracked = await share(page, 1);
   await page.locator("#panel").focus();
@@ -320,7 +333,7 @@ test("a click reads a particle; FOLLOW keeps it in the middle; Escape lets it go
   for (let k = 0; k < 4; ++k) await page.keyboard.press("+");
   for (let k = 0; k < 3; ++k) await page.keyboard.press("s");
   await atStep(page, 3);
-  await until(() => page.wire.views.get(1).step === 3, "the picture of step 3");
+  await pictureOf(page, 3);
   await page.keyboard.press("g");
   const { said } = await answer(page, "picture");
   const [x, y] = cloud(page).at(60);
@@ -345,8 +358,7 @@ test("zoom by wheel, keys and the button for the whole view", async (t) => {
   const picture = page.locator("[data-view='1'] canvas").first();
   await picture.hover();
   await page.mouse.wheel(0, -400);
-  await new Promise((resolve) => setTimeout(resolve, 300));
-  const zoomed = await seen();
+  const zoomed = await until(seen, "a zoomed view");
   assert.ok(zoomed && zoomed[1] - zoomed[0] < 60, `zoomed to ${zoomed}`);
   await page.locator("[data-view='1'] button.whole").click();
   assert.equal(await seen(), undefined);
@@ -427,12 +439,21 @@ test("pictures are saved as PNG, SVG and PDF, as the window draws them", async (
 });
 
 test("a movie is recorded", async (t) => {
-  const { page } = await copper(t);
+  const { page } = await endless(t, { width: 480, height: 480 });
+  await page.evaluate(() => {
+    const { start } = MediaRecorder.prototype;
+    MediaRecorder.prototype.start = function (...words) {
+      window.recorded = 0;
+      this.addEventListener("dataavailable", ({ data }) => (window.recorded += data.size));
+      start.apply(this, words);
+    };
+  });
+  const recording = () => until(async () => (await page.getAttribute("#record", "aria-pressed")) === "true", "recording");
   await page.click("#play");
   await panel(page);
   await page.click("#record");
-  await until(async () => (await page.getAttribute("#record", "aria-pressed")) === "true", "recording");
-  await new Promise((resolve) => setTimeout(resolve, 2000));
+  await recording();
+  await until(() => page.evaluate(() => window.recorded > 5000), "a movie");
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#record")]);
   assert.match(download.suggestedFilename(), /\.webm$/);
   const content = readFileSync(await download.path());
@@ -441,7 +462,7 @@ test("a movie is recorded", async (t) => {
   // The same by key, and by the button of the pane.
   await page.locator("#panel").focus();
   await page.keyboard.press("m");
-  await new Promise((resolve) => setTimeout(resolve, 500));
+  await recording();
   const [again] = await Promise.all([page.waitForEvent("download"), page.locator("[data-view='1'] button.record").click()]);
   assert.match(again.suggestedFilename(), /\.webm$/);
 });
@@ -473,9 +494,8 @@ test("a checkpoint is saved, and the run goes on from it", async (t) => {
 test("the table is plotted and exported; its values are those of diagnoses.csv", async (t) => {
   const { page, folder } = await copper(t, { words: ["--steps", "100"] });
   const table = page.wire.hello.diagnoses.find(({ drawing }) => drawing === "table").name;
-  await page.selectOption("#pane-1-chooser", table);
-  await page.click("#play");
-  await atStep(page, 100, 60);
+  await choose(page, table);
+  await toTheEnd(page, 100);
   await painted(page, 1, 2e-4);
   await until(async () => Number((await data(page, "[data-view='1']")).points) >= 6, "six rows");
   const chips = page.locator("[data-view='1'] [data-column]");
@@ -564,14 +584,14 @@ test("QUIT asks, then ends the run; the last picture stays", async (t) => {
 });
 
 test("several browsers at once: what one does, all see; they come and go", async (t) => {
-  const { run, page } = await copper(t);
+  const { run, page } = await endless(t);
   const other = await watch(t, chromium, run);
   await until(() => page.wire.update.viewers === 2 && other.wire.update.viewers === 2, "two viewers");
   assert.match(await page.textContent("#viewers"), /2/);
   await page.click("#step");
   await atStep(page, 1);
   await atStep(other, 1);
-  await other.selectOption("#pane-1-chooser", page.wire.hello.diagnoses[2].name); // only there
+  await choose(other, page.wire.hello.diagnoses[2].name); // only there
   await painted(other, 1, 2e-4);
   assert.equal((await data(page, "[data-view='1']")).diagnosis, page.wire.hello.diagnoses[0].name);
   await other.click("#play");

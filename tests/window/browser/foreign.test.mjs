@@ -2,26 +2,33 @@
 // its socket, and none that has made its own name lead here gets anything. The run goes on.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
-import { after, before, test } from "node:test";
-import { atEnd, atStep, browser, bzm, painted, until, watch } from "./window.mjs";
+import { after, before } from "node:test";
+import { atEnd, atStep, browser, bzm, painted, test, until, watch } from "./window.mjs";
 
 let chromium;
 before(async () => (chromium = await browser("--host-resolver-rules=MAP rebound.example 127.0.0.1, MAP foreign.example 127.0.0.1")));
 after(() => chromium.close());
 
-/** A page of somebody else's on another port of this machine. */
+async function otherPage(t) {
+  const context = await chromium.newContext();
+  atEnd(t, () => context.close());
+  return context.newPage();
+}
+
+/** A page of somebody else's on another port of this machine, and what it was refused. */
 async function elsewhere(t, html, name = "localhost") {
   const server = createServer((_request, response) => response.writeHead(200, { "content-type": "text/html" }).end(html));
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  atEnd(t, async () => {
+  atEnd(t, () => {
     server.closeAllConnections();
     server.close();
   });
-  const context = await chromium.newContext();
-  atEnd(t, () => context.close());
-  const page = await context.newPage();
-  await page.goto(`http://${name}:${server.address().port}/`);
-  return page;
+  const page = await otherPage(t);
+  const refused = [];
+  page.on("requestfailed", (request) => refused.push(request.url()));
+  const visit = (name) => page.goto(`http://${name}:${server.address().port}/`);
+  await visit(name);
+  return { page, refused, visit };
 }
 
 /** Whether the run still answers a browser that may ask. */
@@ -34,7 +41,7 @@ async function goesOn(t, run) {
 
 test("a notebook's frame shows the window", async (t) => {
   const run = await bzm(t, ["run", "copper", "--window", "--out", "run"]);
-  const page = await elsewhere(t, `<!doctype html><iframe width="900" height="600" src="${run.address}"></iframe>`);
+  const { page } = await elsewhere(t, `<!doctype html><iframe width="900" height="600" src="${run.address}"></iframe>`);
   const frame = await until(() => page.frames().find((each) => each.url() === run.address), "the frame");
   await frame.waitForSelector("[data-view='1'][data-frames]");
   await painted(frame, 1);
@@ -44,16 +51,17 @@ test("a notebook's frame shows the window", async (t) => {
 
 test("a page of the internet can't put it into a frame", async (t) => {
   const run = await bzm(t, ["run", "copper", "--window", "--out", "run"]);
-  const page = await elsewhere(t, `<!doctype html><iframe width="900" height="600" src="${run.address}"></iframe>`, "foreign.example");
-  await new Promise((resolve) => setTimeout(resolve, 1500));
+  const { page, refused } = await elsewhere(t, `<!doctype html><iframe width="900" height="600" src="${run.address}"></iframe>`, "foreign.example");
+  await until(() => refused.includes(run.address), "a refusal");
   for (const frame of page.frames()) assert.equal(await frame.locator("#bar").count(), 0, frame.url());
   await goesOn(t, run);
 });
 
 test("no other page can open the socket or read the page, even with the token", async (t) => {
   const run = await bzm(t, ["run", "copper", "--window", "--out", "run"]);
+  const { page, visit } = await elsewhere(t, "<!doctype html>");
   for (const name of ["localhost", "127.0.0.1", "foreign.example"]) {
-    const page = await elsewhere(t, "<!doctype html>", name);
+    await visit(name);
     const socket = run.address.replace("http", "ws").replace("/?", "/socket?");
     const opened = await page.evaluate(
       (address) =>
@@ -76,9 +84,7 @@ test("no other page can open the socket or read the page, even with the token", 
 
 test("a name that leads to this machine gets nothing, nor does who has no token", async (t) => {
   const run = await bzm(t, ["run", "copper", "--window", "--out", "run"]);
-  const context = await chromium.newContext();
-  atEnd(t, () => context.close());
-  const page = await context.newPage();
+  const page = await otherPage(t);
   const status = async (address) => (await page.goto(address)).status();
   assert.equal(await status(run.address), 200);
   assert.equal(await status(run.address.replace("127.0.0.1", "localhost")), 200); // ssh -L

@@ -13,8 +13,11 @@ folder=$(cd "$1/window-browser" && pwd)
 BZM=$(realpath "$2")
 export BZM
 shift 2
-cp "$here"/{package.json,package-lock.json,.npmrc} "$folder/"
-install "$folder"
+( # one at a time: tests run side by side
+  flock 9
+  cp "$here"/{package.json,package-lock.json,.npmrc} "$folder/"
+  install "$folder"
+) 9>"$folder/lock"
 export WINDOW_FOLDER=$folder
 cd "$here"
 [ $# -gt 0 ] || set -- *.test.mjs

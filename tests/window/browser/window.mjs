@@ -5,45 +5,60 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
+import { test as nodeTest } from "node:test";
 
 /** Where run.sh has installed the modules, and where screenshots go. */
 export const folder = process.env.WINDOW_FOLDER ?? ".";
 const { chromium } = createRequire(join(folder, "package.json"))("playwright-core");
 
+/** Seconds that anything may take, on a machine that does much else. */
+const patience = 120;
+
 /** Waits until `condition` gives something true, and returns it. */
-export async function until(condition, what, seconds = 20) {
-  const end = Date.now() + seconds * 1000;
+export async function until(condition, what) {
+  const end = Date.now() + patience * 1000;
   for (;;) {
     const found = await condition();
     if (found) return found;
-    if (Date.now() > end) assert.fail(`after ${seconds} s still not: ${typeof what === "function" ? await what() : what}`);
+    if (Date.now() > end) assert.fail(`after ${patience} s still not: ${typeof what === "function" ? await what() : what}`);
     await new Promise((resolve) => setTimeout(resolve, 30));
   }
 }
 
-// What is to be done when a test is over, the last thing first: a page is closed before what it shows is ended.
 const rests = new WeakMap();
-export function atEnd(test, rest) {
-  if (!rests.has(test)) {
-    rests.set(test, []);
-    test.after(async () => {
-      const failures = [];
-      for (const each of rests.get(test).reverse()) await Promise.resolve(each()).catch((failure) => failures.push(failure));
-      if (failures.length > 0) throw failures[0];
-    });
-  }
-  rests.get(test).push(rest);
+
+/** A test, and after it what its parts have left to do, the last thing first: a page is left before what it shows is ended. */
+export function test(name, body) {
+  return nodeTest(name, async (t) => {
+    rests.set(t, []);
+    const failures = [];
+    const attempt = async (what, ...words) => {
+      try {
+        await what(...words);
+      } catch (failure) {
+        failures.push(failure);
+      }
+    };
+    await attempt(body, t);
+    for (const rest of rests.get(t).reverse()) await attempt(rest, failures.length > 0);
+    if (failures.length > 0) throw failures[0];
+  });
 }
 
-/** A folder of a test's own, taken away after it: `test` is the context that node:test gives it. */
-export function ownFolder(test) {
+/** What is to be done when a test is over; it is told whether the test has failed. */
+export function atEnd(t, rest) {
+  rests.get(t).push(rest);
+}
+
+/** A folder of a test's own, taken away after it: `t` is the context that node:test gives it. */
+export function ownFolder(t) {
   const made = mkdtempSync(join(tmpdir(), "boltzmann-window-"));
-  atEnd(test, async () => rmSync(made, { recursive: true, force: true, maxRetries: 3 }));
+  atEnd(t, () => rmSync(made, { recursive: true, force: true, maxRetries: 3 }));
   return made;
 }
 
 /** Starts bzm and waits for the address of its window. It is ended with the test, if it still runs then. */
-export async function bzm(test, words, { cwd = ownFolder(test), seconds = 60 } = {}) {
+export async function bzm(t, words, { cwd = ownFolder(t) } = {}) {
   assert.ok(process.env.BZM, "BZM is the path of the command");
   const child = spawn(process.env.BZM, words, { cwd, stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, NO_COLOR: "1" } });
   let output = "";
@@ -57,11 +72,9 @@ export async function bzm(test, words, { cwd = ownFolder(test), seconds = 60 } =
     ended: new Promise((resolve) => child.on("close", (status, signal) => resolve(status ?? signal))),
     running: () => child.exitCode === null && child.signalCode === null,
   };
-  atEnd(test, async () => {
-    if (run.running()) child.kill("SIGINT");
-    const late = setTimeout(() => child.kill("SIGKILL"), 10_000);
+  atEnd(t, async () => {
+    if (run.running()) child.kill("SIGKILL"); // nothing that it would still write is read
     await run.ended;
-    clearTimeout(late);
   });
   run.address = await until(
     () => {
@@ -70,16 +83,17 @@ export async function bzm(test, words, { cwd = ownFolder(test), seconds = 60 } =
       return address?.[0];
     },
     () => `an address in what bzm ${words.join(" ")} prints:\n${output}`,
-    seconds,
   );
   return run;
 }
 
-// SwiftShader draws WebGL2 where there is no graphics card. The others: nothing of Chromium speaks to anybody.
+// SwiftShader draws WebGL2 where there is no graphics card; the rest of a page is drawn without it, which takes a fifth of
+// the time. The others: nothing of Chromium speaks to anybody.
 const flags = [
   "--enable-unsafe-swiftshader",
   "--use-gl=angle",
   "--use-angle=swiftshader",
+  "--disable-gpu-compositing",
   "--disable-gpu-sandbox",
   "--disable-quic",
   "--no-first-run",
@@ -97,16 +111,32 @@ export function browser(...more) {
   });
 }
 
-/** Opens an address in a browser state of its own. What the page complains of is kept, and fails the test at its end. */
-export async function open(test, chromium, address, { width = 1280, height = 800, dark = false, prepare } = {}) {
-  const context = await chromium.newContext({
-    viewport: { width, height },
-    colorScheme: dark ? "dark" : "light",
-    reducedMotion: "reduce",
-    acceptDownloads: true,
-  });
-  const page = await context.newPage();
-  page.setDefaultTimeout(15_000);
+// Pages that tests have left: another test goes on with them, as a new one takes as long as most tests.
+const left = new WeakMap();
+
+async function blankPage(chromium) {
+  if (!left.has(chromium)) left.set(chromium, []);
+  const page = left.get(chromium).pop();
+  if (page) return page;
+  const context = await chromium.newContext({ reducedMotion: "reduce", acceptDownloads: true });
+  return context.newPage();
+}
+
+/** Nothing of what a test has done with a page is left: the storage of its window is cleared, and its port is another's next time. */
+async function leave(page, chromium) {
+  for (const event of ["console", "pageerror", "request", "websocket"]) page.removeAllListeners(event);
+  await page.evaluate(() => [localStorage, sessionStorage].forEach((storage) => storage.clear()));
+  await page.goto("about:blank");
+  await page.mouse.move(0, 0);
+  left.get(chromium).push(page);
+}
+
+/** Opens an address. What the page complains of is kept, and fails the test at its end. */
+export async function open(t, chromium, address, { width = 960, height = 640, dark = false } = {}) {
+  const page = await blankPage(chromium);
+  await page.setViewportSize({ width, height });
+  await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
+  page.setDefaultTimeout(patience * 1000);
   const complaints = [];
   page.on("console", (message) => {
     if (message.type() === "error") complaints.push(`console: ${message.text()} (${message.location().url})`);
@@ -117,24 +147,16 @@ export async function open(test, chromium, address, { width = 1280, height = 800
     const url = request.url();
     if (![origin, "blob:", "data:"].some((start) => url.startsWith(start))) complaints.push(`fetched ${url}`);
   });
-  page.complaints = complaints;
   page.wire = listen(page);
-  atEnd(test, async () => {
-    for (const complaint of complaints) test.diagnostic(complaint);
-    // What it looked like at the end, for people: above all when the test has failed.
-    if (!page.isClosed()) await keep(page, `at-the-end/${test.name.replace(/\W+/g, "-").slice(0, 60)}`);
-    await context.close();
+  atEnd(t, async (failed) => {
+    for (const complaint of complaints) t.diagnostic(complaint);
+    failed ||= complaints.length > 0;
+    if (failed && !page.isClosed()) await keep(page, `failed/${t.name.replace(/\W+/g, "-").slice(0, 60)}`);
+    if (failed || page.isClosed()) await page.context().close();
+    else await leave(page, chromium);
     assert.deepEqual(complaints, []);
   });
-  await prepare?.(page);
   await page.goto(address);
-  const version = await page.evaluate(() => {
-    const gl = document.createElement("canvas").getContext("webgl2");
-    const found = gl?.getParameter(gl.VERSION) ?? "";
-    gl?.getExtension("WEBGL_lose_context")?.loseContext();
-    return found;
-  });
-  assert.match(version, /WebGL 2/, "the browser has no WebGL2");
   return page;
 }
 
@@ -177,7 +199,7 @@ function numbers(payload, { at, count, as }) {
 /** The last message of the page that does this, and its answer. */
 export async function answer(page, what) {
   const said = await until(() => page.wire.said.findLast((words) => words.do === what), `a message "${what}"`);
-  return { said, reply: await until(() => page.wire.replies.get(said.id), `an answer to ${JSON.stringify(said)}`, 60) };
+  return { said, reply: await until(() => page.wire.replies.get(said.id), `an answer to ${JSON.stringify(said)}`) };
 }
 
 /** The cloud of particles that a view was sent last: { count, at: (particle) => coordinates, ... }. */
@@ -198,12 +220,28 @@ export async function watch(test, chromium, run, options) {
 }
 
 /** Waits until the window has said, and the page shows, this step. */
-export async function atStep(page, step, seconds) {
+export async function atStep(page, step) {
   await until(
     async () => page.wire.update?.step === step && (await data(page, "body")).step === String(step),
     () => `step ${step}; it is ${page.wire.update?.step} and ${page.wire.update?.state}`,
-    seconds,
   );
+}
+
+/** Waits until a pane shows the picture of this step, or of the last one that the window has told of. */
+export async function pictureOf(page, step, view = 1) {
+  const wanted = () => String(step ?? page.wire.update.step);
+  const shown = async () => (await data(page, `[data-view='${view}']`)).step;
+  await until(async () => (await shown()) === wanted(), async () => `the picture of step ${wanted()}; it is that of ${await shown()}`);
+}
+
+/** Chooses a diagnosis for a pane, and waits until it is painted. */
+export async function choose(page, diagnosis, view = 1) {
+  const pane = `[data-view='${view}']`;
+  const before = await data(page, pane);
+  if (before.diagnosis === diagnosis) return;
+  await page.selectOption(`#pane-${view}-chooser`, diagnosis);
+  assert.equal((await data(page, pane)).diagnosis, diagnosis);
+  await until(async () => (await data(page, pane)).frames !== before.frames, `a picture of ${diagnosis}`);
 }
 
 /** The data- attributes of the first element that is found. */

@@ -38,6 +38,7 @@ export class Pane {
   private readonly close: HTMLButtonElement;
   private region: [number, number][] | undefined;
   private frames = 0;
+  private readonly steps = new WeakMap<Canvas, number>();
   private paintedCanvas: Canvas | null = null;
   private slowPaints = 0;
   private quickPaints = 0;
@@ -45,6 +46,7 @@ export class Pane {
   private selectedAt: number[] | null = null;
   private held = "";
   private columns = "";
+  private plotted = ""; // the diagnosis whose quantities the plot shows
 
   constructor(
     private readonly session: Session,
@@ -201,6 +203,7 @@ export class Pane {
       this.board.classList.toggle("blank", mine.error !== undefined && this.canvas === null);
       if (mine.canvas) {
         this.canvas = mine.canvas;
+        this.steps.set(mine.canvas, update.step);
         this.head();
         this.painter?.show(mine.canvas);
       }
@@ -257,7 +260,7 @@ export class Pane {
     this.fault.hidden = true;
     if (!hello) return;
     const table = this.drawing === "table";
-    if (table ? this.painter : this.plot) {
+    if (table ? this.painter || this.plotted !== this.diagnosis : this.plot) {
       this.recorder.stop();
       this.painter?.dispose();
       this.plot?.dispose();
@@ -265,6 +268,7 @@ export class Pane {
       this.board.replaceChildren();
     }
     if (table && !this.plot) {
+      this.plotted = this.diagnosis;
       this.plot = new TablePlot(this.board, hello, session.rows, {
         chosen: this.own.y ?? "",
         logarithmic: this.has("logarithmic") === true,
@@ -295,6 +299,7 @@ export class Pane {
     const box = this.painter?.frameBox();
     if (box) this.element.dataset.box = [box.left, box.top, box.width, box.height].map((v) => v.toFixed(2)).join(" ");
     if (again) return;
+    this.element.dataset.step = String(this.steps.get(canvas));
     this.element.dataset.milliseconds = String(Math.round(milliseconds));
     this.slowPaints = milliseconds > slow ? this.slowPaints + 1 : 0;
     this.quickPaints = milliseconds < quick ? this.quickPaints + 1 : 0;
