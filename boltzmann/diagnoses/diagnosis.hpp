@@ -34,6 +34,9 @@ class Diagnosis {
   virtual std::vector<Column> columns() const = 0;
   /// Appends one value for each of columns().
   virtual void measure(Sample const& sample, std::vector<double>& values) = 0;
+  /// Where it says that it follows(), it sees every step between two looks, too: where particles are, no energies.
+  virtual bool follows() const { return false; }
+  virtual void follow(Sample const&) {}
   virtual bool needs_energies() const { return false; }
   virtual bool needs_mesh() const { return false; }
   /// Whether it follows particles from look to look by their numbers.

@@ -37,51 +37,68 @@ std::vector<Column> Diffusion::columns() const {
   return columns;
 }
 
-void Diffusion::measure(Sample const& sample, std::vector<double>& values) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  bool const first = !begun_ && sample.time >= since_;
-  if (first) {
-    begun_ = true;
-    begin_ = sample.time;
-  }
+namespace {
+
+AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name) {
+  for (auto const* ensemble : sample.ensembles)
+    if (ensemble->name() == name) return *ensemble;
+  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+}
+
+}  // namespace
+
+void Diffusion::follow(Sample const& sample) {
+  if (!begun_) return;
+  auto const D = static_cast<std::size_t>(dimension_);
   for (auto& one : followed_) {
-    auto const found = std::find_if(sample.ensembles.begin(), sample.ensembles.end(),
-                                    [&](AnyEnsemble const* ensemble) { return ensemble->name() == one.name; });
-    if (found == sample.ensembles.end())
-      throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", one.name));
-    AnyEnsemble const& ensemble = **found;
-    if (!begun_ || ensemble.size() == 0) {
-      values.insert(values.end(), {nan, nan});
-      continue;
-    }
-    auto const D = static_cast<std::size_t>(dimension_);
-    if (first) {
-      one.displacement.assign(D * ensemble.size(), 0.0);
-      one.last.resize(D * ensemble.size());
-    }
+    AnyEnsemble const& ensemble = ensemble_of(sample, one.name);
     if (one.last.size() != D * ensemble.size())
       throw Error(fmt::format("diffusion follows the {} particles of '{}', which has {} now", one.last.size() / D,
                               one.name, ensemble.size()));
-    double mean[3] = {0, 0, 0};
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* x = ensemble.row(i);
       double moved[3] = {0, 0, 0};
-      if (!first)
-        for (std::size_t a = 0; a < D; ++a) moved[a] = x[a] - one.last[D * i + a];
+      for (std::size_t a = 0; a < D; ++a) moved[a] = x[a] - one.last[D * i + a];
       sample.box.nearest_image(moved);
       for (std::size_t a = 0; a < D; ++a) {
         one.last[D * i + a] = x[a];
         one.displacement[D * i + a] += moved[a];
-        mean[a] += one.displacement[D * i + a] / static_cast<double>(ensemble.size());
       }
     }
+  }
+}
+
+void Diffusion::measure(Sample const& sample, std::vector<double>& values) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto const D = static_cast<std::size_t>(dimension_);
+  if (!begun_ && sample.time >= since_) {
+    begun_ = true;
+    begin_ = sample.time;
+    for (auto& one : followed_) {
+      AnyEnsemble const& ensemble = ensemble_of(sample, one.name);
+      one.displacement.assign(D * ensemble.size(), 0.0);
+      one.last.clear();
+      for (std::size_t i = 0; i < ensemble.size(); ++i)
+        one.last.insert(one.last.end(), ensemble.row(i), ensemble.row(i) + D);
+    }
+  }
+  follow(sample);
+  for (auto& one : followed_) {
+    if (!begun_ || one.last.empty()) {
+      values.insert(values.end(), {nan, nan});
+      continue;
+    }
+    std::size_t const count = one.last.size() / D;
+    double mean[3] = {0, 0, 0};
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t a = 0; a < D; ++a) mean[a] += one.displacement[D * i + a] / static_cast<double>(count);
     CompensatedSum square;
-    for (std::size_t i = 0; i < ensemble.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
       for (std::size_t a = 0; a < D; ++a) {
         double const d = one.displacement[D * i + a] - mean[a];
         square += d * d;
       }
-    double const msd = square.value() / static_cast<double>(ensemble.size());
+    double const msd = square.value() / static_cast<double>(count);
     one.line.add(sample.time - begin_, msd);
     values.insert(values.end(), {msd, one.line.fit().slope.mean / (2 * dimension_)});
   }

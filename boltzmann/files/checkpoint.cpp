@@ -39,7 +39,6 @@ class Descriptor {
   std::uint64_t size() const {
     struct stat facts {};
     if (fstat(id_, &facts) != 0) throw Error(fmt::format("{}: {}", path_, reason(errno)));
-    if (!S_ISREG(facts.st_mode)) throw Error(path_ + ": is not a regular file");
     return static_cast<std::uint64_t>(facts.st_size);
   }
 

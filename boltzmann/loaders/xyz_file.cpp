@@ -214,17 +214,22 @@ XyzFrame from_xyz_file(std::string const& path, std::size_t frame_number) {
   }
 }
 
+std::size_t count_species(XyzFrame const& frame, std::string const& species) {
+  if (species.empty()) return frame.size();
+  auto const count = std::count(frame.species.begin(), frame.species.end(), species);
+  if (count > 0) return static_cast<std::size_t>(count);
+  std::vector<std::string> all = frame.species;
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  throw Error(fmt::format("the XYZ frame has no particle of species '{}'; it has {}{}", species, join(all),
+                          did_you_mean(species, all)));
+}
+
 std::size_t xyz_load(AnyEnsemble& ensemble, XyzFrame const& frame, XyzOptions const& options) {
+  count_species(frame, options.species);
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < frame.size(); ++i)
     if (options.species.empty() || frame.species[i] == options.species) chosen.push_back(i);
-  if (chosen.empty() && !options.species.empty()) {
-    std::vector<std::string> all = frame.species;
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    throw Error(fmt::format("the XYZ frame has no particle of species '{}'; it has {}{}", options.species, join(all),
-                            did_you_mean(options.species, all)));
-  }
   if (ensemble.size() != chosen.size()) {
     if (!options.resize)
       throw Error(fmt::format("ensemble '{}' has {} particles, the XYZ frame has {}", ensemble.name(), ensemble.size(),

@@ -43,6 +43,9 @@ struct XyzOptions {
   bool resize = false;       ///< make the ensemble as large as the file; else another size is an Error
 };
 
+/// How many particles of a species ("": of any) the frame has. Error if it has others only.
+std::size_t count_species(XyzFrame const& frame, std::string const& species);
+
 /// Gives the ensemble the frame's positions, and every other column whose name and number of components are those of a
 /// field (lengths and velocities in the given units, everything else as it stands). Returns how many were placed. In 1D
 /// and 2D the file's further components must be zero. Error if sizes differ or no particle is of that species.

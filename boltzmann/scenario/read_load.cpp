@@ -261,7 +261,8 @@ double Loader::read_file() {
   Item const* path_item = section_.need("path", "path = \"atoms.xyz\"");
   auto const path = path_item ? read_text(*path_item, "path", reading_.context) : std::nullopt;
   auto const frame = section_.integer("frame", 0).value_or(0);
-  options_.species = section_.text("species").value_or("");
+  Item const* species_item = section_.find("species");
+  if (species_item) options_.species = read_text(*species_item, "species", reading_.context).value_or("");
   options_.length = section_.quantity("length", dimensions::length, positive).value_or(1);
   options_.velocity = section_.quantity("velocity", dimensions::velocity, positive).value_or(1);
   if (!path) return 0;
@@ -269,9 +270,12 @@ double Loader::read_file() {
   if (full.is_relative() && !reading_.context.folder.empty())
     full = std::filesystem::path(reading_.context.folder) / full;
   file_ = std::filesystem::absolute(full).lexically_normal().string();
-  guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); });
-  if (options_.species.empty()) return static_cast<double>(frame_.size());
-  return static_cast<double>(std::count(frame_.species.begin(), frame_.species.end(), options_.species));
+  if (!guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); }))
+    return 0;
+  double count = 0;
+  guarded(reading_, species_item ? species_item->place : path_item->place,
+          [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
+  return count;
 }
 
 }  // namespace boltzmann

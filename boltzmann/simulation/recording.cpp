@@ -244,7 +244,11 @@ struct Recording::State {
     }
   }
 
-  bool due(std::int64_t step) const { return !finished && (!open || step >= next); }
+  bool follows() const {
+    return std::any_of(list.begin(), list.end(), [](auto const& diagnosis) { return diagnosis->follows(); });
+  }
+
+  bool due(std::int64_t step) const { return !finished && (!open || step >= next || follows()); }
 
   void look() {
     std::int64_t const step = simulation.step();
@@ -252,15 +256,36 @@ struct Recording::State {
     auto const since = Clock::now();
     if (!open)
       start();
+    else if (step < next)
+      follow();
     else
       write_due(step, false);
     seconds += std::chrono::duration<double>(Clock::now() - since).count();
+  }
+
+  /// What diagnoses see.
+  Sample sample(std::vector<AnyEnsemble*> const& all, Measures const* measures,
+                std::vector<MeshField const*> const& on_nodes) const {
+    return {all,
+            simulation.schemes().front()->box(),
+            measures,
+            base.is_reduced() ? 1.0 : base(constants::boltzmann),
+            simulation.time(),
+            simulation.step(),
+            on_nodes};
+  }
+
+  void follow() {
+    auto const all = ensembles();
+    for (auto const& diagnosis : list)
+      if (diagnosis->follows()) diagnosis->follow(sample(all, nullptr, {}));
   }
 
   void write_due(std::int64_t step, bool first) {
     auto const due = [&](std::int64_t every) { return every > 0 && step % every == 0; };
     try {
       remember();
+      follow();
       if (due(every_diagnoses)) write_row();
       if (due(every_trajectory)) write_frame();
       if (due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields());
@@ -307,15 +332,9 @@ struct Recording::State {
     if (energies) measures = simulation.measure();
     auto const all = ensembles();
     auto const on_nodes = mesh ? mesh_fields() : std::vector<MeshField const*>{};
-    Sample const sample{all,
-                        simulation.schemes().front()->box(),
-                        energies ? &measures : nullptr,
-                        base.is_reduced() ? 1.0 : base(constants::boltzmann),
-                        simulation.time(),
-                        simulation.step(),
-                        on_nodes};
     std::vector<double> values{simulation.time()};
-    for (auto const& diagnosis : list) diagnosis->measure(sample, values);
+    for (auto const& diagnosis : list)
+      diagnosis->measure(sample(all, energies ? &measures : nullptr, on_nodes), values);
     if (stop_when && stop_when(simulation.step(), values)) {
       // The checkpoint that is written last says that this was the end.
       met = simulation.step();

@@ -1,4 +1,6 @@
 // Diffusion: random walks of known coefficient, through periodic axes, and straight flight.
+#include "tests/bzm/command.hpp"
+
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -68,6 +70,48 @@ TEST(Diffusion, OfFlightIsQuadraticAndOfNothingUnknown) {
   pair.resize(3);
   EXPECT_THROW(look(diffusion, all, box, 20), Error);
   EXPECT_THROW(Diffusion({&pair}, {"pear"}, 0), Error);
+}
+
+// Two particles that fly apart, round and round: between two rows each has crossed the box four times.
+TEST(Diffusion, FollowsParticlesBetweenRows) {
+  auto const last_row = [](char const* rows) {
+    test::Folder folder;
+    test::write_text(folder / "flight.toml", std::string(R"([units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [10, 10]
+boundary = "periodic"
+[run]
+step = 0.01
+steps = 4000
+[[ensembles]]
+name = "pair"
+class = "Newton"
+integrator = "leap-frog"
+mass = 1
+load = { kind = "positions", positions = [[1, 1], [9, 9]] }
+formulas = { velocity = ["x - 5", 0] }
+[[influences]]
+law = "uniform-gravity"
+on = "pair"
+acceleration = [0, 0]
+[[diagnoses]]
+kind = "diffusion"
+[output]
+diagnoses = )") + rows);
+    auto const run = test::bzm({"run", "flight.toml", "--out", "run", "--quiet"}, folder.string());
+    EXPECT_EQ(run.status, 0) << run.err;
+    // And with a stop in between.
+    EXPECT_EQ(test::bzm({"run", "flight.toml", "--out", "parts", "--quiet", "--steps", "1234"}, folder.string()).status,
+              0);
+    EXPECT_EQ(test::bzm({"resume", "parts", "--quiet", "--steps", "2766"}, folder.string()).status, 0);
+    std::string const table = test::text_of(folder / "run/diagnoses.csv");
+    EXPECT_EQ(test::text_of(folder / "parts/diagnoses.csv"), table);
+    std::string const line = table.substr(table.rfind('\n', table.size() - 2) + 1);
+    return std::stod(line.substr(line.find(',', line.find(',') + 1) + 1));  // behind step and time
+  };
+  for (auto const* rows : {"10", "1000"}) EXPECT_NEAR(last_row(rows), 160.0 * 160.0, 1e-6) << rows;
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(Checkpoint, OtherFilesAreRefusedInOneLine) {
   TemporaryFolder const folder;
   EXPECT_EQ(message([&] { read_checkpoint(folder / "c.h5"); }),
             folder / "c.h5" + ": can't open it: No such file or directory");
-  EXPECT_EQ(message([&] { read_checkpoint(folder.path); }), folder.path + ": is not a regular file");
+  EXPECT_EQ(message([&] { read_checkpoint(folder.path); }), "'" + folder.path + "' is a directory, not a file");
   put(folder / "c.h5", std::string(2000, 'z'));
   EXPECT_EQ(message([&] { read_checkpoint(folder / "c.h5"); }), folder / "c.h5" + ": is not a checkpoint");
   put(folder / "c.h5", std::string("\x89HDF\r\n\x1a\n", 8) + std::string(2000, 0));

@@ -806,6 +806,9 @@ TEST(Mistakes, OfTheFileSystem) {
   EXPECT_EQ(scenario->ensembles[0]->size(), 4U);
   EXPECT_EQ(scenario->ensembles[0]->row(2)[0], 9);
   EXPECT_EQ(parse_scenario(scenario->resolved, "elsewhere.toml")->ensembles[0]->size(), 4U);
+  // A species that the file lacks.
+  std::ofstream(path) << load("{ kind = \"file\", path = \"boltzmann_mistakes_test.xyz\", species = \"Ag\" }");
+  EXPECT_NE(message(path).find("the XYZ frame has no particle of species 'Ag'; it has Cu"), std::string::npos);
   std::filesystem::remove(path);
   std::filesystem::remove(folder + "/boltzmann_mistakes_test.xyz");
 }

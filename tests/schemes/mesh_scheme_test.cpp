@@ -285,7 +285,8 @@ void expect_walls_are_images(std::array<FieldEnds, D> const& ends, Vector<D> con
   auto exact = forces(whole);
   exact.resize(charges.size());
   std::string name = std::to_string(order);
-  for (auto const& end : ends) name += " " + std::to_string(int(end.low)) + std::to_string(int(end.high));
+  for (auto const& end : ends)
+    name.append(" ").append(std::to_string(int(end.low))).append(std::to_string(int(end.high)));
   EXPECT_LT(relative_error(forces(charges), exact), 1e-11) << name;
   auto const a = with_walls.measure(), b = with_images.measure();
   double scale = 0;
