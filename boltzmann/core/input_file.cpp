@@ -1,6 +1,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
 
+#include <array>
 #include <filesystem>
 #include <istream>
 
@@ -16,15 +17,18 @@ void need_regular_file(std::string const& path) {
 
 bool read_line(std::istream& file, std::string& line, std::string const& path) {
   constexpr std::size_t longest = 1'000'000;
-  using Traits = std::istream::traits_type;
+  std::array<char, 4096> part;
   line.clear();
   while (true) {
-    auto const next = file.rdbuf()->sbumpc();
-    if (Traits::eq_int_type(next, Traits::eof())) return !line.empty();
-    char const letter = Traits::to_char_type(next);
-    if (letter == '\n') return true;
-    if (line.size() == longest) throw Error("'" + path + "' has a line of more than 1 MB: it is no file of text");
-    line.push_back(letter);
+    file.getline(part.data(), part.size());
+    auto const got = static_cast<std::size_t>(file.gcount());
+    if (file.bad()) throw Error("'" + path + "' can't be read");
+    bool const ended = file.eof(), goes_on = file.fail() && got == part.size() - 1;
+    line.append(part.data(), ended || goes_on ? got : got - 1);  // the end of the line is among them
+    if (line.size() > longest) throw Error("'" + path + "' has a line of more than 1 MB: it is no file of text");
+    if (ended) return !line.empty();
+    if (!goes_on) return true;
+    file.clear(file.rdstate() & ~std::ios::failbit);
   }
 }
 

@@ -15,8 +15,10 @@ std::size_t after_quotes(std::string_view text, std::size_t at) {
       ++i;
     else if (text[i] == '\n' && !long_one)
       return i;  // a mistake, which the reader tells
-    else if (text[i] == quote && (!long_one || text.substr(i, 3) == three))
-      return i + (long_one ? 3 : 1);
+    else if (text[i] == quote && !long_one)
+      return i + 1;
+    else if (text[i] == quote && text.substr(i, 3) == three)
+      return std::min(text.find_first_not_of(quote, i), i + 5);  // it may itself end in two
   }
   return text.size();
 }

@@ -26,7 +26,7 @@ struct RunReport {
   std::int64_t particles = 0;  ///< of all ensembles, at the start
   double particle_steps = 0;   ///< the sum of the numbers of particles over all steps
   double seconds = 0;          ///< of the loop, with all observers
-  bool interrupted = false;    ///< by Ctrl-C or SIGTERM, before its last step
+  bool interrupted = false;    ///< by Ctrl-C, SIGTERM or SIGHUP, before its last step
   bool signalled = false;      ///< one of them has come, perhaps after the last step
   bool out_of_time = false;    ///< ended by ProgressOptions::seconds, before its last step
   std::string condition;       ///< of Recording::stop_when, if it has ended the run; else empty

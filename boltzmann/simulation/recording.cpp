@@ -256,8 +256,6 @@ struct Recording::State {
     auto const since = Clock::now();
     if (!open)
       start();
-    else if (step < next)
-      follow();
     else
       write_due(step, false);
     seconds += std::chrono::duration<double>(Clock::now() - since).count();
@@ -284,8 +282,9 @@ struct Recording::State {
   void write_due(std::int64_t step, bool first) {
     auto const due = [&](std::int64_t every) { return every > 0 && step % every == 0; };
     try {
-      remember();
       follow();
+      if (step < next) return;
+      remember();
       if (due(every_diagnoses)) write_row();
       if (due(every_trajectory)) write_frame();
       if (due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields());

@@ -117,13 +117,19 @@ TEST(Entropy, FluctuationsAreThoseOfFewNeighbours) {
         double const w = weight_at(WeightShape::lucy, 2, std::hypot(i, j), range).value;
         weights += w, squares += w * w;
       }
+    // Of these velocities: their own variance, not that of the law that they are drawn from.
+    Vector<2> mean_velocity{};
+    for (auto const& p : gas) mean_velocity += p.velocity * (1 / static_cast<double>(gas.size()));
+    double variance = 0;
+    for (auto const& p : gas) variance += norm2(p.velocity - mean_velocity) / static_cast<double>(gas.size());
+    EXPECT_NEAR(variance, 2 * s * s, 5 * 2 * s * s / std::sqrt(static_cast<double>(gas.size())));
     double const neighbours = weights * weights / squares;
     SmoothField const field(gas, cube_of<2>(along));
     auto const fluctuation = velocity_fluctuation(field, field.positions());
     double mean = 0;
     for (double const f : fluctuation) mean += f / static_cast<double>(fluctuation.size());
-    double const expected = 2 * s * s * (1 - 1 / neighbours);
-    EXPECT_LT(expected, 0.92 * 2 * s * s) << "few neighbours: the effect is to be seen";
+    double const expected = variance * (1 - 1 / neighbours);
+    EXPECT_LT(expected, 0.92 * variance) << "few neighbours: the effect is to be seen";
     EXPECT_NEAR(mean / expected, 1, 0.015) << range;  // standard error 0.8 %
     // The entropy has it: with e = 0 it is the mean logarithm of half of it.
     for (auto& p : gas) p.specific_energy = 0;

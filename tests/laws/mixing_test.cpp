@@ -170,7 +170,7 @@ void load(Ensemble<Species<3>>& atoms) {
   maxwellian_load(atoms, 0.7, 1, test_seed(1));
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     atoms[i].species = i % 3 == 0 ? 1 : 0;
-    atoms[i].position += 0.1 * atoms[i].velocity;
+    atoms[i].position += 0.03 * atoms[i].velocity;
   }
 }
 Box const box(Vector{-1.0, -1.0, -1.0}, Vector{7.5, 7.5, 7.5}, Boundary::bounded);

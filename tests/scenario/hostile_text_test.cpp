@@ -13,6 +13,8 @@
 
 #include <sys/stat.h>
 
+#include <array>
+
 namespace boltzmann::hostile_text_test {
 namespace {
 
@@ -37,6 +39,10 @@ TEST(Nesting, CountsBracketsAndDotsOutsideOfQuotes) {
   EXPECT_FALSE(nested_too_deep("x = '" + repeated("[.{\\", 100) + "'"));
   EXPECT_FALSE(nested_too_deep("x = \"\"\"\n" + repeated("[.{\"\n", 100) + "\"\"\""));
   EXPECT_FALSE(nested_too_deep("# " + repeated("[", 100) + "\nx = 1"));
+  for (std::string const ends : {"", "\"", "\"\""}) {  // of the text itself, before its end
+    EXPECT_TRUE(nested_too_deep("x = [\"\"\"a" + ends + "\"\"\", " + repeated("[", 64))) << ends;
+    EXPECT_FALSE(nested_too_deep("x = [\"\"\"a" + ends + "\"\"\", \"" + repeated("[", 100) + "\"]")) << ends;
+  }
   EXPECT_TRUE(nested_too_deep("x = ''\n" + repeated("[", 65)));
   EXPECT_TRUE(nested_too_deep("x = \"no end\n" + repeated("[", 65)));
 }
@@ -96,6 +102,10 @@ TEST(HostileText, LinesEnd) {
   test::write_text(path, "1\n" + std::string(3000000, 'x') + "\nA 0 0 0\n");
   std::string const told = "'" + path + "' has a line of more than 1 MB: it is no file of text";
   EXPECT_EQ(message([&] { from_xyz_file(path); }), told);
+  test::write_text(path, "0.5 " + std::string(10000, ' ') + "1\n" + std::string(4091, '0') + "1 2\n\n# end\n2 " +
+                             std::string(4093, '0'));
+  EXPECT_EQ(read_two_columns(path, "the distance", "the energy", true),
+            (std::vector<std::array<double, 2>>{{0.5, 1}, {1, 2}, {2, 0}}));
   test::write_text(path, std::string(3000000, '1'));
   EXPECT_EQ(message([&] { read_two_columns(path, "the distance", "the energy", true); }), told);
 }
