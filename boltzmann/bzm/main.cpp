@@ -2,6 +2,7 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/standard_streams.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/recording.hpp>
@@ -266,6 +267,7 @@ int command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  hdf5::leave_without_words();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
   try {
     return command_line(argc, argv);

@@ -21,7 +21,7 @@ struct Column {
 struct Sample {
   std::span<AnyEnsemble* const> ensembles;
   Box const& box;
-  Measures const* measures;   ///< energies and virial; null unless the diagnosis needs_energies()
+  Measures const* measures;   ///< energies and virial; null unless the diagnosis needs one of them
   double boltzmann_constant;  ///< in the simulation's base
   double time;
   std::int64_t step;
@@ -38,6 +38,7 @@ class Diagnosis {
   virtual bool follows() const { return false; }
   virtual void follow(Sample const&) {}
   virtual bool needs_energies() const { return false; }
+  virtual bool needs_virial() const { return false; }
   virtual bool needs_mesh() const { return false; }
   /// Whether it follows particles from look to look by their numbers.
   virtual bool by_number() const { return false; }
@@ -45,5 +46,8 @@ class Diagnosis {
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(std::span<double const>) {}
 };
+
+/// Why a simulation with such measures can't give what the diagnosis needs, in one line; empty if it can.
+std::string refusal(Diagnosis const& diagnosis, Measures const& measures);
 
 }  // namespace boltzmann

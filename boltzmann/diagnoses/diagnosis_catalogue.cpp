@@ -201,7 +201,7 @@ class Energies final : public SystemDiagnosis {
 class Pressure final : public SystemDiagnosis {
  public:
   explicit Pressure(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
-  bool needs_energies() const override { return true; }
+  bool needs_virial() const override { return true; }
   std::vector<Column> columns_of_one() const override {
     Dimension const unit = dimensions::energy / pow(dimensions::length, dimension());
     std::vector<Column> columns{{"pressure", unit}};

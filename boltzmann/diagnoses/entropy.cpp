@@ -99,11 +99,11 @@ SmoothEntropy smooth_entropy(Ensembles of, Box const& box, EntropyOptions const&
 
   auto cells = options.cells;
   if (cells.empty()) {
+    auto const wanted = [&](int a) { return std::min(std::ceil(4 * box.length(a) / field.mean_range()), 1e9); };
     double nodes = 1;
-    for (int a = 0; a < D; ++a) nodes *= std::ceil(4 * box.length(a) / field.mean_range());
+    for (int a = 0; a < D; ++a) nodes *= wanted(a);
     double const fewer = nodes > most_nodes ? std::pow(most_nodes / nodes, 1.0 / D) : 1;
-    for (int a = 0; a < D; ++a)
-      cells.push_back(static_cast<std::size_t>(std::ceil(fewer * std::ceil(4 * box.length(a) / field.mean_range()))));
+    for (int a = 0; a < D; ++a) cells.push_back(static_cast<std::size_t>(std::ceil(fewer * wanted(a))));
   }
   SmoothColumn inverse_mass = field.column("mass");
   for (double& m : inverse_mass.values) m = 1 / m;

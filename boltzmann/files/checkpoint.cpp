@@ -104,15 +104,15 @@ void write_contents(File& file, Checkpoint const& checkpoint) {
     std::string const dataset = fmt::format("/ensembles/{:06}", k);
     file.create(dataset, Number::real, {ensemble.size, ensemble.stride})
         .write(ensemble.rows.data(), {0, 0}, {ensemble.size, ensemble.stride});
-    file.set(dataset, "name", ensemble.name);
-    file.set(dataset, "class", ensemble.class_name);
+    file.set_fixed(dataset, "name", ensemble.name);
+    file.set_fixed(dataset, "class", ensemble.class_name);
   }
   file.create_group("/state");
   std::size_t k = 0;
   for (auto const& [name, values] : checkpoint.state) {
     std::string const dataset = fmt::format("/state/{:06}", k++);
     file.create(dataset, Number::real, {values.size()}).write(values.data(), {0}, {values.size()});
-    file.set(dataset, "name", name);
+    file.set_fixed(dataset, "name", name);
   }
   file.close();
 }

@@ -1,6 +1,7 @@
 // Writing and reading CSV.
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/csv.hpp>
 
 #include <charconv>
@@ -74,10 +75,16 @@ std::optional<double> number(std::string_view word) {
 CsvFile::CsvFile(std::string path, std::vector<std::string> const& header)
     : file_(std::move(path), TextFile::Mode::replace), columns_(header.size()) {
   if (header.empty()) throw Error(file_.path() + ": a table needs a column for the step");
-  file_.write(header_row(header));
+  append(header_row(header));
 }
 
-CsvFile CsvFile::append_to(std::string path, std::vector<std::string> const& header, std::int64_t last_step) {
+void CsvFile::append(std::string const& row) {
+  file_.write(row);
+  checksum_ = crc64(row.data(), row.size(), checksum_);
+}
+
+CsvFile CsvFile::append_to(std::string path, std::vector<std::string> const& header, std::int64_t last_step,
+                           std::optional<std::uint64_t> checksum) {
   std::string const text = read_text(path);
   std::size_t at = 0;
   auto const found = next_row(text, at);
@@ -92,9 +99,15 @@ CsvFile CsvFile::append_to(std::string path, std::vector<std::string> const& hea
     if (!step || !(*step <= static_cast<double>(last_step))) break;
     at = after;
   }
+  std::uint64_t const found_checksum = crc64(text.data(), at);
+  if (checksum && *checksum != found_checksum)
+    throw Error(
+        fmt::format("{}: its rows up to step {} are not those that this run has written (edited, or of another "
+                    "run)",
+                    path, last_step));
   TextFile file(std::move(path), TextFile::Mode::append);
   file.cut(at);
-  return {std::move(file), header.size()};
+  return {std::move(file), header.size(), found_checksum};
 }
 
 void CsvFile::write(std::int64_t step, std::span<double const> values) {
@@ -107,7 +120,7 @@ void CsvFile::write(std::int64_t step, std::span<double const> values) {
     append_number(row, value);
   }
   row += '\n';
-  file_.write(row);
+  append(row);
 }
 
 std::vector<double> const& CsvTable::column(std::string_view name) const {

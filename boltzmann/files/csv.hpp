@@ -5,6 +5,7 @@
 #include <boltzmann/files/text_file.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,20 +24,28 @@ class CsvFile {
   CsvFile(std::string path, std::vector<std::string> const& header);
 
   /// Goes on with a file: the rows from the first one with a step after `last_step` on, and a last row without an end
-  /// (of a killed run), are cut off. Error if the file is missing or has another header.
-  static CsvFile append_to(std::string path, std::vector<std::string> const& header, std::int64_t last_step);
+  /// (of a killed run), are cut off. Error if the file is missing or has another header, or, where `checksum` is given,
+  /// if what it keeps is not what had this checksum(); it is then as it was.
+  static CsvFile append_to(std::string path, std::vector<std::string> const& header, std::int64_t last_step,
+                           std::optional<std::uint64_t> checksum = std::nullopt);
 
   std::string const& path() const { return file_.path(); }
+  void sync() { file_.sync(); }
+  /// crc64 of the whole file.
+  std::uint64_t checksum() const { return checksum_; }
 
   /// One row: the step, and one number for each other column, in the shortest form that reads back as the same double.
   /// Error if their number is wrong or the file can't be written (a torn row is taken back).
   void write(std::int64_t step, std::span<double const> values);
 
  private:
-  CsvFile(TextFile file, std::size_t columns) : file_(std::move(file)), columns_(columns) {}
+  CsvFile(TextFile file, std::size_t columns, std::uint64_t checksum)
+      : file_(std::move(file)), columns_(columns), checksum_(checksum) {}
+  void append(std::string const& row);
 
   TextFile file_;
   std::size_t columns_;
+  std::uint64_t checksum_ = 0;
 };
 
 struct CsvTable {

@@ -12,6 +12,10 @@ namespace boltzmann::hdf5 {
 struct Disk;
 class File;
 
+/// Keeps HDF5 from closing at the end of the program what is still open (nothing is: Files close themselves). After a
+/// damaged file it would complain there of what it has left open itself. Without effect once HDF5 has been used.
+void leave_without_words();
+
 using Extents = std::vector<std::uint64_t>;
 
 enum class Number { real, integer };  ///< double, or std::int64_t
@@ -74,6 +78,8 @@ class File {
   /// Hands everything written so far to the system. Throws if that, or any write since the last flush, has failed; what
   /// the last good flush wrote can still be read.
   void flush();
+  /// Brings what has been flushed to the disk, so that a machine without power loses none of it.
+  void sync();
   /// Flushes and closes, and tells of failures, which the destructor can't.
   void close();
 
@@ -95,7 +101,10 @@ class File {
   void write_text(std::string const& dataset, std::string const& text);
   std::string read_text(std::string const& dataset) const;
 
+  /// A text of variable length, which all programs read, in a part of the file that has no checksum.
   void set(std::string const& object, std::string const& attribute, std::string const& text);
+  /// A text of fixed length, for us: it stands in a header, which has one.
+  void set_fixed(std::string const& object, std::string const& attribute, std::string const& text);
   void set(std::string const& object, std::string const& attribute, std::vector<std::string> const& texts);
   void set(std::string const& object, std::string const& attribute, double value);
   void set(std::string const& object, std::string const& attribute, std::vector<std::int64_t> const& values);
@@ -105,6 +114,7 @@ class File {
   std::vector<std::string> texts(std::string const& object, std::string const& attribute) const;
   double real(std::string const& object, std::string const& attribute) const;
   std::int64_t integer(std::string const& object, std::string const& attribute) const;
+  std::vector<std::int64_t> integers(std::string const& object, std::string const& attribute) const;
 
  private:
   friend class Dataset;

@@ -79,6 +79,10 @@ void TextFile::cut(std::uint64_t size) {
   size_ = size;
 }
 
+void TextFile::sync() {
+  if (fdatasync(descriptor_) != 0) throw Error(path_ + ": can't be brought to the disk: " + reason(errno));
+}
+
 void TextFile::close() {
   int const descriptor = std::exchange(descriptor_, -1);
   if (descriptor >= 0 && ::close(descriptor) != 0) throw Error(path_ + ": can't be closed: " + reason(errno));

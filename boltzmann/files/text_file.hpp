@@ -31,6 +31,8 @@ class TextFile {
   void write(std::string_view text);
   /// Cuts the file to its first `size` bytes; the next write follows there.
   void cut(std::uint64_t size);
+  /// Brings all that was written to the disk, so that a machine without power loses none of it.
+  void sync();
   /// Closes the file. The destructor closes as well, but can't tell of a failure.
   void close();
 

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace boltzmann {
@@ -57,7 +59,8 @@ struct StoredColumn {
   bool scalar;
   std::uint64_t checksum = 0;  // of a constant field
   Dataset values;
-  double factor = 1;  // numbers are written times this
+  double factor = 1;                      // numbers are written times this
+  std::optional<Dataset> checksums = {};  // of each frame; files of version 0.1 have none
 };
 
 struct StoredEnsemble {
@@ -65,7 +68,8 @@ struct StoredEnsemble {
   std::uint64_t capacity = 0;  // particles that a frame has room for
   std::vector<StoredColumn> columns;
   Dataset count;
-  std::vector<Dataset> labels;  // id and species
+  std::optional<Dataset> checksums;  // of what a frame says besides its fields
+  std::vector<Dataset> labels;       // id and species
 };
 
 std::vector<double> gather(AnyEnsemble const& ensemble, StoredColumn const& column) {
@@ -79,8 +83,15 @@ std::vector<double> gather(AnyEnsemble const& ensemble, StoredColumn const& colu
   return values;
 }
 
-std::uint64_t checksum_of(std::vector<double> const& values) {
-  return crc64(values.data(), values.size() * sizeof(double));
+/// Of the values as they are read: without the columns that pad vectors.
+std::uint64_t checksum_of(std::vector<double> const& values, StoredColumn const& column) {
+  auto const components = static_cast<std::size_t>(column.field.components);
+  if (components == column.columns) return layout::checksum(values);
+  std::vector<double> own;
+  own.reserve(values.size() / column.columns * components);
+  for (auto at = values.begin(); at != values.end(); at += static_cast<std::ptrdiff_t>(column.columns))
+    own.insert(own.end(), at, at + column.field.components);
+  return layout::checksum(own);
 }
 
 void check_names(std::string const& path, AnyEnsemble const& ensemble) {
@@ -109,9 +120,10 @@ struct Trajectory::State {
   std::array<bool, 3> periodic{};
   std::uint64_t frames = 0;
   double time_factor = 1, length_factor = 1;
-  bool laid_out = false;  // the groups and datasets are there
-  bool open = false;      // the datasets are open and the ordered writes have begun
-  std::string failure;    // why the trajectory has ended
+  bool laid_out = false;       // the groups and datasets are there
+  bool open = false;           // the datasets are open and the ordered writes have begun
+  std::uint64_t checksum = 0;  // of all checksums of all frames
+  std::string failure;         // why the trajectory has ended
 
   double factor(Dimension dimension) const { return options.factor ? options.factor(dimension) : 1; }
   std::string unit(Dimension dimension) const { return options.unit_name ? options.unit_name(dimension) : ""; }
@@ -120,7 +132,7 @@ struct Trajectory::State {
     if (factor(dimension) != 1) file->set(dataset, "boltzmann_factor", factor(dimension));
     std::string const name = unit(dimension);
     if (name.empty()) return;
-    file->set(dataset, "boltzmann_unit", name);
+    file->set_fixed(dataset, "boltzmann_unit", name);
     std::string const h5md = h5md_unit(name);
     if (!h5md.empty() && mdanalysis_reads(element, h5md)) file->set(dataset, "unit", h5md);
   }
@@ -144,6 +156,7 @@ struct Trajectory::State {
   void write_frame(std::int64_t at_step, double at_time, std::span<AnyEnsemble const* const> list, BoxEdges const& box);
   void grow(StoredEnsemble& stored, std::size_t index, std::uint64_t capacity);
   void write_values(StoredEnsemble& stored, AnyEnsemble const& ensemble, bool positions);
+  void write_checksum(Dataset& checksums, std::uint64_t sum);
 };
 
 // The groups, and datasets without frames.
@@ -179,7 +192,7 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
   std::string const group = "/particles/" + ensemble.name();
   bool const is_first = index == 0;
   file->create_group(group);
-  file->set(group, "class", ensemble.class_name());
+  file->set_fixed(group, "class", ensemble.class_name());
   file->set(group, "dimension", static_cast<std::int64_t>(ensemble.dimension()));
   file->set(group, "index", static_cast<std::int64_t>(index));
 
@@ -204,13 +217,15 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
       StoredColumn const column{field, columns, true, scalar, 0, {}, factor(field.dimension)};
       Extents extents{size, columns};
       if (scalar) extents.pop_back();
-      file->create(element, Number::real, extents)
-          .write(gather(ensemble, column).data(), Extents(extents.size(), 0), extents);
+      auto const constant = gather(ensemble, column);
+      file->create(element, Number::real, extents).write(constant.data(), Extents(extents.size(), 0), extents);
+      file->set(element, "boltzmann_checksum", std::bit_cast<std::int64_t>(checksum_of(constant, column)));
     } else {
       if (!is_first || field.name != "position") {
         file->create_group(element);
         link_frames(element);
       }
+      file->create_growing(element + "/checksum", Number::integer, {0}, {1024}, {true});
       values += "/value";
       Extents extents{0, size, columns}, chunk = chunk_for(size, columns);
       std::vector<bool> growing{true, true, false};
@@ -223,7 +238,8 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
   }
   file->create_group(group + "/count");
   link_frames(group + "/count");
-  file->create_growing(group + "/count/value", Number::integer, {0}, {1024}, {true});
+  for (char const* each : {"/count/value", "/count/checksum"})
+    file->create_growing(group + each, Number::integer, {0}, {1024}, {true});
   for (char const* label : {"id", "species"})
     file->create_growing(group + "/" + label, Number::integer, {0}, {chunk_for(size, 1)[1]}, {true});
 
@@ -234,15 +250,18 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
   std::string const box_group = group + "/box";
   int const axes = options.three_columns ? 3 : box.dimension;
   std::vector<std::string> boundary;
+  std::vector<std::int64_t> periodic_axes;
   bool any_periodic = false;
   for (int axis = 0; axis < axes; ++axis) {
     bool const is_periodic = axis < box.dimension && box.periodic[axis];
     any_periodic = any_periodic || is_periodic;
     boundary.emplace_back(is_periodic ? "periodic" : "none");
+    periodic_axes.push_back(is_periodic ? 1 : 0);
   }
   file->create_group(box_group);
   file->set(box_group, "dimension", static_cast<std::int64_t>(axes));
   file->set(box_group, "boundary", boundary);
+  file->set(box_group, "boltzmann_periodic", periodic_axes);
   file->set(box_group, "boltzmann_dimension", static_cast<std::int64_t>(box.dimension));
   auto const n = static_cast<std::uint64_t>(axes);
   if (any_periodic) {
@@ -274,9 +293,7 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
   bounds = file->dataset(box_group + "/bounds/value");
   has_edges = file->has(box_group + "/edges");
   if (has_edges) edges = file->dataset(box_group + "/edges/value");
-  auto const boundary = file->texts(box_group, "boundary");
-  for (std::size_t axis = 0; axis < std::min<std::size_t>(boundary.size(), 3); ++axis)
-    periodic[axis] = boundary[axis] == "periodic";
+  periodic = layout::periodic_axes(*file, box_group);
 
   std::vector<StoredEnsemble> found;
   for (auto const* ensemble : list) {
@@ -289,6 +306,7 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
                               stored.class_name, file->integer(group, "dimension"), ensemble->class_name(),
                               ensemble->dimension()));
     stored.count = file->dataset(group + "/count/value");
+    if (file->has(group + "/count/checksum")) stored.checksums = file->dataset(group + "/count/checksum");
     for (char const* label : {"id", "species"}) stored.labels.push_back(file->dataset(group + "/" + label));
     for (auto const& field : ensemble->fields()) {
       std::string const element = group + "/" + field.name;
@@ -306,9 +324,10 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
         throw Error(fmt::format("{}: its field '{}' of ensemble '{}' has another number of components than {}", path,
                                 field.name, stored.name, field.components));
       if (column.constant)
-        column.checksum = checksum_of(column.values.reals());
+        column.checksum = checksum_of(column.values.reals(), column);
       else
         stored.capacity = extents[1];
+      if (!column.constant && file->has(element + "/checksum")) column.checksums = file->dataset(element + "/checksum");
       stored.columns.push_back(std::move(column));
     }
     found.push_back(std::move(stored));
@@ -339,9 +358,13 @@ void Trajectory::State::cut(std::int64_t last_step) {
   shorten(first + "/position/time", 0, false);
   for (auto const& element : file->children(first + "/box"))
     shorten(fmt::format("{}/box/{}/value", first, element), 0, false);
+  checksum = layout::checksum_of_frames(*file, frames);
   for (auto const& name : names) {
     std::string const group = "/particles/" + name;
     shorten(group + "/count/value", 0, false);
+    for (auto const& element : file->children(group))
+      if (std::string const sums = group + "/" + element + "/checksum"; element != "box" && file->has(sums))
+        shorten(sums, 0, false);
     auto const counts = file->dataset(group + "/count/value").integers();
     std::uint64_t capacity = 0;
     for (auto const count : counts) capacity = std::max(capacity, static_cast<std::uint64_t>(count));
@@ -392,9 +415,17 @@ void Trajectory::State::check(std::int64_t at_step, std::span<AnyEnsemble const*
       throw Error(fmt::format("{}: the boundary of axis {} has changed at step {}", path, "xyz"[axis], at_step));
   for (std::size_t k = 0; k < list.size(); ++k)
     for (auto const& column : ensembles[k].columns)
-      if (column.constant && checksum_of(gather(*list[k], column)) != column.checksum)
+      if (column.constant && checksum_of(gather(*list[k], column), column) != column.checksum)
         throw Error(fmt::format("{}: the field '{}' of ensemble '{}' was declared constant and has changed at step {}",
                                 path, column.field.name, list[k]->name(), at_step));
+}
+
+// Appends this frame's checksum.
+void Trajectory::State::write_checksum(Dataset& checksums, std::uint64_t sum) {
+  auto const bits = std::bit_cast<std::int64_t>(sum);
+  checksums.resize({frames + 1});
+  checksums.write(&bits, {frames}, {1});
+  layout::add_checksum(checksum, frames, sum);
 }
 
 // Appends this frame's values to the positions, or to all other fields.
@@ -405,7 +436,9 @@ void Trajectory::State::write_values(StoredEnsemble& stored, AnyEnsemble const& 
         count{1, ensemble.size(), column.columns};
     if (column.scalar) extents.pop_back(), start.pop_back(), count.pop_back();
     column.values.resize(extents);
-    column.values.write(gather(ensemble, column).data(), start, count);
+    auto const values = gather(ensemble, column);
+    column.values.write(values.data(), start, count);
+    if (column.checksums) write_checksum(*column.checksums, checksum_of(values, column));
   }
 }
 
@@ -441,6 +474,11 @@ void Trajectory::State::write_frame(std::int64_t at_step, double at_time, std::s
   time.write(&shown_time, {frames}, {1});
   step.resize({frames + 1});
   step.write(&at_step, {frames}, {1});
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (ensembles[k].checksums)
+      write_checksum(*ensembles[k].checksums,
+                     layout::checksum(at_step, shown_time, static_cast<std::int64_t>(list[k]->size()),
+                                      std::span(low_high).first(2 * d)));
   file->flush();
   for (std::size_t k = 0; k < list.size(); ++k) write_values(ensembles[k], *list[k], true);
   file->flush();
@@ -495,6 +533,11 @@ void Trajectory::write(std::int64_t step, double time, std::span<AnyEnsemble con
 }
 
 std::size_t Trajectory::frames() const { return state_ ? state_->frames : 0; }
+void Trajectory::sync() {
+  if (state_ && state_->file) state_->file->sync();
+}
+
+std::uint64_t Trajectory::checksum() const { return state_ ? state_->checksum : 0; }
 
 void Trajectory::close() {
   if (!state_ || !state_->file) return;

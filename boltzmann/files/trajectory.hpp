@@ -58,6 +58,11 @@ class Trajectory {
 
   std::size_t frames() const;
 
+  /// Brings all frames to the disk.
+  void sync();
+  /// Of all that its frames hold: two trajectories of one number of frames that differ anywhere differ in it.
+  std::uint64_t checksum() const;
+
   /// Closes the file and tells of failures, which the destructor can't.
   void close();
 
@@ -83,7 +88,8 @@ class TrajectoryReader {
     std::vector<StoredField> fields;
   };
 
-  /// Error (one line) if the file is missing, no HDF5, truncated, or no trajectory of ours.
+  /// Error (one line) if the file is missing, no HDF5, truncated, or no trajectory of ours. What is damaged in it is an
+  /// Error here or where it is read (files of version 0.1 don't tell).
   explicit TrajectoryReader(std::string path);
   ~TrajectoryReader();
   TrajectoryReader(TrajectoryReader&&) noexcept;
@@ -104,6 +110,8 @@ class TrajectoryReader {
                            Numbers numbers = Numbers::simulation) const;
   BoxEdges box(std::size_t frame, Numbers numbers = Numbers::simulation) const;
   double written_time(std::size_t frame) const { return times_.at(frame) * time_factor_; }
+  /// Trajectory::checksum() when it had so many frames; 0 in a file of version 0.1.
+  std::uint64_t checksum(std::size_t frames) const;
   /// Fills the ensemble (resizing it) with the stored ensemble of the same name: every field of its class that the file
   /// has. Error if the file has no such ensemble, or it is of another class or dimension.
   void load(std::size_t frame, AnyEnsemble& ensemble) const;

@@ -1,11 +1,14 @@
 // Reading trajectories.
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/files/trajectory_layout.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -44,7 +47,9 @@ Frames frames(hdf5::File const& file) {
   for (auto const& name : names)
     for (auto const& element : file.children("/particles/" + name)) {
       std::string const object = fmt::format("/particles/{}/{}", name, element);
-      if (element != "box" && !file.is_dataset(object)) bound(object + "/value");
+      if (element == "box" || file.is_dataset(object)) continue;
+      bound(object + "/value");
+      if (file.has(object + "/checksum")) bound(object + "/checksum");
     }
   Frames result;
   result.steps.resize(count);
@@ -52,6 +57,47 @@ Frames frames(hdf5::File const& file) {
   file.dataset(first + "/position/step").read(result.steps.data(), {0}, {count});
   file.dataset(first + "/position/time").read(result.times.data(), {0}, {count});
   return result;
+}
+
+std::uint64_t checksum(std::vector<double> const& values) {
+  return crc64(values.data(), values.size() * sizeof(double));
+}
+
+std::uint64_t checksum(std::int64_t step, double time, std::int64_t count, std::span<double const> bounds) {
+  std::uint64_t sum = crc64(&step, sizeof(step));
+  sum = crc64(&time, sizeof(time), sum);
+  sum = crc64(&count, sizeof(count), sum);
+  return crc64(bounds.data(), bounds.size_bytes(), sum);
+}
+
+void add_checksum(std::uint64_t& all, std::uint64_t frame, std::uint64_t sum) {
+  std::array const words{frame, sum};
+  all += crc64(words.data(), sizeof(words));
+}
+
+std::uint64_t checksum_of_frames(hdf5::File const& file, std::uint64_t frames) {
+  std::uint64_t all = 0;
+  for (auto const& name : ensembles(file))
+    for (auto const& element : file.children("/particles/" + name)) {
+      std::string const object = fmt::format("/particles/{}/{}/checksum", name, element);
+      if (element == "box" || !file.has(object)) continue;
+      std::vector<std::int64_t> sums(frames);
+      file.dataset(object).read(sums.data(), {0}, {frames});
+      for (std::uint64_t f = 0; f < frames; ++f) add_checksum(all, f, std::bit_cast<std::uint64_t>(sums[f]));
+    }
+  return all;
+}
+
+std::array<bool, 3> periodic_axes(hdf5::File const& file, std::string const& box) {
+  std::array<bool, 3> periodic{};
+  if (!file.has(box, "boltzmann_periodic")) {  // version 0.1
+    auto const boundary = file.texts(box, "boundary");
+    for (std::size_t a = 0; a < std::min<std::size_t>(boundary.size(), 3); ++a) periodic[a] = boundary[a] == "periodic";
+    return periodic;
+  }
+  auto const axes = file.integers(box, "boltzmann_periodic");
+  for (std::size_t a = 0; a < std::min<std::size_t>(axes.size(), 3); ++a) periodic[a] = axes[a] != 0;
+  return periodic;
 }
 
 }  // namespace layout
@@ -62,6 +108,45 @@ struct TrajectoryReader::State {
   /// Numbers in the file are those of the simulation times this.
   double factor(std::string const& dataset) const {
     return file->has(dataset, "boltzmann_factor") ? file->real(dataset, "boltzmann_factor") : 1;
+  }
+
+  /// Error where what a frame says has not the checksum that was written.
+  void check_frames(std::vector<StoredEnsemble> const& ensembles, std::vector<std::int64_t> const& steps,
+                    std::vector<double> const& times) const {
+    auto const all = file->dataset("/particles/" + ensembles[0].name + "/box/bounds/value");
+    auto const extents = all.extents();
+    if (extents.size() != 3 || extents[1] != 2 || extents[2] < 1 || extents[2] > 3)
+      throw Error(fmt::format("{}: its box is damaged", file->path()));
+    std::uint64_t const frames = steps.size(), d = 2 * extents[2];
+    std::vector<double> bounds(frames * d);
+    all.read(bounds.data(), {0, 0, 0}, {frames, 2, extents[2]});
+    for (auto const& ensemble : ensembles) {
+      std::string const group = "/particles/" + ensemble.name + "/count";
+      if (!file->has(group + "/checksum")) continue;
+      std::vector<std::int64_t> sums(frames), counts(frames);
+      file->dataset(group + "/checksum").read(sums.data(), {0}, {frames});
+      file->dataset(group + "/value").read(counts.data(), {0}, {frames});
+      for (std::uint64_t f = 0; f < frames; ++f)
+        if (std::bit_cast<std::uint64_t>(sums[f]) !=
+            layout::checksum(steps[f], times[f], counts[f], std::span(bounds).subspan(f * d, d)))
+          throw Error(fmt::format("{}: its frame {} is damaged: its step, time, size or box is not what was written",
+                                  file->path(), f));
+    }
+  }
+
+  /// Error if values have not the checksum that was written.
+  void check_values(std::string const& element, bool constant, std::size_t frame,
+                    std::vector<double> const& values) const {
+    std::int64_t sum = 0;
+    if (constant) {
+      if (!file->has(element, "boltzmann_checksum")) return;
+      sum = file->integer(element, "boltzmann_checksum");
+    } else {
+      if (!file->has(element + "/checksum")) return;
+      file->dataset(element + "/checksum").read(&sum, {frame}, {1});
+    }
+    if (std::bit_cast<std::uint64_t>(sum) != layout::checksum(values))
+      throw Error(fmt::format("{}: its frame {} is damaged: {} is not what was written", file->path(), frame, element));
   }
 };
 
@@ -90,6 +175,7 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
   auto stored = layout::frames(file);
   steps_ = std::move(stored.steps);
   times_ = std::move(stored.times);
+  state_->check_frames(ensembles_, steps_, times_);
   time_factor_ = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
   for (double& time : times_) time /= time_factor_;
   time_unit_ = unit("/particles/" + ensembles_[0].name + "/position/time");
@@ -118,6 +204,10 @@ TrajectoryReader::StoredField const& TrajectoryReader::find(StoredEnsemble const
   }
   throw Error(fmt::format("{}: its ensemble '{}' has no field '{}'; it has {}{}", state_->file->path(), ensemble.name,
                           name, join(names), did_you_mean(name, names)));
+}
+
+std::uint64_t TrajectoryReader::checksum(std::size_t frames) const {
+  return layout::checksum_of_frames(*state_->file, std::min(frames, this->frames()));
 }
 
 std::size_t TrajectoryReader::checked(std::size_t frame) const {
@@ -151,6 +241,7 @@ std::vector<double> TrajectoryReader::read(std::size_t frame, std::string const&
   if (vector) extents.back() = components;
   std::vector<double> result(n * components);
   values.read(result.data(), start, extents);
+  state_->check_values("/particles/" + ensemble + "/" + field, stored.constant, frame, result);
   double const factor = numbers == Numbers::written ? 1 : state_->factor(dataset);
   if (factor != 1)
     for (double& value : result) value /= factor;
@@ -161,18 +252,15 @@ BoxEdges TrajectoryReader::box(std::size_t frame, Numbers numbers) const {
   hdf5::File const& file = *state_->file;
   std::string const group = "/particles/" + ensembles_[0].name + "/box";
   BoxEdges box;
-  auto const boundary = file.texts(group, "boundary");
   auto const values = file.dataset(group + "/bounds/value");
   auto const extents = values.extents();
-  if (extents.size() != 3 || extents[1] != 2 || extents[2] < 1 || extents[2] > 3 || boundary.size() < extents[2])
-    throw Error(fmt::format("{}: its box is damaged", file.path()));
   std::uint64_t const d = extents[2];
   box.dimension = static_cast<int>(d);
   values.read(box.low, {checked(frame), 0, 0}, {1, 1, d});
   values.read(box.high, {frame, 1, 0}, {1, 1, d});
   double const factor = numbers == Numbers::written ? 1 : state_->factor(group + "/bounds/value");
   for (std::size_t axis = 0; axis < d; ++axis) box.low[axis] /= factor, box.high[axis] /= factor;
-  for (std::size_t axis = 0; axis < d; ++axis) box.periodic[axis] = boundary[axis] == "periodic";
+  std::ranges::copy(layout::periodic_axes(file, group), box.periodic);
   return box;
 }
 

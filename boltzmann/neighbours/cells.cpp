@@ -20,7 +20,7 @@ Cells::Cells(int dimension, double const* rows, std::size_t stride, std::size_t 
     : reach_(reach) {
   grid_.dimension = dimension;
   // Not many more cells than points: those of far-away particles are folded onto the others.
-  double const most = 4.0 * static_cast<double>(count) + 64;
+  double const most = std::min(4.0 * static_cast<double>(count) + 64, 4e9);  // and numbers of 32 bits
   std::array<double, 3> along{1, 1, 1};
   for (int a = 0; a < dimension; ++a) {
     grid_.edge[a] = reach * (a == 0 ? first_edge : other_edge);

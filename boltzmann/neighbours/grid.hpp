@@ -20,6 +20,9 @@ struct Grid {
     return static_cast<std::size_t>(cell);
   }
 
+  /// The runs of cells that near() finds at most.
+  static constexpr int most_runs = 128;
+
   /// Calls visit(first, last) for runs of cells that together hold every point within `reach` of the block from `least`
   /// to `greatest` (and some further ones), each cell once.
   template <class Visit>
@@ -36,6 +39,8 @@ struct Grid {
       to[a] = along(a, greatest[a] + wide);
       if (to[a] - from[a] >= count[a]) to[a] = from[a] + count[a] - 1;
     }
+    // Where rounding is wider than the reach (1e14 of it from the origin) everything is near.
+    if ((to[1] - from[1] + 1) * (to[2] - from[2] + 1) > most_runs / 2) return visit(std::size_t{0}, cells() - 1);
     for (std::int64_t k = from[2]; k <= to[2]; ++k) {
       double const dz = dimension > 2 ? distance(2, k, to[2] - from[2], least[2], greatest[2], slack) : 0;
       for (std::int64_t j = from[1]; j <= to[1]; ++j) {

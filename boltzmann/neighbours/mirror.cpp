@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t together = 256;                     // rows that share a largest displacement
 constexpr std::size_t refresh_grain = 2048;               // a multiple of it
 constexpr std::size_t most_rows = std::size_t{1} << 30U;  // items are 32 bits
+constexpr double most_lengths = 8;                        // of a periodic axis, that images are moved
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 constexpr char const* axis_name = "xyz";
 
@@ -88,6 +89,18 @@ void Mirror::build(double reach, std::span<double const> references, Edges const
           "neighbours of '{}' are found up to a distance of {}, the walls of axis {} are {} apart: they must "
           "not be nearer to each other than that",
           ensemble_->name(), reach, axis_name[a], edges[3 + a] - edges[a]));
+  // Told before they are made: they would fill all memory.
+  double images = static_cast<double>(ensemble_->size());
+  for (int a = 0; a < box_->dimension(); ++a) {
+    if (!box_->periodic(a)) continue;
+    if (reach > most_lengths * box_->length(a))
+      throw Error(
+          fmt::format("neighbours of '{}' are found up to a distance of {:.6g}; a periodic axis of {:.6g} ({}) "
+                      "allows at most {:.6g}",
+                      ensemble_->name(), reach, box_->length(a), axis_name[a], most_lengths * box_->length(a)));
+    images *= 1 + 2 * reach / box_->length(a);
+  }
+  if (images >= static_cast<double>(most_rows)) too_many_rows(images);
   reach_ = reach;
   built_edges_ = edges;
   moved_.clear();
@@ -96,9 +109,7 @@ void Mirror::build(double reach, std::span<double const> references, Edges const
   free_.clear();
   sort(reach, references, threads);
   add_ghosts(threads);
-  if (total() >= most_rows)
-    throw Error(fmt::format("ensemble '{}' has {} particles and images within reach, lists allow {}", ensemble_->name(),
-                            total(), most_rows - 1));
+  if (total() >= most_rows) too_many_rows(static_cast<double>(total()));
   capacity_ = 0;
   make_room(total() + 1);
   largest2_.assign(owned() / together + 1, 0.0);
@@ -108,6 +119,11 @@ void Mirror::build(double reach, std::span<double const> references, Edges const
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
   for (std::size_t b = 0; b < all_blocks(); ++b)
     std::fill_n(block(b), row_block * ((b < blocks() ? owned() : total()) + 1), nowhere);
+}
+
+void Mirror::too_many_rows(double count) const {
+  throw Error(fmt::format("ensemble '{}' has {:.10g} particles and images within reach, lists allow {}",
+                          ensemble_->name(), count, most_rows - 1));
 }
 
 void Mirror::sort(double reach, std::span<double const> references, int threads) {

@@ -69,7 +69,8 @@ class Mirror {
   void components(std::vector<ImageComponent> components);
 
   /// Takes the positions of now as references, sorts by them, and finds the images of every particle within `reach` of
-  /// the box. PhysicsFailure if a position is not finite. Error if the reach is longer than an axis between two walls.
+  /// the box. PhysicsFailure if a position is not finite. Error if the reach is longer than an axis between two walls,
+  /// or than 8 lengths of a periodic one.
   void build(double reach, int threads = 1);
   /// The same from given references (dimension() numbers a particle, in the ensemble's order, inside periodic axes).
   void build(double reach, std::span<double const> references, int threads = 1);
@@ -141,6 +142,7 @@ class Mirror {
     std::array<double, 3> position;
   };
 
+  [[noreturn]] void too_many_rows(double count) const;
   void sort(double reach, std::span<double const> references, int threads);
   void add_ghosts(int threads);
   void sort_all(int threads);

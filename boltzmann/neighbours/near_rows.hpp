@@ -56,7 +56,6 @@ template <int W>
 template <int W, int D>
 [[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end, NearRows& out) {
   constexpr std::size_t group_size = 16;
-  constexpr int most_ranges = 128;
   double const longest[3] = {1.5 * task.reach, 0.6 * task.reach, 0.6 * task.reach};
   Grid const grid = *task.grid;
   float ring2[list_rings];
@@ -87,7 +86,7 @@ template <int W, int D>
       if (!fits) break;
       for (int a = 0; a < D; ++a) least[a] = low[a], greatest[a] = high[a];
     }
-    std::uint32_t from[most_ranges], to[most_ranges], ranges = 0, candidates = task.moved_count;
+    std::uint32_t from[Grid::most_runs], to[Grid::most_runs], ranges = 0, candidates = task.moved_count;
     grid.near(least, greatest, task.reach, [&](std::size_t first_cell, std::size_t last_cell) {
       from[ranges] = start[first_cell];
       to[ranges] = start[last_cell + 1];

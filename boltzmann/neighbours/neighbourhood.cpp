@@ -25,6 +25,13 @@ void check_cutoff(double cutoff) {
 
 }  // namespace
 
+std::string skin_refused(double cutoff, double skin) {
+  constexpr double most = 4;
+  if (skin <= most * cutoff) return "";
+  return fmt::format("the skin {:.6g} is more than {} cut-offs of {:.6g}: lists would hold {:.3g} times the neighbours",
+                     skin, most, cutoff, std::pow(1 + skin / cutoff, 3));
+}
+
 std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff) {
   check_cutoff(cutoff);
   for (std::size_t n = 0; n < lists_.size(); ++n)
@@ -79,6 +86,7 @@ double Neighbourhood::rows_around_one() const {
 }
 
 void Neighbourhood::build(int threads) {
+  if (auto line = skin_refused(longest_cutoff(), skin()); !line.empty()) throw Error(line);
   double const reach = longest_cutoff() + skin();
   for (auto& mirror : mirrors_)
     mirror.build(reach, worth_threads(mirror.ensemble().size(), particles_worth_threads, threads));

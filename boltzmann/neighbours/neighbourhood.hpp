@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace boltzmann {
@@ -18,6 +19,9 @@ namespace boltzmann {
 inline constexpr std::size_t particles_worth_threads = 1U << 13U;
 /// `threads`, or 1 where there is less work than `least`.
 constexpr int worth_threads(std::size_t work, std::size_t least, int threads) { return work < least ? 1 : threads; }
+
+/// Why lists of this cut-off can't have so long a skin, in one line; empty if they can.
+std::string skin_refused(double cutoff, double skin);
 
 /// One mirror for each ensemble, and lists between them, each with a cut-off of its own. Lists reach cutoff + skin;
 /// they are built anew when particles have moved too far for that, and around a few particles that are ahead of all

@@ -159,6 +159,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
         throw Error(fmt::format("diagnosis '{}': there is a column '{}' already; names must differ{}", *name,
                                 column.name, has("label") ? " (give a label)" : ""));
     reading.result->diagnoses.push_back(std::move(diagnosis));
+    reading.diagnosis_places.push_back(table.place);
   });
 }
 

@@ -206,6 +206,7 @@ void read_smooth(Item const& table, Reading& reading) {
     reading.mistake(reading.run.cutoff_place,
                     "cutoff: smooth particles act as far as their 'range', a field of the ensembles; leave it out");
   if (reading.run.skin) reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
+  reading.run.skin_place = section.place("skin");
   if (reading.context.mistakes.count() != before || !reading.box) return;
   guarded(reading, table.place, [&] {
     auto scheme = std::make_unique<SmoothScheme>(*reading.box, weight ? weight_named(*weight) : WeightShape::lucy);

@@ -88,7 +88,8 @@ struct Reading {
   ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
   ReadPreparation preparation = {};
-  bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
+  std::vector<Place> diagnosis_places = {};  ///< of each in the result
+  bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }

@@ -13,6 +13,7 @@
 #include <iostream>
 #include <iterator>
 #include <new>
+#include <optional>
 
 namespace boltzmann {
 namespace {
@@ -21,6 +22,18 @@ std::string all_lines(std::vector<std::string> const& lines) {
   std::string text;
   for (auto const& line : lines) text += (text.empty() ? "" : "\n") + line;
   return text;
+}
+
+/// What the diagnoses need, or why it can't be had.
+void check_measures(Reading& reading) {
+  auto const& diagnoses = reading.result->diagnoses;
+  std::optional<Measures> measures;
+  for (std::size_t d = 0; d < diagnoses.size(); ++d) {
+    if (!diagnoses[d]->needs_energies() && !diagnoses[d]->needs_virial()) continue;
+    if (!measures) measures = reading.result->simulation->measure();
+    if (auto const why = refusal(*diagnoses[d], *measures); !why.empty())
+      reading.mistake(reading.diagnosis_places[d], why);
+  }
 }
 
 void build(Item& document, Reading& reading) {
@@ -58,6 +71,7 @@ void build(Item& document, Reading& reading) {
   add_rezoners(reading);
   try {
     result.simulation->check();
+    check_measures(reading);
   } catch (Error const& error) {
     reading.mistake(place_of(error.what(), reading), error.what());
   } catch (PhysicsFailure const& failure) {
@@ -120,6 +134,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
 Place place_of(std::string const& message, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
     if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
+  if (message.starts_with("the skin ")) return reading.run.skin_place;
   if (reading.result->mesh && message.starts_with("mesh: ")) return reading.mesh.background_place;
   return reading.run.place;
 }

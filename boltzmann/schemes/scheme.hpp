@@ -25,7 +25,8 @@ struct Measures {
   double heat = 0;                                ///< that heat baths have given since the start of the run
   std::array<std::array<double, 3>, 3> virial{};  ///< - sum over pairs r_a F_b with r = q - p and F the force on p; the
                                                   ///< pressure tensor is (sum m v v + virial) / volume
-  std::string unknown;  ///< empty, or the name of a law that gives no energy: the energies are then incomplete
+  std::string unknown;    ///< empty, or the name of a law that gives no energy: the energies are then incomplete
+  std::string no_virial;  ///< empty, or why the virial can't be had (NaN then)
   std::vector<std::vector<double>>
       per_particle;  ///< potential energy of each particle (half of each of its pairs), one vector per ensemble
   std::vector<std::vector<double>> virial_per_particle;  ///< 9 numbers a particle, half of each of its pairs'; empty

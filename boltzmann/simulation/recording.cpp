@@ -52,6 +52,14 @@ std::int64_t next_multiple(std::int64_t step, std::int64_t every) {
   return every > 0 ? (step / every + 1) * every : never;
 }
 
+/// 64 bits as two numbers that a checkpoint's state holds, and back.
+std::vector<double> halves(std::uint64_t bits) {
+  return {static_cast<double>(bits >> 32U), static_cast<double>(bits & 0xffffffffU)};
+}
+std::uint64_t whole(std::vector<double> const& halves) {
+  return static_cast<std::uint64_t>(halves.at(0)) << 32U | static_cast<std::uint64_t>(halves.at(1));
+}
+
 }  // namespace
 
 struct Recording::State {
@@ -80,6 +88,7 @@ struct Recording::State {
   std::vector<double> column_factors;
   std::optional<Trajectory> frames;
   std::int64_t stopped_frame = -1;  // of the state in which the run was stopped, between two others; -1: none
+  std::pair<std::size_t, std::uint64_t> frames_that_stay;  // number and checksum of those before it
   std::optional<MeshFrames> mesh_frames;
   std::vector<Checkpoint::Rows> last_rows;  // of the last recorded state
   std::int64_t last_step = -1;
@@ -173,6 +182,7 @@ struct Recording::State {
             fmt::format("the diagnosis of '{}' follows particles by their numbers, which change where particles "
                         "come and go between steps",
                         diagnosis->columns().front().name));
+    check_measures();
     if (every_mesh > 0 && mesh_fields().empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     if (stop_when && every_diagnoses == 0)
@@ -185,6 +195,18 @@ struct Recording::State {
       if (picture.trace) check_tracks(simulation);
       if (picture.trace && every_trajectory == 0)
         throw Error("the picture '" + picture.file + "' shows tracks, which needs a trajectory");
+    }
+  }
+
+  void check_measures() const {
+    std::optional<Measures> measures;
+    for (auto const& diagnosis : list) {
+      if (!diagnosis->needs_energies() && !diagnosis->needs_virial()) continue;
+      if (!measures) {
+        simulation.check();
+        measures = simulation.measure();
+      }
+      if (auto const why = refusal(*diagnosis, *measures); !why.empty()) throw Error(why);
     }
   }
 
@@ -324,7 +346,7 @@ struct Recording::State {
   void write_row() {
     bool energies = false, mesh = false;
     for (auto const& diagnosis : list) {
-      energies = energies || diagnosis->needs_energies();
+      energies = energies || diagnosis->needs_energies() || diagnosis->needs_virial();
       mesh = mesh || diagnosis->needs_mesh();
     }
     Measures measures;
@@ -349,11 +371,28 @@ struct Recording::State {
     for (auto const& function : on_row) function(simulation.step(), values);
   }
 
+  /// Error if the trajectory does not begin with the frames that this run had written at the checkpoint.
+  void check_frames(std::vector<double> const& state, std::int64_t step) const {
+    auto const count = static_cast<std::size_t>(state.at(2));
+    if (count == 0) return;
+    TrajectoryReader const stored(path("trajectory.h5"));
+    if (stored.frames() < count || stored.checksum(count) != whole(state))
+      throw Error(
+          fmt::format("{}: its frames up to step {} are not those that this run has written (damaged, or of "
+                      "another run)",
+                      path("trajectory.h5"), step));
+  }
+
   void reopen_frames(std::int64_t last_step) {
     stopped_frame = -1;
     TrajectoryReader const stored(path("trajectory.h5"));
+    std::size_t stay = 0;
     for (std::int64_t const step : stored.steps())
-      if (step <= last_step && step % every_trajectory != 0) stopped_frame = step;
+      if (step <= last_step && step % every_trajectory == 0)
+        ++stay;
+      else if (step <= last_step)
+        stopped_frame = step;
+    frames_that_stay = {stay, stored.checksum(stay)};
     frames.emplace(Trajectory::append_to(path("trajectory.h5"), last_step, trajectory_options()));
   }
 
@@ -382,6 +421,18 @@ struct Recording::State {
     checkpoint.state["planned"] = {static_cast<double>(planned)};
     if (met) checkpoint.state["stopped"] = {static_cast<double>(*met)};
     for (std::size_t d = 0; d < list.size(); ++d) checkpoint.state[fmt::format("diagnosis {}", d)] = list[d]->state();
+    // What stands in the other files, so that those of another run are not gone on with; on the disk before it is said.
+    if (csv) {
+      csv->sync();
+      checkpoint.state["diagnoses.csv"] = halves(csv->checksum());
+    }
+    if (frames) {
+      frames->sync();
+      auto const [count, checksum] =
+          stopped_frame >= 0 ? frames_that_stay : std::pair(frames->frames(), frames->checksum());
+      auto& state = checkpoint.state["trajectory.h5"] = halves(checksum);
+      state.push_back(static_cast<double>(count));
+    }
     boltzmann::write_checkpoint(path("checkpoint.h5"), checkpoint);
     checkpoint_step = simulation.step();
     checkpoint_seconds = std::max(checkpoint_seconds, std::chrono::duration<double>(Clock::now() - since).count());
@@ -411,7 +462,11 @@ struct Recording::State {
       stop_when = {};
     }
     scenario = checkpoint.scenario;
-    if (every_diagnoses > 0) csv.emplace(CsvFile::append_to(path("diagnoses.csv"), header(), checkpoint.step));
+    std::optional<std::uint64_t> rows;  // of the table
+    if (checkpoint.state.contains("diagnoses.csv")) rows = whole(part("diagnoses.csv"));
+    if (every_trajectory > 0 && checkpoint.state.contains("trajectory.h5"))
+      check_frames(part("trajectory.h5"), checkpoint.step);
+    if (every_diagnoses > 0) csv.emplace(CsvFile::append_to(path("diagnoses.csv"), header(), checkpoint.step, rows));
     if (every_trajectory > 0) reopen_frames(checkpoint.step);
     if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder, checkpoint.step));
     checkpoint_step = checkpoint.step;

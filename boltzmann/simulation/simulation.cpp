@@ -492,6 +492,7 @@ Measures Simulation::measure() const {
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) total.virial[a][b] += part.virial[a][b];
     if (!part.unknown.empty()) total.unknown = part.unknown;
+    if (!part.no_virial.empty()) total.no_virial = part.no_virial;
     if (schemes_.size() == 1) {
       total.per_particle = std::move(part.per_particle);
       total.virial_per_particle = std::move(part.virial_per_particle);

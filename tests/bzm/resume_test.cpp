@@ -192,6 +192,72 @@ TEST(Resume, RefusesWhatIsNoWholeCheckpointOfOurs) {
   EXPECT_EQ(bzm({"resume", "out", "--steps", "5", "--quiet"}, folder.string()).status, 0);
 }
 
+TEST(Resume, RefusesFilesThatAreNotThoseOfTheCheckpoint) {
+  GasFolder folder;
+  auto const run = [&](std::string const& out, std::string const& seed) {
+    ASSERT_EQ(bzm({"run", "gas.toml", "--steps", "40", "--seed", seed, "--out", out, "--quiet", "--set",
+                   "output.trajectory=10", "--set", "output.diagnoses=10"},
+                  folder.string())
+                  .status,
+              0);
+  };
+  run("out", "1");
+  run("other", "2");
+  auto const expect_refused = [&](std::string const& file, std::string const& told) {
+    std::string const before = text_of(folder / "out" / file);
+    auto const outcome = bzm({"resume", "out", "--steps", "5"}, folder.string());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(file + ": " + told), std::string::npos) << outcome.err;
+    EXPECT_EQ(text_of(folder / "out" / file), before) << "nothing is cut off";
+  };
+  for (std::string const file : {"diagnoses.csv", "trajectory.h5"}) {
+    std::string const own = text_of(folder / "out" / file);
+    std::string const told =
+        file == "diagnoses.csv" ? "its rows up to step 40 are not" : "its frames up to step 40 are not";
+    fs::copy_file(folder / "other" / file, folder / "out" / file, fs::copy_options::overwrite_existing);
+    expect_refused(file, told);
+    write_text(folder / "out" / file, own);
+  }
+  std::string const rows = text_of(folder / "out/diagnoses.csv");
+  std::string edited = rows;
+  char& digit = edited[edited.find_last_of("123456789")];
+  digit = digit == '9' ? '1' : '9';
+  for (std::string const& text : {edited, rows.substr(0, rows.rfind('\n', rows.size() - 2) + 1)}) {
+    write_text(folder / "out/diagnoses.csv", text);
+    expect_refused("diagnoses.csv", "its rows up to step 40 are not");
+  }
+  write_text(folder / "out/diagnoses.csv", rows);
+  EXPECT_EQ(bzm({"resume", "out", "--steps", "5", "--quiet"}, folder.string()).status, 0);
+  // And the other way round: a checkpoint of another run, of the same names.
+  fs::copy_file(folder / "other/checkpoint.h5", folder / "out/checkpoint.h5", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(bzm({"resume", "out", "--steps", "5"}, folder.string()).status, 2);
+}
+
+TEST(Resume, ADamagedTrajectoryIsOneLine) {
+  GasFolder folder;
+  ASSERT_EQ(bzm({"run", "gas.toml", "--steps", "20", "--out", "out", "--quiet", "--set", "output.trajectory=10"},
+                folder.string())
+                .status,
+            0);
+  auto const path = folder / "out/trajectory.h5";
+  std::string const good = text_of(path);
+  int told = 0;
+  for (std::size_t at = 40; at + 3000 < good.size(); at += good.size() / 16) {
+    std::string damaged = good;
+    for (std::size_t k = at; k < at + 3000; ++k) damaged[k] = static_cast<char>(damaged[k] ^ 0x55);
+    write_text(path, damaged);
+    fs::remove(folder / "a.xyz");
+    auto const outcome = bzm({"export", "out", "-o", "a.xyz"}, folder.string());
+    if (outcome.status == 0) continue;  // nothing that counts stood there
+    ++told;
+    EXPECT_EQ(outcome.status, 2) << at;
+    EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("trajectory.h5"), std::string::npos) << outcome.err;
+  }
+  EXPECT_GT(told, 3);
+}
+
 TEST(Resume, NeedsAFolderWithARun) {
   Folder folder;
   auto const missing = bzm({"resume", "nowhere"}, folder.string());

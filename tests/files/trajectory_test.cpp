@@ -305,6 +305,79 @@ TEST(Trajectory, EveryTruncationIsOneError) {
   EXPECT_NE(message([&] { TrajectoryReader(folder / "cut.h5"); }).find("truncated"), std::string::npos);
 }
 
+// Reads all that there is; the first thing that is wrong, or nothing.
+std::string all_read(std::string const& path, Ensemble<Newton<3>>& into) {
+  return message([&] {
+    TrajectoryReader const reader(path);
+    for (std::size_t frame = 0; frame < reader.frames(); ++frame) {
+      reader.box(frame);
+      reader.load(frame, into);
+    }
+  });
+}
+
+TEST(Trajectory, EveryChangedByteIsOneErrorOrChangesNothing) {
+  TemporaryFolder const folder;
+  Ensemble<Newton<3>> ions("ions", 5);
+  AnyEnsemble const* const list[] = {&ions};
+  {
+    TrajectoryOptions options;
+    options.constant_fields = {"mass"};
+    Trajectory file(folder / "t.h5", options);
+    for (int frame = 0; frame < 5; ++frame) {
+      set_state(ions, frame);
+      file.write(frame, 0.1 * frame, list, moving_box(3, frame));
+    }
+  }
+  std::string const bytes = read_text(folder / "t.h5");
+  std::size_t told = 0;
+  for (std::size_t at = 0; at < bytes.size(); at += 211) {
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ 0x55);
+    std::ofstream(folder / "changed.h5", std::ios::binary) << changed;
+    Ensemble<Newton<3>> read("ions", 0);
+    if (auto const text = all_read(folder / "changed.h5", read); text != "no error") {
+      ++told;
+      EXPECT_TRUE(text.starts_with(folder / "changed.h5" + ": ") && text.find('\n') == std::string::npos) << text;
+      continue;
+    }
+    TrajectoryReader const reader(folder / "changed.h5");  // a byte that says nothing
+    ASSERT_EQ(reader.frames(), 5U) << "byte " << at;
+    for (int frame = 0; frame < 5; ++frame) {
+      set_state(ions, frame);
+      EXPECT_EQ(reader.steps()[static_cast<std::size_t>(frame)], frame) << "byte " << at;
+      EXPECT_EQ(reader.times()[static_cast<std::size_t>(frame)], 0.1 * frame) << "byte " << at;
+      ASSERT_NO_FATAL_FAILURE(expect_state(reader, static_cast<std::size_t>(frame), ions)) << "byte " << at;
+      for (int a = 0; a < 3; ++a) {
+        EXPECT_EQ(reader.box(static_cast<std::size_t>(frame)).periodic[a], a == 0) << "byte " << at;
+        EXPECT_EQ(reader.box(static_cast<std::size_t>(frame)).high[a], 10 + 0.5 * frame) << "byte " << at;
+      }
+    }
+  }
+  EXPECT_GT(told, bytes.size() / 211 / 20);
+  // A number of each kind, where it stands.
+  ions[3].velocity = {1.25e77, 0, 0};
+  {
+    Trajectory file(folder / "u.h5");
+    file.write(7, 0.375, list, moving_box(3, 1));
+  }
+  std::string const good = read_text(folder / "u.h5");
+  auto const bytes_of = [](auto number) { return std::string(reinterpret_cast<char const*>(&number), sizeof(number)); };
+  for (auto const& [number, words] :
+       {std::pair{bytes_of(1.25e77), "velocity is not what was written"},
+        {bytes_of(std::int64_t{7}), "its step, time, size or box is not what was written"},
+        {bytes_of(0.375), "its step, time, size or box is not what was written"},
+        {bytes_of(-2.0), "its step, time, size or box is not what was written"}}) {
+    std::size_t const at = good.rfind(number);  // headers stand before
+    ASSERT_NE(at, std::string::npos) << words;
+    std::string changed = good;
+    changed[at] = static_cast<char>(changed[at] ^ 1);
+    std::ofstream(folder / "u.h5", std::ios::binary) << changed;
+    Ensemble<Newton<3>> read("ions", 0);
+    EXPECT_NE(all_read(folder / "u.h5", read).find(words), std::string::npos) << all_read(folder / "u.h5", read);
+  }
+}
+
 TEST(Trajectory, ErrorsAreOneLine) {
   TemporaryFolder const folder;
   std::string const path = folder / "t.h5";

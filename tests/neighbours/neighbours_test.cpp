@@ -387,6 +387,23 @@ TEST(Mirror, RefusesPositionsThatAreNotFinite) {
   }
 }
 
+TEST(Mirror, ImagesThatWouldFillTheMemoryAreRefused) {
+  Ensemble<Newton<3>> gas("gas", 100);
+  Box const box = make_box<3>({10, 1e14, 10}, all_periodic);
+  scatter(gas, box, 3);
+  Mirror mirror(gas, box);
+  std::string const told = "neighbours of 'gas' are found up to a distance of ";
+  for (double const reach : {80.1, 1e6, 1e16, 1e300})
+    EXPECT_EQ(message([&] { mirror.build(reach); }).find(told), 0U) << reach;
+  EXPECT_EQ(message([&] { mirror.build(80.1); }), told + "80.1; a periodic axis of 10 (x) allows at most 80");
+  mirror.build(79.9);
+  Ensemble<Newton<3>> many("many", 400000);
+  Box const cube = make_box<3>({10, 10, 10}, all_periodic);
+  Mirror larger(many, cube);
+  EXPECT_EQ(message([&] { larger.build(79.9); }),
+            "ensemble 'many' has 1958272157 particles and images within reach, lists allow 1073741823");
+}
+
 // ---- lists --------------------------------------------------------------------------------------------------------
 
 /// Number of sources (all images) within reach of each target, by brute force and without mirrors; not itself.
@@ -523,6 +540,32 @@ TEST(NearPairs, AreThoseWithinReach) {
     compare_list<2>({9, 9, 0}, kinds, 0.3, 40, 30, 0);  // most of them at one place
   }
   compare_list<2>({60, 60, 0}, all_periodic, 0.9, 2500, 10);  // more than one range of a thread
+}
+
+TEST(NearPairs, FarFromTheOriginRoundingIsWiderThanTheReach) {
+  // 1e14 reaches away cells are narrower than what positions are rounded to: everybody is asked, nothing overflows.
+  Box const box = make_box<3>({10, 1e14, 10}, all_periodic);
+  Ensemble<Newton<3>> gas("gas", 100);
+  scatter(gas, box, 3);
+  double const x0 = box.low(0), y0 = box.low(1);
+  for (std::size_t i = 0; i < 100; i += 2) {  // pairs
+    gas[i].position[1] = y0 + 1e12 + 1.9e12 * static_cast<double>(i / 2);
+    gas[i + 1].position = gas[i].position;
+    gas[i + 1].position[0] += gas[i].position[0] > x0 + 5 ? -0.2 : 0.2;
+  }
+  Mirror mirror(gas, box);
+  mirror.build(0.4);
+  mirror.refresh(1);
+  Rows const rows = near_pairs(mirror, mirror, 0.4, 1);
+  for (std::size_t k = 0; k < 100; ++k) {
+    ASSERT_GE(rows.length[list_rings - 1][k], 1U);
+    std::size_t const partner = mirror.order()[k] ^ 1U;
+    auto const& items = rows.items[k];
+    EXPECT_TRUE(std::any_of(items.begin(), items.end(), [&](auto item) {
+      std::size_t const row = row_of_item(item);
+      return row != mirror.sentinel() && mirror.order()[mirror.owner(row)] == partner;
+    }));
+  }
 }
 
 TEST(NearPairs, AFarParticleOfAnOpenBoxCostsNoMemory) {

@@ -237,6 +237,7 @@ std::vector<Mistake> const rows{
     {"infinite step", with("step = 0.01", "step = inf"), "12:8", {"finite"}},
     {"negative seed", with("cutoff = 6", "cutoff = 6\nseed = -3"), "15:8", {"seed", "-3", "zero or more"}},
     {"negative cut-off", with("cutoff = 6", "cutoff = -6"), "14:10", {"cutoff", "positive"}},
+    {"endless skin", with("cutoff = 6", "cutoff = 6\nskin = 1e16"), "15:8", {"skin 1e+16", "4 cut-offs of 6"}},
     {"massless", with("mass = \"40 amu\"", "mass = 0"), "19:8", {"mass", "positive"}},
     {"range of a parameter", with("r0 = 4", "r0 = -4"), "28:6", {"r0", "-4", "positive"}},
     {"too many", load("{ kind = \"random\" }\nnumber = 2000000000"), "21:10", {"2000000000", "GiB", "1000000000"}},
@@ -633,6 +634,13 @@ std::vector<Mistake> const mesh_rows{
      plasma_with("number = 64", "integrator = \"reversible-leap-frog\"\nnumber = 64"),
      "26:8",
      {"reversible", "velocities", "use leap-frog"}},
+    {"pressure of a mesh whose field goes on behind its ends",
+     test::replaced(
+         test::replaced(plasma_with("\"field-energy\"", "\"field-energy\"\n[[diagnoses]]\nkind = \"pressure\""),
+                        "boundary = \"periodic\"\n", "boundary = [\"periodic\", \"open\"]\n"),
+         "boundary = \"periodic\" # field\n", "\n"),
+     "35:1",
+     {"'pressure' needs the virial", "axis y is not periodic"}},
     // Diagnoses.
     {"unknown diagnosis of a mesh",
      plasma_with("\"field-energy\"", "\"field-enery\""),

@@ -109,6 +109,70 @@ struct Bead : Laplace<D, Real> {
   Real strength() const { return valence * weight; }
 };
 
+// ---- the virial ----
+
+/// Against the change of Ewald's energy where the box and what is in it are stretched along one axis.
+template <int D>
+void expect_virial_of_ewald(Vector<D> const& edges, bool charged, unsigned seed) {
+  Ensemble<Coulomb<D>> charges("charges");
+  scatter<D>(charges, 60, Vector<D>{}, edges, seed);
+  if (charged)
+    for (std::size_t i = 0; i < 60; ++i) charges[i].charge = 0.3 + 0.01 * static_cast<double>(i % 97);
+  P3MScheme scheme(box_of(edges, Boundary::periodic), coulomb(0.7), 1e-6);
+  scheme.load(charges);
+  if (charged) scheme.background(true);
+  auto const measures = scheme.measure();
+  double const constant = coulomb(0.7).constant;
+  double trace = 0, squares = 0;
+  for (auto const& p : charges) squares += square(p.charge);
+  for (int a = 0; a < D; ++a) {
+    auto const stretched = [&](double factor) {
+      Ensemble<Coulomb<D>> others("others");
+      for (auto p : charges) {
+        p.position[a] *= factor;
+        others.add(p);
+      }
+      Vector<D> longer = edges;
+      longer[a] *= factor;
+      return exact_sums<D>(others, longer, constant).energy;
+    };
+    double const expected = -(stretched(1 + 1e-4) - stretched(1 - 1e-4)) / 2e-4;
+    EXPECT_NEAR(measures.virial[a][a], expected, 2e-4 * (std::abs(expected) + std::abs(measures.potential)))
+        << D << "D, charged " << charged << ", axis " << a;
+    for (int b = 0; b < a; ++b)
+      EXPECT_NEAR(measures.virial[a][b], measures.virial[b][a], 1e-9 * std::abs(measures.potential));
+    trace += measures.virial[a][a];
+  }
+  // Energies that go with the inverse length, with its logarithm, with the length.
+  if (charged) return;
+  double const exact = D == 3 ? measures.potential : D == 2 ? -constant * squares / (4 * pi) : -measures.potential;
+  EXPECT_NEAR(trace, exact, 3e-4 * (std::abs(exact) + std::abs(measures.potential))) << D;
+}
+
+TEST(P3M, VirialIsThatOfEwald) {
+  for (bool const charged : {false, true}) {
+    expect_virial_of_ewald<1>({1.3}, charged, 81);
+    expect_virial_of_ewald<2>({1.0, 1.4}, charged, 82);
+    expect_virial_of_ewald<3>({1.0, 1.3, 0.9}, charged, 83);
+  }
+}
+
+// Two charges that are near each other in a large box, and all that is off the diagonal: - r_a F_b of the pair.
+TEST(P3M, VirialOfAPairIsItsOwn) {
+  Ensemble<Coulomb<3>> charges("charges", 2);
+  Vector<3> const r{0.3, 0.5, -0.4};
+  charges[0].position = {4, 5, 6};
+  charges[1].position = charges[0].position + r;
+  charges[0].charge = 2, charges[1].charge = -2;
+  P3MScheme scheme(box_of(filled<3>(12.0), Boundary::periodic), coulomb(1), 1e-5);
+  scheme.load(charges);
+  auto const virial = scheme.measure().virial;
+  double const strength = 4 / cube(magnitude(r));
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      EXPECT_NEAR(virial[a][b], -strength * r[a] * r[b], 0.02 * strength * norm2(r)) << a << b;
+}
+
 TEST(P3M, SeveralClasses) {
   Vector<3> const edges{1.0, 1.3, 0.9};
   Ensemble<Coulomb<3>> ions("ions"), nobody("nobody");

@@ -147,8 +147,8 @@ TEST(SmoothMisuse, AdviceForParticlesThatAreAlone) {
   EXPECT_FALSE(advises(scheme, "neighbours"));
 }
 
-// P = (gamma - 1) rho e = 0.4 for all, so that the volume times it is the virial; with viscosity it is not known.
-TEST(SmoothMisuse, TheVirialIsThePressureOrUnknown) {
+// P = (gamma - 1) rho e = 0.4 for all, so that the volume times it is the virial, and viscosity at rest adds nothing.
+TEST(SmoothMisuse, TheVirialIsThePressure) {
   for (bool const viscous : {false, true}) {
     Ensemble<Smooth<2>> gas("gas", 0);
     fill(gas, 16, 3.0 / 16);
@@ -159,12 +159,42 @@ TEST(SmoothMisuse, TheVirialIsThePressureOrUnknown) {
       scheme.material(gas, IdealGas{1.4});
     auto const virial = scheme.measure().virial;
     for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) {
-        if (viscous)
-          EXPECT_TRUE(std::isnan(virial[a][b]));
-        else
-          EXPECT_NEAR(virial[a][b], a == b ? 0.4 : 0.0, 1e-12);
-      }
+      for (int b = 0; b < 2; ++b) EXPECT_NEAR(virial[a][b], a == b ? 0.4 : 0.0, 1e-12);
+  }
+}
+
+// Between plates that slide along each other v_x = shear rate * y: the stress is - eta times the shear rate.
+TEST(SmoothMisuse, TheVirialHasTheViscousStress) {
+  for (bool const variable : {false, true}) {
+    Ensemble<Smooth<2>> gas("gas", 0), other("other", 0);
+    fill(gas, 32, 3.0 / 32);
+    double const low = square_box().low(1), high = square_box().high(1), rate = 3;
+    for (auto& p : gas) p.velocity = {rate * (p.position[1] - 0.5 * (low + high)), 0};
+    // Half of the particles are another ensemble, with another material.
+    for (auto const& p : gas)
+      if (p.position[0] > square_box().low(0) + 0.5 * square_box().length(0)) other.add(p);
+    std::vector<Smooth<2>> left;
+    for (auto const& p : gas)
+      if (!(p.position[0] > square_box().low(0) + 0.5 * square_box().length(0))) left.push_back(p);
+    gas.resize(0);
+    for (auto const& p : left) gas.add(p);
+    ASSERT_EQ(gas.size() + other.size(), 1024U);
+    Box box(Vector{square_box().low(0), low}, Vector{square_box().high(0), high},
+            std::array{Boundary::periodic, Boundary::mirror});
+    box.wall(1, Box::End::low, {.slips = false, .velocity = {-rate * 0.5 * (high - low), 0, 0}});
+    box.wall(1, Box::End::high, {.slips = false, .velocity = {rate * 0.5 * (high - low), 0, 0}});
+    SmoothScheme scheme(box);
+    scheme.material(gas, Newtonian<IdealGas>{.material = {1.4}, .shear_viscosity = 0.1});
+    scheme.material(other, Newtonian<IdealGas>{.material = {1.4}, .shear_viscosity = 0.3});
+    if (variable) scheme.variable_range({.spacings = 3});
+    scheme.calculate();
+    std::vector<double> before(gas.influence(0), gas.influence(0) + gas.size() * gas.influence_size());
+    auto const virial = scheme.measure().virial;
+    EXPECT_NEAR(virial[0][1], -0.2 * rate, 0.02 * 0.2 * rate);
+    EXPECT_EQ(virial[1][0], virial[0][1]);
+    EXPECT_NEAR(virial[0][0], 0.4, 0.02);
+    EXPECT_NEAR(virial[1][1], 0.4, 0.02);
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), gas.influence(0))) << "measuring changes no rates";
   }
 }
 

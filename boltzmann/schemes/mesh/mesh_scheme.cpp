@@ -292,30 +292,32 @@ Measures MeshScheme::measure(double time) {
     measures.potential -= 0.5 * work.total_strength / box().volume() * sum * work.grid.cell_volume();
   }
   measures.per_particle = std::move(energies);
-  add_stress(work, measures);
+  measures.virial_per_particle.clear();  // the mesh's is nobody's
+  add_virial(work.density, work.potential, work.field, measures);
+  if (!measures.no_virial.empty())
+    for (auto& row : measures.virial) row.fill(std::numeric_limits<double>::quiet_NaN());
   return measures;
 }
 
-void MeshScheme::add_stress(Work const& work, Measures& measures) const {
+void MeshScheme::add_virial(MeshField const&, MeshField const&, MeshField const& field, Measures& measures) const {
   // Maxwell's stress of a periodic field: the integral of (E^2/2 delta_ab - E_a E_b) / C. In finite differences it
   // belongs to the energy of E as it is there, not quite to half the strengths times potentials: on waves of some cells
   // the two differ.
   int const D = box().dimension();
-  bool periodic = !green_;
-  for (int a = 0; a < D; ++a) periodic = periodic && box().periodic(a);
+  for (int a = 0; a < D; ++a)
+    if (!box().periodic(a))
+      measures.no_virial =
+          fmt::format("axis {} is not periodic: the field of a mesh goes on behind its ends", "xyz"[a]);
+  if (!measures.no_virial.empty()) return;
   for (int a = 0; a < D; ++a)
     for (int b = 0; b < D; ++b) {
-      if (!periodic) {
-        measures.virial[a][b] = std::numeric_limits<double>::quiet_NaN();
-        continue;
-      }
       double sum = 0;
-      for (std::size_t i = 0; i < work.grid.size(); ++i) {
+      for (std::size_t i = 0; i < field.grid.size(); ++i) {
         double e2 = 0;
-        for (int c = 0; c < D; ++c) e2 += square(work.field.components[c][i]);
-        sum += (a == b ? 0.5 * e2 : 0.0) - work.field.components[a][i] * work.field.components[b][i];
+        for (int c = 0; c < D; ++c) e2 += square(field.components[c][i]);
+        sum += (a == b ? 0.5 * e2 : 0.0) - field.components[a][i] * field.components[b][i];
       }
-      measures.virial[a][b] += sum * work.grid.cell_volume() / law_.constant;
+      measures.virial[a][b] += sum * field.grid.cell_volume() / law_.constant;
     }
 }
 

@@ -130,6 +130,9 @@ class MeshScheme : public Scheme {
  protected:
   /// Replaces the solution of Poisson's equation (P3M): the mesh, the order, Green's function.
   void solve_by(std::vector<std::size_t> cells, int order, GreensFunction green);
+  /// Adds the virial of what the mesh gives, or says why it can't be had.
+  virtual void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
+                          Measures& measures) const;
   /// From now on assignment(), form() and boundary() are refused.
   void chosen_by_accuracy() { chosen_by_accuracy_ = true; }
 
@@ -151,7 +154,6 @@ class MeshScheme : public Scheme {
   void deposit(Work& work);
   void solve(Work& work, bool with_potential);
   void gather(Work& work, Loaded& loaded, bool potential, double* result, bool overwrite);
-  void add_stress(Work const& work, Measures& measures) const;
   bool plain() const;
 
   LaplaceLaw law_;

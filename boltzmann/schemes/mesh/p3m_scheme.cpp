@@ -1,6 +1,7 @@
 // A mesh with the optimal influence function, a pair scheme over copies of the particles, and the choice of both.
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/fourier.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/laws/ewald_short.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
@@ -170,6 +171,63 @@ void P3MScheme::add_influences(double time) {
   }
 }
 
+void P3MScheme::add_virial(MeshField const& density, MeshField const& potential, MeshField const&,
+                           Measures& measures) const {
+  // Of each wave's energy E_k = C |rho_k|^2 exp(-k^2/4 alpha^2) / (2 k^2 V) with the waves and the volume that a strain
+  // changes (Essmann et al. 1995, eq. 2.7): E_k (delta_ab - 2 (1/k^2 + 1/4 alpha^2) k_a k_b). Density and potential are
+  // transformed as one complex field F: rho_k phi_-k + rho_-k phi_k = Im(F_k F_-k).
+  MeshGrid const& grid = density.grid;
+  auto const& n = grid.nodes;
+  std::size_t const nodes = grid.size();
+  FourierArray field(2 * nodes), waves(2 * nodes);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    field[2 * i] = density.components[0][i];
+    field[2 * i + 1] = potential.components[0][i];
+  }
+  std::size_t lines = 1;
+  for (int a = 0; a < grid.dimension; ++a) {
+    LineTransform const transform(FourierKind::complex_forward, n[a], lines);
+    for (std::size_t block = 0; block < nodes; block += lines * n[a])
+      transform.execute(field.data() + 2 * block, waves.data() + 2 * block);
+    std::swap(field, waves);
+    lines *= n[a];
+  }
+  auto const wave = [&](int a, std::size_t j) {  // of the two at half the nodes, neither
+    if (2 * j == n[a]) return 0.0;
+    auto const number = 2 * j > n[a] ? static_cast<double>(j) - static_cast<double>(n[a]) : static_cast<double>(j);
+    return 2 * pi * number / box().length(a);
+  };
+  auto const square_at_half = [&](int a, std::size_t j) {
+    return 2 * j == n[a] ? square(pi * static_cast<double>(n[a]) / box().length(a)) : 0.0;
+  };
+  double const scale = grid.cell_volume() / (4 * static_cast<double>(nodes));
+  double const of_width = 1 / (4 * square(parameters_.alpha));
+  std::array<std::array<CompensatedSum, 3>, 3> sums;
+  for (std::size_t l = 0; l < n[2]; ++l)
+    for (std::size_t j = 0; j < n[1]; ++j)
+      for (std::size_t i = 0; i < n[0]; ++i) {
+        if (i + j + l == 0) continue;
+        std::size_t const at = grid.index(i, j, l);
+        std::size_t const opposite = grid.index((n[0] - i) % n[0], (n[1] - j) % n[1], (n[2] - l) % n[2]);
+        double const energy =
+            scale * (field[2 * at] * field[2 * opposite + 1] + field[2 * at + 1] * field[2 * opposite]);
+        std::array<std::size_t, 3> const numbers{i, j, l};
+        double k2 = 0;
+        std::array<double, 3> k{};
+        for (int a = 0; a < grid.dimension; ++a) {
+          k[a] = wave(a, numbers[a]);
+          k2 += square(k[a]) + square_at_half(a, numbers[a]);
+        }
+        for (int a = 0; a < grid.dimension; ++a)
+          for (int b = 0; b < grid.dimension; ++b) {
+            double const kk = k[a] * k[b] + (a == b ? square_at_half(a, numbers[a]) : 0.0);
+            sums[a][b] += energy * ((a == b ? 1 : 0) - 2 * (1 / k2 + of_width) * kk);
+          }
+      }
+  for (int a = 0; a < grid.dimension; ++a)
+    for (int b = 0; b < grid.dimension; ++b) measures.virial[a][b] += sums[a][b].value();
+}
+
 Measures P3MScheme::measure(double time) {
   tune();
   Measures measures = MeshScheme::measure(time);
@@ -184,6 +242,11 @@ Measures P3MScheme::measure(double time) {
   double const per_square = system.sum_of_squares > 0 ? own / system.sum_of_squares : 0;
   double const per_strength = system.sum_of_strengths != 0 ? (constant - own) / system.sum_of_strengths : 0;
   measures.potential += near.potential + constant;
+  // What goes with the inverse volume, and with nothing else, pushes in all directions.
+  for (int a = 0; a < box().dimension(); ++a) {
+    for (int b = 0; b < box().dimension(); ++b) measures.virial[a][b] += near.virial[a][b];
+    measures.virial[a][a] += constant - own;
+  }
   std::size_t at = 0, number = 0;
   for (auto const* ensemble : Scheme::ensembles()) {
     auto const strengths = this->strengths(*ensemble);

@@ -36,6 +36,10 @@ class P3MScheme final : public MeshScheme {
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
+ protected:
+  void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
+                  Measures& measures) const override;
+
  private:
   struct Near;
   template <int D>

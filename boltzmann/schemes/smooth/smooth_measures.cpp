@@ -29,8 +29,42 @@ bool has_temperature(Box const& box) {
 
 }  // namespace
 
+/// The integral over space of what stress adds to the pressure: viscosity (not the artificial one), strength.
+Tensor<3> SmoothScheme::stress() {
+  Tensor<3> total{};
+  Mirror const& mirror = hood_->mirror(*points_);
+  int const D = box().dimension();
+  std::size_t const matter = mirror.blocks() + 1;
+  std::array<std::array<CompensatedSum, 3>, 3> sums;
+  for (auto const& loaded : loaded_) {
+    if (!loaded->kernels.needs_gradients) continue;
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset;
+    for (std::size_t k = 0; k < mirror.owned(); ++k) {
+      std::size_t const i = mirror.order()[k] - loaded->first;
+      if (mirror.order()[k] < loaded->first || i >= ensemble.size()) continue;
+      double const* p = ensemble.row(i);
+      double const by_density2 = loaded->task.factor ? loaded->task.factor[k] : 1;
+      std::size_t number = 1;  // behind the shear switch
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b, ++number) {
+          double const flux = mirror.block(matter + number / row_block)[row_block * k + number % row_block];
+          sums[a][b] += p[mass] * p[density] * flux / by_density2;
+        }
+    }
+  }
+  for (int a = 0; a < D; ++a)
+    for (int b = a; b < D; ++b) total[a][b] = total[b][a] = sums[a][b].value();
+  return total;
+}
+
 Measures SmoothScheme::measure(double time) {
-  complete(time);
+  bool const all_is_pressure =
+      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
+  if (all_is_pressure)
+    complete(time);
+  else
+    find(Until::fluxes);
   Measures measures;
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
@@ -45,9 +79,7 @@ Measures SmoothScheme::measure(double time) {
     }
     measures.internal += sum.value();
   }
-  // The mean over space of the pressure of the states: without viscosity and strength that is all there is.
-  bool const all_is_pressure =
-      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
+  // The mean over space of the pressure of the states, and of the stress.
   CompensatedSum work;
   for (auto const& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded->ensemble;
@@ -58,9 +90,9 @@ Measures SmoothScheme::measure(double time) {
       work += p[mass] / p[density] * p[pressure];
     }
   }
+  Tensor<3> const further = all_is_pressure || points_->size() == 0 ? Tensor<3>{} : stress();
   for (int a = 0; a < box().dimension(); ++a)
-    for (int b = 0; b < box().dimension(); ++b)
-      measures.virial[a][b] = !all_is_pressure ? std::numeric_limits<double>::quiet_NaN() : a == b ? work.value() : 0;
+    for (int b = 0; b < box().dimension(); ++b) measures.virial[a][b] = further[a][b] + (a == b ? work.value() : 0);
   for (auto const& outside : outside_) {
     if (!outside->kernels.has_energy) {
       measures.unknown = "an external law on '" + outside->ensemble->name() + "'";

@@ -367,12 +367,17 @@ void SmoothScheme::find(Until until) {
   if (!recipe.uniform) mirror.refresh_images(fluid, matter, worth(mirror.owned()));
 
   // Step 3, and the fluxes of step 4.
+  std::vector<std::vector<double>> aside;  // rates that nobody wants
+  if (until == Until::fluxes)
+    for (auto& loaded : loaded_)
+      loaded->task.influence = aside.emplace_back(loaded->ensemble->size() * loaded->ensemble->influence_size()).data();
   if (recipe.gradients) {
     run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D,
              &MaterialTask::gradients);
     run_material(&MaterialKernels::fluxes);
-    mirror.refresh_images(matter, end, worth(mirror.owned()));
   }
+  if (until == Until::fluxes) return;
+  if (recipe.gradients) mirror.refresh_images(matter, end, worth(mirror.owned()));
 
   // Step 5.
   run_pass(recipe.rates, recipe.uniform ? D : D + 2, &MaterialTask::rates);

@@ -108,7 +108,7 @@ class SmoothScheme final : public Scheme {
   struct Loaded;
   struct Outside;
 
-  enum class Until { state, rates };
+  enum class Until { state, fluxes, rates };
   struct Recipe {
     bool own_ranges = false;  // not one range for all
     bool viscous = false;     // artificially
@@ -120,6 +120,7 @@ class SmoothScheme final : public Scheme {
   Recipe recipe() const;
   void set_tasks(Recipe const& recipe, Mirror& mirror);
   void find(Until until);
+  Tensor<3> stress();
   void prepare();
   void reach(double cutoff);
   void take_places();

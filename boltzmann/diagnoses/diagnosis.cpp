@@ -1,0 +1,17 @@
+// Why a diagnosis can't have what it needs.
+#include <boltzmann/diagnoses/diagnosis.hpp>
+
+#include <fmt/format.h>
+
+namespace boltzmann {
+
+std::string refusal(Diagnosis const& diagnosis, Measures const& measures) {
+  std::string const what = diagnosis.columns().empty() ? "" : diagnosis.columns().front().name;
+  if (diagnosis.needs_energies() && !measures.unknown.empty())
+    return fmt::format("the diagnosis of '{}' needs energies, and {} gives none", what, measures.unknown);
+  if (diagnosis.needs_virial() && !measures.no_virial.empty())
+    return fmt::format("the diagnosis of '{}' needs the virial, which can't be had: {}", what, measures.no_virial);
+  return "";
+}
+
+}  // namespace boltzmann
