@@ -2,6 +2,8 @@
 // 3 the physics failed, 4 out of time, 130 stopped by a signal). Mistakes are thrown as Error and PhysicsFailure.
 #pragma once
 
+#include <boltzmann/scenario/overrides.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,14 +23,9 @@ struct WindowRun {
 
 struct RunOptions {
   std::string scenario;
-  std::vector<std::string> set;
-  std::optional<std::int64_t> steps;
-  std::optional<std::uint64_t> seed;
-  std::optional<int> threads;
-  std::optional<double> hours;        ///< of wall time
-  std::vector<std::string> vary;      ///< "key=[values]": a sweep over these
-  std::optional<std::int64_t> seeds;  ///< a sweep over so many seeds
-  std::string out;                    ///< empty: results/<name>
+  Overrides overrides;
+  std::optional<double> hours;  ///< of wall time
+  std::string out;              ///< empty: results/<name>
   bool quiet = false, force = false;
   WindowRun window;
 };
@@ -76,7 +73,7 @@ int window(WindowCommand const& command);
 int list(std::string const& kind, bool names_only);
 std::vector<std::string> listed_kinds();
 int show(std::string const& name);
-int check(std::string const& scenario);
+int check(std::string const& scenario, Overrides const& overrides);
 int new_scenario(std::string const& name);
 
 struct BuildOptions {

@@ -11,6 +11,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -96,6 +98,18 @@ std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc,
   return fmt::format("{} (bzm {}--help tells more)", text, command ? command->get_name() + " " : "");
 }
 
+/// 1e5 is a number of steps, too.
+std::string whole_number(std::string& text) {
+  double number = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  bool const digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  if (error != std::errc() || end != text.data() + text.size() || !(number >= 0) || number != std::floor(number) ||
+      (!digits && number > 9e15) || number > 9.2e18)
+    return fmt::format("a whole number, zero or more, is needed (100000 or 1e5), not '{}'", text);
+  if (!digits) text = fmt::format("{:.0f}", number);
+  return "";
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Boltzmann: particle simulations from a scenario file or a C++ program.", "bzm");
   app.set_version_flag("--version", std::string("bzm ") + described_version);
@@ -115,24 +129,29 @@ int command_line(int argc, char** argv) {
     sub->add_option("--port", window.port, "of the window's page [a free one]")->check(CLI::Range(0, 65535));
     sub->add_flag("--play", window.play, "with --window: begin at once, and end with the last step if nobody looks");
   };
+  auto const scenario_options = [](CLI::App* sub, Overrides& overrides) {
+    sub->add_option("--set", overrides.set, "change the scenario: key.path=value (may be given again)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    sub->add_option("--steps", overrides.steps, "number of steps")->transform(CLI::Validator(whole_number, "N"));
+    sub->add_option("--seed", overrides.seed, "seed of all random numbers")
+        ->transform(CLI::Validator(whole_number, "N"));
+    sub->add_option("--threads", overrides.threads, "number of threads")->check(CLI::Range(1, 4096));
+    sub->add_option("--vary", overrides.vary,
+                    "one run for each value of a key; given again, another key goes along with it")
+        ->type_name("KEY=[VALUES]")
+        ->allow_extra_args(false);
+    sub->add_option("--seeds", overrides.seeds, "one run for each of so many seeds, and means with their errors")
+        ->check(CLI::Range(1, 10000));
+    sub->add_flag("--no-sweep", overrides.no_sweep, "one run of a scenario that has a [sweep]");
+  };
   RunOptions run_options;
   auto* sub = command("run", "run a scenario; results go into a folder", [&] { return run(run_options); });
   sub->add_option("scenario", run_options.scenario,
                   "a file, the name of a shipped scenario (bzm list), or -: standard input")
       ->required();
-  sub->add_option("--set", run_options.set, "change the scenario: key.path=value (may be given again)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  sub->add_option("--steps", run_options.steps, "number of steps")->check(CLI::NonNegativeNumber);
-  sub->add_option("--seed", run_options.seed, "seed of all random numbers");
-  sub->add_option("--threads", run_options.threads, "number of threads")->check(CLI::Range(1, 4096));
+  scenario_options(sub, run_options.overrides);
   sub->add_option("--hours", run_options.hours, hours_doc)->check(hours_above_zero);
-  sub->add_option("--vary", run_options.vary,
-                  "one run for each value of a key; given again, another key goes along with it")
-      ->type_name("KEY=[VALUES]")
-      ->allow_extra_args(false);
-  sub->add_option("--seeds", run_options.seeds, "one run for each of so many seeds, and means with their errors")
-      ->check(CLI::Range(1, 10000));
   sub->add_option("--out", run_options.out, "folder for the results [results/<name>]")->type_name("DIR");
   sub->add_flag("--quiet", run_options.quiet, "no progress line and no table");
   sub->add_flag("--force", run_options.force, "replace a run that is in the folder");
@@ -143,7 +162,7 @@ int command_line(int argc, char** argv) {
                 [&] { return resume(resume_options); });
   sub->add_option("folder", resume_options.folder, "the folder of the run or sweep")->required();
   sub->add_option("--steps", resume_options.steps, "so many steps from the checkpoint on [to the planned end]")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(CLI::Validator(whole_number, "N"));
   sub->add_option("--threads", resume_options.threads, "number of threads")->check(CLI::Range(1, 4096));
   sub->add_option("--hours", resume_options.hours, hours_doc)->check(hours_above_zero);
   sub->add_flag("--quiet", resume_options.quiet, "no progress line and no table");
@@ -216,10 +235,12 @@ int command_line(int argc, char** argv) {
   sub->add_flag("--names", names_only, "only the names, one a line");
 
   std::string name;
+  Overrides overrides;
   sub = command("show", "explain a scenario, class, law, integrator, diagnosis or unit", [&] { return show(name); });
   sub->add_option("name", name, "a word that bzm list shows, or a unit")->required();
-  sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name); });
+  sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name, overrides); });
   sub->add_option("scenario", name, "a file, the name of a shipped scenario, or -: standard input")->required();
+  scenario_options(sub, overrides);
   sub = command("new", "write a commented scenario to start from", [&] { return new_scenario(name); });
   sub->add_option("name", name, "the scenario's name; NAME.toml is written here")->required();
 
@@ -283,6 +304,9 @@ int main(int argc, char** argv) {
   } catch (std::bad_alloc const&) {
     fmt::print(stderr, "there is not enough memory for this simulation\n");
     return 1;
+  } catch (std::filesystem::filesystem_error const& error) {  // a folder that one may not enter
+    fmt::print(stderr, "'{}': {}\n", error.path1().string(), error.code().message());
+    return 2;
   } catch (std::exception const& error) {
     fmt::print(stderr, "internal error: {}\n", error.what());
     return 1;

@@ -28,7 +28,7 @@ int run(RunOptions const& options) {
   WallTime const wall(options.hours);
   refuse_hours_in_window(options.hours, options.window);
   ScenarioText const text = read_scenario(find_scenario(options.scenario));
-  Overrides const overrides{options.set, options.steps, options.seed, options.threads, options.vary, options.seeds, {}};
+  Overrides const& overrides = options.overrides;
   auto scenario = load_scenario(text, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
   FolderLock const lock = lock_folder(folder);
@@ -92,20 +92,21 @@ int resume(ResumeOptions const& options) {
   return run_recording(*scenario, *recording, steps, planned, options.quiet, wall, options.window);
 }
 
-int check(std::string const& name) {
+int check(std::string const& name, Overrides const& overrides) {
   ScenarioText const text = read_scenario(find_scenario(name));
-  auto const scenario = load_scenario(text);
-  std::size_t particles = 0, bytes = 0;
+  auto const scenario = load_scenario(text, overrides);
+  auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
+  scenario->simulation->check();
+  recording->check();
+  std::size_t particles = 0, bytes = scenario->scheme->bytes();  // now that lists and meshes are there
   for (auto const& ensemble : scenario->ensembles) {
     particles += ensemble->size();
     bytes += ensemble->size() * (ensemble->stride() + ensemble->influence_size()) * sizeof(double);
   }
-  auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
-  scenario->simulation->check();
-  recording->check();
+  for (auto const* flow : scenario->simulation->flows()) bytes += flow->bytes();
   std::string each;
   if (scenario->sweep) {
-    check_sweep(text, {}, *scenario->sweep);
+    check_sweep(text, overrides, *scenario->sweep);
     each = fmt::format(" in each of {} runs", scenario->sweep->runs());
   }
   fmt::print("ok: {} particle{} ({:.3g} MB), {} step{}{}\n", particles, particles == 1 ? "" : "s",

@@ -323,6 +323,16 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
   return failed > 0 ? 3 : 0;
 }
 
+/// Whether these are the same state, from which nothing random leads on.
+bool same_without_chance(ScenarioSimulation const& one, ScenarioSimulation const& other) {
+  if (!one.simulation->flows().empty() || one.simulation->prepares()) return false;
+  auto const& a = one.scheme->ensembles();
+  auto const& b = other.scheme->ensembles();
+  for (std::size_t e = 0; e < a.size(); ++e)
+    if (copy_rows(*a[e]).rows != copy_rows(*b[e]).rows) return false;
+  return true;
+}
+
 /// The scenario of one run, whether it can be run.
 void try_run(ScenarioSimulation& scenario, std::string const& folder) {
   auto const recording = make_recording(scenario, folder, true);
@@ -337,6 +347,7 @@ void check_sweep(ScenarioText const& text, Overrides const& overrides, SweepPlan
   auto const add = [&](std::string const& line) {
     if (std::find(mistakes.begin(), mistakes.end(), line) == mistakes.end()) mistakes.push_back(line);
   };
+  bool random = false;
   for (std::size_t v = 0; v < plan.values; ++v) {
     Overrides chosen = overrides;
     chosen.sweep_run = v * plan.seeds;
@@ -350,12 +361,20 @@ void check_sweep(ScenarioText const& text, Overrides const& overrides, SweepPlan
                           "all values",
                           text.file, plan.labels[v], plan.columns[c].title()));
       try_run(*scenario, fs::temp_directory_path().string());
+      if (random || plan.seeds < 2) continue;
+      ++*chosen.sweep_run;
+      random = !same_without_chance(*scenario, *load_scenario(text, chosen));
     } catch (ScenarioErrors const& errors) {
       for (auto const& line : errors.lines) add(line);
     } catch (Error const& error) {
       add(error.what());
     }
   }
+  if (mistakes.empty() && plan.seeds > 1 && !random)
+    add(
+        fmt::format("{}: seeds: nothing in this scenario is random, so that {} seeds give {} times the same run; leave "
+                    "them out",
+                    text.file, plan.seeds, plan.seeds));
   if (!mistakes.empty()) throw ScenarioErrors(mistakes);
 }
 

@@ -46,6 +46,15 @@ std::string did_you_mean(std::string_view word, std::span<std::string const> can
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 
+std::string some_of(std::span<std::string const> words) {
+  constexpr std::size_t longest = 300;
+  std::string all = join(words);
+  if (all.size() <= longest) return all;
+  std::size_t shown = 0, length = 0;
+  while (length + words[shown].size() < longest / 2) length += words[shown++].size() + 2;
+  return join(words.first(shown)) + " and " + std::to_string(words.size() - shown) + " more";
+}
+
 std::string join(std::span<std::string const> words, std::string_view separator) {
   std::string text;
   for (auto const& word : words) {

@@ -27,7 +27,9 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
 /// "; did you mean 'cutoff'?" for the nearest candidate, "" if none is near.
 std::string did_you_mean(std::string_view word, std::span<std::string const> candidates);
 
-/// "a, b, c": the allowed words for a message.
+/// "a, b, c": the allowed words for a message; of very many only the first ("a, b and 97 more").
+std::string some_of(std::span<std::string const> words);
+/// "a, b, c", all of them.
 std::string join(std::span<std::string const> words, std::string_view separator = ", ");
 
 }  // namespace boltzmann

@@ -136,6 +136,15 @@ std::string name_in(System const& system, Dimension d) {
 
 constexpr System systems[] = {
     {"m", "kg", "s", "K", "C"}, {"cm", "g", "s", "K", "esu"}, {"angstrom", "amu", "ps", "K", "e"}};
+constexpr System celestial_systems[] = {
+    {"km", "Msun", "s", "K", "C"}, {"AU", "Msun", "d", "K", "C"}, {"pc", "Msun", "yr", "K", "C"}};
+
+// Units of atoms, in which nobody counts what is larger than a bacterium.
+bool of_atoms(std::string const& name) {
+  for (auto const* word : {"angstrom", "nm", "bohr", "amu", "m_e", "ps", "fs", "eV", "meV", "keV", "mol", "Ha"})
+    if (name.find(word) != std::string::npos) return true;
+  return false;
+}
 
 // The name of a scale that is a known unit.
 std::optional<std::string> exact_name(double si, Dimension d) {
@@ -222,6 +231,11 @@ std::string Base::unit_name(Dimension d) const {
   return number + (unit.starts_with("1/") ? unit.substr(1) : " " + unit);
 }
 
+std::string Base::text(double number, Dimension d, int digits) const {
+  auto const [unit, factor] = display(d);
+  return fmt::format("{:.{}g}{}{}", number * factor, digits, unit.empty() ? "" : " ", unit);
+}
+
 Base::Display Base::display(Dimension d) const {
   if (reduced_ || d == dimensions::none) return {};
   double const size = to_si(1, d);
@@ -246,23 +260,29 @@ Base::Display Base::display(Dimension d) const {
   // number, the shortest first.
   Display best;
   std::size_t best_cost = 0;
+  bool const atoms = scale_.length<1e-6, stars = scale_.mass> 1e20;
   auto const consider = [&](std::string const& name, double si) {
+    if (!atoms && of_atoms(name)) return;
     double const ratio = size / si;
     std::string const number = fmt::format("{:.6g}", ratio);
     double rounded = 0;
     std::from_chars(number.data(), number.data() + number.size(), rounded);
     bool const handy = ratio >= 0.01 && ratio < 1000;
-    std::size_t const cost = (handy ? 0 : 200) + (fits(rounded, ratio) ? number.size() : 100);
+    std::size_t const cost = stars ? static_cast<std::size_t>(10 * std::abs(std::log10(ratio)))  // the nearest
+                                   : (handy ? 0 : 200) + (fits(rounded, ratio) ? number.size() : 100);
     if (!best.unit.empty() && cost >= best_cost) return;
     best = {name, ratio};
     best_cost = cost;
   };
-  for (auto const& unit : printed_units())
-    if (unit.dimension == d) consider(unit.name, unit.si);
-  for (auto const& system : systems) {
+  auto const consider_in = [&](System const& system) {
     auto const name = name_in(system, d);
     consider(name, parse_quantity("1 " + name).si);
-  }
+  };
+  for (auto const& unit : printed_units())
+    if (unit.dimension == d && !(stars && unit.name == "m/s")) consider(unit.name, unit.si);
+  if (stars)
+    for (auto const& system : celestial_systems) consider_in(system);
+  for (auto const& system : systems) consider_in(system);
   return best;
 }
 

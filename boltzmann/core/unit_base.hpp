@@ -72,6 +72,9 @@ class Base {
     double factor = 1;
   };
   Display display(Dimension) const;
+  /// A number of this base with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273
+  /// fs"), the product ("65.46 fs").
+  std::string text(double number, Dimension, int digits = 4) const;
 
   /// The unit of this base itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the
   /// base are known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and

@@ -314,7 +314,7 @@ class FormulaReader {
       if (measured_) std::replace_if(spaced.begin(), spaced.end(), is_joint, ' ');
       std::string const nearest = did_you_mean(spaced, known);
       throw FormulaError(begin, fmt::format("unknown name '{}'; there are {}{}", nearest.empty() ? found : wider,
-                                            join(known), nearest.empty() ? did_you_mean(found, known) : nearest));
+                                            some_of(known), nearest.empty() ? did_you_mean(found, known) : nearest));
     }
     return use(static_cast<std::size_t>(at - names_.begin()));
   }

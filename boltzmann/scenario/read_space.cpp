@@ -251,15 +251,7 @@ void read_run(Section& document, Reading& reading) {
   run.step_place = section.place("step");
   if (Item const* step = section.need("step", "step = 0.01")) read_step(*step, run, reading);
   Item const *steps = section.find("steps"), *time = section.find("time");
-  if (time && steps) {
-    // What the command line says goes before what the file says.
-    if (time->place.override_number > steps->place.override_number)
-      steps = nullptr;
-    else if (steps->place.override_number > time->place.override_number)
-      time = nullptr;
-    else
-      reading.mistake(time->place, "time: 'steps' say how long the run is, too; leave one out");
-  }
+  if (time && steps) reading.mistake(time->place, "time: 'steps' say how long the run is, too; leave one out");
   if (time) {
     run.time_place = time->place;
     run.time = read_quantity(*time, "time", dimensions::time, reading.context, not_negative);

@@ -171,7 +171,7 @@ std::vector<std::string> read_columns(Item const& item, std::string_view key, Sw
       bool const own = item.is(Item::Kind::array) && item.elements.size() == words.size();
       reading.mistake(own ? item.elements[k].place : item.place,
                       fmt::format("{}: no diagnosis gives a column '{}'; there {} {}{}", key, words[k],
-                                  names.size() == 1 ? "is" : "are", names.empty() ? "none" : join(names),
+                                  names.size() == 1 ? "is" : "are", names.empty() ? "none" : some_of(names),
                                   did_you_mean(words[k], names)));
     }
   if (words.empty() && (item.is(Item::Kind::text) || (item.is(Item::Kind::array) && item.elements.empty())))
@@ -203,7 +203,7 @@ std::string read_right(Section& section, SweepPlan const& plan, Reading& reading
   if (reading.diagnoses_known && !word.empty() && std::find(names.begin(), names.end(), word) == names.end())
     reading.mistake(item->place,
                     fmt::format("x: '{}' is neither a column of a diagnosis nor a key that varies; there are {}{}",
-                                word, join(names), did_you_mean(word, names)));
+                                word, some_of(names), did_you_mean(word, names)));
   return word;
 }
 
@@ -306,6 +306,20 @@ void override_vary(Item& document, std::vector<std::string> const& assignments, 
   std::erase_if(sweep->item.entries, [](Entry const& entry) { return entry.key == "vary" || entry.key == "labels"; });
   Place const place = vary.place;
   sweep->item.entries.push_back({"vary", place, std::move(vary)});
+}
+
+void refuse_varied(Item const& document, Mistakes& mistakes) {
+  Entry const* sweep = document.find("sweep");
+  Entry const* vary = sweep && sweep->item.is(Item::Kind::table) ? sweep->item.find("vary") : nullptr;
+  if (!vary || !vary->item.is(Item::Kind::table)) return;
+  Mistakes aside("");  // they are told when the sweep is read
+  for (auto const& key : read_sweep_values(sweep->item, aside).keys) {
+    Item const* at = item_at(document, key.path);
+    if (at && at->place.override_number > key.place.override_number)
+      mistakes.add(at->place,
+                   fmt::format("{}: the sweep of this scenario varies it; give --vary {}=[...], or --no-sweep",
+                               key.path, key.path));
+  }
 }
 
 std::string folder_of_sweep(Item const& document) {

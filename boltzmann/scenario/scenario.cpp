@@ -63,6 +63,7 @@ void build(Item& document, Reading& reading) {
   guarded(reading, reading.run.place, [&] {
     result.simulation = std::make_unique<Simulation>(*result.scheme, *reading.run.step);
     result.simulation->seed(reading.run.seed);
+    result.simulation->speak_in(result.base);
   });
   if (!result.simulation) return;
   for (auto& ensemble : reading.ensembles)
@@ -77,6 +78,18 @@ void build(Item& document, Reading& reading) {
   } catch (PhysicsFailure const& failure) {
     reading.mistake(place_of(failure.what(), reading), failure.what());
   }
+}
+
+/// Of [run] steps and time, which say the same: what the command line says goes before what the file says.
+void settle_length(Item& document) {
+  Entry* run = document.find("run");
+  if (!run || !run->item.is(Item::Kind::table)) return;
+  Entry const *steps = run->item.find("steps"), *time = run->item.find("time");
+  if (!steps || !time) return;
+  int const of_steps = steps->item.place.override_number, of_time = time->item.place.override_number;
+  if (of_steps == of_time) return;
+  std::string const loser = of_steps > of_time ? "time" : "steps";
+  std::erase_if(run->item.entries, [&](Entry const& entry) { return entry.key == loser; });
 }
 
 std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string const& file, std::string const& name,
@@ -96,7 +109,10 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (overrides.threads)
     apply_override(document, fmt::format("run.threads={}", *overrides.threads), "--threads", mistakes);
   if (overrides.seeds) apply_override(document, fmt::format("sweep.seeds={}", *overrides.seeds), "--seeds", mistakes);
+  settle_length(document);
+  if (overrides.no_sweep) std::erase_if(document.entries, [](Entry const& entry) { return entry.key == "sweep"; });
   override_vary(document, overrides.vary, mistakes);
+  refuse_varied(document, mistakes);
   check_letters(document, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))

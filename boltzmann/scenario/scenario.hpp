@@ -6,6 +6,7 @@
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/flows/flow.hpp>
+#include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/sweep.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
@@ -30,18 +31,6 @@ namespace boltzmann {
 struct ScenarioErrors : Error {
   explicit ScenarioErrors(std::vector<std::string> all);
   std::vector<std::string> lines;
-};
-
-/// What the command line changes in a scenario.
-struct Overrides {
-  std::vector<std::string>
-      set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
-  std::optional<std::int64_t> steps;
-  std::optional<std::uint64_t> seed;
-  std::optional<int> threads;
-  std::vector<std::string> vary = {};         ///< "key.path=[values]": instead of what [sweep] varies
-  std::optional<std::int64_t> seeds = {};     ///< of each value
-  std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
 };
 
 /// A picture that a scenario asks for, or a diagnosis for the window.

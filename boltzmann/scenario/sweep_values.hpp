@@ -32,6 +32,9 @@ SweepValues read_sweep_values(Item const& sweep, Mistakes& mistakes);
 /// What "--vary key=[values]" of the command line puts into [sweep] instead of what varies there, and of its labels.
 void override_vary(Item& document, std::vector<std::string> const& assignments, Mistakes& mistakes);
 
+/// A mistake for each key that the command line has set and the sweep varies: its value would be lost.
+void refuse_varied(Item const& document, Mistakes& mistakes);
+
 /// Makes the scenario of one run out of that of the sweep: the values stand where they belong, the seed is counted up,
 /// and there is no [sweep] any more.
 void choose_run(Item& document, std::size_t run, Mistakes& mistakes);

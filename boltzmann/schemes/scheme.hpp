@@ -3,6 +3,7 @@
 
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/threads.hpp>
+#include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
 #include <boltzmann/schemes/rotation.hpp>
@@ -108,8 +109,12 @@ class Scheme {
 
   void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
   int threads() const { return threads_; }
+  /// The units of what it says (Simulation::speak_in); plain numbers until then.
+  void speak_in(Base const& base) { base_ = base; }
+  Base const& spoken_base() const { return base_; }
 
  private:
+  Base base_ = Base::reduced();
   Box box_;
   std::vector<AnyEnsemble*> ensembles_;
   int threads_ = default_threads();

@@ -87,11 +87,6 @@ Conserved conserved(Simulation const& simulation) {
   return total;
 }
 
-std::string quantity_text(double number, Dimension dimension, Base const& base, int digits) {
-  auto const unit = base.display(dimension);
-  return fmt::format("{:.{}g}{}{}", number * unit.factor, digits, unit.unit.empty() ? "" : " ", unit.unit);
-}
-
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));

@@ -30,10 +30,6 @@ struct Conserved {
 /// Of the present state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
 
-/// A number of the base with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273 fs"),
-/// the product ("65.46 fs").
-std::string quantity_text(double number, Dimension dimension, Base const& base, int digits = 4);
-
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
 /// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to
 /// what was given if that is more); momenta: relative to their scales, since totals are often zero.

@@ -103,7 +103,7 @@ void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, s
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
     for (auto const& word : split(picture.y))
       if (std::find(columns.begin(), columns.end(), word) == columns.end())
-        throw Error("no diagnosis gives a column '" + word + "'; there are " + join(columns) +
+        throw Error("no diagnosis gives a column '" + word + "'; there are " + some_of(columns) +
                     did_you_mean(word, columns));
   }
 }

@@ -59,7 +59,7 @@ Canvas draw_mesh(Scene const& scene) {
                              scene.fitting_map(shown), scene.title(), {scene.picture.low, scene.picture.high, factor});
   if (grid.dimension == 3)
     canvas.note(fmt::format("slice at {} = {}", "xyz"[normal],
-                            quantity_text(grid.position(normal, slice), dimensions::length, scene.context.base, 4)));
+                            scene.context.base.text(grid.position(normal, slice), dimensions::length, 4)));
   return canvas;
 }
 

@@ -50,7 +50,7 @@ Axis Scene::axis(std::string label, Dimension dimension) const {
 std::string Scene::title(bool with_time) const {
   if (!with_time) return context.title;
   std::string text = context.title.empty() ? "" : context.title + ", ";
-  auto const time = quantity_text(context.time, dimensions::time, context.base);
+  auto const time = context.base.text(context.time, dimensions::time);
   return text + (time.find(' ') == std::string::npos ? fmt::format("step {}, time {}", context.step, time)
                                                      : fmt::format("step {} ({})", context.step, time));
 }

@@ -26,7 +26,7 @@ std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
   for (auto const& word : split(scene.picture.y)) {
     auto const found = std::find(names.begin(), names.end(), word);
     if (found == names.end())
-      throw Error("diagnoses.csv has no column '" + word + "'; it has " + join(names) + did_you_mean(word, names));
+      throw Error("diagnoses.csv has no column '" + word + "'; it has " + some_of(names) + did_you_mean(word, names));
     columns.push_back(2 + static_cast<std::size_t>(found - names.begin()));
   }
   if (columns.empty())

@@ -534,6 +534,7 @@ struct Recording::State {
 Recording::Recording(Simulation& simulation, Base const& base, std::string folder, bool overwrite)
     : state_(std::make_shared<State>(simulation, base, std::move(folder), overwrite)) {
   open_standard_streams();
+  simulation.speak_in(base);
   while (state_->folder.size() > 1 && state_->folder.back() == '/') state_->folder.pop_back();
   if (state_->folder.empty()) throw Error("the folder of the results has no name");
   state_->title = fs::path(state_->folder).filename().string();
@@ -645,7 +646,7 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
   bool const changed = now != static_cast<std::size_t>(report.particles);
   fmt::print("\n{} particles{}, {} steps to step {}, time {}\n\n", report.particles,
              changed ? fmt::format(" at the start, {} at the end", now) : "", report.steps, simulation.step(),
-             quantity_text(simulation.time(), dimensions::time, recording.base(), 6));
+             recording.base().text(simulation.time(), dimensions::time, 6));
   if (report.steps > 0) {
     for (auto const& line : conserved_table(start, conserved(simulation), recording.base())) fmt::print("{}\n", line);
     double const work = std::max(report.seconds - recorded, 1e-9);

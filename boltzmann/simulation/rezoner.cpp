@@ -32,7 +32,7 @@ std::string Rezoner::report(Base const& base) const {
                                  count(done_.merges, "merge"), count(ensemble_->size(), "particle"));
   if (dimension > 1 && done_.merges > 0)
     line += fmt::format("; angular momentum lost: {}",
-                        quantity_text(dimension == 2 ? lost[2] : magnitude(lost), dimensions::angular_momentum, base));
+                        base.text(dimension == 2 ? lost[2] : magnitude(lost), dimensions::angular_momentum));
   return line;
 }
 

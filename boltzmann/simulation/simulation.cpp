@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -173,9 +174,9 @@ void Simulation::check() {
     double const longest = scheme->longest_step();
     if (std::abs(step_size_) > far_above * longest)
       throw Error(
-          fmt::format("the step {:.4g} is far above the longest that makes sense, {:.4g} (sound and diffusion "
+          fmt::format("the step {} is far above the longest that makes sense, {} (sound and diffusion "
                       "must not outrun it)",
-                      std::abs(step_size_), longest));
+                      told_time(std::abs(step_size_)), told_time(longest)));
   }
   calculate(time());
   for (auto* ensemble : ensembles_)
@@ -288,9 +289,9 @@ void Simulation::advance(double dt, std::vector<Flow*> const& flows) {
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > far_above * scheme->sound_step())
       throw PhysicsFailure(
-          fmt::format("sound has become so fast that the step {:.4g} is far above the longest that makes "
-                      "sense, {:.4g}",
-                      std::abs(dt), scheme->sound_step()));
+          fmt::format("sound has become so fast that the step {} is far above the longest that makes "
+                      "sense, {}",
+                      told_time(std::abs(dt)), told_time(scheme->sound_step())));
 }
 
 std::unique_ptr<WholeSteps> Simulation::whole_steps(double dt) {
@@ -319,10 +320,40 @@ void Simulation::check_moves(Part const& part) const {
                     move.not_finite, name, why.empty() ? "" : ": ", why));
   }
   double const moved = std::sqrt(move.square), allowed = std::sqrt(part.longest_move2);
-  throw PhysicsFailure(
-      fmt::format("particle {} of '{}' moved {:.4g} in one step, further than the length {:.4g} of its law; take a "
-                  "step below {:.3g}",
-                  move.particle, name, moved, allowed, 0.1 * std::abs(step_size_) * allowed / moved));
+  double const shorter = shorter_step(*part.ensemble, move.particle, moved, allowed);
+  Dimension const unit = part.ensemble->fields().front().dimension;  // of what moves: a length, an angle
+  auto const length = [&](double number) { return base().text(number, unit); };
+  throw PhysicsFailure(fmt::format(
+      "particle {} of '{}' moved {} in one step, further than the length {} of its law; take a step below {}",
+      move.particle, name, length(moved), length(allowed), base().text(shorter, dimensions::time, 3)));
+}
+
+/// With which it moves a tenth of what is allowed: the way of the velocity that it had goes with the step, that of the
+/// force, which may have thrown it, with the square.
+double Simulation::shorter_step(AnyEnsemble const& ensemble, std::size_t i, double moved, double allowed) const {
+  double const dt = std::abs(step_size_), tenth = 0.1 * allowed;
+  Field const *mass = ensemble.find_field("mass"), *velocity = ensemble.find_field("velocity");
+  if (!mass || !velocity || ensemble.influence_size() < static_cast<std::size_t>(ensemble.dimension()))
+    return tenth / moved * dt;
+  double acceleration2 = 0;
+  std::array<double, 3> before2{};  // if the force has not acted yet, for half a step, for a whole one
+  for (int a = 0; a < ensemble.dimension(); ++a) {
+    double const acceleration = ensemble.influence(i)[a] / ensemble.row(i)[mass->offset];
+    acceleration2 += square(acceleration);
+    for (std::size_t half = 0; half < before2.size(); ++half)
+      before2[half] +=
+          square(ensemble.row(i)[velocity->offset + a] - 0.5 * static_cast<double>(half) * acceleration * step_size_);
+  }
+  double const before = std::sqrt(*std::min_element(before2.begin(), before2.end()));
+  return std::min({dt, tenth / before, std::sqrt(tenth / std::sqrt(acceleration2))});
+}
+
+Base const& Simulation::base() const { return schemes_.front()->spoken_base(); }
+
+std::string Simulation::told_time(double number) const { return base().text(number, dimensions::time); }
+
+void Simulation::speak_in(Base const& base) {
+  for (auto* scheme : schemes_) scheme->speak_in(base);
 }
 
 void Simulation::complete() const {

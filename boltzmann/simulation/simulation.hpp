@@ -81,10 +81,13 @@ class Simulation {
   void step_size(double size);
   std::uint64_t seed() const { return seed_; }
   void seed(std::uint64_t seed) { seed_ = seed; }
+  /// The units in which failures and advice are told; plain numbers without it. A Recording says it.
+  void speak_in(Base const& base);
   void threads(int count);
 
   std::vector<Scheme*> const& schemes() const { return schemes_; }
   std::vector<Flow*> const& flows() const { return flows_; }
+  bool prepares() const { return !preparations_.empty(); }
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   Method method(AnyEnsemble const& ensemble) const;
   /// Energies and virial of the present state, over all schemes and flows.
@@ -125,6 +128,9 @@ class Simulation {
   void calculate(double time);
   void move_walls(double time);
   void check_moves(Part const& part) const;
+  double shorter_step(AnyEnsemble const& ensemble, std::size_t i, double moved, double allowed) const;
+  Base const& base() const;
+  std::string told_time(double number) const;
   void observe_now() const;
   void adapt_now();
   void take_particles();

@@ -347,8 +347,6 @@ json Stage::particle(std::string const& name, std::size_t number) const {
   return nullptr;
 }
 
-std::string Stage::quantity(double number, Dimension dimension) const {
-  return quantity_text(number, dimension, base_, 5);
-}
+std::string Stage::quantity(double number, Dimension dimension) const { return base_.text(number, dimension, 5); }
 
 }  // namespace boltzmann

@@ -1,5 +1,7 @@
 // The command as a user meets it: exit statuses, messages, and what is left in the folder.
 #include "tests/bzm/command.hpp"
+
+#include <boltzmann/core/quantity_text.hpp>
 #include "tests/small_disk.hpp"
 
 #include <boltzmann/files/csv.hpp>
@@ -337,6 +339,13 @@ TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {
   EXPECT_TRUE(has(outcome.err, "step 1: particle ")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "of 'atoms' moved")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "last good checkpoint: out/checkpoint.h5 (step 0)")) << outcome.err;
+  // The step that it advises, with its unit, is one that holds, and no thousandth of it.
+  std::size_t const below = outcome.err.find("take a step below ") + 18;
+  std::string const step = outcome.err.substr(below, outcome.err.find('\n', below) - below);
+  double const advised = parse_quantity(step).si;
+  EXPECT_GT(advised, 1e-15) << step;
+  EXPECT_LT(advised, 1e-12) << step;
+  EXPECT_EQ(folder.run({"--set", "run.step=" + step, "--steps", "50", "--out", "again", "--quiet"}).status, 0) << step;
   EXPECT_TRUE(fs::exists(folder / "out/picture.png")) << "the last recorded state is drawn";
   EXPECT_EQ(read_csv((folder / "out/diagnoses.csv").string()).column("step"), (std::vector<double>{0}));
   // The failed run goes on from its last good checkpoint, and fails again at the same step.
@@ -379,6 +388,26 @@ TEST(Check, SaysOkAndRunsNothing) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out.substr(0, 17), "ok: 256 particles");
   EXPECT_FALSE(fs::exists(folder / "results"));
+}
+
+TEST(Check, TakesTheOptionsOfRun) {
+  Folder folder;
+  EXPECT_NE(bzm({"check", "copper", "--steps", "1e2", "--set", "run.seed=5"}, folder.string()).out.find("100 steps"),
+            std::string::npos);
+  auto const wrong = bzm({"check", "copper", "--set", "run.step=-1"}, folder.string());
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("--set run.step=-1: step"), std::string::npos) << wrong.err;
+  for (char const* steps : {"-5", "1.5", "1e400", "many", "nan"}) {
+    auto const refused = bzm({"run", "copper", std::string("--steps=") + steps}, folder.string());
+    EXPECT_EQ(refused.status, 2) << steps;
+    EXPECT_EQ(lines_in(refused.err), 1U) << refused.err;
+    EXPECT_LT(refused.err.size(), 150U) << refused.err;
+    EXPECT_NE(refused.err.find("a whole number, zero or more, is needed"), std::string::npos) << refused.err;
+  }
+  // A name that no file can have.
+  auto const nameless = bzm({"resume", std::string(300, 'x')}, folder.string());
+  EXPECT_EQ(nameless.status, 2);
+  EXPECT_EQ(nameless.err.find("internal error"), std::string::npos) << nameless.err;
 }
 
 TEST(Check, EveryShippedScenarioIsRight) {

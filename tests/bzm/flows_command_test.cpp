@@ -109,8 +109,9 @@ TEST(ShockCommand, WarnsOfACoarseStepAndCountsTheWorkOfThePiston) {
   auto const coarse =
       bzm({"run", "shock.toml", "--set", "run.step='10 fs'", "--steps", "1", "--out", "coarse", "--quiet"},
           folder.string());
-  EXPECT_NE(coarse.err.find("warning: particles of 'polymer' meet at speeds up to 60 and come 0.6 closer in a step of "
-                            "0.01, but the law between them changes over 0.642"),
+  EXPECT_NE(coarse.err.find("warning: particles of 'polymer' meet at speeds up to 60 angstrom/ps and come 0.6 angstrom "
+                            "closer in a step of "
+                            "0.01 ps, but the law between them changes over 0.642 angstrom"),
             std::string::npos)
       << coarse.err;
 }

@@ -48,7 +48,8 @@ TEST(OneWriter, NobodyElseResumesOrReplacesARunThatIsGoingOn) {
 
 TEST(OneWriter, NorASweep) {
   Folder folder;
-  std::vector<std::string> const sweep{"run", "three-body", "--out", "three", "--steps", "200000", "--seeds", "3"};
+  std::vector<std::string> const sweep{"run",     "three-body", "--out",  "three",
+                                       "--steps", "200000",     "--vary", "run.seed=[1,2,3]"};
   Process going(bzm_words(sweep), folder.string());
   ASSERT_TRUE(going.wait_until([&] { return fs::exists(folder / "three/sweep.toml"); }));
   expect_refused(going, {"resume", "three"}, folder.string());

@@ -80,10 +80,10 @@ TEST(Conserved, TheTableShowsTheDrift) {
 }
 
 TEST(QuantityText, MultipliesUnitsThatAreNumbers) {
-  EXPECT_EQ(quantity_text(1.5, dimensions::time, Base::reduced()), "1.5");
-  EXPECT_EQ(quantity_text(1.5, dimensions::time, Base::si()), "1.5 s");
+  EXPECT_EQ(Base::reduced().text(1.5, dimensions::time), "1.5");
+  EXPECT_EQ(Base::si().text(1.5, dimensions::time), "1.5 s");
   Base const thesis(1.804 * units::angstrom, 5.275e-26 * units::gram, 3.273 * units::femtosecond);
-  EXPECT_EQ(quantity_text(20, dimensions::time, thesis), "65.46 fs");
+  EXPECT_EQ(thesis.text(20, dimensions::time), "65.46 fs");
 }
 
 TEST(Recording, LeavesFilesThatGoOnWhereTheyEnded) {

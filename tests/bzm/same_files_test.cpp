@@ -25,7 +25,8 @@ void run_all(std::string const& folder, std::string const& out) {
   run({"run", "copper", "--steps", "40", "--out", out + "/copper", "--set",
        "output.pictures=[{ colour = 'speed' }, { file = 'picture.svg' }, { file = 'picture.pdf' }]"});
   run({"run", "two-stream", "--steps", "40", "--out", out + "/two-stream", "--set", "output.mesh=10"});
-  run({"run", "copper", "--steps", "20", "--out", out + "/sweep", "--seeds", "2"});
+  run({"run", "copper", "--steps", "20", "--out", out + "/sweep", "--seeds", "2", "--set",
+       "ensembles.0.temperature='300 K'"});
   auto const resumed = bzm({"resume", out + "/copper", "--steps", "20", "--quiet"}, folder);
   ASSERT_EQ(resumed.status, 0) << resumed.err;
 }

@@ -1,6 +1,7 @@
 // Sweeps: the tables are those of separate runs, whether the sweep was stopped or not; what fails and what is wrong.
 #include "tests/bzm/command.hpp"
 
+#include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
 
 #include <cmath>
@@ -240,6 +241,65 @@ TEST_F(Sweep, OfTheCommandLine) {
   EXPECT_NE(wrong.err.find("--vary run.stpe=[1, 2]: unknown key 'stpe'"), std::string::npos) << wrong.err;
   EXPECT_EQ(lines_in(wrong.err), 1U) << wrong.err;
   EXPECT_FALSE(fs::exists(folder / "wrong"));
+}
+
+// A scenario of ours whose run has a time, and which varies its step.
+std::string const timed = R"toml([box]
+low = [0]
+high = [10]
+boundary = "periodic"
+[run]
+step = 0.1
+time = 1
+[[ensembles]]
+name = "gas"
+class = "Newton"
+number = 10
+mass = 1
+load = { kind = "random" }
+temperature = "1 K"
+[[diagnoses]]
+kind = "number"
+[sweep]
+vary = { "run.step" = [0.1, 0.05] }
+)toml";
+
+TEST(SweepOptions, StepsGoBeforeTheTimeOfTheScenario) {
+  Folder folder;
+  write_text(folder / "timed.toml", timed);
+  auto const run = bzm({"run", "timed.toml", "--steps", "3", "--out", "out", "--quiet"}, folder.string());
+  EXPECT_EQ(run.status, 0) << run.err;
+  for (auto const& entry : fs::directory_iterator(folder / "out"))
+    if (entry.is_directory()) {
+      EXPECT_EQ(read_checkpoint((entry.path() / "checkpoint.h5").string()).step, 3) << entry.path();
+    }
+}
+
+TEST(SweepOptions, WhatVariesIsNotSetBesides) {
+  Folder folder;
+  write_text(folder / "timed.toml", timed);
+  for (char const* command : {"run", "check"}) {
+    auto const set = bzm({command, "timed.toml", "--set", "run.step=0.2"}, folder.string());
+    EXPECT_EQ(set.status, 2);
+    EXPECT_EQ(set.err,
+              "--set run.step=0.2: run.step: the sweep of this scenario varies it; give --vary run.step=[...], or "
+              "--no-sweep\n");
+  }
+  auto const one =
+      bzm({"run", "timed.toml", "--set", "run.step=0.2", "--no-sweep", "--out", "one", "--quiet"}, folder.string());
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(read_checkpoint((folder / "one/checkpoint.h5").string()).step, 5);
+  auto const vary = bzm({"check", "timed.toml", "--vary", "run.step=[0.2,0.1,0.05]"}, folder.string());
+  EXPECT_NE(vary.out.find("in each of 3 runs"), std::string::npos) << vary.out << vary.err;
+}
+
+TEST(SweepOptions, SeedsOfWhatIsNotRandomAreRefused) {
+  Folder folder;
+  auto const run = bzm({"run", "three-body", "--seeds", "3", "--out", "out"}, folder.string());
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(lines_in(run.err), 1U) << run.err;
+  EXPECT_NE(run.err.find("nothing in this scenario is random"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "out/runs.csv"));
 }
 
 TEST_F(Sweep, TellsMistakesOfAllValuesBeforeItRuns) {

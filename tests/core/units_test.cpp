@@ -295,6 +295,24 @@ TEST(Bases, GravitationalHasGOne) {
   expect_near_relative(2 * std::numbers::pi * base.scale().time / units::day.si, 365.256898, 1e-6);
 }
 
+TEST(Bases, GravitationalIsToldInUnitsOfTheSky) {
+  auto const planets = Base::gravitational(1_AU, 1_Msun);
+  EXPECT_EQ(planets.text(1, dim::velocity), "29.78 km/s");
+  EXPECT_EQ(planets.text(1, dim::time), "0.1592 yr");
+  EXPECT_EQ(planets.text(1, dim::length), "1 AU");
+  EXPECT_EQ(planets.text(1, dim::energy), "887.1 Msun km^2/s^2");
+  auto const galaxy = Base::gravitational(1000_pc, 1e6 * 1_Msun);
+  EXPECT_EQ(galaxy.text(1, dim::velocity), "2.074 km/s");
+  EXPECT_EQ(galaxy.display(dim::mass).unit, "Msun");
+  for (Dimension const d : {dim::velocity, dim::energy, dim::momentum, dim::time, dim::density, dim::acceleration})
+    for (auto const& base : {planets, galaxy}) {
+      auto const unit = base.display(d).unit;
+      for (char const* small : {"angstrom", "eV", "J", "ps", "amu"})
+        EXPECT_EQ(unit.find(small), std::string::npos) << unit;
+      EXPECT_NEAR(parse_quantity("1 " + unit).si * base.display(d).factor / base.to_si(1, d), 1, 1e-12) << unit;
+    }
+}
+
 TEST(Bases, RoundTripsKeepTheNumber) {
   Dimension const all[] = {dim::none,
                            dim::length,

@@ -347,7 +347,7 @@ TEST(RezonedRecording, EndsWithWhatWasDone) {
   expect("\n196 particles at the start, " + std::to_string(burst.gas.size()) + " at the end, 40 steps to step 40");
   expect("'gas': " + std::to_string(done.splits) + " splits, " + std::to_string(done.merges) + " merges, " +
          std::to_string(burst.gas.size()) + " particles now; angular momentum lost: " +
-         quantity_text(done.angular_momentum_lost[2], dimensions::angular_momentum, Base::reduced()));
+         Base::reduced().text(done.angular_momentum_lost[2], dimensions::angular_momentum));
 }
 
 TEST(Rezoning, RefusesWhatNeedsNumbersThatStay) {

@@ -41,6 +41,7 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, MeshKind const& kind,
 
 std::vector<std::string> MeshScheme::advice(double step_size) {
   std::vector<std::string> lines;
+  auto const time = [&](double number) { return spoken_base().text(number, dimensions::time, 3); };
   MeshGrid const grid = make_grid(box(), cells_);
   double widest = 0, particles = 0, frequency2 = 0, crossing = 0;
   for (int a = 0; a < box().dimension(); ++a) widest = std::max(widest, grid.spacing[a]);
@@ -84,20 +85,19 @@ std::vector<std::string> MeshScheme::advice(double step_size) {
                       cold ? "a species is cold" : fmt::format("the Debye length is {:.3g} of a cell", debye), quiet,
                       order_ < 3 ? " or a higher assignment" : ""));
     if (per_step > 2)
-      lines.push_back(
-          fmt::format("warning: wp dt is {:.3g}; above 2 the leap-frog is unstable: take a step below {:.3g}", per_step,
-                      0.2 * std::abs(step_size) / per_step));
+      lines.push_back(fmt::format("warning: wp dt is {:.3g}; above 2 the leap-frog is unstable: take a step below {}",
+                                  per_step, time(0.2 * std::abs(step_size) / per_step)));
     else if (per_step > 0.3)
       lines.push_back(fmt::format(
           "warning: wp dt is {:.3g}; plasma oscillations are then off by {:.2g} %: take a step "
-          "below {:.3g}",
-          per_step, 100 * (std::asin(per_step / 2) * 2 / per_step - 1), 0.2 * std::abs(step_size) / per_step));
+          "below {}",
+          per_step, 100 * (std::asin(per_step / 2) * 2 / per_step - 1), time(0.2 * std::abs(step_size) / per_step)));
   }
   if (crossing > 1)
     lines.push_back(
         fmt::format("warning: the fastest particle crosses {:.3g} cells in a step and jumps over what is in "
-                    "between: take a step below {:.3g}",
-                    crossing, std::abs(step_size) / crossing));
+                    "between: take a step below {}",
+                    crossing, time(std::abs(step_size) / crossing)));
   return lines;
 }
 

@@ -299,10 +299,12 @@ class MeshSteps final : public WholeSteps {
     }
     double const allowed = scheme_.length_scale(*columns.ensemble), moved = std::sqrt(fastest) * std::abs(dt_);
     if (moved > allowed)
-      throw PhysicsFailure(
-          fmt::format("particle {} of '{}' moved {:.4g} in one step, further than the length {:.4g} of "
-                      "the box; take a step below {:.3g}",
-                      columns.order[who], name, moved, allowed, 0.1 * std::abs(dt_) * allowed / moved));
+      throw PhysicsFailure(fmt::format(
+          "particle {} of '{}' moved {} in one step, further than the length {} of "
+          "the box; take a step below {}",
+          columns.order[who], name, scheme_.spoken_base().text(moved, dimensions::length),
+          scheme_.spoken_base().text(allowed, dimensions::length),
+          scheme_.spoken_base().text(std::abs(dt_) * std::sqrt(0.1 * allowed / moved), dimensions::time, 3)));
     // It was put on the low edge, so that it could do no harm.
     for (std::size_t i = 0; i < columns.size; ++i)
       for (int a = 0; a < dimension_; ++a)

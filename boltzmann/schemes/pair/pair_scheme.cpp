@@ -401,6 +401,7 @@ std::size_t PairScheme::bytes() const {
 
 std::vector<std::string> PairScheme::advice(double step_size) {
   constexpr double most = 0.25;  // of the law's length in one step
+  auto const told = [&](double number, Dimension unit) { return spoken_base().text(number, unit, 3); };
   std::vector<std::string> lines;
   for (auto const& near : near_) {
     double const length = near->traits.length_scale;
@@ -413,10 +414,11 @@ std::vector<std::string> PairScheme::advice(double step_size) {
     if (!(move > most * length)) continue;
     double const longest = most * length / speed, digit = std::pow(10.0, std::floor(std::log10(longest)) - 1);
     lines.push_back(fmt::format(
-        "warning: particles of '{}'{} meet at speeds up to {:.3g} and come {:.3g} closer in a step of {:.3g}, but the "
-        "law between them changes over {:.3g}: collisions are not followed; take a step of at most {:.2g}",
-        near->target->name(), near->target == near->source ? "" : fmt::format(" and '{}'", near->source->name()), speed,
-        move, std::abs(step_size), length, std::floor(longest / digit) * digit));
+        "warning: particles of '{}'{} meet at speeds up to {} and come {} closer in a step of {}, but the "
+        "law between them changes over {}: collisions are not followed; take a step of at most {}",
+        near->target->name(), near->target == near->source ? "" : fmt::format(" and '{}'", near->source->name()),
+        told(speed, dimensions::velocity), told(move, dimensions::length), told(std::abs(step_size), dimensions::time),
+        told(length, dimensions::length), told(std::floor(longest / digit) * digit, dimensions::time)));
   }
   return lines;
 }

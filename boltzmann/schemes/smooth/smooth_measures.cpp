@@ -163,7 +163,8 @@ double SmoothScheme::sound_step() const {
 std::vector<std::string> SmoothScheme::advice(double step_size) {
   double const longest = courant_step(), part = std::abs(step_size) / longest;
   if (!std::isfinite(longest)) return {};
-  std::string const line = fmt::format("the step is {:.3g} of the Courant step {:.4g}", part, longest);
+  std::string const line =
+      fmt::format("the step is {:.3g} of the Courant step {}", part, spoken_base().text(longest, dimensions::time));
   std::vector<std::string> lines{part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
   if (has_temperature(box()) &&
       std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; }))
