@@ -46,6 +46,17 @@ std::string did_you_mean(std::string_view word, std::span<std::string const> can
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string shown(text.substr(0, longest));
+  for (char& letter : shown)
+    if (static_cast<unsigned char>(letter) < ' ' || letter == 127) letter = '?';
+  while (shown.size() < text.size() && !shown.empty() &&
+         (static_cast<unsigned char>(text[shown.size()]) & 0xc0U) == 0x80)
+    shown.pop_back();  // no half letters of UTF-8
+  return shown.size() < text.size() ? shown + "..." : shown;
+}
+
 std::string some_of(std::span<std::string const> words) {
   constexpr std::size_t longest = 300;
   std::string all = join(words);

@@ -27,6 +27,10 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
 /// "; did you mean 'cutoff'?" for the nearest candidate, "" if none is near.
 std::string did_you_mean(std::string_view word, std::span<std::string const> candidates);
 
+/// A text of somebody's file for a message, without its quotation marks: 40 letters of it at most, "?" for what can't
+/// be printed.
+std::string quoted(std::string_view text);
+
 /// "a, b, c": the allowed words for a message; of very many only the first ("a, b and 97 more").
 std::string some_of(std::span<std::string const> words);
 /// "a, b, c", all of them.

@@ -156,7 +156,7 @@ std::optional<Known> find_unit(std::string_view name) {
 }
 
 // One line of a message: no control characters, not longer than a reader reads.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::size_t end = std::min<std::size_t>(text.size(), 60);
   while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
     --end;  // whole UTF-8
@@ -182,7 +182,7 @@ class Reader {
     if (negative || peek() == '+') ++at_;
     std::size_t const start = at_;
     if (is_letter(peek()) && word_ahead() != "pi") {
-      if (find_unit(word_ahead())) fail(fmt::format("a number is missing before {}", quoted(word_ahead())));
+      if (find_unit(word_ahead())) fail(fmt::format("a number is missing before {}", in_quotes(word_ahead())));
       fail("a quantity starts with a number, e.g. '2.5 angstrom'");
     }
     if (!is_number_ahead() && !is_letter(peek())) fail("a quantity starts with a number, e.g. '2.5 angstrom'");
@@ -191,7 +191,7 @@ class Reader {
     skip_blanks();
     if (at_end() && at_ != after_number)
       fail(fmt::format("a blank after {} and then nothing: add the unit, or remove the blank",
-                       quoted(text_.substr(start, after_number - start))));
+                       in_quotes(text_.substr(start, after_number - start))));
     value = product(value, false);
     if (!at_end()) {
       if (peek() == ')') fail("a ')' without its '('");
@@ -208,12 +208,13 @@ class Reader {
     bool has_unit = false;
   };
 
-  [[noreturn]] void fail(std::string_view why) const { throw Error(fmt::format("{}: {}", quoted(text_), why)); }
+  [[noreturn]] void fail(std::string_view why) const { throw Error(fmt::format("{}: {}", in_quotes(text_), why)); }
 
   [[noreturn]] void unexpected() const {
-    if (is_number_ahead()) fail(fmt::format("a unit is expected, not another number ({})", quoted(text_.substr(at_))));
+    if (is_number_ahead())
+      fail(fmt::format("a unit is expected, not another number ({})", in_quotes(text_.substr(at_))));
     if (peek() == ',') fail("unexpected ','; decimals are written with a point");
-    fail(fmt::format("unexpected {}", quoted(text_.substr(at_))));
+    fail(fmt::format("unexpected {}", in_quotes(text_.substr(at_))));
   }
 
   bool at_end() const { return at_ >= text_.size(); }
@@ -244,7 +245,7 @@ class Reader {
       } else if (is_letter(peek()) || peek() == '(' || is_one_over()) {
         if (divided)
           fail(fmt::format("it is not clear what {} belongs to after a '/': use parentheses, as in 'J/(kg K)', or '*'",
-                           quoted(word_ahead().empty() ? text_.substr(at_) : word_ahead())));
+                           in_quotes(word_ahead().empty() ? text_.substr(at_) : word_ahead())));
         combine(value, power(), false);
       } else {
         unexpected();
@@ -301,7 +302,7 @@ class Reader {
     if (digits.empty() || peek() == '.' || (parenthesis && peek() != ')'))
       fail("an exponent is a whole number, as in 'm^2' or 's^-1'");
     if (parenthesis) ++at_;
-    if (digits.size() > 2) fail(fmt::format("the exponent {} is out of range (-99 to 99)", quoted(digits)));
+    if (digits.size() > 2) fail(fmt::format("the exponent {} is out of range (-99 to 99)", in_quotes(digits)));
     int n = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), n);
     return negative ? -n : n;
@@ -329,7 +330,7 @@ class Reader {
     auto const [last, error] = std::from_chars(first, text_.data() + text_.size(), number);
     std::string_view const digits(first, static_cast<std::size_t>(last - first));
     if (error != std::errc() || (number != 0 && std::abs(number) < std::numeric_limits<double>::min()))
-      fail(fmt::format("{} is beyond the range of numbers", quoted(digits)));
+      fail(fmt::format("{} is beyond the range of numbers", in_quotes(digits)));
     at_ += digits.size();
     if ((peek() == 'e' || peek() == 'E') && !is_letter(peek(1)))
       fail(fmt::format("the number '{}{}' has an unfinished exponent (for elementary charges write a blank: '{} e')",
@@ -348,9 +349,9 @@ class Reader {
       if (word == name) fail(why);
     auto const letters = name.substr(0, name.find_last_not_of("0123456789") + 1);
     if (letters.size() < name.size() && find_unit(letters))
-      fail(fmt::format("unknown unit {}; write '{}^{}'", quoted(name), letters, name.substr(letters.size())));
+      fail(fmt::format("unknown unit {}; write '{}^{}'", in_quotes(name), letters, name.substr(letters.size())));
     throw Error(
-        fmt::format("unknown unit {}{}", quoted(name), name.size() > 40 ? "" : did_you_mean(name, unit_names())));
+        fmt::format("unknown unit {}{}", in_quotes(name), name.size() > 40 ? "" : did_you_mean(name, unit_names())));
   }
 
   TextQuantity finish(Value const& value) const {
@@ -394,7 +395,8 @@ TextQuantity parse_quantity(std::string_view text) {
   try {
     return Reader(text).read();
   } catch (Error const& error) {
-    if (std::string_view(error.what()).starts_with("a dimension with")) throw Error(quoted(text) + ": " + error.what());
+    if (std::string_view(error.what()).starts_with("a dimension with"))
+      throw Error(in_quotes(text) + ": " + error.what());
     throw;
   }
 }
@@ -404,7 +406,7 @@ double in_base(std::string_view text, Dimension wanted, Base const& base) {
   if (!quantity.has_unit) return quantity.si;
   if (quantity.dimension != wanted) {
     std::string message =
-        fmt::format("{} is {}, {} is needed", quoted(text), what_it_is(quantity.dimension), what_it_is(wanted));
+        fmt::format("{} is {}, {} is needed", in_quotes(text), what_it_is(quantity.dimension), what_it_is(wanted));
     std::string examples;
     for (auto const& name : example_units(wanted)) examples += (examples.empty() ? "'" : ", '") + name + "'";
     if (!examples.empty()) message += " (e.g. " + examples + ")";
@@ -416,10 +418,10 @@ double in_base(std::string_view text, Dimension wanted, Base const& base) {
   }
   if (base.is_reduced() && wanted != dimensions::none)
     throw Error(fmt::format("{} has a unit, but this simulation computes in reduced units: give the number alone",
-                            quoted(text)));
+                            in_quotes(text)));
   double const number = base.from_si(quantity.si, wanted);
   if (!std::isfinite(number) || (quantity.si != 0 && std::abs(number) < std::numeric_limits<double>::min()))
-    throw Error(fmt::format("{} is beyond the range of numbers in the units of this simulation", quoted(text)));
+    throw Error(fmt::format("{} is beyond the range of numbers in the units of this simulation", in_quotes(text)));
   return number;
 }
 

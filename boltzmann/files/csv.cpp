@@ -89,7 +89,8 @@ CsvFile CsvFile::append_to(std::string path, std::vector<std::string> const& hea
   std::size_t at = 0;
   auto const found = next_row(text, at);
   if (!found || *found != header)
-    throw Error(fmt::format("{}: its columns are {}, not {}", path, found ? join(*found) : "unreadable", join(header)));
+    throw Error(
+        fmt::format("{}: its columns are {}, not {}", path, found ? quoted(join(*found)) : "unreadable", join(header)));
   if (at == 0 || text[at - 1] != '\n') throw Error(path + ": its header row has no end");
   while (at < text.size()) {
     std::size_t after = at;
@@ -148,8 +149,8 @@ CsvTable read_csv(std::string const& path) {
     for (std::size_t k = 0; k < row->size(); ++k) {
       auto const value = number((*row)[k]);
       if (!value)
-        throw Error(
-            fmt::format("{}: row {}: '{}' in column '{}' is not a number", path, line, (*row)[k], table.header[k]));
+        throw Error(fmt::format("{}: row {}: '{}' in column '{}' is not a number", path, line, quoted((*row)[k]),
+                                quoted(table.header[k])));
       table.columns[k].push_back(*value);
     }
   }

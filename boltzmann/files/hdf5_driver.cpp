@@ -220,8 +220,9 @@ Disk::~Disk() {
 }
 
 void Disk::open(std::string const& path, Use use) {
-  int const flags = use == Use::read ? O_RDONLY : use == Use::change ? O_RDWR : O_RDWR | O_CREAT;
-  descriptor = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666);
+  descriptor = use == Use::create
+                   ? open_for_writing(path, O_RDWR | O_NONBLOCK)
+                   : ::open(path.c_str(), (use == Use::read ? O_RDONLY : O_RDWR) | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0)
     throw Error(path + ": can't open it" + (use == Use::read ? ": " : " for writing: ") + reason(errno));
   struct stat facts {};

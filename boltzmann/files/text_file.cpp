@@ -32,9 +32,15 @@ void append_number(std::string& text, std::int64_t number) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
+int open_for_writing(std::string const& path, int flags) {
+  flags |= O_CREAT | O_CLOEXEC;
+  if (!path.ends_with(".part")) return ::open(path.c_str(), flags, 0666);
+  ::unlink(path.c_str());
+  return ::open(path.c_str(), flags | O_EXCL | O_NOFOLLOW, 0666);
+}
+
 TextFile::TextFile(std::string path, Mode mode) : path_(std::move(path)) {
-  int const flags = O_WRONLY | O_CREAT | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : 0);
-  descriptor_ = ::open(path_.c_str(), flags, 0666);
+  descriptor_ = open_for_writing(path_, O_WRONLY | (mode == Mode::replace ? O_TRUNC : 0));
   if (descriptor_ < 0) throw Error(path_ + ": can't open it for writing: " + reason(errno));
   struct stat facts {};
   if (mode == Mode::append && fstat(descriptor_, &facts) == 0 && S_ISREG(facts.st_mode))

@@ -15,6 +15,10 @@ std::string reason(int error);
 void append_number(std::string& text, double number);
 void append_number(std::string& text, std::int64_t number);
 
+/// Opens a file for writing, with further flags of open(2); negative, with errno, if it can't be. A name that ends in
+/// ".part" stands for a moment until it is renamed: such a file is made anew, so that no link leads elsewhere.
+int open_for_writing(std::string const& path, int flags);
+
 /// A file of text that is written at its end. Every write goes to the system at once, so that a killed run loses
 /// nothing; a write that fails (disk full) is taken back as far as the system allows. Failures throw Error with path
 /// and reason.

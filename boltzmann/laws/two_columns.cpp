@@ -35,7 +35,7 @@ std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std
       auto const* const digits = word.data() + (word.starts_with('+') ? 1 : 0);
       auto const [last, error] = std::from_chars(digits, word.data() + word.size(), value);
       if (error != std::errc{} || last != word.data() + word.size() || !std::isfinite(value))
-        throw Error(fmt::format("{}:{}: '{}' is not a finite number", path, number, word));
+        throw Error(fmt::format("{}:{}: '{}' is not a finite number", path, number, quoted(word)));
       values.push_back(value);
     }
     if (values.empty()) continue;

@@ -104,7 +104,8 @@ std::optional<std::size_t> next_count(Reader& reader) {
     if (found.empty()) continue;
     std::size_t count = 0;
     if (found.size() != 1 || !parse(found[0], count))
-      throw reader.error(fmt::format("'{}' is not a number of particles, with which a frame begins", reader.line()));
+      throw reader.error(
+          fmt::format("'{}' is not a number of particles, with which a frame begins", quoted(reader.line())));
     return count;
   }
   return std::nullopt;
@@ -124,16 +125,16 @@ Layout named_layout(Reader const& reader, std::string_view properties, XyzFrame&
     rest.remove_prefix(colon + 1);
   }
   if (parts.size() % 3 != 0)
-    throw reader.error(fmt::format("Properties={} is not a list of name:type:number", properties));
+    throw reader.error(fmt::format("Properties={} is not a list of name:type:number", quoted(properties)));
   Layout layout;
   for (std::size_t k = 0; k < parts.size(); k += 3) {
     int components = 0;
     if (!parse(std::string_view(parts[k + 2]), components) || components < 1 || components > 1000)
-      throw reader.error(fmt::format("Properties: '{}' is not a number of columns", parts[k + 2]));
+      throw reader.error(fmt::format("Properties: '{}' is not a number of columns", quoted(parts[k + 2])));
     std::string const& type = parts[k + 1];
     if (type != "S" && type != "R" && type != "I" && type != "L")
-      throw reader.error(
-          fmt::format("Properties: '{}' is not a type; there are S (word), R (number), I (integer), L (T or F)", type));
+      throw reader.error(fmt::format(
+          "Properties: '{}' is not a type; there are S (word), R (number), I (integer), L (T or F)", quoted(type)));
     if (type == "R" || type == "I") {
       layout.numbers.push_back({layout.width, frame.columns.size()});
       frame.columns.push_back({standard_word(parts[k]), components, {}});
@@ -144,7 +145,7 @@ Layout named_layout(Reader const& reader, std::string_view properties, XyzFrame&
   }
   XyzColumn const* position = frame.find("position");
   if (position == nullptr || position->components != 3)
-    throw reader.error(fmt::format("Properties={} has no pos:R:3, the positions", properties));
+    throw reader.error(fmt::format("Properties={} has no pos:R:3, the positions", quoted(properties)));
   return layout;
 }
 
@@ -153,11 +154,14 @@ void read_lattice(Reader const& reader, XyzFrame& frame) {
   if (!text) return;
   auto const numbers = words(*text);
   std::array<double, 9> lattice{};
-  if (numbers.size() != 9) throw reader.error(fmt::format("Lattice=\"{}\" has not 9 numbers", *text));
+  if (numbers.size() != 9) throw reader.error(fmt::format("Lattice=\"{}\" has not 9 numbers", quoted(*text)));
   for (std::size_t k = 0; k < 9; ++k)
     if (!parse(numbers[k], lattice[k]) || !std::isfinite(lattice[k]))
-      throw reader.error(fmt::format("Lattice: '{}' is not a number", numbers[k]));
+      throw reader.error(fmt::format("Lattice: '{}' is not a number", quoted(numbers[k])));
   frame.lattice = lattice;
+  if (auto const pbc = attribute(frame.comment, "pbc"))
+    for (std::size_t a = 0; auto const word : words(*pbc))
+      if (a < 3) frame.periodic[a++] = word == "T" || word == "True" || word == "1";
 }
 
 void read_particle(Reader const& reader, Layout const& layout, XyzFrame& frame) {
@@ -171,7 +175,7 @@ void read_particle(Reader const& reader, Layout const& layout, XyzFrame& frame) 
       std::string_view const word = found[part.first + static_cast<std::size_t>(c)];
       double value = 0;
       if (!parse(word, value) || !std::isfinite(value))
-        throw reader.error(fmt::format("'{}' is not a number ({})", word, column.name));
+        throw reader.error(fmt::format("'{}' is not a number ({})", quoted(word), quoted(column.name)));
       column.values.push_back(value);
     }
   }
@@ -212,6 +216,22 @@ XyzFrame from_xyz_file(std::string const& path, std::size_t frame_number) {
     }
     if (wanted) return frame;
   }
+}
+
+std::string lattice_misfit(XyzFrame const& frame, Box const& box, double length) {
+  if (!frame.lattice) return "";
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (!box.periodic(a) || !frame.periodic[static_cast<std::size_t>(a)]) continue;
+    double const edge = length * (*frame.lattice)[static_cast<std::size_t>(4 * a)], wanted = box.length(a);
+    for (int b = 0; b < 3; ++b)
+      if (b != a && ((*frame.lattice)[static_cast<std::size_t>(3 * a + b)] != 0 ||
+                     (*frame.lattice)[static_cast<std::size_t>(3 * b + a)] != 0))
+        return fmt::format("the file's Lattice is skew along {}; a periodic box has right angles", "xyz"[a]);
+    if (std::abs(edge - wanted) > 1e-6 * wanted)
+      return fmt::format("the file's Lattice is {:.8g} long along {}, the periodic box {:.8g}; they must be the same",
+                         edge, "xyz"[a], wanted);
+  }
+  return "";
 }
 
 std::size_t count_species(XyzFrame const& frame, std::string const& species) {

@@ -1,6 +1,7 @@
 // Particles from XYZ files, plain and extended: the common text format of atomic positions.
 #pragma once
 
+#include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <array>
@@ -20,10 +21,11 @@ struct XyzColumn {
 
 /// One frame of an XYZ file, in the file's units.
 struct XyzFrame {
-  std::string comment;                           ///< the second line, as it stands
-  std::vector<std::string> species;              ///< one word for each particle
-  std::vector<XyzColumn> columns;                ///< "position" is always there
-  std::optional<std::array<double, 9>> lattice;  ///< three edge vectors, one after the other, if the file has them
+  std::string comment;                             ///< the second line, as it stands
+  std::vector<std::string> species;                ///< one word for each particle
+  std::vector<XyzColumn> columns;                  ///< "position" is always there
+  std::optional<std::array<double, 9>> lattice;    ///< three edge vectors, one after the other, if the file has them
+  std::array<bool, 3> periodic{true, true, true};  ///< where there is a lattice; what the file says as pbc="T T F"
 
   std::size_t size() const { return species.size(); }
   /// The column of that name, or nullptr.
@@ -42,6 +44,10 @@ struct XyzOptions {
   double velocity = 1;       ///< the file's unit of velocity in the simulation's
   bool resize = false;       ///< make the ensemble as large as the file; else another size is an Error
 };
+
+/// Why the frame's lattice is not that of a box, in one line; empty if it is, or the frame has none. Axes that are
+/// periodic in both have to be as long (the file's unit of length is `length`), and the lattice has right angles there.
+std::string lattice_misfit(XyzFrame const& frame, Box const& box, double length = 1);
 
 /// How many particles of a species ("": of any) the frame has. Error if it has others only.
 std::size_t count_species(XyzFrame const& frame, std::string const& species);

@@ -394,7 +394,7 @@ void set_default(Item& document, std::string const& table, std::string const& ke
 
 namespace {
 
-std::string quoted(std::string const& text, bool long_text = false) {
+std::string in_quotes(std::string const& text, bool long_text = false) {
   std::string result = long_text ? "\"\"\"\n" : "\"";
   for (char const c : text) {
     bool const control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
@@ -414,7 +414,7 @@ std::string write_key(std::string const& key) {
   bool const bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-';
   });
-  return bare ? key : quoted(key);
+  return bare ? key : in_quotes(key);
 }
 
 std::string write_value(Item const& item) {
@@ -432,7 +432,7 @@ std::string write_value(Item const& item) {
     }
     case Item::Kind::text:
     case Item::Kind::date:
-      return quoted(item.text, item.text.find('\n') != std::string::npos);
+      return in_quotes(item.text, item.text.find('\n') != std::string::npos);
     case Item::Kind::integer:
       return std::to_string(item.integer);
     case Item::Kind::number: {

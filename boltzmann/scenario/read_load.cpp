@@ -272,6 +272,9 @@ double Loader::read_file() {
   file_ = std::filesystem::absolute(full).lexically_normal().string();
   if (!guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); }))
     return 0;
+  if (reading_.box)
+    if (auto const line = lattice_misfit(frame_, *reading_.box, options_.length); !line.empty())
+      reading_.mistake(path_item->place, "path: " + line);
   double count = 0;
   guarded(reading_, species_item ? species_item->place : path_item->place,
           [&] { count = static_cast<double>(count_species(frame_, options_.species)); });

@@ -173,7 +173,16 @@ void extend(Track& track, double const* place, Box const& box) {
   }
 }
 
-std::vector<Track> read_tracks(Scene const& scene) {
+// Whether somebody goes so fast that nobody knows through which walls in a time.
+bool is_lost(std::vector<double> const& velocities, double time, Box const& box) {
+  auto const D = static_cast<std::size_t>(box.dimension());
+  for (std::size_t k = 0; k < velocities.size(); ++k)
+    if (auto const a = static_cast<int>(k % D); box.periodic(a) && std::abs(velocities[k] * time) > box.length(a) / 2)
+      return true;
+  return false;
+}
+
+std::vector<Track> read_tracks(Scene const& scene, bool& lost) {
   TrajectoryReader const reader(scene.context.folder + "/trajectory.h5");
   std::vector<Track> all;
   auto const D = static_cast<std::size_t>(scene.box().dimension());
@@ -182,6 +191,11 @@ std::vector<Track> read_tracks(Scene const& scene) {
     for (std::size_t f = 0; f < reader.frames(); ++f) {
       if (reader.steps()[f] > scene.context.step) break;
       auto const frame = reader.read(f, scene.ensembles[e]->name(), "position");
+      bool const last = f + 1 == reader.frames() || reader.steps()[f + 1] > scene.context.step;
+      double const until = last ? scene.context.time : reader.times()[f + 1];
+      if (Field const* velocity = scene.ensembles[e]->find_field("velocity");
+          !lost && velocity != nullptr && velocity->components == scene.box().dimension())
+        lost = is_lost(reader.read(f, scene.ensembles[e]->name(), "velocity"), until - reader.times()[f], scene.box());
       std::size_t const count = frame.size() / D;
       while (all.size() < first + count) all.push_back({e, all.size() - first, {}});
       for (std::size_t i = 0; i < count; ++i) extend(all[first + i], &frame[i * D], scene.box());
@@ -237,7 +251,8 @@ Canvas draw_particles(Scene& scene) {
   check_vectors(scene.picture, scene.ensembles);
   ParticleClouds clouds = clouds_of(scene);
   std::vector<Track> tracks;
-  if (scene.picture.trace) tracks = read_tracks(scene);
+  bool lost = false;
+  if (scene.picture.trace) tracks = read_tracks(scene, lost);
   Sides const reach = reach_of(scene, tracks);
   auto const shown = scene.shown_box(reach);
 
@@ -281,6 +296,7 @@ Canvas draw_particles(Scene& scene) {
     if (D == 3) curve.z = track.position[2];
     canvas.curve(std::move(curve));
   }
+  if (lost) canvas.note("tracks: some go further than half the box from frame to frame; store more of them");
   note_shown(canvas, clouds, !scene.picture.region.empty());
   if (!with_bonds && has_bonds(scene)) canvas.note("connections are not shown");
   note_far_ones(canvas, scene, reach, shown);

@@ -10,11 +10,24 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 namespace boltzmann {
 namespace {
 
 std::string path_in(std::string const& folder) { return folder + "/window.txt"; }
+
+// Whether a line is an address as we write it, so that nothing else is ever printed.
+bool is_address(std::string_view line) {
+  constexpr std::string_view begin = "http://127.0.0.1:",
+                             letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~%";
+  if (line.size() > 500 || !line.starts_with(begin)) return false;
+  line.remove_prefix(begin.size());
+  std::size_t const slash = line.find_first_not_of("0123456789");
+  constexpr std::string_view query = "/?token=";
+  return slash != std::string_view::npos && line.substr(slash).starts_with(query) &&
+         line.substr(slash + query.size()).find_first_not_of(letters) == std::string_view::npos;
+}
 
 // The port of "http://127.0.0.1:40123/?token=...", or 0.
 int port_of(std::string const& address) {
@@ -59,7 +72,7 @@ AddressFile::~AddressFile() {
 std::optional<std::string> living_window(std::string const& folder) {
   std::ifstream file(path_in(folder));
   std::string line;
-  if (!std::getline(file, line)) return std::nullopt;
+  if (!std::getline(file, line) || !is_address(line)) return std::nullopt;
   int const port = port_of(line);
   if (port <= 0 || port > 65535 || !listens(port)) return std::nullopt;
   return line;

@@ -1,5 +1,6 @@
 // The gallery's answers.
 #include <boltzmann/core/input_file.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/window/gallery.hpp>
 
 #include <fmt/format.h>
@@ -202,13 +203,7 @@ void write_checked(std::string const& path, std::string const& text, bool replac
       fs::remove(file, ignored);
     }
   } const remove{part};
-  errno = 0;
-  {
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw Error(fmt::format("can't write '{}': {}", part, std::strerror(errno == 0 ? EIO : errno)));
-  }
+  TextFile(part, TextFile::Mode::replace).write(text);
   check(part);
   // A link fails if there is a file of that name, even if it has come since we looked.
   int const failed = replace ? std::rename(part.c_str(), path.c_str()) : link(part.c_str(), path.c_str());

@@ -110,6 +110,19 @@ TEST(Checkpoint, KeepsThePreviousOne) {
   EXPECT_FALSE(std::filesystem::exists(folder / "d.h5.previous"));
 }
 
+TEST(Checkpoint, PartsFollowNoLinks) {
+  TemporaryFolder const folder;
+  std::ofstream(folder / "precious") << "mine";
+  for (std::string const name : {"c.h5", "d.txt"}) {
+    std::filesystem::create_symlink("precious", folder / (name + ".part"));
+    if (name == "c.h5")
+      write_checkpoint(folder / name, {});
+    else
+      TextFile(folder / (name + ".part"), TextFile::Mode::replace).write("theirs");
+    EXPECT_EQ(read_text(folder / "precious"), "mine") << name;
+  }
+}
+
 TEST(Checkpoint, RowsGoBackIntoAnEnsemble) {
   Ensemble<Newton<2>> a("ions", 3), b("ions", 1), other("electrons", 3);
   Ensemble<Newton<3>> deeper("ions", 3);

@@ -94,6 +94,26 @@ TEST_F(XyzFile, MistakesNameTheirLine) {
             ":2: Properties=species:S:1:vel:R:3 has no pos:R:3, the positions");
   EXPECT_EQ(message_of("1\nLattice=\"1 0 0\"\nAr 1 2 3\n"), ":2: Lattice=\"1 0 0\" has not 9 numbers");
   EXPECT_THROW(from_xyz_file("/nowhere/at/all.xyz"), Error);
+  // Of somebody's file no more is told than shows what is wrong.
+  EXPECT_EQ(
+      message_of("root:x:0:0:\x1b[2Jroot:/root:/bin/bash and many more words\n"),
+      ":1: 'root:x:0:0:?[2Jroot:/root:/bin/bash and ...' is not a number of particles, with which a frame begins");
+}
+
+TEST_F(XyzFile, TheLatticeIsThatOfAPeriodicBox) {
+  Box const box(Vector{0.0, -1.0, 0.0}, Vector{5.0, 3.0, 20.0},
+                std::array{Boundary::periodic, Boundary::periodic, Boundary::open});
+  auto const misfit = [&](std::string const& comment, double length = 1) {
+    return lattice_misfit(from_xyz_file(write("1\n" + comment + "\nAr 1 2 3\n")), box, length);
+  };
+  EXPECT_EQ(misfit("no lattice"), "");
+  EXPECT_EQ(misfit("Lattice=\"5 0 0 0 4 0 0 0 7\""), "");
+  EXPECT_EQ(misfit("Lattice=\"0.5 0 0 0 0.4 0 0 0 1\"", 10), "");
+  EXPECT_EQ(misfit("Lattice=\"5 0 0 0 4.01 0 0 0 7\""),
+            "the file's Lattice is 4.01 long along y, the periodic box 4; they must be the same");
+  EXPECT_EQ(misfit("Lattice=\"5 0 0 0 4.01 0 0 0 7\" pbc=\"T F T\""), "");
+  EXPECT_EQ(misfit("Lattice=\"5 0 0 1 4 0 0 0 7\""),
+            "the file's Lattice is skew along x; a periodic box has right angles");
 }
 
 }  // namespace

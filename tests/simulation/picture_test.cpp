@@ -542,6 +542,28 @@ void look_at_tracks(std::string const& y, std::uint64_t steps) {
   std::filesystem::remove_all(folder);
 }
 
+// Frames that are so far apart that nobody knows which way round a periodic box somebody went are told of.
+TEST(Looking, TracksThatAreLostAreTold) {
+  auto const folder = (std::filesystem::temp_directory_path() / "picture_test_lost_tracks").string();
+  for (std::uint64_t const every : {10, 2}) {
+    std::filesystem::remove_all(folder);
+    Ensemble<Newton<2>> gas("gas", 1);
+    gas[0].velocity = {0.8, 0};
+    PairScheme scheme(Box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::periodic));
+    scheme.load(gas);
+    Simulation simulation(scheme, 1);
+    simulation.integrate(gas, Method::leap_frog);
+    Recording recording(simulation, Base::reduced(), folder, true);
+    recording.trajectory(every);
+    run_with_progress(recording, 20, {.quiet = true});
+    Canvas const canvas = draw({.trace = true}, {simulation, Base::reduced(), "", 20, 20, folder});
+    bool const told = std::any_of(canvas.notes().begin(), canvas.notes().end(),
+                                  [](auto const& note) { return note.starts_with("tracks: some go further"); });
+    EXPECT_EQ(told, every == 10);
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Looking, AtTracksChangesNoBit) {
   look_at_tracks<Vortices<Method::rk2>>("velocity.y", 20);
   look_at_tracks<SlowedLiquid>("influence.y", 60);  // whose lists are built of where particles are

@@ -185,7 +185,8 @@ TEST(AddressFile, TellsOfAWindowOnlyWhileItLives) {
     EXPECT_EQ(fs::status(folder + "/window.txt").permissions(), fs::perms::owner_read | fs::perms::owner_write);
   }
   EXPECT_FALSE(fs::exists(folder + "/window.txt"));
-  for (char const* text : {"", "http://127.0.0.1:1/?token=x\n", "http://example.org/\n", "http://127.0.0.1:99999/\n"}) {
+  for (char const* text : {"", "http://127.0.0.1:1/?token=x\n", "http://example.org/\n", "http://127.0.0.1:99999/\n",
+                           "http://127.0.0.1:80/?token=x\x1b[2J\n", "http://127.0.0.1:80@evil.example/?token=x\n"}) {
     std::ofstream(folder + "/window.txt") << text;
     EXPECT_FALSE(living_window(folder)) << text;
   }
