@@ -86,6 +86,7 @@ H5FD_t* open_file(char const*, unsigned, hid_t access, haddr_t) {
   if (info == nullptr || info->disk == nullptr) return nullptr;
   auto* file = new OpenFile{};
   file->disk = info->disk;
+  ++file->disk->openings;
   return &file->base;
 }
 
@@ -96,6 +97,7 @@ herr_t close_file(H5FD_t* base) {
     tell_end(disk, file->end);
     set_size(disk, file->end);
   }
+  --disk.openings;
   delete file;
   return 0;
 }
@@ -215,8 +217,10 @@ std::uint32_t rotated(std::uint32_t x, int bits) { return (x << bits) | (x >> (3
 
 }  // namespace
 
-Disk::~Disk() {
-  if (descriptor >= 0) ::close(descriptor);
+Disk::~Disk() { close(); }
+
+void Disk::close() {
+  if (int const id = std::exchange(descriptor, -1); id >= 0) ::close(id);
 }
 
 void Disk::open(std::string const& path, Use use) {

@@ -34,6 +34,8 @@ struct Disk {
   std::vector<std::pair<std::uint64_t, std::vector<unsigned char>>>
       held;  ///< address and bytes, in the order of the writes
 
+  int openings = 0;  ///< that HDF5 has not closed
+
   Disk() = default;
   Disk(Disk const&) = delete;
   Disk& operator=(Disk const&) = delete;
@@ -48,6 +50,8 @@ struct Disk {
   /// within the few microseconds of the release.
   void hold();
   void release();
+  /// Gives the file back; what HDF5 asks of it from then on fails.
+  void close();
 };
 
 /// A file access property list (to be closed with H5Pclose) that sends a file through the driver to `disk`; negative on

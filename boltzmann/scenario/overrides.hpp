@@ -20,6 +20,7 @@ struct Overrides {
   std::optional<std::int64_t> seeds = {};     ///< of each value
   std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
   bool no_sweep = false;                      ///< the scenario as if it had no [sweep]
+  bool may_vary = false;  ///< `set` may name what [sweep] varies: a page edits the file's own values
 };
 
 }  // namespace boltzmann

@@ -112,7 +112,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   settle_length(document);
   if (overrides.no_sweep) std::erase_if(document.entries, [](Entry const& entry) { return entry.key == "sweep"; });
   override_vary(document, overrides.vary, mistakes);
-  refuse_varied(document, mistakes);
+  if (!overrides.may_vary) refuse_varied(document, mistakes);
   check_letters(document, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
