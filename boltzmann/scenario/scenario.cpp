@@ -3,6 +3,7 @@
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/sweep_values.hpp>
+#include <boltzmann/simulation/refusals.hpp>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@
 #include <iostream>
 #include <iterator>
 #include <new>
-#include <optional>
 
 namespace boltzmann {
 namespace {
@@ -22,18 +22,6 @@ std::string all_lines(std::vector<std::string> const& lines) {
   std::string text;
   for (auto const& line : lines) text += (text.empty() ? "" : "\n") + line;
   return text;
-}
-
-/// What the diagnoses need, or why it can't be had.
-void check_measures(Reading& reading) {
-  auto const& diagnoses = reading.result->diagnoses;
-  std::optional<Measures> measures;
-  for (std::size_t d = 0; d < diagnoses.size(); ++d) {
-    if (!diagnoses[d]->needs_energies() && !diagnoses[d]->needs_virial()) continue;
-    if (!measures) measures = reading.result->simulation->measure();
-    if (auto const why = refusal(*diagnoses[d], *measures); !why.empty())
-      reading.mistake(reading.diagnosis_places[d], why);
-  }
 }
 
 void build(Item& document, Reading& reading) {
@@ -72,7 +60,9 @@ void build(Item& document, Reading& reading) {
   add_rezoners(reading);
   try {
     result.simulation->check();
-    check_measures(reading);
+    auto const lines = refusals(*result.simulation, result.diagnoses);
+    for (std::size_t d = 0; d < lines.size(); ++d)
+      if (!lines[d].empty()) reading.mistake(reading.diagnosis_places[d], lines[d]);
   } catch (Error const& error) {
     reading.mistake(place_of(error.what(), reading), error.what());
   } catch (PhysicsFailure const& failure) {

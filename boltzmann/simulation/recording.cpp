@@ -10,6 +10,7 @@
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/simulation/refusals.hpp>
 #include <boltzmann/simulation/run_loop.hpp>
 #include <boltzmann/simulation/version.hpp>
 
@@ -182,7 +183,8 @@ struct Recording::State {
             fmt::format("the diagnosis of '{}' follows particles by their numbers, which change where particles "
                         "come and go between steps",
                         diagnosis->columns().front().name));
-    check_measures();
+    for (auto const& line : refusals(simulation, list))
+      if (!line.empty()) throw Error(line);
     if (every_mesh > 0 && mesh_fields().empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     if (stop_when && every_diagnoses == 0)
@@ -195,18 +197,6 @@ struct Recording::State {
       if (picture.trace) check_tracks(simulation);
       if (picture.trace && every_trajectory == 0)
         throw Error("the picture '" + picture.file + "' shows tracks, which needs a trajectory");
-    }
-  }
-
-  void check_measures() const {
-    std::optional<Measures> measures;
-    for (auto const& diagnosis : list) {
-      if (!diagnosis->needs_energies() && !diagnosis->needs_virial()) continue;
-      if (!measures) {
-        simulation.check();
-        measures = simulation.measure();
-      }
-      if (auto const why = refusal(*diagnosis, *measures); !why.empty()) throw Error(why);
     }
   }
 
