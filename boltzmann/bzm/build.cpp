@@ -4,17 +4,23 @@
 #include <boltzmann/core/error.hpp>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 namespace boltzmann::bzm {
 namespace {
 
 namespace fs = std::filesystem;
+
+// As pack.hpp and interaction.hpp say it.
+constexpr char const* select_hint = "of several particles at once there is no `if`: write select(condition, a, b)";
+constexpr char const* interaction_hint = "an Interaction is {force, energy}, in this order";
 
 struct Installation {
   std::string include, library;
@@ -57,6 +63,18 @@ std::vector<std::string> dependencies() {
   return words;
 }
 
+// What is meant by the compiler's messages that laws on many particles at once lead to.
+std::vector<std::string> hints(std::string const& messages) {
+  std::vector<std::string> all;
+  for (auto const* name : {"exp", "log", "pow", "sqrt", "sin", "cos", "tanh", "erf", "erfc", "abs", "min", "max"})
+    if (std::regex_search(messages, std::regex(fmt::format("call to [^\n]*[^a-z_]{}\\([^\n]*Pack<", name))))
+      all.push_back(
+          fmt::format("a law is compiled for several particles at once: write {0}(x), not std::{0}(x)", name));
+  for (auto const* ours : {select_hint, interaction_hint})
+    if (messages.find(ours) != std::string::npos) all.emplace_back(ours);
+  return all;
+}
+
 }  // namespace
 
 int build(BuildOptions const& options) {
@@ -77,6 +95,7 @@ int build(BuildOptions const& options) {
 #elif defined(__SANITIZE_ADDRESS__)
   line.emplace_back("-fsanitize=address,undefined");
 #endif
+  if (isatty(STDERR_FILENO) == 1) line.emplace_back("-fdiagnostics-color=always");  // they go through a pipe
   line.push_back("-I" + place.include);
   line.push_back(options.program);
   line.emplace_back("-o");
@@ -88,8 +107,10 @@ int build(BuildOptions const& options) {
   std::fflush(stdout);
   if (options.dry) return 0;
   auto const start = std::chrono::steady_clock::now();
-  if (int const status = run_program(line); status != 0) {
+  std::string messages;
+  if (int const status = run_program(line, messages); status != 0) {
     fmt::print(stderr, "'{}' does not compile (the compiler's messages are above)\n", options.program);
+    for (auto const& hint : hints(messages)) fmt::print(stderr, "hint: {}\n", hint);
     return status > 128 ? status : 2;
   }
   fmt::print("{} built in {:.1f} s\n", out,

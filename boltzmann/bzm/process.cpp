@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 extern "C" char** environ;
 
@@ -34,6 +35,36 @@ int wait_for(pid_t process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// Runs a program, and calls heard(piece) with what it writes to this descriptor; of standard output it is all that is
+/// heard of the program.
+template <class Heard>
+int run_heard(std::vector<std::string> const& words, int descriptor, Heard const& heard) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(std::string("no pipe: ") + std::strerror(errno));
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], descriptor);
+  if (descriptor == STDOUT_FILENO) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t process = 0;
+  try {
+    process = spawn(words, &actions);
+  } catch (Error const&) {
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[0]), close(ends[1]);
+    throw;
+  }
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  std::array<char, 4096> buffer{};
+  for (ssize_t count = 0; (count = read(ends[0], buffer.data(), buffer.size())) != 0;) {
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) break;
+    heard(std::string_view(buffer.data(), static_cast<std::size_t>(count)));
+  }
+  close(ends[0]);
+  return wait_for(process);
+}
+
 }  // namespace
 
 std::string find_program(std::string const& name) {
@@ -52,31 +83,23 @@ std::string find_program(std::string const& name) {
 
 int run_program(std::vector<std::string> const& words) { return wait_for(spawn(words, nullptr)); }
 
-std::string output_of(std::vector<std::string> const& words) {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) return "";
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::string text;
-  int status = 1;
-  try {
-    pid_t const process = spawn(words, &actions);
-    close(ends[1]);
-    std::array<char, 4096> buffer{};
-    for (ssize_t count = 0; (count = read(ends[0], buffer.data(), buffer.size())) != 0;) {
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) break;
-      text.append(buffer.data(), static_cast<std::size_t>(count));
+int run_program(std::vector<std::string> const& words, std::string& errors) {
+  return run_heard(words, STDERR_FILENO, [&](std::string_view piece) {
+    errors += piece;
+    for (ssize_t count = 0; !piece.empty() && (count = write(STDERR_FILENO, piece.data(), piece.size())) != 0;) {
+      if (count < 0 && errno != EINTR) break;
+      if (count > 0) piece.remove_prefix(static_cast<std::size_t>(count));
     }
-    status = wait_for(process);
+  });
+}
+
+std::string output_of(std::vector<std::string> const& words) {
+  std::string text;
+  try {
+    return run_heard(words, STDOUT_FILENO, [&](std::string_view piece) { text += piece; }) == 0 ? text : "";
   } catch (Error const&) {
-    close(ends[1]);
+    return "";
   }
-  close(ends[0]);
-  posix_spawn_file_actions_destroy(&actions);
-  return status == 0 ? text : "";
 }
 
 std::string shell_line(std::vector<std::string> const& words) {

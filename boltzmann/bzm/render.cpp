@@ -6,6 +6,8 @@
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/scenario/stored_run.hpp>
+#include <boltzmann/simulation/run_file.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -70,7 +72,7 @@ class Frames {
     // The first picture of the scenario, or the first with that drawing; another drawing has nothing in common with it.
     for (auto const& plan : scenario.output.pictures)
       if (options.drawing.empty() || plan.drawing == options.drawing) {
-        picture_ = picture_of(plan);
+        picture_ = plan;
         break;
       }
     if (!options.drawing.empty()) picture_.drawing = options.drawing;
@@ -165,9 +167,8 @@ int render(RenderOptions const& options) {
   if (!fs::is_directory(options.folder)) throw Error("there is no folder '" + options.folder + "' with a run to draw");
   if (holds_sweep(options.folder))
     throw Error("'" + options.folder + "' holds a sweep; draw one of its runs, whose folders begin with their numbers");
-  std::string const stored = options.folder + "/scenario.toml";
-  if (!fs::exists(stored))
-    throw Error("'" + options.folder + "' has no scenario.toml: only runs of `bzm run` can be drawn again");
+  if (!holds_run(options.folder))
+    throw Error("'" + options.folder + "' holds no run that could be drawn: neither scenario.toml nor " + run_file);
   std::string const ffmpeg = find_program("ffmpeg");
   if (kind == Output::movie && ffmpeg.empty())
     throw Error(
@@ -180,8 +181,7 @@ int render(RenderOptions const& options) {
     throw Error("'" + options.folder +
                 "' has no trajectory.h5 to draw: the run was not asked for one; trajectory = 10 in [output], or --set "
                 "output.trajectory=10, stores a frame every 10 steps");
-  auto const scenario = load_scenario(stored);
-  scenario->simulation->check();
+  auto const scenario = load_stored_run(options.folder);
   Frames frames(options, *scenario);
 
   if (kind == Output::picture) {

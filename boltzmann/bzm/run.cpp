@@ -68,7 +68,9 @@ int resume(ResumeOptions const& options) {
   }
   auto const checkpoint = read_checkpoint(path);
   if (checkpoint.scenario.empty())
-    throw Error("'" + path + "' was written by a C++ program, which goes on with Recording::resume()");
+    throw Error("'" + path +
+                "' was written by a program, which alone knows its laws: run that one again with "
+                "BOLTZMANN_RESUME=1 before it, and it goes on");
   auto const scenario = parse_scenario(checkpoint.scenario, path, {{}, {}, {}, options.threads});
   std::int64_t planned = scenario->steps;
   if (auto const stored = checkpoint.state.find("planned"); stored != checkpoint.state.end() && !stored->second.empty())

@@ -13,29 +13,6 @@ std::string title_of(ScenarioSimulation const& scenario, std::string const& fold
   return scenario.title.empty() ? std::filesystem::path(folder).filename().string() : scenario.title;
 }
 
-Picture picture_of(PicturePlan const& plan) {
-  Picture picture;
-  if (!plan.drawing.empty()) picture.drawing = plan.drawing;
-  picture.x = plan.x;
-  picture.y = plan.y;
-  picture.colour = plan.colour;
-  picture.size = plan.size;
-  picture.vectors = plan.vectors;
-  if (!plan.file.empty()) picture.file = plan.file;
-  picture.trace = plan.trace;
-  picture.low = plan.low;
-  picture.high = plan.high;
-  picture.slice = plan.slice;
-  picture.at = plan.at;
-  picture.logarithmic = plan.logarithmic;
-  picture.smoothing = {plan.weight, plan.range};
-  picture.levels = plan.levels;
-  picture.level_count = plan.level_count;
-  picture.cells = plan.cells;
-  for (auto const& [frequency, speed] : plan.curves) picture.curves.push_back({frequency, speed});
-  return picture;
-}
-
 std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder, bool overwrite) {
   auto recording = std::make_unique<Recording>(*scenario.simulation, scenario.base, folder, overwrite);
   if (!scenario.title.empty()) recording->title(scenario.title);
@@ -48,7 +25,7 @@ std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::str
   if (output.trajectory > 0) recording->trajectory(static_cast<std::uint64_t>(output.trajectory));
   if (output.mesh > 0) recording->mesh(static_cast<std::uint64_t>(output.mesh));
   if (output.checkpoint > 0) recording->checkpoint(static_cast<std::uint64_t>(output.checkpoint));
-  for (auto const& plan : output.pictures) recording->picture(picture_of(plan));
+  for (auto const& plan : output.pictures) recording->picture(plan);
   return recording;
 }
 

@@ -15,8 +15,6 @@ namespace boltzmann::bzm {
 /// The title of pictures and windows: the scenario's, else the name of the folder.
 std::string title_of(ScenarioSimulation const& scenario, std::string const& folder);
 
-Picture picture_of(PicturePlan const& plan);
-
 /// A recording of all that the scenario asks for. Takes the scenario's diagnoses over.
 std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder, bool overwrite);
 

@@ -2,15 +2,19 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/scenario_recording.hpp>
 #include <boltzmann/bzm/sweep.hpp>
+#include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/gallery_show.hpp>
 #include <boltzmann/window/live_run.hpp>
 #include <boltzmann/window/replay.hpp>
+#include <boltzmann/window/run_list.hpp>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace boltzmann::bzm {
 namespace {
@@ -23,7 +27,7 @@ void say(std::string const& line) {
 }
 
 void add_views(Stage& stage, ScenarioSimulation const& scenario) {
-  for (auto const& view : scenario.views) stage.add(view.name, picture_of(view));
+  for (auto const& view : scenario.views) stage.add(view.name, view);
 }
 
 RunReport run_on_stage(ScenarioSimulation const& scenario, Recording& recording, Audience& audience, std::int64_t steps,
@@ -61,7 +65,7 @@ std::string run_choice(Gallery const& gallery, GalleryShow::Choice const& choice
 int gallery(std::uint16_t port) {
   Gallery const all(".");
   Audience audience(port, [&](std::string_view path) { return all.picture(path); });
-  say("gallery: " + audience.address());
+  Announcement const announcement("gallery", audience.address());
   std::string message;
   while (true) {
     GalleryShow show(all, audience, message);
@@ -73,31 +77,55 @@ int gallery(std::uint16_t port) {
   return 0;
 }
 
-int replay(std::string const& folder, std::uint16_t port) {
-  if (!fs::is_directory(folder)) throw Error("there is no folder '" + folder + "' with a run to show");
-  if (auto const living = living_window(folder)) {
-    say(fmt::format("the run in '{}' is going on; its window: {}", folder, *living));
-    return 0;
-  }
-  if (holds_sweep(folder))
-    throw Error("'" + folder + "' holds a sweep; show one of its runs, whose folders begin with their numbers");
-  std::string const stored = folder + "/scenario.toml";
-  if (!fs::exists(stored)) throw Error("'" + folder + "' has no scenario.toml: only runs of bzm can be shown again");
+/// Shows a stored run, and announces it if told; true if a signal ended it.
+bool show_run(std::string const& folder, Audience& audience, bool announced = false) {
   if (!fs::exists(folder + "/trajectory.h5"))
     throw Error("'" + folder +
                 "' has no trajectory.h5 to show: the run was not asked for one (trajectory = 10 in "
                 "[output] stores a frame every 10 steps)");
-  auto const scenario = load_scenario(stored);
-  scenario->simulation->check();
+  auto const scenario = load_stored_run(folder);
   auto const recording = make_recording(*scenario, folder, true);  // only asked what it would draw
   Stage stage(*scenario->simulation, scenario->base, title_of(*scenario, folder), folder);
   add_views(stage, *scenario);
   stage.take(*recording);
-  Audience audience(port);
   Replay show(stage, audience, scenario->name, scenario->description);
   stage.add_usual();
-  say("window: " + audience.address());
-  bool const stopped = show.run();
+  std::optional<Announcement> announcement;
+  if (announced) announcement.emplace("window", audience.address());
+  return show.run();
+}
+
+int stored_runs(std::string const& folder, std::uint16_t port) {
+  if (!fs::is_directory(folder)) throw Error("there is no folder '" + folder + "' with a run to show");
+  if (auto const living = living_window(folder)) {
+    if (isatty(STDOUT_FILENO) == 1)
+      say(fmt::format("the run in '{}' is going on; its window: {}", folder, *living));
+    else
+      say(fmt::format("the run in '{0}' is going on; the address of its window is in {0}/window.txt", folder));
+    return 0;
+  }
+  RunList list(folder);
+  bool const single = holds_run(folder);
+  if (!single && !list.any())
+    throw Error("'" + folder + "' holds no run that could be shown, nor does a folder below it");
+  Audience audience(port, [&](std::string_view path) { return list.picture(path); });
+  bool stopped = false;
+  if (single) {
+    stopped = show_run(folder, audience, true);
+  } else {
+    Announcement const announcement("runs", audience.address());
+    std::string message;
+    while (!stopped) {
+      auto const choice = RunListShow(list, audience, folder, message).run();
+      if (!choice) break;
+      try {
+        message.clear();
+        stopped = show_run(*choice, audience);
+      } catch (std::exception const& error) {
+        message = error.what();
+      }
+    }
+  }
   audience.bye("bzm has ended");
   return stopped ? 130 : 0;
 }
@@ -105,13 +133,13 @@ int replay(std::string const& folder, std::uint16_t port) {
 }  // namespace
 
 int window(WindowCommand const& command) {
-  return command.folder.empty() ? gallery(command.port) : replay(command.folder, command.port);
+  return command.folder.empty() ? gallery(command.port) : stored_runs(command.folder, command.port);
 }
 
 RunReport run_in_window(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps,
                         WindowRun const& options, bool quiet) {
   Audience audience(options.port);
-  say("window: " + audience.address());
+  Announcement const announcement("window", audience.address());
   auto const report = run_on_stage(scenario, recording, audience, steps, options.play, quiet);
   audience.bye("the run has ended");
   return report;

@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/number.hpp>
 
+#include <concepts>
 #include <cstdint>
 #include <limits>
 
@@ -47,6 +48,14 @@ struct Mask {
   friend Mask operator|(Mask a, Mask b) { return {a.native | b.native}; }
   friend Mask operator!(Mask a) { return {~a.native}; }
   bool operator[](int lane) const { return native[lane] != 0; }
+  /// What `if`, `?:`, && and || ask for doesn't compile.
+  template <std::same_as<bool> Truth>
+  explicit operator Truth() const {
+    static_assert(
+        sizeof(Truth) == 0,
+        "of several particles at once there is no `if`: write select(condition, a, b), & for && and | for ||");
+    return {};
+  }
 };
 
 /// True if any lane is.

@@ -140,9 +140,10 @@ class BoxOutline {
       if (!ticks.multiplier.empty()) unit.insert(0, unit.empty() ? ticks.multiplier : ticks.multiplier + " ");
       std::string const& label = axes_[along]->label;
       std::string const name = unit.empty() ? label : label.empty() ? "(" + unit + ")" : label + " (" + unit + ")";
-      if (axis == 2) {  // above the upper end, where it needs no room beside the box
+      bool const steep = std::abs(out_right) > 0.85;
+      if (axis == 2 || steep) {  // above the upper end, where it needs no room beside the box
         auto const& top = a.up > b.up ? a : b;
-        canvas.text(top.right, top.up + 0.04 * size, name, ink, 21, 0.85);
+        canvas.text(top.right, top.up + 0.04 * size, name, ink, 21, axis == 2 ? 0.85 : 0.5);
       } else {
         write(0.5, 0.09, name, 21);
       }

@@ -342,8 +342,7 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
 void Trajectory::State::cut(std::int64_t last_step) {
   auto const names = layout::ensembles(*file);
   layout::Frames const stored = layout::frames(*file);
-  frames = stored.steps.size();
-  while (frames > 0 && stored.steps[frames - 1] > last_step) --frames;
+  frames = layout::frames_until(stored.steps, last_step);
   file->hold();
   auto const shorten = [&](std::string const& dataset, std::uint64_t capacity, bool has_particles) {
     Dataset values = file->dataset(dataset);

@@ -101,7 +101,10 @@ class TrajectoryReader {
   std::string const& time_unit() const { return time_unit_; }
   std::vector<StoredEnsemble> const& ensembles() const { return ensembles_; }
 
-  /// Number of particles of an ensemble in a frame.
+  /// How many of the first frames are of steps up to this one.
+  std::size_t frames_until(std::int64_t last_step) const;
+
+  /// Number of particles of an ensemble in a frame. Error here, and below, if the frame is damaged.
   std::size_t size(std::size_t frame, std::string const& ensemble) const;
   /// Which numbers are wanted: the simulation's own, or as they are in the file, in the units that it names.
   enum class Numbers { simulation, written };

@@ -34,6 +34,10 @@ void add_checksum(std::uint64_t& all, std::uint64_t frame, std::uint64_t sum);
 /// All of the first frames together. Error if there are not so many.
 std::uint64_t checksum_of_frames(hdf5::File const& file, std::uint64_t frames);
 
+/// How many of the first frames are of steps up to this one. A frame that a failing disk has left half written may say
+/// any step: frames ascend.
+std::size_t frames_until(std::vector<std::int64_t> const& steps, std::int64_t last_step);
+
 /// Which axes the box's group says are periodic. Error if it doesn't.
 std::array<bool, 3> periodic_axes(hdf5::File const& file, std::string const& box);
 

@@ -88,6 +88,14 @@ std::uint64_t checksum_of_frames(hdf5::File const& file, std::uint64_t frames) {
   return all;
 }
 
+std::size_t frames_until(std::vector<std::int64_t> const& steps, std::int64_t last_step) {
+  if (steps.size() > 1 && steps[1] < steps[0]) return steps.size();  // backwards from the start
+  std::size_t frames = 0;
+  while (frames < steps.size() && steps[frames] <= last_step && (frames == 0 || steps[frames] > steps[frames - 1]))
+    ++frames;
+  return frames;
+}
+
 std::array<bool, 3> periodic_axes(hdf5::File const& file, std::string const& box) {
   std::array<bool, 3> periodic{};
   if (!file.has(box, "boltzmann_periodic")) {  // version 0.1
@@ -104,15 +112,18 @@ std::array<bool, 3> periodic_axes(hdf5::File const& file, std::string const& box
 
 struct TrajectoryReader::State {
   std::unique_ptr<hdf5::File> file;
+  std::vector<bool> damaged;  // frames whose step, time, size or box is not what was written
 
   /// Numbers in the file are those of the simulation times this.
   double factor(std::string const& dataset) const {
     return file->has(dataset, "boltzmann_factor") ? file->real(dataset, "boltzmann_factor") : 1;
   }
 
-  /// Error where what a frame says has not the checksum that was written.
-  void check_frames(std::vector<StoredEnsemble> const& ensembles, std::vector<std::int64_t> const& steps,
-                    std::vector<double> const& times) const {
+  /// Finds the frames of which what they say has not the checksum that was written: the last ones may be, after a
+  /// failure of the disk or of the power, and those before them are still good.
+  void find_damaged(std::vector<StoredEnsemble> const& ensembles, std::vector<std::int64_t> const& steps,
+                    std::vector<double> const& times) {
+    damaged.assign(steps.size(), false);
     auto const all = file->dataset("/particles/" + ensembles[0].name + "/box/bounds/value");
     auto const extents = all.extents();
     if (extents.size() != 3 || extents[1] != 2 || extents[2] < 1 || extents[2] > 3)
@@ -129,8 +140,7 @@ struct TrajectoryReader::State {
       for (std::uint64_t f = 0; f < frames; ++f)
         if (std::bit_cast<std::uint64_t>(sums[f]) !=
             layout::checksum(steps[f], times[f], counts[f], std::span(bounds).subspan(f * d, d)))
-          throw Error(fmt::format("{}: its frame {} is damaged: its step, time, size or box is not what was written",
-                                  file->path(), f));
+          damaged[f] = true;
     }
   }
 
@@ -175,7 +185,7 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
   auto stored = layout::frames(file);
   steps_ = std::move(stored.steps);
   times_ = std::move(stored.times);
-  state_->check_frames(ensembles_, steps_, times_);
+  state_->find_damaged(ensembles_, steps_, times_);
   time_factor_ = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
   for (double& time : times_) time /= time_factor_;
   time_unit_ = unit("/particles/" + ensembles_[0].name + "/position/time");
@@ -213,7 +223,14 @@ std::uint64_t TrajectoryReader::checksum(std::size_t frames) const {
 std::size_t TrajectoryReader::checked(std::size_t frame) const {
   if (frame >= frames())
     throw Error(fmt::format("{}: has no frame {}; its {} frames count from 0", state_->file->path(), frame, frames()));
+  if (state_->damaged[frame])
+    throw Error(fmt::format("{}: its frame {} is damaged: its step, time, size or box is not what was written",
+                            state_->file->path(), frame));
   return frame;
+}
+
+std::size_t TrajectoryReader::frames_until(std::int64_t last_step) const {
+  return layout::frames_until(steps_, last_step);
 }
 
 std::size_t TrajectoryReader::size(std::size_t frame, std::string const& ensemble) const {

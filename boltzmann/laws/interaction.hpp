@@ -18,6 +18,16 @@ struct Interaction {
 template <int D, class Real>
 Interaction(Vector<D, Real>, Real) -> Interaction<D, Real>;
 
+/// Of members in the wrong order.
+template <int D, class Real>
+requires(D < 0) struct Interaction<D, Real> {
+  static_assert(D > 0, "an Interaction is {force, energy}, in this order");
+  Real energy;
+  Vector<-D, Real> force;
+};
+template <int D, class Real>
+Interaction(Real, Vector<D, Real>) -> Interaction<-D, Real>;
+
 /// How law(p, q) and law(q, p) are related. A law says so by `static constexpr Symmetry symmetry`; one that says
 /// nothing is general.
 enum class Symmetry {

@@ -1,6 +1,7 @@
 // TOML to tree and back, with the third-party parser kept in this file.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/nesting.hpp>
+#include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/scenario/document.hpp>
 
 #include <fmt/format.h>
@@ -392,29 +393,11 @@ void set_default(Item& document, std::string const& table, std::string const& ke
 
 // ---- Writing ----
 
-namespace {
-
-std::string in_quotes(std::string const& text, bool long_text = false) {
-  std::string result = long_text ? "\"\"\"\n" : "\"";
-  for (char const c : text) {
-    bool const control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-    if (c == '"' || c == '\\')
-      (result += '\\') += c;
-    else if (control && !(c == '\n' && long_text))
-      result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-    else
-      result += c;
-  }
-  return result + (long_text ? "\"\"\"" : "\"");
-}
-
-}  // namespace
-
 std::string write_key(std::string const& key) {
   bool const bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-';
   });
-  return bare ? key : in_quotes(key);
+  return bare ? key : toml_text(key);
 }
 
 std::string write_value(Item const& item) {
@@ -432,7 +415,7 @@ std::string write_value(Item const& item) {
     }
     case Item::Kind::text:
     case Item::Kind::date:
-      return in_quotes(item.text, item.text.find('\n') != std::string::npos);
+      return toml_text(item.text, item.text.find('\n') != std::string::npos);
     case Item::Kind::integer:
       return std::to_string(item.integer);
     case Item::Kind::number: {

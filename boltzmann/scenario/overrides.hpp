@@ -20,7 +20,8 @@ struct Overrides {
   std::optional<std::int64_t> seeds = {};     ///< of each value
   std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
   bool no_sweep = false;                      ///< the scenario as if it had no [sweep]
-  bool may_vary = false;  ///< `set` may name what [sweep] varies: a page edits the file's own values
+  bool by_page = false;  ///< `set` comes from a page: it may name what [sweep] varies, since it edits the file's own
+                         ///< values, and only files in the folder of the scenario
 };
 
 }  // namespace boltzmann

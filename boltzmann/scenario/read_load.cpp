@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 namespace boltzmann {
@@ -259,17 +258,14 @@ double Loader::read_positions() {
 
 double Loader::read_file() {
   Item const* path_item = section_.need("path", "path = \"atoms.xyz\"");
-  auto const path = path_item ? read_text(*path_item, "path", reading_.context) : std::nullopt;
+  auto const path = path_item ? read_path(*path_item, "path", reading_.context) : std::nullopt;
   auto const frame = section_.integer("frame", 0).value_or(0);
   Item const* species_item = section_.find("species");
   if (species_item) options_.species = read_text(*species_item, "species", reading_.context).value_or("");
   options_.length = section_.quantity("length", dimensions::length, positive).value_or(1);
   options_.velocity = section_.quantity("velocity", dimensions::velocity, positive).value_or(1);
   if (!path) return 0;
-  std::filesystem::path full = *path;
-  if (full.is_relative() && !reading_.context.folder.empty())
-    full = std::filesystem::path(reading_.context.folder) / full;
-  file_ = std::filesystem::absolute(full).lexically_normal().string();
+  file_ = *path;
   if (!guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); }))
     return 0;
   if (reading_.box)

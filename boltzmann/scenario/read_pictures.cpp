@@ -131,8 +131,8 @@ void read_smooth_field(Section& section, PicturePlan& plan, Reading& reading) {
   if (plan.drawing != "map" && reading.dimension == 1)
     reading.mistake(section.place("drawing"),
                     fmt::format("drawing: '{}' are drawn in 2D and 3D; in 1D 'map' draws a curve", plan.drawing));
-  if (auto const weight = section.word("weight", weight_names())) plan.weight = weight_named(*weight);
-  plan.range = read_range_of_weight(section, reading);
+  if (auto const weight = section.word("weight", weight_names())) plan.smoothing.shape = weight_named(*weight);
+  plan.smoothing.range = read_range_of_weight(section, reading);
   if (auto const cells = section.integer("cells", 2, 4000)) plan.cells = static_cast<int>(*cells);
 }
 

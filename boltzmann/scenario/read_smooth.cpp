@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 
 namespace boltzmann {
@@ -120,14 +119,10 @@ void read_table(Section& section, MaterialChoice& choice, Reading& reading, std:
     choice.points = read_points(*points, reading);
     return;
   }
-  auto const path = read_text(*file, "file", reading.context);
+  auto const path = read_path(*file, "file", reading.context);
   if (!path) return;
-  std::filesystem::path full = *path;
-  if (full.is_relative() && !reading.context.folder.empty())
-    full = std::filesystem::path(reading.context.folder) / full;
-  std::string const name = std::filesystem::absolute(full).lexically_normal().string();
-  if (guarded(reading, file->place, [&] { from_file = PressureTable::from_file(name); }))
-    const_cast<Item&>(*file).text = name;  // the stored scenario must find the file from any folder
+  if (guarded(reading, file->place, [&] { from_file = PressureTable::from_file(*path); }))
+    const_cast<Item&>(*file).text = *path;  // the stored scenario must find the file from any folder
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 namespace boltzmann {
 namespace {
@@ -28,22 +27,18 @@ std::optional<StateLaw> read_file(Section& section, Item const& file, Reading& r
   std::size_t const before = reading.context.mistakes.count();
   double const degree = section.quantity("temperature", dimensions::temperature, positive).value_or(1);
   double const unit = section.quantity(capacity_key, dimensions::heat_capacity, positive).value_or(1);
-  auto const path = read_text(file, "file", reading.context);
+  auto const path = read_path(file, "file", reading.context);
   section.finish();
   if (!path || reading.context.mistakes.count() != before) return std::nullopt;
-  std::filesystem::path full = *path;
-  if (full.is_relative() && !reading.context.folder.empty())
-    full = std::filesystem::path(reading.context.folder) / full;
-  std::string const name = std::filesystem::absolute(full).lexically_normal().string();
   std::optional<StateLaw> law;
   guarded(reading, file.place, [&] {
     std::vector<double> temperatures, capacities;
-    for (auto const& [temperature, capacity] : read_two_columns(name, "a temperature", "a heat capacity", true)) {
+    for (auto const& [temperature, capacity] : read_two_columns(*path, "a temperature", "a heat capacity", true)) {
       temperatures.push_back(temperature * degree);
       capacities.push_back(capacity * unit);
     }
     law.emplace(std::move(temperatures), std::move(capacities));
-    const_cast<Item&>(file).text = name;  // the stored scenario must find the file from any folder
+    const_cast<Item&>(file).text = *path;  // the stored scenario must find the file from any folder
   });
   return law;
 }

@@ -102,7 +102,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   settle_length(document);
   if (overrides.no_sweep) std::erase_if(document.entries, [](Entry const& entry) { return entry.key == "sweep"; });
   override_vary(document, overrides.vary, mistakes);
-  if (!overrides.may_vary) refuse_varied(document, mistakes);
+  if (!overrides.by_page) refuse_varied(document, mistakes);
   check_letters(document, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   if (Entry const* run = document.find("run"); run && run->item.is(Item::Kind::table))
@@ -113,7 +113,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
 
   Recorder recorder(document, text);
-  Reading reading{{mistakes, Base::si(), files.empty() ? folder : files, &recorder},
+  Reading reading{{mistakes, Base::si(), files.empty() ? folder : files, &recorder, overrides.by_page},
                   std::make_unique<ScenarioSimulation>(),
                   true,
                   0,

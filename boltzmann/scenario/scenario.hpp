@@ -12,12 +12,11 @@
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/simulation/picture.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,29 +32,9 @@ struct ScenarioErrors : Error {
   std::vector<std::string> lines;
 };
 
-/// A picture that a scenario asks for, or a diagnosis for the window.
-struct PicturePlan {
-  std::string name;     ///< of a diagnosis for the window
-  std::string drawing;  ///< one of drawing_names()
-  std::string x, y;     ///< fields ("position.x", "velocity.y") of phase space; the columns of a time series in y,
-                        ///< separated by commas; the quantity of a histogram in x
-  std::string colour;   ///< a field, "speed", "kinetic-energy", "potential-energy" or empty: by ensemble
-  std::string size;     ///< the same for the diameter; empty: the ensemble's
-  std::string vectors;  ///< cartesian: arrows of this field; empty: none
-  std::string file = "picture.png";
-  double low = std::numeric_limits<double>::quiet_NaN();   ///< the values at the ends of the colours, in the base;
-  double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN: those of the state
-  bool trace = false;                                      ///< draw the tracks of all frames, not the last state
-  std::string slice = "z";                                 ///< fields in 3D: the axis that the slice is normal to
-  double at = std::numeric_limits<double>::quiet_NaN();    ///< where on it; NaN: in the middle
-  std::vector<std::array<double, 2>> curves;               ///< wave-spectrum: frequency and speed of each curve over it
-  bool logarithmic = false;                                ///< time-series: the values on a logarithmic axis
-  WeightShape weight = WeightShape::lucy;                  ///< map, contours, bands: how particles are spread
-  double range = 0;                                        ///< of that weight; 0: chosen by the drawing
-  std::vector<double> levels;                              ///< contours, bands; empty: level_count even ones
-  int level_count = 0;                                     ///< 0: chosen by the drawing
-  int cells = 300;                                         ///< of its grid, along the longest side; histogram, profile:
-                                                           ///< bins
+/// A picture that a scenario asks for, or (by its name) a diagnosis for the window.
+struct PicturePlan : Picture {
+  std::string name = {};
 };
 
 /// How often what is written.

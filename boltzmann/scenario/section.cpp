@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace boltzmann {
 namespace {
@@ -107,6 +108,18 @@ std::optional<std::string> read_text(Item const& item, std::string_view name, Re
   }
   context.mistakes.add(item.place, fmt::format("{}: a text is needed, not {}", name, found(item)));
   return std::nullopt;
+}
+
+std::optional<std::string> read_path(Item const& item, std::string_view name, ReadContext& context) {
+  auto const path = read_text(item, name, context);
+  if (!path) return std::nullopt;
+  std::filesystem::path const given = *path;
+  bool const elsewhere = given.is_absolute() || std::find(given.begin(), given.end(), "..") != given.end();
+  if (context.confined && item.place.override_number >= 0 && elsewhere) {
+    context.mistakes.add(item.place, about(name, "from a page only files in the folder of the scenario can be named"));
+    return std::nullopt;
+  }
+  return std::filesystem::absolute(context.folder.empty() ? given : context.folder / given).lexically_normal().string();
 }
 
 std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,

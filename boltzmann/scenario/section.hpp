@@ -23,6 +23,7 @@ struct ReadContext {
   Base base;                     ///< of the numbers to come
   std::string folder;            ///< of the scenario file: where its other files are
   Recorder* recorder = nullptr;  ///< notes what has been read; null: nobody does
+  bool confined = false;         ///< overrides name only files in `folder`
 };
 
 /// What a number must be.
@@ -46,6 +47,8 @@ std::optional<std::vector<double>> read_vector(Item const& item, std::string_vie
 std::optional<std::int64_t> read_integer(Item const& item, std::string_view name, std::int64_t low, std::int64_t high,
                                          ReadContext& context);
 std::optional<std::string> read_text(Item const& item, std::string_view name, ReadContext& context);
+/// The absolute path of a file that a text names, from the folder of the scenario; a mistake if it may not be named.
+std::optional<std::string> read_path(Item const& item, std::string_view name, ReadContext& context);
 /// One of the words; a mistake that lists them and says the nearest.
 std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,
                                      ReadContext& context);

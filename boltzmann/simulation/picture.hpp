@@ -62,8 +62,9 @@ struct Picture {
                     ///< chosen) 10 to 200 of a width that fits (see histograms())
 };
 
-/// "cartesian", "phase-space", "histogram", "spectrum", "time-series", "profile", "mesh", "wave-spectrum"; of the
-/// smooth fields of particles "map" (colours), "contours" (lines) and "bands" (shades between levels).
+/// "cartesian" (in 1D phase space, since space is a line), "phase-space", "histogram", "spectrum", "time-series",
+/// "profile", "mesh", "wave-spectrum"; of the smooth fields of particles "map" (colours), "contours" (lines) and
+/// "bands" (shades between levels).
 std::vector<std::string> const& drawing_names();
 
 /// The state that a picture shows and what is written about it.

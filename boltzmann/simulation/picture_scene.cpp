@@ -83,11 +83,17 @@ Canvas Scene::too_few(std::string const& why) const {
   return canvas;
 }
 
+Measures Scene::potential_energies() {
+  Measures measures = context.simulation.measure();
+  if (measures.per_particle.empty() && !measures.unknown.empty())
+    throw Error("potential energies can't be shown: " + measures.unknown + " gives none");
+  return measures;
+}
+
 std::vector<Values> Scene::values(std::string const& name) {
   meaning(ensembles, name);
   need(name);
-  Measures measures;
-  if (name == "potential-energy") measures = context.simulation.measure();
+  Measures const measures = name == "potential-energy" ? potential_energies() : Measures{};
   std::vector<Values> all;
   for (std::size_t e = 0; e < ensembles.size(); ++e) {
     std::span<double const> potential;
@@ -103,8 +109,7 @@ std::vector<Values> Scene::values(std::string const& name) {
 std::vector<ParticleColumn> Scene::columns(std::string const& name) {
   meaning(ensembles, name);
   need(name);
-  Measures measures;
-  if (name == "potential-energy") measures = context.simulation.measure();
+  Measures const measures = name == "potential-energy" ? potential_energies() : Measures{};
   std::vector<ParticleColumn> all;
   for (std::size_t e = 0; e < ensembles.size(); ++e) {
     std::span<double const> potential;

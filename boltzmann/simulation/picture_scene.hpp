@@ -49,6 +49,8 @@ class Scene {
   std::vector<Values> values(std::string const& name);
   /// The same where it stands; for the ensembles without it a column without values.
   std::vector<ParticleColumn> columns(std::string const& name);
+  /// Measures with those of each particle. Error if nobody knows them.
+  Measures potential_energies();
   /// Finds influences for the state as it stands, if the quantity is, or follows from, one.
   void need(std::string const& name);
   /// The particles have been replaced: what is needed must be found again.

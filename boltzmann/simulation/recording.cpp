@@ -11,6 +11,7 @@
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/refusals.hpp>
+#include <boltzmann/simulation/run_file.hpp>
 #include <boltzmann/simulation/run_loop.hpp>
 #include <boltzmann/simulation/version.hpp>
 
@@ -21,6 +22,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -32,7 +34,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-std::array<char const*, 4> constexpr result_files{"scenario.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5"};
+std::array<char const*, 5> constexpr result_files{"scenario.toml", run_file, "diagnoses.csv", "trajectory.h5",
+                                                  "checkpoint.h5"};
 
 BoxEdges edges(Box const& box) {
   BoxEdges edges;
@@ -225,8 +228,19 @@ struct Recording::State {
     check_folder();
   }
 
+  /// Whether the environment wants the run of a program to go on, and there is one.
+  bool resume_asked() const {
+    char const* asked = std::getenv("BOLTZMANN_RESUME");
+    std::error_code ignored;
+    return scenario.empty() && asked != nullptr && std::string_view(asked) == "1" &&
+           fs::exists(path("checkpoint.h5"), ignored);
+  }
+
   void start() {
     check();
+    if (resume_asked())
+      throw Error("BOLTZMANN_RESUME=1: the run in '" + folder +
+                  "' goes on where the program calls run_with_progress, or Recording::resume() itself");
     std::error_code error;
     bool const there = fs::is_directory(folder, error);
     fs::create_directories(folder, error);
@@ -238,7 +252,7 @@ struct Recording::State {
     MeshFrames::remove(folder);
     for (auto const& picture : pictures) fs::remove(path(picture.file), error);
     try {
-      if (!scenario.empty()) TextFile(path("scenario.toml"), TextFile::Mode::replace).write(scenario);
+      describe();
       if (every_diagnoses > 0) csv.emplace(path("diagnoses.csv"), header());
       if (every_trajectory > 0) frames.emplace(path("trajectory.h5"), trajectory_options());
       if (every_mesh > 0) mesh_frames.emplace(folder);
@@ -254,6 +268,17 @@ struct Recording::State {
       if (!there) fs::remove(folder, error);
       throw;
     }
+  }
+
+  /// What the run is, for those who come later: its scenario, or what a program does.
+  void describe() {
+    if (!scenario.empty()) {
+      TextFile(path("scenario.toml"), TextFile::Mode::replace).write(scenario);
+      return;
+    }
+    TextFile(path(run_file), TextFile::Mode::replace)
+        .write(run_file_text(title, base, simulation.step_size(), simulation.schemes().front()->box(), ensembles(),
+                             pictures));
   }
 
   bool follows() const {
@@ -377,10 +402,10 @@ struct Recording::State {
     stopped_frame = -1;
     TrajectoryReader const stored(path("trajectory.h5"));
     std::size_t stay = 0;
-    for (std::int64_t const step : stored.steps())
-      if (step <= last_step && step % every_trajectory == 0)
+    for (std::size_t frame = 0; frame < stored.frames_until(last_step); ++frame)
+      if (std::int64_t const step = stored.steps()[frame]; step % every_trajectory == 0)
         ++stay;
-      else if (step <= last_step)
+      else
         stopped_frame = step;
     frames_that_stay = {stay, stored.checksum(stay)};
     frames.emplace(Trajectory::append_to(path("trajectory.h5"), last_step, trajectory_options()));
@@ -583,6 +608,11 @@ void Recording::stop_when(std::string what, std::function<bool(std::int64_t, std
 }
 void Recording::check() { state_->check(); }
 void Recording::resume() { state_->resume(); }
+bool Recording::resume_if_asked() {
+  if (state_->open || !state_->resume_asked()) return false;
+  state_->resume();
+  return true;
+}
 void Recording::finish() { state_->finish(); }
 void Recording::give_up() { state_->give_up(); }
 std::string Recording::save_checkpoint() {
@@ -612,7 +642,7 @@ std::int64_t Recording::ended_step() const { return state_->ended_step; }
 
 std::vector<std::string> Recording::files() const {
   std::vector<std::string> files;
-  if (!state_->scenario.empty()) files.emplace_back("scenario.toml");
+  files.emplace_back(state_->scenario.empty() ? run_file : "scenario.toml");
   if (state_->every_diagnoses > 0) files.emplace_back("diagnoses.csv");
   if (state_->every_trajectory > 0) files.emplace_back("trajectory.h5");
   if (state_->every_mesh > 0) files.emplace_back("mesh.pvd");
@@ -662,6 +692,7 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
 RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressOptions const& options) {
   Simulation& simulation = recording.simulation();
   Interrupt const interrupt(simulation);
+  if (recording.resume_if_asked()) steps -= std::min(steps, static_cast<std::uint64_t>(simulation.step()));
   simulation.check();
   // What the run begins with is known only when it has been prepared. The observer stays with the simulation.
   auto const start = std::make_shared<Conserved>(conserved(simulation));

@@ -86,6 +86,11 @@ class Recording {
   /// is no checkpoint or it belongs to another simulation.
   void resume();
 
+  /// The same if the environment says BOLTZMANN_RESUME=1 and the folder has a checkpoint of a program: so any program
+  /// is gone on with as it is. run_with_progress and windows ask; their `steps` then count from the beginning of the
+  /// run. A run that begins by Simulation::run is refused with such an environment. True if the run goes on.
+  bool resume_if_asked();
+
   /// Writes the last checkpoint and the pictures, and closes the files.
   void finish();
   /// After a PhysicsFailure: puts the last recorded state back, draws it, closes the files; the checkpoint stays what

@@ -1,13 +1,18 @@
-// Written whole and with mode 600, since who knows the token may steer the run.
+// With mode 600, since who knows the token may steer the run.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <boltzmann/core/error.hpp>
 #include <boltzmann/window/address_file.hpp>
 
+#include <fmt/format.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -67,6 +72,26 @@ AddressFile::~AddressFile() {
   std::string line;
   std::error_code ignored;
   if (std::getline(file, line) && line == address_) std::filesystem::remove(path_, ignored);
+}
+
+Announcement::Announcement(std::string const& what, std::string const& address) {
+  if (isatty(STDOUT_FILENO) == 1) {
+    fmt::print("{}: {}\n", what, address);
+  } else {
+    path_ = (std::filesystem::temp_directory_path() / "boltzmann-window-XXXXXX").string();
+    int const file = mkstemp(path_.data());  // mode 600
+    std::string const line = address + "\n";
+    bool const whole = file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    std::string const why = std::strerror(errno);
+    if (file >= 0) ::close(file);
+    if (!whole) throw Error(fmt::format("the address of the window can't be written to '{}': {}", path_, why));
+    fmt::print("{}: its address is in {}\n", what, path_);
+  }
+  std::fflush(stdout);
+}
+
+Announcement::~Announcement() {
+  if (!path_.empty()) ::unlink(path_.c_str());
 }
 
 std::optional<std::string> living_window(std::string const& folder) {

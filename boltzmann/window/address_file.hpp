@@ -18,6 +18,20 @@ class AddressFile {
   std::string path_, address_;
 };
 
+/// Says the address of a window on standard output: on a terminal, "window: http://..."; elsewhere, where others may
+/// read it, in which file it stands, which its owner alone may read and which is gone with the announcement.
+class Announcement {
+ public:
+  /// `what`: "window", "gallery". Error if there is no place for the file.
+  Announcement(std::string const& what, std::string const& address);
+  ~Announcement();
+  Announcement(Announcement const&) = delete;
+  Announcement& operator=(Announcement const&) = delete;
+
+ private:
+  std::string path_;
+};
+
 /// The address in `folder`/window.txt, if somebody still listens there.
 std::optional<std::string> living_window(std::string const& folder);
 

@@ -25,6 +25,15 @@ constexpr std::size_t most_requests = 256;  // of one browser, not yet answered
 constexpr std::uint64_t never_drawn = ~std::uint64_t{0};
 constexpr double watching_seconds = 10;  // a slow page may take some for one picture
 
+/// The page, whose one script knows a nonce of this answer alone.
+WebFile page() {
+  constexpr std::string_view script = "<script type=\"module\"";
+  std::string html(page_html()), nonce = random_token();
+  if (auto const at = html.find(script); at != std::string::npos)
+    html.insert(at + script.size(), " nonce=\"" + nonce + "\"");
+  return {"text/html; charset=utf-8", std::make_shared<std::string const>(std::move(html)), std::move(nonce)};
+}
+
 struct Wanted {
   int id;
   json view;
@@ -220,7 +229,7 @@ Audience::Audience(std::uint16_t port, std::function<std::optional<WebFile>(std:
   events.left = [state](std::uint64_t id) { state->left(id); };
   events.said = [state](std::uint64_t id, std::string_view text) { state->heard(id, text); };
   events.file = [file = std::move(file)](std::string_view path) -> std::optional<WebFile> {
-    if (path == "/") return WebFile{"text/html; charset=utf-8", std::make_shared<std::string const>(page_html())};
+    if (path == "/") return page();
     return file ? file(path) : std::nullopt;
   };
   state_->server = std::make_unique<WebServer>(std::move(events), port, std::move(token));

@@ -113,7 +113,7 @@ ScenarioValues values_of(json const& set) {
 
 Overrides overrides_of(ScenarioValues const& values) {
   Overrides overrides;
-  overrides.may_vary = true;
+  overrides.by_page = true;
   for (auto const& [path, value] : values) overrides.set.push_back(path + "=" + value);
   return overrides;
 }

@@ -1,24 +1,19 @@
 // Gallery show: the start page, where a scenario is chosen, changed, saved and run.
 #pragma once
 
-#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/choice_show.hpp>
 #include <boltzmann/window/gallery.hpp>
 
-#include <cstdint>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 namespace boltzmann {
 
-class GalleryShow final : public Show {
+class GalleryShow final : public ChoiceShow {
  public:
   /// `message` is said to those who come: how the last run ended.
-  GalleryShow(Gallery const& gallery, Audience& audience, std::string message = "");
-  ~GalleryShow() override;
-  GalleryShow(GalleryShow const&) = delete;
-  GalleryShow& operator=(GalleryShow const&) = delete;
+  GalleryShow(Gallery const& gallery, Audience& audience, std::string message = "")
+      : ChoiceShow(audience, "Boltzmann", std::move(message)), gallery_(gallery) {}
 
   struct Choice {
     std::string name;    ///< of the scenario
@@ -26,24 +21,17 @@ class GalleryShow final : public Show {
     std::string out;     ///< the folder of the results, or empty
   };
   /// Until somebody runs a scenario; nothing: somebody has quit.
-  std::optional<Choice> run();
-
-  nlohmann::json hello() const override;
-  nlohmann::json status() const override;
-  std::uint64_t scene() const override { return 1; }
-  std::uint64_t notice() const override { return notice_; }
-  nlohmann::json perform(nlohmann::json const& request) override;
-  std::shared_ptr<Canvas const> draw(nlohmann::json const& view) override;
-  PictureFile picture(nlohmann::json const& request) override;
-  nlohmann::json particle(std::string const& ensemble, std::size_t number) const override;
+  std::optional<Choice> run() {
+    wait();
+    return choice_;
+  }
 
  private:
+  bool chosen() const override { return choice_.has_value(); }
+  nlohmann::json answer(std::string const& what, nlohmann::json const& request) override;
+
   Gallery const& gallery_;
-  Audience& audience_;
-  std::string message_;
   std::optional<Choice> choice_;
-  bool quit_ = false;
-  std::uint64_t notice_ = 1;
 };
 
 }  // namespace boltzmann

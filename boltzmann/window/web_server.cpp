@@ -63,28 +63,24 @@ constexpr std::size_t farewell_bytes = 1U << 18U;
 constexpr double end_seconds = 0.1;
 
 constexpr std::pair<char const*, char const*> common_headers[] = {
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'unsafe-inline' 'self'; style-src 'unsafe-inline'; img-src 'self' data: blob:; "
-     "media-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
-     "frame-ancestors http://localhost:* http://127.0.0.1:* 'self'"},
     {"X-Content-Type-Options", "nosniff"},
     {"Referrer-Policy", "no-referrer"},
     {"Cache-Control", "no-store"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
 };
 
-Clock::duration clock_time(double seconds) { return std::chrono::duration_cast<Clock::duration>(Seconds(seconds)); }
+constexpr char const* policy_name = "Content-Security-Policy";
 
-std::string random_token() {
-  unsigned char bytes[16];
-  if (getentropy(bytes, sizeof bytes) != 0) throw Error("no random numbers from the system for the window's token");
-  std::string token;
-  for (unsigned const byte : bytes) {
-    token += "0123456789abcdef"[byte / 16];
-    token += "0123456789abcdef"[byte % 16];
-  }
-  return token;
+/// Of scripts, those that know the nonce alone.
+std::string policy(std::string const& nonce) {
+  std::string const scripts = nonce.empty() ? "'none'" : "'nonce-" + nonce + "'";
+  return "default-src 'none'; script-src " + scripts +
+         "; style-src 'unsafe-inline'; img-src 'self' data: blob:; media-src blob:; connect-src 'self'; base-uri "
+         "'none'; "
+         "form-action 'none'; frame-ancestors http://localhost:* http://127.0.0.1:* 'self'";
 }
+
+Clock::duration clock_time(double seconds) { return std::chrono::duration_cast<Clock::duration>(Seconds(seconds)); }
 
 bool is_alphanumeric(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -228,10 +224,11 @@ char const* status_text(int status) {
   }
 }
 
-std::string response_head(int status, std::string_view type, std::size_t bytes) {
+std::string response_head(int status, std::string_view type, std::size_t bytes, std::string const& nonce = "") {
   std::string head = "HTTP/1.1 " + std::to_string(status) + " " + status_text(status) +
                      "\r\nConnection: close\r\nContent-Length: " + std::to_string(bytes) + "\r\nContent-Type: ";
   head += type;
+  head += std::string("\r\n") + policy_name + ": " + policy(nonce);
   for (auto const& [name, value] : common_headers) head += std::string("\r\n") + name + ": " + value;
   if (status == 405) head += "\r\nAllow: GET";
   if (status == 426) head += "\r\nUpgrade: websocket";
@@ -313,6 +310,7 @@ struct Server {
   void welcome(Socket socket);
   void forget(Visitor const* visitor);
   void forget(std::uint64_t browser);
+  bool room_for_browser();
   void end();
 };
 
@@ -391,7 +389,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
       return answer(500, "It can't be made.");
     }
     if (!file || !file->content) return answer(404, "There is nothing here.");
-    send(200, file->type, file->content);
+    send(200, file->type, file->content, file->nonce);
   }
 
   void open_socket(Request const& request);
@@ -400,10 +398,11 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     send(status, plain_text, std::make_shared<std::string const>(text + "\n"));
   }
 
-  void send(int status, std::string_view type, std::shared_ptr<std::string const> content) {
+  void send(int status, std::string_view type, std::shared_ptr<std::string const> content,
+            std::string const& nonce = "") {
     answered_ = true;
     content_ = std::move(content);
-    head_ = response_head(status, type, content_->size());
+    head_ = response_head(status, type, content_->size(), nonce);
     bool const head_only = parser_.get().method() == http::verb::head;
     std::array<asio::const_buffer, 2> const buffers = {asio::buffer(head_),
                                                        asio::buffer(*content_, head_only ? 0 : content_->size())};
@@ -459,6 +458,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
     stream_->auto_fragment(false);
     stream_->read_message_max(state.limits.message_bytes);
     stream_->set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+      response.set(policy_name, policy(""));
       for (auto const& [name, value] : common_headers) response.set(name, value);
       response.set(http::field::server, "boltzmann");
     }));
@@ -479,6 +479,10 @@ class Browser : public std::enable_shared_from_this<Browser> {
       if (!self->writing_ && !self->queue_.empty()) self->write();
     });
   }
+
+  bool leaving() const { return leaving_ || finished_; }
+  /// When it has said something last.
+  Clock::time_point spoke() const { return spoke_; }
 
   void send(WebMessage message) {
     if (leaving_ || finished_) return;
@@ -563,6 +567,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   }
 
   void heard() {
+    spoke_ = Clock::now();
     if (!leaving_) pass_on();
     incoming_.consume(incoming_.size());
   }
@@ -656,7 +661,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   std::uint64_t id_;
   std::optional<websocket::stream<Socket, false>> stream_;
   Timer timer_;
-  Clock::time_point alive_ = Clock::now();
+  Clock::time_point alive_ = Clock::now(), spoke_ = alive_;
   boost::beast::flat_buffer incoming_;
   std::deque<WebMessage> queue_;
   std::size_t waiting_ = 0;  // bytes in the queue
@@ -686,6 +691,7 @@ void Visitor::open_socket(Request const& request) {
   if (request[http::field::sec_websocket_key].size() != 24 || heard_.size() > 0) {
     return answer(400, "This is no way to open a socket.");
   }
+  if (!state_.room_for_browser()) return answer(503, "Too many windows are open.");
   auto const self = shared_from_this();
   std::uint64_t const id = ++state_.last_browser;
   auto const browser = std::make_shared<Browser>(state_, id, std::move(socket_));
@@ -758,6 +764,21 @@ void Server::forget(std::uint64_t browser) {
   if (ending && browsers.empty()) patience.cancel();
 }
 
+/// So that a program which keeps all places, and has nothing to say, doesn't lock out a page.
+bool Server::room_for_browser() {
+  std::size_t staying = 0;
+  std::shared_ptr<Browser> quietest;
+  for (auto const& [id, browser] : browsers) {
+    if (browser->leaving()) continue;
+    ++staying;
+    if (!quietest || browser->spoke() < quietest->spoke()) quietest = browser;
+  }
+  if (staying < std::max<std::size_t>(limits.connections / 4 * 3, 1)) return true;
+  if (Clock::now() - quietest->spoke() < clock_time(limits.handshake_seconds)) return false;
+  quietest->leave(websocket::close_code::try_again_later, "another page has taken this place", farewell_seconds);
+  return true;
+}
+
 void Server::end() {
   ending = true;
   error_code ignored;
@@ -777,6 +798,17 @@ void Server::end() {
 }  // namespace
 
 struct WebServer::State : Server {};
+
+std::string random_token() {
+  unsigned char bytes[16];
+  if (getentropy(bytes, sizeof bytes) != 0) throw Error("no random numbers from the system for the window's token");
+  std::string token;
+  for (unsigned const byte : bytes) {
+    token += "0123456789abcdef"[byte / 16];
+    token += "0123456789abcdef"[byte % 16];
+  }
+  return token;
+}
 
 WebServer::WebServer(WebEvents events, std::uint16_t port, std::string token, WebLimits limits)
     : state_(std::make_unique<State>()) {

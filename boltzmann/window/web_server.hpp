@@ -39,6 +39,7 @@ struct WebMessage {
 struct WebFile {
   std::string type;  ///< "text/html; charset=utf-8", "image/png"
   std::shared_ptr<std::string const> content;
+  std::string nonce = {};  ///< of the scripts that stand in it: a browser runs no others
 };
 
 /// What the server tells of its browsers, from its own thread: the functions return at once.
@@ -49,8 +50,13 @@ struct WebEvents {
   std::function<std::optional<WebFile>(std::string_view path)> file;  ///< GET path, without the query; nothing: 404
 };
 
+/// 128 random bits as 32 letters. Error if the system has none.
+std::string random_token();
+
 struct WebLimits {
-  std::size_t connections = 32;                        ///< sockets and requests at a time; more are refused with 503
+  /// Sockets and requests at a time; more are refused with 503. Sockets have three quarters of them; who wants one more
+  /// gets that of the browser that has been silent for longest, if that is more than handshake_seconds.
+  std::size_t connections = 32;
   std::size_t request_bytes = 16'384;                  ///< of a request's head; it has no body
   std::size_t message_bytes = 262'144;                 ///< of a message from a browser
   std::size_t waiting_bytes = std::size_t{256} << 20;  ///< of messages not yet sent to one browser; above, it is let go

@@ -2,12 +2,11 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/colour.hpp>
 #include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/live_run.hpp>
 #include <boltzmann/window/window.hpp>
 
-#include <fmt/format.h>
-
-#include <cstdio>
+#include <optional>
 
 namespace boltzmann {
 struct Window::State {
@@ -15,6 +14,7 @@ struct Window::State {
   WindowOptions options;
   Stage stage;
   Audience audience;
+  std::optional<Announcement> announcement;
 
   State(Simulation& simulation, Base const& base, Recording* the_recording, WindowOptions the_options,
         std::string title, std::string folder)
@@ -23,9 +23,7 @@ struct Window::State {
         stage(simulation, base, std::move(title), std::move(folder)),
         audience(options.port) {
     simulation.check();
-    if (options.quiet) return;
-    fmt::print("window: {}\n", audience.address());
-    std::fflush(stdout);
+    if (!options.quiet) announcement.emplace("window", audience.address());
   }
 };
 

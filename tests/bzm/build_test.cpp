@@ -76,5 +76,29 @@ TEST(Build, TellsOfMistakes) {
   EXPECT_FALSE(fs::exists(folder / "wrong"));
 }
 
+// What a law on packs may not do is said in one line at the end.
+TEST(Build, HintsAtWhatALawMeans) {
+  Folder folder;
+  auto const hint = [&](std::string const& body) {
+    write_text(folder / "law.cpp",
+               "#include <boltzmann/core/pack_math.hpp>\n#include <boltzmann/laws/interaction.hpp>\n"
+               "using namespace boltzmann;\n"
+               "struct Law { template <class P> auto operator()(P x) const { " +
+                   body +
+                   " } };\n"
+                   "int main() { (void)Law{}(1.0); Law{}(Pack<double>(1.0)); }\n");
+    auto const built = bzm({"build", "law.cpp"}, folder.string());
+    EXPECT_EQ(built.status, 2) << built.err;
+    auto const at = built.err.find("\nhint: ");
+    return at == std::string::npos ? "no hint in " + built.err : built.err.substr(at + 7);
+  };
+  EXPECT_EQ(hint("return std::exp(x);"),
+            "a law is compiled for several particles at once: write exp(x), not std::exp(x)\n");
+  EXPECT_EQ(hint("if (x < 2.0) return x; return P(0.0);"),
+            "of several particles at once there is no `if`: write select(condition, a, b)\n");
+  EXPECT_EQ(hint("return Interaction{x, Vector<3, P>{x, x, x}};"),
+            "an Interaction is {force, energy}, in this order\n");
+}
+
 }  // namespace
 }  // namespace boltzmann::build_test

@@ -102,7 +102,8 @@ TEST(Recording, LeavesFilesThatGoOnWhereTheyEnded) {
     return recording.files();
   };
   auto const files = record("parts", 30, false);
-  EXPECT_EQ(files, (std::vector<std::string>{"diagnoses.csv", "trajectory.h5", "checkpoint.h5", "picture.png"}));
+  EXPECT_EQ(files,
+            (std::vector<std::string>{"run.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5", "picture.png"}));
   for (auto const& file : files) EXPECT_GT(fs::file_size(folder / "parts" / file), 0U) << file;
   record("parts", 20, true);
   record("whole", 50, false);

@@ -12,6 +12,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -280,6 +281,54 @@ TEST(Trajectory, ResumedRunLeavesTheFileOfARunWithoutAStop) {
     write(resumed, next, 1000);
     resumed.close();
     EXPECT_EQ(content(folder / "t.h5"), expected) << "resumed after step " << last;
+  }
+}
+
+// A disk that fails, or a power that is lost, may leave the last frames half written: they say so, those before them
+// are read, and the run goes on from there.
+TEST(Trajectory, AHalfWrittenFrameLeavesThoseBeforeIt) {
+  TemporaryFolder const folder;
+  Ensemble<Newton<2>> ions("ions", 7);
+  AnyEnsemble const* const list[] = {&ions};
+  std::int64_t const every = 1'000'003;  // stands nowhere else in the file
+  auto const write = [&](Trajectory& file, std::int64_t step) {
+    set_state(ions, step);
+    file.write(step, std::sqrt(2.0 + static_cast<double>(step)), list, moving_box(2, step));
+  };
+  {
+    Trajectory file(folder / "t.h5");
+    for (std::int64_t k = 0; k < 5; ++k) write(file, k * every);
+  }
+  for (double const time_or_step :
+       {std::sqrt(2.0 + static_cast<double>(4 * every)), std::bit_cast<double>(4 * every)}) {
+    std::string bytes = read_text(folder / "t.h5"), number(8, '\0');
+    std::memcpy(number.data(), &time_or_step, 8);
+    auto const at = bytes.find(number);
+    ASSERT_NE(at, std::string::npos);
+    TextFile(folder / "torn.h5", TextFile::Mode::replace).write(bytes.replace(at, 8, 8, '\0'));
+    {
+      TrajectoryReader const torn(folder / "torn.h5");
+      ASSERT_EQ(torn.frames(), 5U);
+      for (std::size_t frame = 0; frame < 4; ++frame) {
+        set_state(ions, every * static_cast<std::int64_t>(frame));
+        expect_state(torn, frame, ions);
+      }
+      for (auto const& line :
+           {message([&] { torn.size(4, "ions"); }), message([&] { torn.read(4, "ions", "velocity"); }),
+            message([&] { torn.box(4); }), message([&] { torn.load(4, ions); })})
+        EXPECT_NE(line.find("its frame 4 is damaged"), std::string::npos) << line;
+      EXPECT_EQ(torn.frames_until(4 * every - 1), 4U);
+    }
+    {
+      Trajectory again = Trajectory::append_to(folder / "torn.h5", 4 * every - 1);
+      EXPECT_EQ(again.frames(), 4U);
+      write(again, 4 * every);
+    }
+    TrajectoryReader const mended(folder / "torn.h5"), whole(folder / "t.h5");
+    EXPECT_EQ(mended.steps(), whole.steps());
+    EXPECT_EQ(mended.checksum(5), whole.checksum(5));
+    set_state(ions, 4 * every);
+    expect_state(mended, 4, ions);
   }
 }
 

@@ -198,7 +198,7 @@ TEST_P(Shipped, EachValueSetToItselfChangesNothing) {
   auto const scenario = load_scenario(path);
   ASSERT_GT(scenario->parameters.size(), 10U);
   Overrides overrides;
-  overrides.may_vary = true;
+  overrides.by_page = true;
   std::set<std::string> paths;
   for (auto const& parameter : scenario->parameters) {
     overrides.set.push_back(parameter.path + "=" + parameter.value);
@@ -252,7 +252,7 @@ TEST_P(Shipped, NumbersOutOfTheirLimitsAreRefused) {
       ++tried;
       Overrides overrides;
       overrides.set = {assignment};
-      overrides.may_vary = true;
+      overrides.by_page = true;
       try {
         load_scenario(path, overrides);
         ADD_FAILURE() << assignment << " is accepted";

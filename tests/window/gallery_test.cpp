@@ -244,6 +244,26 @@ TEST_F(GalleryTest, ResultsGoBelowThePresentFolder) {
         << file;
 }
 
+// What is wrong in a file is quoted: a page may not have every file of the machine read.
+TEST_F(GalleryTest, APageNamesFilesOfTheScenariosFolderOnly) {
+  put("atoms.xyz", "1\n\nCu 1 0 0\n");
+  std::string text = small("From a file");
+  auto const at = text.find("load = ");
+  put("filed.toml", text.substr(0, at) + "load = { kind = \"file\", path = \"atoms.xyz\" }\n");
+  EXPECT_TRUE(gallery.check("filed", {{"run.steps", "5"}}).contains("ok"));
+  EXPECT_TRUE(gallery.check("filed", {{"ensembles.atoms.load.path", "./atoms.xyz"}}).contains("ok"));
+  for (std::string const path : {"/etc/passwd", "../secret.xyz", "a/../../b.xyz"}) {
+    json const reply = gallery.check("filed", {{"ensembles.atoms.load.path", path}});
+    EXPECT_EQ(reply.value("error", ""), "path: from a page only files in the folder of the scenario can be named")
+        << path;
+    EXPECT_TRUE(gallery.save("filed", {{"ensembles.atoms.load.path", path}}, "mine", true).contains("error")) << path;
+    EXPECT_TRUE(gallery.check_run("filed", {{"ensembles.atoms.load.path", path}}, "").contains("error")) << path;
+  }
+  // Who wrote the file may.
+  put("far.toml", text.substr(0, at) + "load = { kind = \"file\", path = \"" + (folder / "atoms.xyz") + "\" }\n");
+  EXPECT_TRUE(gallery.check("far", {{"run.steps", "5"}}).contains("ok"));
+}
+
 TEST_F(GalleryTest, SavesNothingThatIsWrong) {
   json const reply = gallery.save("copper", {{"run.step", "0"}}, "wrong", false);
   ASSERT_EQ(reply.at("errors").size(), 1U);

@@ -71,6 +71,17 @@ TEST(Page, IsEmbeddedAsItStandsInTheRepository) {
   EXPECT_TRUE(page_html() == text_of(window / "page.html")) << "the object file of page.cpp is older than page.html";
 }
 
+// The one script that stands in it is what the audience gives a nonce.
+TEST(Page, HasOneScript) {
+  std::string_view const page = page_html();
+  auto const first = page.find("<script");
+  ASSERT_NE(first, std::string_view::npos);
+  EXPECT_TRUE(page.substr(first).starts_with("<script type=\"module\">"));
+  auto const end = page.find("</script>", first);
+  EXPECT_EQ(page.find("<script", end), std::string_view::npos);
+  EXPECT_EQ(page.find("</script>", end + 1), std::string_view::npos);
+}
+
 TEST(Page, IsSmall) {
   std::string const command = "gzip -9 -c '" + (window / "page.html").string() + "' | wc -c";
   FILE* const counting = popen(command.c_str(), "r");

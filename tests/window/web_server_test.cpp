@@ -133,7 +133,7 @@ TEST(WebServer, all_answers_carry_the_headers_that_keep_others_out) {
                                   get(house.port(), "/"), ask(house.port(), "nonsense\r\n\r\n"), socket.answer}) {
     SCOPED_TRACE(answer.status);
     auto const policy = answer.headers.at("content-security-policy");
-    for (char const* part : {"default-src 'none'", "script-src 'unsafe-inline' 'self'", "connect-src 'self'",
+    for (char const* part : {"default-src 'none'", "script-src 'none'", "connect-src 'self'",
                              "frame-ancestors http://localhost:* http://127.0.0.1:* 'self'"}) {
       EXPECT_NE(policy.find(part), std::string::npos) << part;
     }
@@ -469,8 +469,8 @@ TEST(WebServer, a_hundred_browsers_are_as_many_as_allowed) {
       ++refused;
     }
   }
-  EXPECT_EQ(browsers.size(), 32U);
-  EXPECT_EQ(refused, 68);
+  EXPECT_EQ(browsers.size(), 24U);
+  EXPECT_EQ(refused, 76);
   for (auto& browser : browsers) {
     ASSERT_TRUE(browser.say("one of many"));
     ASSERT_EQ(browser.hear(), "heard: one of many");
@@ -529,6 +529,40 @@ TEST(WebServer, who_does_not_read_an_answer_is_closed) {
   while (large.use_count() > 1 && seconds_since(start) < 10) std::this_thread::sleep_for(10ms);
   EXPECT_EQ(large.use_count(), 1);
   EXPECT_EQ(get(server.port(), std::string("/?token=") + token).body.size(), large->size());
+}
+
+TEST(WebServer, scripts_of_a_file_have_its_nonce) {
+  WebEvents events;
+  events.file = [](std::string_view) {
+    return WebFile{"text/html", std::make_shared<std::string const>("<script nonce=\"abc\"></script>"), "abc"};
+  };
+  WebServer const server(events, 0, token);
+  auto const policy = get(server.port(), std::string("/?token=") + token).headers.at("content-security-policy");
+  EXPECT_NE(policy.find("script-src 'nonce-abc';"), std::string::npos) << policy;
+  EXPECT_EQ(random_token().size(), 32U);
+  EXPECT_NE(random_token(), random_token());
+}
+
+TEST(WebServer, who_keeps_all_sockets_and_says_nothing_makes_room) {
+  WebLimits limits;
+  limits.connections = 4;  // 3 sockets
+  limits.handshake_seconds = 1;
+  WebServer const server({}, 0, token, limits);
+  auto const status = [&] {
+    WebConnection connection(server.port());
+    connection.write(WebSocketClient::upgrade(server.port(), std::string("/socket?token=") + token));
+    return read_answer(connection).status;
+  };
+  WebSocketClient first(server.port(), token), second(server.port(), token), third(server.port(), token);
+  EXPECT_EQ(status(), 503);  // nobody has been silent for long
+  auto const start = Clock::now();
+  while (seconds_since(start) < 1.3) {
+    for (auto* busy : {&first, &third}) busy->say("well");
+    std::this_thread::sleep_for(50ms);
+  }
+  WebSocketClient page(server.port(), token);
+  EXPECT_EQ(second.end().code, 1013);
+  EXPECT_EQ(status(), 503);  // the others go on talking
 }
 
 TEST(WebServer, an_event_that_fails_ends_its_browser_only) {

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import { browser, bzm, data, keep, open, test, until } from "./window.mjs";
+import { browser, bzm, data, keep, open, ownFolder, test, until } from "./window.mjs";
 
 const shipped = readdirSync(new URL("../../../scenarios/", import.meta.url))
   .filter((file) => file.endsWith(".toml"))
@@ -177,6 +177,47 @@ test("RUN starts what was typed; QUIT comes back to the form as it was", async (
   assert.equal(await input(page, "run.steps").inputValue(), "77");
   assert.ok(run.running());
   assert.match(readFileSync(join(run.cwd, "results", "scenario.toml"), "utf8"), /steps = 77/);
+});
+
+test("the runs below a folder are cards with their pictures; one is shown, and QUIT comes back", async (t) => {
+  const cwd = ownFolder(t);
+  for (const out of ["results/first", "results/second"])
+    execFileSync(process.env.BZM, ["run", "copper", "--steps", "20", "--set", "output.trajectory=10", "--out", out, "--quiet"], { cwd });
+  const run = await bzm(t, ["window", "results"], { cwd });
+  const page = await open(t, chromium, run.address);
+  await page.waitForSelector('.gallery[data-page="list"]');
+  const cards = page.locator("[data-scenario]");
+  assert.deepEqual(await cards.evaluateAll((all) => all.map((card) => card.dataset.scenario)), ["first", "second"]);
+  assert.equal(await page.textContent(".gallery-count"), "2 runs");
+  await until(() => cards.first().locator("img").evaluate((image) => image.naturalWidth > 100), "a picture of the run");
+  await keep(page, "runs");
+  await page.click('[data-scenario="second"] a');
+  await page.waitForSelector("#play:visible");
+  await until(async () => page.wire.hello?.kind === "replay" && page.wire.update?.frames === 3, "the three frames");
+  await page.click("#quit");
+  await page.getByRole("dialog").getByRole("button", { name: /quit/i }).click();
+  await page.waitForSelector('.gallery[data-page="list"]');
+  assert.ok(run.running());
+});
+
+test("how a run has ended is said until somebody goes on", async (t) => {
+  const { page } = await gallery(t);
+  const start = async (steps) => {
+    await choose(page, "three-body");
+    await input(page, "run.steps").fill(steps);
+    await page.click("#gallery-run");
+    await page.waitForSelector("#play:visible");
+    assert.equal(await page.locator('[data-matter="run"]').count(), 0);
+    await page.click("#quit");
+    await page.getByRole("dialog").getByRole("button", { name: /quit/i }).click();
+    await page.waitForSelector(".gallery-scenario");
+  };
+  await start("50");
+  await until(async () => /has ended/.test((await page.locator('[data-matter="run"]').allTextContents()).join()), "how it ended");
+  await page.click(".gallery-back");
+  await page.waitForSelector('.gallery[data-page="list"]');
+  await choose(page, "copper");
+  await until(async () => (await page.locator('[data-matter="run"]').count()) === 0, "nothing of the last run");
 });
 
 test("the keyboard alone finds a scenario, changes it, and goes back", async (t) => {

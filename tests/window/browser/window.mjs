@@ -1,7 +1,7 @@
 // What the browser tests share: bzm with a window, a browser, a page whose every complaint is a failure.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -78,7 +78,8 @@ export async function bzm(t, words, { cwd = ownFolder(t) } = {}) {
   });
   run.address = await until(
     () => {
-      const address = /http:\/\/127\.0\.0\.1:\d+\/\?token=[\w-]+/.exec(output);
+      const place = /its address is in (\S+)\n/.exec(output);
+      const address = place && /^http:\/\/127\.0\.0\.1:\d+\/\?token=[\w-]+/.exec(readFileSync(place[1], "utf8"));
       if (!address && !run.running()) assert.fail(`bzm ${words.join(" ")} ended with ${child.exitCode}:\n${output}`);
       return address?.[0];
     },

@@ -36,7 +36,7 @@ document.body.append(heading, simulation, gallery, session.notices.element, help
 let leaveGallery: (() => void) | null = null;
 session.on("hello", (hello) => {
   const name = hello.title || hello.name;
-  document.title = hello.kind === "gallery" ? "Boltzmann: gallery" : `${name} · Boltzmann`;
+  document.title = hello.kind === "gallery" ? (hello.runs ? "Boltzmann: runs" : "Boltzmann: gallery") : `${name} · Boltzmann`;
   heading.textContent = hello.kind === "gallery" ? "Gallery" : name;
   if (hello.kind !== "gallery") {
     leaveGallery?.();
@@ -46,5 +46,5 @@ session.on("hello", (hello) => {
   gallery.hidden = hello.kind !== "gallery";
   if (hello.kind !== "gallery" || leaveGallery) return;
   panel.close();
-  leaveGallery = showGallery(gallery, (words) => session.link.say(words), hello);
+  leaveGallery = showGallery(gallery, (words) => session.link.say(words), hello, () => session.notices.putAway("run")); // how the last run ended
 });

@@ -22,13 +22,18 @@ export class Notices {
       signs[kind] ? h("strong", {}, signs[kind]) : null,
       h("span", {}, text),
       button ? h("button", { type: "button", class: "link", click: button.press }, button.words) : null,
-      iconButton("close", "put this line away", () => {
-        this.away.set(matter, text);
-        this.remove(matter);
-      }),
+      iconButton("close", "put this line away", () => this.putAway(matter)),
     );
     this.lines.set(matter, { text, line });
     this.element.append(line);
+  }
+
+  /** As if it had been put away. */
+  putAway(matter: Matter): void {
+    const said = this.lines.get(matter);
+    if (!said) return;
+    this.away.set(matter, said.text);
+    this.remove(matter);
   }
 
   clear(matter: Matter): void {

@@ -31,6 +31,19 @@ function ticks(values: (number | null)[], increment: number): string[] {
   });
 }
 
+/** Ticks of any size; uPlot's own end at 1e16. */
+const even: Pick<uPlot.Axis, "incrs" | "splits"> = {
+  incrs: (_plot, _axis, low, high) => {
+    const power = Math.floor(Math.log10(high - low || 1));
+    return [-4, -3, -2, -1, 0, 1].flatMap((p) => [1, 2, 2.5, 5].map((factor) => factor * 10 ** (power + p)));
+  },
+  splits: (_plot, _axis, low, high, increment) => {
+    const first = Math.ceil(low / increment - 1e-9);
+    const count = Math.floor(high / increment + 1e-9) - first + 1;
+    return Array.from({ length: Math.min(Math.max(count, 0), 1000) }, (_, k) => (first + k) * increment);
+  },
+};
+
 export interface PlotOptions {
   /** Columns that a diagnosis asks for, separated by commas; empty: those of the first one's unit. */
   chosen: string;
@@ -171,6 +184,7 @@ export class TablePlot {
       space: 38,
       grid: { show: k === 0, stroke: line, width: 1 },
       label: this.title(unit, height),
+      ...(distr === 3 ? {} : even),
       size: (_plot, values) => 14 + 7.6 * Math.max(2, ...(values ?? []).map((value) => value?.length ?? 0)),
       values: (_plot, splits, _axis, _space, increment) =>
         distr === 3
@@ -202,6 +216,7 @@ export class TablePlot {
             ...axis,
             size: 34,
             space: 84,
+            ...even,
             grid: { stroke: line, width: 1 },
             label: time_unit ? `time (${time_unit})` : "time",
             values: (_plot, splits, _axis, _space, increment) => ticks(splits, increment),

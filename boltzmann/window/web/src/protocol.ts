@@ -133,6 +133,8 @@ export interface Quantity {
 export interface Hello {
   type: "hello";
   kind: "live" | "replay" | "gallery";
+  /** The gallery is one of stored runs. */
+  runs?: boolean;
   title: string;
   description: string;
   name: string;

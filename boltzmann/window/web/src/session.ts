@@ -175,6 +175,7 @@ export class Session {
     if (hello.kind !== this.hello?.kind || hello.name !== this.hello.name) this.update = null;
     this.hello = hello;
     this.rows.forget(); // another table may have the same number
+    for (const matter of ["run", "missed", "reply"] as const) this.notices.clear(matter); // of what was shown before
     this.tell("hello", hello);
     queueMicrotask(() => this.ask()); // after the panes have said what they show
   }

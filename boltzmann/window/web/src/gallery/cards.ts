@@ -39,13 +39,28 @@ export function picture(entry: Pick<Entry, "picture">): HTMLElement {
   return frame;
 }
 
-function card(entry: Entry): HTMLElement {
+/** Scenarios, whose cards lead to their pages, or runs, whose cards show them. */
+export interface Kind {
+  one: string;
+  many: string;
+  show?: (name: string) => void;
+}
+
+function card(entry: Entry, { show }: Kind): HTMLElement {
   return h(
     "li",
     { "data-scenario": entry.name },
     h(
       "a",
-      { class: "gallery-card", href: `#${encodeURIComponent(entry.name)}` },
+      {
+        class: "gallery-card",
+        href: show ? "#" : `#${encodeURIComponent(entry.name)}`,
+        click: (event: Event) => {
+          if (!show) return;
+          event.preventDefault();
+          show(entry.name);
+        },
+      },
       picture(entry),
       h(
         "div",
@@ -59,9 +74,9 @@ function card(entry: Entry): HTMLElement {
 }
 
 /** The page; `search`: what was looked for before. Tells what is looked for. */
-export function cardsPage(title: string, entries: Entry[], search: string, searched: (text: string) => void): HTMLElement {
+export function cardsPage(title: string, kind: Kind, entries: Entry[], search: string, searched: (text: string) => void): HTMLElement {
   const items = entries.map((entry) => ({
-    item: card(entry),
+    item: card(entry, kind),
     words: `${entry.name} ${entry.title} ${entry.description} ${entry.dimension}D`.toLowerCase().replace(/\s+/g, " "),
   }));
   const found = h("p", { class: "gallery-count", role: "status" });
@@ -74,9 +89,9 @@ export function cardsPage(title: string, entries: Entry[], search: string, searc
       item.hidden = !wanted.every((word) => words.includes(word));
       if (!item.hidden) ++count;
     }
-    found.textContent = wanted.length === 0 ? `${items.length} scenarios` : `${count} of ${items.length}`;
+    found.textContent = wanted.length === 0 ? `${items.length} ${items.length === 1 ? kind.one : kind.many}` : `${count} of ${items.length}`;
     none.hidden = count > 0 || items.length === 0;
-    none.textContent = none.hidden ? "" : `No scenario speaks of “${input.value.trim()}”.`;
+    none.textContent = none.hidden ? "" : `No ${kind.one} speaks of “${input.value.trim()}”.`;
   };
   input.addEventListener("input", () => {
     look();

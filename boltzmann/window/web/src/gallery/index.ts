@@ -2,7 +2,7 @@
 // the address, so that the browser's "back" goes back.
 import { h } from "../elements";
 import type { Hello } from "../protocol";
-import { cardsPage, type Entry } from "./cards";
+import { cardsPage, type Entry, type Kind } from "./cards";
 import "./gallery.css";
 import { ScenarioPage, type Edits, type Say, type Scenario } from "./scenario";
 
@@ -17,8 +17,8 @@ function chosen(): string {
   }
 }
 
-/** Shows the gallery in `host`; the function that comes back takes it away. */
-export function showGallery(host: HTMLElement, say: Say, hello: Hello): () => void {
+/** Shows the gallery in `host`; the function that comes back takes it away. Tells when another page of it is opened. */
+export function showGallery(host: HTMLElement, say: Say, hello: Hello, turnedPage: () => void): () => void {
   const root = h("div", { class: "gallery", "data-page": "" });
   let entries: Entry[] | null = null;
   let page: ScenarioPage | null = null;
@@ -32,8 +32,19 @@ export function showGallery(host: HTMLElement, say: Say, hello: Hello): () => vo
   }
   function failed(error: string): void {
     const again = h("button", { type: "button", click: () => void show() }, "Try again");
-    put("failed", h("p", { class: "gallery-trouble", role: "alert" }, error), again, h("a", { class: "gallery-back", href: "#" }, "‹ All scenarios"));
+    put("failed", h("p", { class: "gallery-trouble", role: "alert" }, error), again);
+    if (!hello.runs) root.append(h("a", { class: "gallery-back", href: "#" }, "‹ All scenarios"));
   }
+
+  const scenarios: Kind = { one: "scenario", many: "scenarios" };
+  const runs: Kind = {
+    one: "run",
+    many: "runs",
+    show: async (name) => {
+      const reply = await say({ do: "run", name });
+      if (reply.error && !gone) failed(reply.error);
+    },
+  };
 
   async function show(): Promise<void> {
     const mine = ++turn;
@@ -42,14 +53,14 @@ export function showGallery(host: HTMLElement, say: Say, hello: Hello): () => vo
     page?.leave();
     page = null;
     if (!entries) {
-      if (!root.firstChild) put("waiting", h("p", { class: "gallery-waiting", role: "status" }, "The scenarios are being read …"));
+      if (!root.firstChild) put("waiting", h("p", { class: "gallery-waiting", role: "status" }, hello.runs ? "The runs are being read …" : "The scenarios are being read …"));
       const reply = await say({ do: "scenarios" });
       if (late()) return;
       if (reply.error) return failed(reply.error);
       entries = reply.scenarios as Entry[];
     }
     if (name === "") {
-      put("list", cardsPage(hello.title || "Scenarios", entries, memory.search, (text) => (memory.search = text)));
+      put("list", cardsPage(hello.title || "Scenarios", hello.runs ? runs : scenarios, entries, memory.search, (text) => (memory.search = text)));
       // Where the keyboard was before a scenario was opened.
       const card = before && root.querySelector<HTMLElement>(`[data-scenario="${CSS.escape(before)}"] a`);
       if (card) {
@@ -72,7 +83,10 @@ export function showGallery(host: HTMLElement, say: Say, hello: Hello): () => vo
     root.querySelector("h1")?.focus({ preventScroll: true });
   }
 
-  const turned = () => void show();
+  const turned = () => {
+    turnedPage();
+    void show();
+  };
   addEventListener("hashchange", turned);
   host.append(root);
   void show();

@@ -1,0 +1,290 @@
+// A program's run is ensembles that know their fields, and a scheme that knows their box.
+#include <boltzmann/files/text_file.hpp>
+#include <boltzmann/laws/weight.hpp>
+#include <boltzmann/scenario/document.hpp>
+#include <boltzmann/scenario/section.hpp>
+#include <boltzmann/scenario/stored_run.hpp>
+#include <boltzmann/simulation/picture_members.hpp>
+#include <boltzmann/simulation/run_file.hpp>
+
+#include <filesystem>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Particles of a class that is known by its fields alone.
+class StoredEnsemble final : public AnyEnsemble {
+ public:
+  StoredEnsemble(std::string name, std::string class_name, int dimension, std::size_t doubles,
+                 std::vector<Field> fields)
+      : AnyEnsemble(std::move(name), std::move(class_name), dimension, (doubles + 3) / 4 * 4, doubles, 0,
+                    std::move(fields)) {
+    resize(0);
+  }
+  void resize(std::size_t size) override {
+    rows_.resize((size + 1) * stride());
+    attach(rows_.data(), size);
+  }
+  std::size_t bytes() const override { return rows_.capacity() * sizeof(double); }
+
+ private:
+  std::vector<double> rows_;
+};
+
+/// Knows the box and whose particles are in it, and none of the laws.
+class StoredScheme final : public Scheme {
+ public:
+  using Scheme::Scheme;
+  void add_influences(double /*time*/) override {}
+  Measures measure(double /*time*/) override {
+    Measures measures;
+    measures.unknown = "a stored run of a program";
+    measures.no_virial = "a stored run of a program has no laws";
+    return measures;
+  }
+  double length_scale(AnyEnsemble const& /*ensemble*/) const override { return __builtin_inf(); }
+  std::string explain(AnyEnsemble const& /*ensemble*/, std::size_t /*i*/) const override { return ""; }
+  void make_reversible(double /*quantum*/) override { throw Error("a stored run can't be run backwards"); }
+};
+
+/// The tables of a run file.
+struct RunReader {
+  ReadContext& context;
+
+  std::vector<double> list(Item const& item, char const* word) {
+    std::vector<double> numbers;
+    if (auto const read = read_vector(item, word, static_cast<int>(item.elements.size()), dimensions::none, context))
+      numbers = *read;
+    return numbers;
+  }
+  std::array<double, 3> place(Section& section, char const* key, int dimension) {
+    std::array<double, 3> place{};
+    if (section.need(key, "low = [0, 0]"))
+      if (auto const numbers = section.vector(key, dimension, dimensions::none))
+        std::copy(numbers->begin(), numbers->end(), place.begin());
+    return place;
+  }
+
+  void take(Section& section, char const* word, std::string& text) {
+    if (auto const read = section.text(word)) text = *read;
+  }
+  void take(Section& section, char const* word, bool& truth) { truth = section.boolean(word, truth); }
+  void take(Section& section, char const* word, double& number) {
+    if (auto const read = section.quantity(word, dimensions::none)) number = *read;
+  }
+  void take(Section& section, char const* word, int& number) {
+    if (auto const read = section.integer(word, 0, 1'000'000)) number = static_cast<int>(*read);
+  }
+  void take(Section& section, char const* word, std::size_t& number) {
+    if (auto const read = section.integer(word, 0)) number = static_cast<std::size_t>(*read);
+  }
+  void take(Section& section, char const* word, WeightShape& shape) {
+    if (auto const read = section.word(word, weight_names())) shape = weight_named(*read);
+  }
+  void take(Section& section, char const* word, std::vector<double>& numbers) {
+    if (Item const* item = section.find(word)) numbers = list(*item, word);
+  }
+  void take(Section& section, char const* word, std::vector<std::array<double, 2>>& pairs) {
+    Item const* item = section.find(word);
+    if (!item) return;
+    for (auto const& element : item->elements)
+      if (auto const pair = read_vector(element, word, 2, dimensions::none, context))
+        pairs.push_back({(*pair)[0], (*pair)[1]});
+  }
+  void take(Section& section, char const* word, std::vector<Dispersion>& curves) {
+    std::vector<std::array<double, 2>> pairs;
+    take(section, word, pairs);
+    for (auto const& [frequency, speed] : pairs) curves.push_back({frequency, speed});
+  }
+
+  Base base(Section& top) {
+    Item const* table = find_table(top, "units");
+    if (!table) return Base::reduced();
+    Section section(*table, "[units]", context);
+    std::array<double, 5> units{};
+    std::size_t k = 0;
+    for (char const* key : {"length", "mass", "time", "temperature", "charge"})
+      units[k++] = section.need_quantity(key, dimensions::none, "length = 1e-10", positive).value_or(1);
+    bool const reduced = section.boolean("reduced");
+    section.finish();
+    if (reduced) return Base::reduced();
+    return {Quantity<dimensions::length>{units[0]}, Quantity<dimensions::mass>{units[1]},
+            Quantity<dimensions::time>{units[2]}, Quantity<dimensions::temperature>{units[3]},
+            Quantity<dimensions::charge>{units[4]}};
+  }
+
+  std::optional<Box> box(Section& top) {
+    Item const* table = find_table(top, "box");
+    if (!table) {
+      context.mistakes.add(top.place(), "there is no [box]");
+      return std::nullopt;
+    }
+    Section section(*table, "[box]", context);
+    std::vector<std::string> kinds;
+    Item const* item = section.need("boundary", "boundary = [\"open\"]");
+    if (!item) return std::nullopt;
+    kinds = read_texts(*item, "boundary", context);
+    int const D = static_cast<int>(kinds.size());
+    if (D < 1 || D > 3) {
+      context.mistakes.add(section.place("boundary"), "boundary: one to three words are needed");
+      return std::nullopt;
+    }
+    std::array<Boundary, 3> boundaries{};
+    for (std::size_t a = 0; a < kinds.size(); ++a) {
+      bool known = false;
+      for (auto const kind : {Boundary::open, Boundary::bounded, Boundary::periodic, Boundary::mirror})
+        if (to_string(kind) == kinds[a]) boundaries[a] = kind, known = true;
+      if (!known)
+        context.mistakes.add(section.place("boundary"), "boundary: unknown word " + boltzmann::quoted(kinds[a]));
+    }
+    auto const low = place(section, "low", D), high = place(section, "high", D);
+    if (!context.mistakes.none()) return std::nullopt;
+    Box box(D, low, high, boundaries);
+    for (Item const* one : find_tables(section, "walls")) add_wall(box, *one);
+    for (Item const* one : find_tables(section, "regions")) {
+      Section region(*one, "[[box.regions]]", context);
+      auto const from = place(region, "low", D), to = place(region, "high", D);
+      auto const keep = region.word("keep", {"in", "out"});
+      region.finish();
+      if (context.mistakes.none())
+        box.install(Region{from, to, keep == "in" ? Region::Side::keep_in : Region::Side::keep_out});
+    }
+    section.finish();
+    return box;
+  }
+
+  void add_wall(Box& box, Item const& table) {
+    Section section(table, "[[box.walls]]", context);
+    int const axis = static_cast<int>(section.integer("axis", 0, box.dimension() - 1).value_or(0));
+    auto const end = section.word("end", {"low", "high"}) == "low" ? Box::End::low : Box::End::high;
+    if (section.boolean("open")) {
+      section.finish();
+      if (context.mistakes.none()) box.open_end(axis, end);
+      return;
+    }
+    Wall wall;
+    wall.slips = section.boolean("slips", true);
+    wall.velocity = place(section, "velocity", box.dimension());
+    if (auto const temperature = section.quantity("temperature", dimensions::none)) wall.temperature = *temperature;
+    section.finish();
+    if (context.mistakes.none()) box.wall(axis, end, wall);
+  }
+
+  /// Fields stand one behind the other, whatever stood between them in the program.
+  std::unique_ptr<AnyEnsemble> ensemble(Item const& table, int dimension) {
+    Section section(table, "[[ensembles]]", context);
+    std::string name, class_name;
+    Appearance appearance;
+    take(section, "name", name);
+    take(section, "class", class_name);
+    take(section, "colour", appearance.colour);
+    take(section, "diameter", appearance.diameter);
+    std::vector<Field> fields;
+    int doubles = 0;
+    for (Item const* one : find_tables(section, "fields")) {
+      Section of_field(*one, "fields", context);
+      Field field{"", doubles, 1, dimensions::none, ""};
+      take(of_field, "name", field.name);
+      take(of_field, "doc", field.doc);
+      field.components = static_cast<int>(of_field.integer("components", 1, 9).value_or(1));
+      if (Item const* item = of_field.need("dimension", "dimension = [1, 0, -1, 0, 0]")) {
+        std::array<signed char, 5> powers{};
+        if (item->elements.size() == 5)
+          for (std::size_t k = 0; k < 5; ++k)
+            powers[k] =
+                static_cast<signed char>(read_integer(item->elements[k], "dimension", -127, 127, context).value_or(0));
+        else
+          context.mistakes.add(item->place, "dimension: five exponents are needed");
+        field.dimension = {powers[0], powers[1], powers[2], powers[3], powers[4]};
+      }
+      of_field.finish();
+      doubles += field.components;
+      fields.push_back(std::move(field));
+    }
+    section.finish();
+    if (fields.empty() || fields[0].name != "position" || fields[0].components != dimension) {
+      context.mistakes.add(section.place("fields"), "fields: the first is the position, with one component an axis");
+      return nullptr;
+    }
+    auto ensemble = std::make_unique<StoredEnsemble>(name, class_name, dimension, static_cast<std::size_t>(doubles),
+                                                     std::move(fields));
+    ensemble->appearance = appearance;
+    return ensemble;
+  }
+
+  void read(Item const& document, ScenarioSimulation& run) {
+    Section top(document, "the run", context);
+    take(top, "title", run.title);
+    double const step = top.quantity("step", dimensions::none).value_or(1);
+    run.base = base(top);
+    run.reduced = run.base.is_reduced();
+    auto const space = box(top);
+    top.allow("ensembles");
+    if (space)
+      for (Item const* table : find_tables(top, "ensembles"))
+        if (auto particles = ensemble(*table, space->dimension())) run.ensembles.push_back(std::move(particles));
+    for (Item const* table : find_tables(top, "pictures")) {
+      Section section(*table, "[[pictures]]", context);
+      PicturePlan plan;
+      each_member(plan, [&](char const* word, auto& member) { take(section, word, member); });
+      section.finish();
+      run.output.pictures.push_back(std::move(plan));
+    }
+    top.finish();
+    if (!context.mistakes.none()) return;
+    run.scheme = std::make_unique<StoredScheme>(*space);
+    for (auto const& ensemble : run.ensembles) run.scheme->load(*ensemble);
+    run.simulation = std::make_unique<Simulation>(*run.scheme, step);
+    run.simulation->speak_in(run.base);
+  }
+};
+
+std::unique_ptr<ScenarioSimulation> load_program_run(std::string const& path) {
+  Mistakes mistakes(path);
+  auto run = std::make_unique<ScenarioSimulation>();
+  Item const document = parse_document(read_text(path), mistakes);
+  check_letters(document, mistakes);
+  ReadContext context{mistakes, Base::reduced(), "", nullptr};
+  if (mistakes.none()) RunReader{context}.read(document, *run);
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  return run;
+}
+
+std::string scenario_of(std::string const& folder) { return folder + "/scenario.toml"; }
+std::string program_run_of(std::string const& folder) { return folder + "/" + run_file; }
+
+bool there(std::string const& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+void need_run(std::string const& folder) {
+  if (!holds_run(folder)) throw Error("'" + folder + "' holds no run: it has neither scenario.toml nor " + run_file);
+}
+
+}  // namespace
+
+bool holds_run(std::string const& folder) { return there(scenario_of(folder)) || there(program_run_of(folder)); }
+
+std::unique_ptr<ScenarioSimulation> load_stored_run(std::string const& folder) {
+  need_run(folder);
+  if (!there(scenario_of(folder))) return load_program_run(program_run_of(folder));
+  auto run = load_scenario(scenario_of(folder));
+  run->simulation->check();
+  return run;
+}
+
+ScenarioOutline outline_stored_run(std::string const& folder) {
+  need_run(folder);
+  if (auto const path = scenario_of(folder); there(path)) return outline_scenario(read_text(path), path);
+  auto const run = load_program_run(program_run_of(folder));
+  ScenarioOutline outline;
+  outline.title = run->title;
+  outline.dimension = run->scheme->box().dimension();
+  return outline;
+}
+
+}  // namespace boltzmann

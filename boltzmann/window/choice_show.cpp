@@ -1,0 +1,62 @@
+// Nothing to see yet but names.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/window/choice_show.hpp>
+
+namespace boltzmann {
+
+using nlohmann::json;
+
+std::string need_text(json const& request, char const* key) {
+  if (!request.contains(key) || !request[key].is_string())
+    throw Error(std::string("the request needs a text \"") + key + "\"");
+  return request[key].get<std::string>();
+}
+
+ChoiceShow::ChoiceShow(Audience& audience, std::string title, std::string message)
+    : audience_(audience), title_(std::move(title)), message_(std::move(message)) {}
+
+ChoiceShow::~ChoiceShow() { audience_.close(); }
+
+void ChoiceShow::wait() {
+  audience_.open(*this);
+  while (!quit_ && !chosen()) {
+    audience_.attend();
+    audience_.present();
+    audience_.wait(1);
+  }
+}
+
+// The page knows what else a start page lacks.
+json ChoiceShow::hello() const {
+  std::string const why = "there is no simulation yet";
+  return {{"type", "hello"},
+          {"kind", "gallery"},
+          {"title", title_},
+          {"message", message_},
+          {"can", {{"rewind", why}, {"step_size", why}, {"checkpoint", why}, {"seek", why}, {"quit", ""}}}};
+}
+
+json ChoiceShow::status() const {
+  return {{"state", quit_ ? "ended" : "paused"},
+          {"step", 0},
+          {"time", ""},
+          {"time_number", 0},
+          {"planned", 0},
+          {"steps_per_second", 0},
+          {"message", message_},
+          {"missed", nullptr}};
+}
+
+json ChoiceShow::perform(json const& request) {
+  std::string const what = request["do"];
+  if (what != "quit") return answer(what, request);
+  quit_ = true;
+  ++notice_;
+  return json::object();
+}
+
+std::shared_ptr<Canvas const> ChoiceShow::draw(json const&) { throw Error("there are no particles to show yet"); }
+PictureFile ChoiceShow::picture(json const&) { throw Error("there are no particles to show yet"); }
+json ChoiceShow::particle(std::string const&, std::size_t) const { return nullptr; }
+
+}  // namespace boltzmann

@@ -1,0 +1,46 @@
+// Choice show: a start page on which something is chosen, before there is a simulation.
+#pragma once
+
+#include <boltzmann/window/audience.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace boltzmann {
+
+class ChoiceShow : public Show {
+ public:
+  ChoiceShow(Audience& audience, std::string title, std::string message);
+  ~ChoiceShow() override;
+  ChoiceShow(ChoiceShow const&) = delete;
+  ChoiceShow& operator=(ChoiceShow const&) = delete;
+
+  nlohmann::json hello() const override;
+  nlohmann::json status() const override;
+  std::uint64_t scene() const override { return 1; }
+  std::uint64_t notice() const override { return notice_; }
+  nlohmann::json perform(nlohmann::json const& request) final;
+  std::shared_ptr<Canvas const> draw(nlohmann::json const& view) override;
+  PictureFile picture(nlohmann::json const& request) override;
+  nlohmann::json particle(std::string const& ensemble, std::size_t number) const override;
+
+ protected:
+  /// Until something is chosen or somebody has quit.
+  void wait();
+  virtual bool chosen() const = 0;
+  /// Performs what is not "quit".
+  virtual nlohmann::json answer(std::string const& what, nlohmann::json const& request) = 0;
+
+ private:
+  Audience& audience_;
+  std::string title_, message_;
+  bool quit_ = false;
+  std::uint64_t notice_ = 1;
+};
+
+/// The text of a key of a request. Error if it has none.
+std::string need_text(nlohmann::json const& request, char const* key);
+
+}  // namespace boltzmann

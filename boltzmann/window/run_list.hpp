@@ -1,0 +1,59 @@
+// Run list: the runs whose results stand below a folder, and the start page on which one of them is chosen.
+#pragma once
+
+#include <boltzmann/window/choice_show.hpp>
+#include <boltzmann/window/web_server.hpp>
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// Folders with runs, of scenarios or programs, four levels deep at most, by name; no link is followed. They are looked
+/// for when they are asked for.
+class RunList {
+ public:
+  explicit RunList(std::string folder) : folder_(std::move(folder)) {}
+
+  /// Whether there is one.
+  bool any() const;
+  /// {"ok": true, "scenarios": [...]} as of Gallery::scenarios(), the names of folders below this one; pictures are
+  /// those that the run has drawn.
+  nlohmann::json runs();
+  /// The folder of that name. Error if there is no such run, or it has no trajectory to show.
+  std::string find(std::string const& name) const;
+  /// "/run/3.png": nothing if there is no such picture. May be called from any thread.
+  std::optional<WebFile> picture(std::string_view path) const;
+
+ private:
+  std::vector<std::string> names(std::size_t most) const;
+
+  std::string folder_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> pictures_;  ///< their paths, by number
+};
+
+class RunListShow final : public ChoiceShow {
+ public:
+  RunListShow(RunList& list, Audience& audience, std::string const& folder, std::string message = "")
+      : ChoiceShow(audience, "Runs in " + folder, std::move(message)), list_(list) {}
+
+  nlohmann::json hello() const override;
+  /// The folder of the run that somebody wants to see; nothing: somebody has quit.
+  std::optional<std::string> run() {
+    wait();
+    return choice_;
+  }
+
+ private:
+  bool chosen() const override { return choice_.has_value(); }
+  nlohmann::json answer(std::string const& what, nlohmann::json const& request) override;
+
+  RunList& list_;
+  std::optional<std::string> choice_;
+};
+
+}  // namespace boltzmann
