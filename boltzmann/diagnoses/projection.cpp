@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace boltzmann {
@@ -96,32 +97,10 @@ class BoxOutline {
 
   void name_axes(Canvas& canvas) const {
     double const size = std::max(right_.width(), up_.width());
-    double const middle_right = (right_.low + right_.high) / 2;
     for (int axis = 0; axis < 3; ++axis) {
-      // The silhouette's edges along this axis touch neither the nearest nor the farthest corner: x and y are named at
-      // the lower of them, z at the left one.
-      int best_a = -1, best_b = -1;
-      double best = std::numeric_limits<double>::infinity();
-      each_edge([&](int a, int b, int along) {
-        if (along != axis || a == nearest_ || b == nearest_ || a == farthest_ || b == farthest_) return;
-        double const rank = axis == 2 ? at(a).right + at(b).right : at(a).up + at(b).up;
-        if (rank < best - 1e-12 * size) {
-          best = rank;
-          best_a = a;
-          best_b = b;
-        }
-      });
-      if (best_a < 0) continue;
-      auto const a = at(best_a), b = at(best_b);
-      double const length = std::hypot(b.right - a.right, b.up - a.up);
-      if (!(length >= 0.1 * size && length > 0)) continue;  // seen from its end
-      double out_right = (b.up - a.up) / length,
-             out_up = -(b.right - a.right) / length;  // across the edge, away from the box
-      double const mid_right = (a.right + b.right) / 2, mid_up = (a.up + b.up) / 2;
-      if (out_right * (mid_right - middle_right) + out_up * (mid_up - (up_.low + up_.high) / 2) < 0) {
-        out_right = -out_right;
-        out_up = -out_up;
-      }
+      auto const edge = named_edge(axis);
+      if (!edge) continue;
+      auto const [a, b, out_right, out_up] = *edge;
       auto write = [&](double fraction, double away, std::string const& text, float font) {
         double const align = 0.5 - 0.5 * std::clamp(4 * out_right, -1.0, 1.0);
         canvas.text(a.right + fraction * (b.right - a.right) + away * size * out_right,
@@ -140,12 +119,11 @@ class BoxOutline {
       if (!ticks.multiplier.empty()) unit.insert(0, unit.empty() ? ticks.multiplier : ticks.multiplier + " ");
       std::string const& label = axes_[along]->label;
       std::string const name = unit.empty() ? label : label.empty() ? "(" + unit + ")" : label + " (" + unit + ")";
-      bool const steep = std::abs(out_right) > 0.85;
-      if (axis == 2 || steep) {  // above the upper end, where it needs no room beside the box
+      if (is_named_above(axis, *edge)) {  // where it needs no room beside the box
         auto const& top = a.up > b.up ? a : b;
         canvas.text(top.right, top.up + 0.04 * size, name, ink, 21, axis == 2 ? 0.85 : 0.5);
       } else {
-        write(0.5, 0.09, name, 21);
+        write(0.5, name_distance, name, 21);
       }
     }
   }
@@ -158,10 +136,51 @@ class BoxOutline {
     both[0].high += 0.07 * size;
     both[1].low -= 0.07 * size;
     both[1].high += 0.07 * size;
+    for (int axis = 0; axis < 3; ++axis)  // a name below an edge that lies
+      if (auto const edge = named_edge(axis); edge && !is_named_above(axis, *edge))
+        both[1].low = std::min(
+            both[1].low, (edge->a.up + edge->b.up) / 2 + (name_distance * std::min(edge->out_up, 0.0) - 0.025) * size);
     return both;
   }
 
  private:
+  static constexpr double name_distance = 0.09;  // from its edge, in parts of the picture
+  struct NamedEdge {
+    Place a, b;
+    double out_right, out_up;  // across the edge, away from the box
+  };
+  /// The silhouette's edges along an axis touch neither the nearest nor the farthest corner: x and y are named at the
+  /// lower of them, z at the left one. Nothing if it is seen from its end.
+  std::optional<NamedEdge> named_edge(int axis) const {
+    double const size = std::max(right_.width(), up_.width());
+    int best_a = -1, best_b = -1;
+    double best = std::numeric_limits<double>::infinity();
+    each_edge([&](int a, int b, int along) {
+      if (along != axis || a == nearest_ || b == nearest_ || a == farthest_ || b == farthest_) return;
+      double const rank = axis == 2 ? at(a).right + at(b).right : at(a).up + at(b).up;
+      if (rank < best - 1e-12 * size) {
+        best = rank;
+        best_a = a;
+        best_b = b;
+      }
+    });
+    if (best_a < 0) return std::nullopt;
+    auto const a = at(best_a), b = at(best_b);
+    double const length = std::hypot(b.right - a.right, b.up - a.up);
+    if (!(length >= 0.1 * size && length > 0)) return std::nullopt;
+    NamedEdge edge{a, b, (b.up - a.up) / length, -(b.right - a.right) / length};
+    double const mid_right = (a.right + b.right) / 2, mid_up = (a.up + b.up) / 2;
+    if (edge.out_right * (mid_right - (right_.low + right_.high) / 2) +
+            edge.out_up * (mid_up - (up_.low + up_.high) / 2) <
+        0) {
+      edge.out_right = -edge.out_right;
+      edge.out_up = -edge.out_up;
+    }
+    return edge;
+  }
+  /// z, and what stands nearly upright on the picture, is named above the upper end.
+  static bool is_named_above(int axis, NamedEdge const& edge) { return axis == 2 || std::abs(edge.out_right) > 0.85; }
+
   Place at(int corner) const {
     auto side = [&](int axis) {
       return box_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(corner >> axis & 1)];

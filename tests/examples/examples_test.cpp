@@ -397,7 +397,7 @@ TEST(Examples, ShocksInPolymersHeatTheMotionFirst) {
   auto const& inside = coupled["slab internal temperature"];
   // Overshoots and falls, the insides rise to meet it; several times below the run without friction.
   EXPECT_GT(*std::max_element(motion.begin(), motion.end()), 4 * motion.back());
-  EXPECT_GT(inside.back(), 1500);
+  EXPECT_NEAR(inside.back(), 1420, 120);  // on its way to 1,375 K and what the start has left
   EXPECT_LT(motion.back(), 2 * inside.back());
   EXPECT_GT(uncoupled["slab kinetic temperature x"].back(), 3 * motion.back());
   EXPECT_LT(coupled.drift("energy balance"), 5e-4 * coupled["work of walls"].back());
