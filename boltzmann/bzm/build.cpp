@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
+#include <set>
 #include <sstream>
 
 namespace boltzmann::bzm {
@@ -65,11 +66,17 @@ std::vector<std::string> dependencies() {
 
 // What is meant by the compiler's messages that laws on many particles at once lead to.
 std::vector<std::string> hints(std::string const& messages) {
+  std::set<std::string> called;  // with packs, as in "no matching function for call to 'exp(boltzmann::Pack<double>&)'"
+  std::istringstream lines(messages);
+  for (std::string line; std::getline(lines, line);)
+    for (auto const* name : {"exp", "log", "pow", "sqrt", "sin", "cos", "tanh", "erf", "erfc", "abs", "min", "max"}) {
+      auto const call = line.find("call to "), at = line.find(fmt::format("{}(", name), call);
+      if (call == std::string::npos || at == std::string::npos || line.find("Pack<", at) == std::string::npos) continue;
+      if (std::islower(static_cast<unsigned char>(line[at - 1])) == 0) called.insert(name);
+    }
   std::vector<std::string> all;
-  for (auto const* name : {"exp", "log", "pow", "sqrt", "sin", "cos", "tanh", "erf", "erfc", "abs", "min", "max"})
-    if (std::regex_search(messages, std::regex(fmt::format("call to [^\n]*[^a-z_]{}\\([^\n]*Pack<", name))))
-      all.push_back(
-          fmt::format("a law is compiled for several particles at once: write {0}(x), not std::{0}(x)", name));
+  for (auto const& name : called)
+    all.push_back(fmt::format("a law is compiled for several particles at once: write {0}(x), not std::{0}(x)", name));
   for (auto const* ours : {select_hint, interaction_hint})
     if (messages.find(ours) != std::string::npos) all.emplace_back(ours);
   return all;

@@ -20,18 +20,21 @@ class StoredEnsemble final : public AnyEnsemble {
  public:
   StoredEnsemble(std::string name, std::string class_name, int dimension, std::size_t doubles,
                  std::vector<Field> fields)
-      : AnyEnsemble(std::move(name), std::move(class_name), dimension, (doubles + 3) / 4 * 4, doubles, 0,
-                    std::move(fields)) {
+      : AnyEnsemble(std::move(name), std::move(class_name), dimension,
+                    (doubles + row_block - 1) / row_block * row_block, doubles, 0, std::move(fields)) {
     resize(0);
   }
   void resize(std::size_t size) override {
-    rows_.resize((size + 1) * stride());
-    attach(rows_.data(), size);
+    rows_.resize((size + 1) * (stride() / row_block));
+    attach(rows_.front().numbers, size);
   }
-  std::size_t bytes() const override { return rows_.capacity() * sizeof(double); }
+  std::size_t bytes() const override { return rows_.capacity() * sizeof(Block); }
 
  private:
-  std::vector<double> rows_;
+  struct alignas(32) Block {  // as rows of every class are
+    double numbers[row_block] = {};
+  };
+  std::vector<Block> rows_;
 };
 
 /// Knows the box and whose particles are in it, and none of the laws.

@@ -230,10 +230,13 @@ struct Recording::State {
 
   /// Whether the environment wants the run of a program to go on, and there is one.
   bool resume_asked() const {
-    char const* asked = std::getenv("BOLTZMANN_RESUME");
+    char const* said = std::getenv("BOLTZMANN_RESUME");
+    std::string_view const asked = said ? said : "";
+    if (!asked.empty() && asked != "0" && asked != "1")
+      throw Error(
+          fmt::format("BOLTZMANN_RESUME is 1 (go on with the run in the folder) or 0, not '{}'", quoted(asked)));
     std::error_code ignored;
-    return scenario.empty() && asked != nullptr && std::string_view(asked) == "1" &&
-           fs::exists(path("checkpoint.h5"), ignored);
+    return scenario.empty() && asked == "1" && fs::exists(path("checkpoint.h5"), ignored);
   }
 
   void start() {
@@ -608,10 +611,12 @@ void Recording::stop_when(std::string what, std::function<bool(std::int64_t, std
 }
 void Recording::check() { state_->check(); }
 void Recording::resume() { state_->resume(); }
-bool Recording::resume_if_asked() {
-  if (state_->open || !state_->resume_asked()) return false;
+std::uint64_t Recording::resume_if_asked(std::uint64_t steps) {
+  if (state_->open || !state_->resume_asked()) return steps;
   state_->resume();
-  return true;
+  if (state_->met) return 0;
+  auto const done = static_cast<std::uint64_t>(std::max<std::int64_t>(state_->simulation.step(), 0));
+  return steps - std::min(steps, done);
 }
 void Recording::finish() { state_->finish(); }
 void Recording::give_up() { state_->give_up(); }
@@ -692,7 +697,7 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
 RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressOptions const& options) {
   Simulation& simulation = recording.simulation();
   Interrupt const interrupt(simulation);
-  if (recording.resume_if_asked()) steps -= std::min(steps, static_cast<std::uint64_t>(simulation.step()));
+  steps = recording.resume_if_asked(steps);
   simulation.check();
   // What the run begins with is known only when it has been prepared. The observer stays with the simulation.
   auto const start = std::make_shared<Conserved>(conserved(simulation));

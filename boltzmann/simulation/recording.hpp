@@ -87,9 +87,10 @@ class Recording {
   void resume();
 
   /// The same if the environment says BOLTZMANN_RESUME=1 and the folder has a checkpoint of a program: so any program
-  /// is gone on with as it is. run_with_progress and windows ask; their `steps` then count from the beginning of the
-  /// run. A run that begins by Simulation::run is refused with such an environment. True if the run goes on.
-  bool resume_if_asked();
+  /// is gone on with as it is. Returns how many of the run's steps are left: all of a run that is not gone on with,
+  /// none of one that its condition has ended. run_with_progress and windows ask; a run that begins by Simulation::run
+  /// is refused with such an environment. Error if the environment says anything but 1 or 0.
+  std::uint64_t resume_if_asked(std::uint64_t steps);
 
   /// Writes the last checkpoint and the pictures, and closes the files.
   void finish();

@@ -66,9 +66,24 @@ void Replay::read_table() {
 
 void Replay::go_to(std::int64_t frame) {
   if (!reader_) throw Error("'" + path_ + "' can't be read at the moment");
-  frame_ = std::clamp<std::int64_t>(frame, 0, frames() - 1);
-  for (auto* scheme : stage_.simulation().schemes())
-    for (auto* ensemble : scheme->ensembles()) reader_->load(static_cast<std::size_t>(frame_), *ensemble);
+  std::int64_t const wanted = std::clamp<std::int64_t>(frame, 0, frames() - 1);
+  auto const fill = [&](std::int64_t with) {
+    for (auto* scheme : stage_.simulation().schemes())
+      for (auto* ensemble : scheme->ensembles()) reader_->load(static_cast<std::size_t>(with), *ensemble);
+  };
+  try {
+    fill(wanted);
+  } catch (Error const&) {  // damaged, or still being written: then another look may find it whole
+    written_ = {};
+    try {
+      fill(frame_);
+    } catch (Error const&) {
+      // the line about the frame that was wanted says it
+    }
+    throw;
+  }
+  frame_ = wanted;
+  message_.clear();
   ++scene_;
 }
 
@@ -119,7 +134,13 @@ bool Replay::run() {
         direction_ = 0;
         ++notice_;
       } else {
-        if (reader_) go_to(wanted);
+        try {
+          if (reader_) go_to(wanted);
+        } catch (Error const& error) {
+          direction_ = 0;
+          message_ = error.what();
+          ++notice_;
+        }
         next_frame = std::max(next_frame + seconds(1 / frames_per_second_), now);
       }
     }
@@ -161,7 +182,7 @@ json Replay::status() const {
           {"steps_per_frame", frames_per_second_},
           {"frame", frame_},
           {"frames", frames()},
-          {"message", ""},
+          {"message", message_},
           {"missed", nullptr}};
 }
 

@@ -52,7 +52,8 @@ class Replay final : public Show {
   std::vector<double> times_;
   std::filesystem::file_time_type written_{};  // when the file was, before it was opened
   std::int64_t frame_ = 0;
-  int direction_ = 0;  // 1: plays, -1: plays backwards
+  std::string message_;  // why it does not go on
+  int direction_ = 0;    // 1: plays, -1: plays backwards
   double frames_per_second_ = 25;
   bool quit_ = false;
   std::uint64_t scene_ = 1, notice_ = 1;

@@ -75,9 +75,8 @@ constexpr char const* policy_name = "Content-Security-Policy";
 std::string policy(std::string const& nonce) {
   std::string const scripts = nonce.empty() ? "'none'" : "'nonce-" + nonce + "'";
   return "default-src 'none'; script-src " + scripts +
-         "; style-src 'unsafe-inline'; img-src 'self' data: blob:; media-src blob:; connect-src 'self'; base-uri "
-         "'none'; "
-         "form-action 'none'; frame-ancestors http://localhost:* http://127.0.0.1:* 'self'";
+         "; style-src 'unsafe-inline'; img-src 'self' data: blob:; media-src blob:; connect-src 'self'; "
+         "base-uri 'none'; form-action 'none'; frame-ancestors http://localhost:* http://127.0.0.1:* 'self'";
 }
 
 Clock::duration clock_time(double seconds) { return std::chrono::duration_cast<Clock::duration>(Seconds(seconds)); }

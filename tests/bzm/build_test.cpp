@@ -94,6 +94,8 @@ TEST(Build, HintsAtWhatALawMeans) {
   };
   EXPECT_EQ(hint("return std::exp(x);"),
             "a law is compiled for several particles at once: write exp(x), not std::exp(x)\n");
+  EXPECT_EQ(hint("return std::pow(std::sqrt(x), 2);"),
+            "a law is compiled for several particles at once: write sqrt(x), not std::sqrt(x)\n");
   EXPECT_EQ(hint("if (x < 2.0) return x; return P(0.0);"),
             "of several particles at once there is no `if`: write select(condition, a, b)\n");
   EXPECT_EQ(hint("return Interaction{x, Vector<3, P>{x, x, x}};"),

@@ -6,7 +6,9 @@
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/picture_members.hpp>
 #include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/simulation/run_file.hpp>
 #include <tests/message.hpp>
 
 #include <cmath>
@@ -83,6 +85,9 @@ void plan(Recording& recording) {
   if constexpr (D > 1) recording.picture({.vectors = "spin", .file = "spins.png", .trace = true});
   recording.picture({.drawing = "phase-space", .x = "heat", .y = "velocity.x", .size = "speed", .file = "phases.png"});
   recording.picture({.drawing = "time-series", .file = "series.png"});
+  recording.picture({.drawing = "histogram", .x = "speed", .file = "speeds.png"});
+  recording.picture({.drawing = "profile", .y = "density", .file = "profile.png"});
+  recording.picture({.drawing = "map", .y = "heat", .file = "map.png", .cells = 40});
 }
 
 template <int D>
@@ -100,8 +105,10 @@ void expect_drawn_again() {
     char const* file;
     std::vector<std::string> options;
   };
-  for (auto const& [file, options] : {Again{"picture.png", {}}, Again{"phases.png", {"--drawing", "phase-space"}},
-                                      Again{"series.png", {"--drawing", "time-series"}}}) {
+  for (auto const& [file, options] :
+       {Again{"picture.png", {}}, Again{"phases.png", {"--drawing", "phase-space"}},
+        Again{"series.png", {"--drawing", "time-series"}}, Again{"speeds.png", {"--drawing", "histogram"}},
+        Again{"profile.png", {"--drawing", "profile"}}, Again{"map.png", {"--drawing", "map"}}}) {
     std::vector<std::string> words{"render", "run", "-o", "again.png"};
     words.insert(words.end(), options.begin(), options.end());
     auto const drawn = bzm(words, folder.string());
@@ -175,6 +182,76 @@ TEST(ProgramRun, GoesOnWhereTheEnvironmentSaysSo) {
   auto const resumed = bzm({"resume", "whole"}, folder.string());
   EXPECT_EQ(resumed.status, 2);
   EXPECT_NE(resumed.err.find("BOLTZMANN_RESUME=1"), std::string::npos) << resumed.err;
+}
+
+// A run that its condition has ended is at its end, whatever the program asks for.
+TEST(ProgramRun, DoesNotGoOnBehindItsCondition) {
+  Folder folder;
+  auto const run = [&] {
+    Beads<2> beads;
+    Recording recording(beads.simulation, base, folder / "run", true);
+    recording.diagnoses(5, {"momentum"});
+    recording.stop_when("soon", [](std::int64_t step, std::span<double const>) { return step >= 20; });
+    return run_with_progress(recording, 100, {.quiet = true}).steps;
+  };
+  setenv("BOLTZMANN_RESUME", "1", 1);
+  EXPECT_EQ(run(), 20);
+  EXPECT_EQ(run(), 0);
+  setenv("BOLTZMANN_RESUME", "yes", 1);
+  EXPECT_EQ(message([&] { run(); }), "BOLTZMANN_RESUME is 1 (go on with the run in the folder) or 0, not 'yes'");
+  setenv("BOLTZMANN_RESUME", "0", 1);
+  EXPECT_EQ(run(), 20);
+  unsetenv("BOLTZMANN_RESUME");
+}
+
+// Every member of a picture, every kind of wall and region: what is read gives the same text.
+TEST(ProgramRun, TheRunFileComesBackWhole) {
+  Folder folder;
+  Box box(Vector{0.0, -1.5}, Vector{4.0, 2.5}, {Boundary::mirror, Boundary::bounded});
+  box.wall(0, Box::End::low, {.slips = false, .velocity = {0.25, -1, 0}, .temperature = 320.5});
+  box.open_end(0, Box::End::high);
+  box.wall(1, Box::End::low, {.velocity = {0, 0.125, 0}});
+  box.install(Vector{1.0, 0.0}, Vector{2.0, 1.0}, Region::Side::keep_out);
+  box.install(Vector{0.0, -1.0}, Vector{3.5, 2.0}, Region::Side::keep_in);
+  Ensemble<Bead<2>> beads("beads\t\"1\"", 1);
+  beads.appearance = {"#10a0ff", 0.3};
+  Picture picture{.drawing = "bands",
+                  .x = "heat",
+                  .y = "a, b",
+                  .colour = "speed",
+                  .size = "mass",
+                  .vectors = "spin",
+                  .file = "p.svg",
+                  .trace = true,
+                  .low = -1e-30,
+                  .high = 1e50,
+                  .slice = "y",
+                  .at = 0.1,
+                  .curves = {{1.5, 2.5}, {0, 3}},
+                  .logarithmic = true,
+                  .smoothing = {WeightShape::wendland, 0.7},
+                  .levels = {1, 2.5, 1e9},
+                  .level_count = 7,
+                  .projection = {12.5, -80},
+                  .most = 99,
+                  .region = {{0, 1}, {-2, 2}},
+                  .cells = 33};
+  AnyEnsemble* const ensembles[] = {&beads};
+  Picture const plain, pictures[] = {plain, picture};
+  for (Base const& units : {base, Base::reduced()}) {
+    auto const text = run_file_text("\"T\"\n2", units, 1e-3, box, ensembles, pictures);
+    write_text(folder / "run.toml", text);
+    auto const back = load_stored_run(folder.string());
+    std::vector<AnyEnsemble*> const again{back->ensembles[0].get()};
+    std::vector<Picture> const plans(back->output.pictures.begin(), back->output.pictures.end());
+    EXPECT_EQ(run_file_text(back->title, back->base, back->simulation->step_size(), back->scheme->box(), again, plans),
+              text);
+    EXPECT_EQ(back->base, units);
+    // None of the words was left out because it looked like nothing.
+    each_member(picture, [&](char const* word, auto const&) {
+      EXPECT_NE(text.find("\n" + std::string(word) + " = ", text.rfind("[[pictures]]")), std::string::npos) << word;
+    });
+  }
 }
 
 TEST(ProgramRun, DamagedRunFilesAreMistakesWithAPlace) {

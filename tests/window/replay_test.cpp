@@ -1,11 +1,13 @@
 // A stored run on a page: every frame is what the run was then, and one that is still being written grows.
 #include <gtest/gtest.h>
 #include <boltzmann/boltzmann.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/replay.hpp>
 
 #include <unistd.h>
+#include <cstring>
 
 #include <filesystem>
 #include <fstream>
@@ -166,6 +168,30 @@ TEST_F(ReplayTest, GrowsWhileTheRunGoesOn) {
     page.ask({{"do", "quit"}});
   }
   fs::remove_all(other);
+}
+
+// A frame that a failing disk has left half written: those before it play, and then a line says which it is.
+TEST_F(ReplayTest, StopsBeforeADamagedFrame) {
+  {
+    std::string const path = folder_ + "/trajectory.h5";
+    double const times[] = {190 * 0.01, 200 * 0.01};  // of the last two of 21 frames
+    std::string bytes = read_text(path), both(sizeof times, '\0');
+    std::memcpy(both.data(), times, sizeof times);
+    auto const at = bytes.find(both);
+    ASSERT_NE(at, std::string::npos);
+    TextFile(path, TextFile::Mode::replace).write(bytes.replace(at + 8, 8, 8, '\0'));
+  }
+  Shown shown(folder_);
+  PageReader page(shown.audience.address());
+  EXPECT_NE(page.ask({{"do", "seek"}, {"frame", 20}})["error"].get<std::string>().find("frame 20 is damaged"),
+            std::string::npos);
+  EXPECT_FALSE(page.ask({{"do", "seek"}, {"frame", 18}}).contains("error"));
+  page.ask({{"do", "play"}});
+  auto const stopped = page.until([](json const& u) { return u["message"] != ""; });
+  EXPECT_EQ(stopped.head["frame"], 19);
+  EXPECT_EQ(stopped.head["state"], "paused");
+  EXPECT_NE(stopped.head["message"].get<std::string>().find("frame 20 is damaged"), std::string::npos);
+  page.ask({{"do", "quit"}});
 }
 
 TEST_F(ReplayTest, NeedsFrames) {
