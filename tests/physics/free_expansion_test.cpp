@@ -128,8 +128,8 @@ TEST(FreeExpansion, IsMolecularDynamicsWithTheWeightAsPotential) {
       apart = std::max(apart, magnitude(atoms[i].position - run.gas[i].position));
       moved = std::max(moved, magnitude(run.gas[i].velocity) * 50);
     }
-    // Two ways to sum the same forces differ by 1e-14 at first; chaos makes 1e-11 to 1e-9 of it. An error of a millionth
-    // in the forces would be 1e-5.
+    // Two ways to sum the same forces differ by 1e-14 at first; chaos makes 1e-11 to 1e-9 of it. An error of a
+    // millionth in the forces would be 1e-5.
     EXPECT_LT(apart, 1e-6) << "range " << range;
     EXPECT_GT(moved, 20);
     // The potential energy, with w(0)/2 for each, is the internal energy.
@@ -178,9 +178,14 @@ TEST(FreeExpansion1D, ApproachesTheEntropyOfTwofoldSpace) {
     EXPECT_GT(gain.integral, last.integral + 0.05);
     EXPECT_LT(gain.integral, std::numbers::ln2);
     last = gain;
+    std::printf("range %g: entropy sum %.4f integral %.4f, over ln 2\n", range, gain.sum / std::numbers::ln2,
+                gain.integral / std::numbers::ln2);
   }
-  EXPECT_GT(last.sum, 0.8 * std::numbers::ln2);
-  EXPECT_GT(last.integral, 0.8 * std::numbers::ln2);
+  // Over 11 seeds of the jitter 0.830(16) and 0.846(12) of it: bounds at 5 standard deviations.
+  EXPECT_GT(last.sum, 0.75 * std::numbers::ln2);
+  EXPECT_LT(last.sum, 0.91 * std::numbers::ln2);
+  EXPECT_GT(last.integral, 0.78 * std::numbers::ln2);
+  EXPECT_LT(last.integral, 0.91 * std::numbers::ln2);
 }
 
 /// A slab of gas at x < 0 with sound speed 1 begins to expand into vacuum; what the particles between two parts of the
