@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boltzmann/scenario/overrides.hpp>
+#include <boltzmann/scenario/picture_words.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -44,9 +45,8 @@ int resume(ResumeOptions const& options);
 struct RenderOptions {
   std::string folder, out;
   std::optional<std::int64_t> frame;  ///< counts from 0; negative: from the end
-  std::string drawing, x, y, colour, size, vectors;
-  std::optional<double> azimuth, elevation;  ///< degrees
-  bool trace = false, dark = false, logarithmic = false;
+  PictureWords picture;               ///< what is said of it
+  bool dark = false;
   int frames_per_second = 25;
   double scale = 1;
 };

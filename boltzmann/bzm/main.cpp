@@ -5,6 +5,7 @@
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/standard_streams.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/recording.hpp>
 
 #include <fmt/format.h>
@@ -47,6 +48,23 @@ std::vector<std::string> option_names(CLI::App const& app) {
   for (auto const* option : app.get_options())
     for (auto const& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+// An option for each of a picture's.
+void picture_words(CLI::App* command, PictureWords& words) {
+  for (auto const& option : picture_options()) {
+    if (option.key == "file") continue;
+    std::string const& key = option.key;
+    std::string const names = "--" + key + (key == "colour" ? ",--color" : key == "logarithmic" ? ",--log" : "");
+    std::string doc = option.doc;
+    std::erase(doc, '`');
+    if (option.kind.form == OptionKind::Form::flag)
+      command->add_flag_callback(
+          names, [&words, key] { words.emplace_back(key, "true"); }, doc);
+    else
+      command->add_option_function<std::string>(
+          names, [&words, key](std::string const& text) { words.emplace_back(key, text); }, doc);
+  }
 }
 
 // All that a shell can complete.
@@ -182,22 +200,7 @@ int command_line(int argc, char** argv) {
       ->required()
       ->type_name("FILE");
   sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
-  sub->add_option("--drawing", render_options.drawing,
-                  "cartesian, phase-space, histogram, spectrum, time-series, profile, map, contours, bands or mesh");
-  sub->add_option(
-      "--x", render_options.x,
-      "what is to the right: a field (phase-space), any quantity (histogram), position.x or time (spectrum)");
-  sub->add_option("--y", render_options.y,
-                  "what is upwards: a field, columns of diagnoses.csv (time-series), or what a mesh or a map shows");
-  sub->add_option("--colour,--color", render_options.colour,
-                  "colour by a field, speed, kinetic-energy or potential-energy");
-  sub->add_option("--size", render_options.size, "diameters by the same");
-  sub->add_option("--vectors", render_options.vectors, "arrows of a vector of the particles: velocity or influence");
-  sub->add_option("--azimuth", render_options.azimuth,
-                  "from where one looks at three dimensions, in degrees round z [35]");
-  sub->add_option("--elevation", render_options.elevation, "and how high above the xy plane, in degrees [22]");
-  sub->add_flag("--log", render_options.logarithmic, "values upwards on a logarithmic axis");
-  sub->add_flag("--trace", render_options.trace, "draw the tracks of all frames");
+  picture_words(sub, render_options.picture);
   sub->add_option("--fps", render_options.frames_per_second, "frames per second of a movie")->capture_default_str();
   sub->add_option("--scale", render_options.scale, "1: 1200 x 900 pixels")->capture_default_str();
   sub->add_flag("--dark", render_options.dark, "light on dark");
@@ -228,10 +231,11 @@ int command_line(int argc, char** argv) {
 
   std::string kind;
   bool names_only = false;
-  sub = command("list", "list scenarios, particle classes, laws, materials, flows, integrators, diagnoses",
+  sub = command("list", "list scenarios, particle classes, laws, materials, flows, integrators, diagnoses, drawings",
                 [&] { return list(kind, names_only); });
-  sub->add_option("kind", kind,
-                  "scenarios, classes, laws, materials, flows, integrators, diagnoses or units [all but units]");
+  sub->add_option(
+      "kind", kind,
+      "scenarios, classes, laws, materials, flows, integrators, diagnoses, drawings or units [all but units]");
   sub->add_flag("--names", names_only, "only the names, one a line");
 
   std::string name;

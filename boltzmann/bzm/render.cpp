@@ -69,27 +69,11 @@ class Frames {
                                        : fs::absolute(options.folder + "/").parent_path().filename().string()),
         reader_(options.folder + "/trajectory.h5") {
     if (reader_.frames() == 0) throw Error("'" + folder_ + "/trajectory.h5' has no frames");
-    // The first picture of the scenario, or the first with that drawing; another drawing has nothing in common with it.
-    for (auto const& plan : scenario.output.pictures)
-      if (options.drawing.empty() || plan.drawing == options.drawing) {
-        picture_ = plan;
-        break;
-      }
-    if (!options.drawing.empty()) picture_.drawing = options.drawing;
+    picture_ = picture_by_words(scenario, options.picture);
     if (picture_.drawing == "wave-spectrum")
       throw Error(
           "a wave spectrum can't be drawn from a trajectory: it is drawn when the run ends, from what its diagnosis "
-          "has "
-          "recorded; --drawing chooses another picture");
-    if (!options.x.empty()) picture_.x = options.x;
-    if (!options.y.empty()) picture_.y = options.y;
-    if (!options.colour.empty()) picture_.colour = options.colour;
-    if (!options.size.empty()) picture_.size = options.size;
-    if (!options.vectors.empty()) picture_.vectors = options.vectors;
-    if (options.azimuth) picture_.projection.azimuth = *options.azimuth;
-    if (options.elevation) picture_.projection.elevation = *options.elevation;
-    if (options.logarithmic) picture_.logarithmic = true;
-    if (options.trace) picture_.trace = true;
+          "has recorded; --drawing chooses another picture");
     paper_.scale = options.scale;
     paper_.dark = options.dark;
   }

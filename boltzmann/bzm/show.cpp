@@ -5,13 +5,14 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/flows/dissipative_flow.hpp>
-#include <boltzmann/laws/catalogue.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 
 #include <fmt/format.h>
 
@@ -99,7 +100,7 @@ std::vector<Named> classes() {
 }
 std::vector<Named> laws() {
   std::vector<Named> all;
-  for (auto const& law : law_catalogue()) all.push_back({std::string(law.name), std::string(law.doc)});
+  for (auto const& law : scenario_laws()) all.push_back({std::string(law.name), std::string(law.doc)});
   return all;
 }
 std::vector<Named> materials() {
@@ -123,6 +124,11 @@ std::vector<Named> diagnoses() {
   for (auto const& kind : diagnosis_kinds()) all.push_back({kind.name, kind.doc});
   return all;
 }
+std::vector<Named> drawing_list() {
+  std::vector<Named> all;
+  for (auto const& drawing : drawings()) all.push_back({drawing.name, drawing.doc});
+  return all;
+}
 std::vector<Named> unit_list() {
   std::vector<Named> all;
   for (auto const& unit : unit_table()) {
@@ -141,7 +147,7 @@ struct Section {
 };
 constexpr Section sections[] = {{"scenarios", scenarios}, {"classes", classes},         {"laws", laws},
                                 {"materials", materials}, {"integrators", integrators}, {"flows", flows},
-                                {"diagnoses", diagnoses}, {"units", unit_list}};
+                                {"diagnoses", diagnoses}, {"drawings", drawing_list},   {"units", unit_list}};
 
 void show_scenario(std::string const& name) {
   std::string const path = find_scenario(name);
@@ -284,9 +290,35 @@ void show_flow(FlowDoc const& flow) {
   fmt::print("    {:<18} one pair after the other (Shardlow)\n", to_string(FlowMethod::pair_splitting));
 }
 
+void show_options(OptionTable const& options, void* plain) {
+  std::size_t width = 0;
+  for (auto const& option : options) width = std::max(width, option.key.size());
+  for (auto const& option : options) {
+    std::string const value = option.otherwise.empty() ? toml_value(option, plain) : option.otherwise;
+    std::string line = fmt::format("{}: {}{}", option.doc, allowed(option),
+                                   !option.needed.empty() ? " (needed)"
+                                   : value.empty()        ? ""
+                                                          : " [" + value + "]");
+    std::erase(line, '`');
+    fmt::print("  {:<{}}  {}\n", option.key, width, line);
+  }
+}
+
 void show_diagnosis(DiagnosisKind const& kind) {
   fmt::print("diagnosis {}: {}\n", kind.name, kind.doc);
-  if (!kind.options.empty()) fmt::print("\n  options  {}\n", join(kind.options));
+  DiagnosisParameters plain;
+  if (!kind.options.empty()) fmt::print("\n");
+  show_options(kind.options, &plain);
+}
+
+void show_drawing(Drawing const& drawing) {
+  fmt::print("drawing {}: {}\n\n", drawing.name, drawing.doc);
+  Picture plain;
+  show_options(drawing.options, &plain);
+  fmt::print(
+      "\nin a scenario [[output.pictures]] with drawing = \"{0}\"; of a run bzm render DIR --drawing {0} -o "
+      "picture.png\n",
+      drawing.name);
 }
 
 bool show_unit(std::string const& name) {
@@ -345,7 +377,7 @@ int show(std::string const& name) {
     show_class(*one);
     return 0;
   }
-  for (auto const& law : law_catalogue())
+  for (auto const& law : scenario_laws())
     if (law.name == name) {
       show_law(law);
       return 0;
@@ -359,11 +391,15 @@ int show(std::string const& name) {
       show_flow(flow);
       return 0;
     }
+  bool shown = false;  // a drawing may have the name of the diagnosis that records for it
   for (auto const& kind : diagnosis_kinds())
-    if (kind.name == name) {
-      show_diagnosis(kind);
-      return 0;
-    }
+    if (kind.name == name) show_diagnosis(kind), shown = true;
+  for (auto const& drawing : drawings()) {
+    if (drawing.name != name) continue;
+    if (shown) fmt::print("\n");
+    show_drawing(drawing), shown = true;
+  }
+  if (shown) return 0;
   if (auto const doc = integrator_doc(name); !doc.empty()) {
     fmt::print("integrator {}: {}\n", name, doc);
     return 0;

@@ -544,64 +544,84 @@ struct Entry {
   Maker make;
 };
 
+OptionTable told(std::vector<OptionKey> const& keys) { return diagnosis_options().only(keys); }
+
 std::vector<Entry> const& table() {
   static std::vector<Entry> const entries = [] {
-    std::vector<std::string> const group{"ensembles", "label", "particles", "similar_velocity", "tolerance"};
-    std::vector<std::string> group_and_quantity = group;
-    group_and_quantity.emplace_back("quantity");
+    OptionKey const each{"ensembles", "one set of columns for each of them", "of each ensemble there is"};
+    std::vector<OptionKey> const group{each, {"label"}, {"particles"}, {"similar_velocity"}, {"tolerance"}};
+    std::vector<OptionKey> group_and_quantity = group;
+    group_and_quantity.push_back({"quantity", "a field, `\"speed\"`, `\"kinetic-energy\"`, ...", "", "\"speed\""});
+    OptionKey const on_mesh{"quantity", "`\"field.x\"`, `\"potential\"` or `\"density\"`", "`\"field.x\"`"};
+    OptionKey const some{"ensembles", "only of these", "all of the matter"};
     return std::vector<Entry>{
-        {{"energies",
-          "kinetic, potential, external, internal and total energy; kinetic energy of each named ensemble",
-          {"ensembles"}},
+        {{"energies", "kinetic, potential, external, internal and total energy",
+          told({{"ensembles", "the kinetic energy of each of them, too", "of none"}})},
          make<Energies>},
-        {{"momentum", "total momentum: the sum of m v", {"ensembles"}}, make<Momentum>},
-        {{"angular-momentum",
-          "the sum of m r x v about the origin or the centre of mass; conserved in open space only",
-          {"ensembles", "about_centre_of_mass"}},
+        {{"momentum", "total momentum: the sum of m v", told({{"ensembles"}})}, make<Momentum>},
+        {{"angular-momentum", "the sum of m r x v about the origin or the centre of mass; conserved in open space only",
+          told({{"ensembles"}, {"about_centre_of_mass"}})},
          make<AngularMomentum>},
-        {{"temperature", "m <v^2> / k along each axis and their mean", {"ensembles", "subtract_drift"}},
+        {{"temperature", "m <v^2> / k along each axis and their mean", told({{"ensembles"}, {"subtract_drift"}})},
          make<TemperatureDiagnosis>},
         {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},
          make<Pressure>},
-        {{"number", "number of particles and their mass", {"ensembles"}}, make<Number>},
+        {{"number", "number of particles and their mass", told({{"ensembles"}})}, make<Number>},
         {{"entropy",
-          "entropy S / N k of an ideal gas of smooth particles, with and without the fluctuations of their velocities",
-          {"ensembles", "weight", "range", "gamma"}},
+          "entropy S / N k of an ideal gas of smooth particles, as a sum over them and as an integral, with and "
+          "without the fluctuations of their velocities",
+          told({{"ensembles"}, {"weight"}, {"range"}, {"gamma"}})},
          make<EntropyDiagnosis>},
         {{"heat-flux",
-          "heat conducted and carried by the flow between two walls, and Nusselt's number with its mean and spread",
-          {"axis", "conductivity", "since"}},
+          "of smooth particles between two walls with temperatures: heat conducted, heat carried by the flow, and "
+          "Nusselt's number with its mean and spread",
+          told({{"axis", "from wall to wall", "the last"}, {"conductivity", "", "", "0.1"}, {"since"}})},
          make_heat_flux},
         {{"slab",
-          "temperatures, density, velocity and place of the particles that were between two places at the start",
-          {"ensembles", "label", "axis", "from", "to", "count"}},
+          "kinetic (about the mean velocity) and internal temperature, density, velocity and place of the particles "
+          "that were between two places at the start",
+          told({some,
+                {"label", "of the columns", "`\"slab\"`"},
+                {"axis", "across the slab", "`\"x\"`"},
+                {"from"},
+                {"to"},
+                {"count", "equal slabs side by side", "`1`"}})},
          make_slab},
         {{"shock",
-          "place and velocity of a shock front, the matter behind and ahead of it, and whether the three jumps close",
-          {"ensembles", "axis", "end", "quantity", "count", "since", "margin", "near", "far"}},
+          "place and speed of a plane shock front, the matter behind and ahead of it in windows that move with it, and "
+          "by how much Rankine's and Hugoniot's three conditions fail",
+          told({some,
+                {"axis", "along which the shock runs", "`\"x\"`"},
+                {"end"},
+                {"quantity", "the front is where it is half way between ahead and behind", "`\"velocity\"`", "",
+                 option::word({"velocity", "density"})},
+                {"count", "bins of the profile that shows the front", "as they fit"},
+                {"since"},
+                {"margin"},
+                {"near"},
+                {"far"}})},
          make_shock},
-        {{"drag", "mean velocity of a group of particles: its change is the drag", group}, make<Drag>},
-        {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", group},
+        {{"drag", "mean velocity of a group of particles: its change is the drag", told(group)}, make<Drag>},
+        {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", told(group)},
          make<VelocityDiffusion>},
         {{"diffusion",
-          "mean square displacement of particles, and the diffusion coefficient that it shows",
-          {"ensembles", "since"}},
+          "mean square displacement of particles, relative to their mean and followed through periodic axes, and the "
+          "diffusion coefficient by a straight line through it",
+          told({each, {"since"}})},
          [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
            return std::make_unique<Diffusion>(parameters.available, parameters.ensembles, parameters.since);
          }},
-        {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", group_and_quantity},
+        {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", told(group_and_quantity)},
          make<ExtremesDiagnosis>},
-        {{"field-energy", "(1/2) integral of density times potential: the energy of a mesh's field", {}, true},
+        {{"field-energy", "of a mesh: half the integral of density times potential, the energy of its field", {}, true},
          make<FieldEnergy>},
         {{"field-mode",
-          "amplitude of the wave with so many periods in the box along each axis, and its real and imaginary part",
-          {"mode", "quantity"},
-          true},
+          "of a mesh: amplitude, real and imaginary part of c in Re(c exp(i k x)), the wave with so many periods in "
+          "the box along each axis",
+          told({{"mode", "", "", "[3]"}, on_mesh}), true},
          make<FieldMode>},
-        {{"wave-spectrum",
-          "records a mesh quantity for the drawing wave-spectrum; it has no columns",
-          {"quantity", "axis", "modes"},
-          true},
+        {{"wave-spectrum", "of a mesh: no columns; records a quantity for the drawing wave-spectrum",
+          told({on_mesh, {"axis", "along which waves run", "`\"x\"`"}, {"modes"}}), true},
          make_wave_spectrum},
         {{"energy-balance", "energy, work of moving walls, heat of baths, and what is left: the first less these", {}},
          [](DiagnosisParameters const&) -> std::unique_ptr<Diagnosis> { return std::make_unique<EnergyBalance>(); }},
@@ -610,35 +630,12 @@ std::vector<Entry> const& table() {
   return entries;
 }
 
-void refuse_unused(DiagnosisKind const& kind, DiagnosisParameters const& parameters) {
-  auto const check = [&](char const* option, bool given) {
-    if (!given || std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end()) return;
-    throw Error(fmt::format("diagnosis {} has no option {}; it has {}", kind.name, option,
-                            kind.options.empty() ? "none" : join(kind.options)));
-  };
-  check("ensembles", !parameters.ensembles.empty());
-  check("label", !parameters.label.empty());
-  check("particles", !parameters.particles.empty());
-  check("similar_velocity", parameters.similar_velocity.has_value());
-  check("tolerance", parameters.tolerance != 0);
-  check("subtract_drift", parameters.subtract_drift);
-  check("about_centre_of_mass", parameters.about_centre_of_mass);
-  check("quantity", !parameters.quantity.empty());
-  check("mode", !parameters.mode.empty());
-  check("axis", !parameters.axis.empty());
-  check("modes", parameters.modes != 0);
-  check("weight", parameters.weight != WeightShape::lucy);
-  check("range", parameters.range != 0);
-  check("gamma", parameters.gamma != 0);
-  check("conductivity", parameters.conductivity != 0);
-  check("since", parameters.since != 0);
-  check("from", !std::isnan(parameters.from));
-  check("to", !std::isnan(parameters.to));
-  check("count", parameters.count != 0);
-  check("end", !parameters.end.empty());
-  check("margin", parameters.margin != 0);
-  check("near", parameters.near != 0);
-  check("far", !std::isinf(parameters.far));
+void refuse_unused(DiagnosisKind const& kind, DiagnosisParameters parameters) {
+  DiagnosisParameters plain;
+  for (auto const& option : diagnosis_options())
+    if (!kind.options.find(option.key) && toml_value(option, &parameters) != toml_value(option, &plain))
+      throw Error(fmt::format("diagnosis {} has no option {}; it has {}", kind.name, option.key,
+                              kind.options.empty() ? "none" : join(kind.options.keys())));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/stop_condition.hpp>
 
@@ -35,19 +36,41 @@ bool all_loaded(Reading const& reading) {
                                                    [](ReadEnsemble const& e) { return e.particles != nullptr; });
 }
 
-double read_range_of_weight(Section& section, Reading& reading) {
-  double const range = section.quantity("range", dimensions::length, positive).value_or(0);
+void check_range_of_weight(double range, Place const& place, Reading& reading) {
   for (int a = 0; reading.box && a < reading.dimension; ++a)
-    if (reading.box->boundary(a) == Boundary::mirror && range > reading.box->length(a)) {
-      reading.mistake(section.place("range"), fmt::format("range: {:.6g} is longer than mirror axis {} of the box, "
-                                                          "which allows at most {:.6g}",
-                                                          range, "xyz"[a], reading.box->length(a)));
-      return 0;
-    }
-  return range;
+    if (reading.box->boundary(a) == Boundary::mirror && range > reading.box->length(a))
+      return reading.mistake(place,
+                             fmt::format("range: {:.6g} is longer than mirror axis {} of the box, which allows at "
+                                         "most {:.6g}",
+                                         range, "xyz"[a], reading.box->length(a)));
 }
 
 namespace {
+
+/// A name or an array of names.
+void read_ensemble_names(Section& section, std::string const& key, std::vector<std::string>& names, Reading& reading) {
+  Item const* item = section.find(key);
+  if (!item) return;
+  auto const texts = read_texts(*item, key, reading.context);
+  bool const array = item->is(Item::Kind::array);
+  if (texts.size() != (array ? item->elements.size() : 1)) return;
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    if (auto const* named = reading.ensemble(array ? item->elements[k] : *item, key)) names.push_back(named->name);
+}
+
+/// Numbers of the one ensemble that is named, or that there is.
+void read_group(Section& section, DiagnosisParameters& parameters, Reading& reading) {
+  ReadEnsemble const* one = nullptr;
+  for (auto const& ensemble : reading.ensembles)
+    if (parameters.ensembles.empty() ? reading.ensembles.size() == 1
+                                     : parameters.ensembles == std::vector<std::string>{ensemble.name})
+      one = &ensemble;
+  auto const which = read_particles(section, one ? one->particles : nullptr, reading);
+  if (which) parameters.particles = *which;
+  if (which && !one)
+    reading.mistake(section.place("particles"),
+                    "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
+}
 
 void read_diagnosis(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
@@ -60,76 +83,15 @@ void read_diagnosis(Item const& table, Reading& reading) {
   section.rename(fmt::format("[[diagnoses]] '{}'", *name));
   auto const& kind = *std::find_if(diagnosis_kinds().begin(), diagnosis_kinds().end(),
                                    [&](DiagnosisKind const& k) { return k.name == *name; });
-  auto const has = [&](char const* option) {
-    return std::find(kind.options.begin(), kind.options.end(), option) != kind.options.end();
-  };
   DiagnosisParameters parameters;
-  ReadEnsemble const* one = reading.ensembles.size() == 1 ? &reading.ensembles.front() : nullptr;
-  if (has("ensembles"))
-    if (Item const* item = section.find("ensembles")) {
-      auto const texts = read_texts(*item, "ensembles", reading.context);
-      if (texts.size() == (item->is(Item::Kind::array) ? item->elements.size() : 1))
-        for (std::size_t k = 0; k < texts.size(); ++k) {
-          auto const* named = reading.ensemble(item->is(Item::Kind::array) ? item->elements[k] : *item, "ensembles");
-          if (!named) continue;
-          one = texts.size() == 1 ? named : nullptr;
-          parameters.ensembles.push_back(named->name);
-        }
-    }
-  if (has("label")) parameters.label = section.text("label").value_or("");
-  if (has("particles")) {
-    auto const which = read_particles(section, one ? one->particles : nullptr, reading);
-    if (which) parameters.particles = *which;
-    if (which && !one)
-      reading.mistake(section.place("particles"),
-                      "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
-  }
-  if (has("similar_velocity") && reading.dimension > 0)
-    if (auto const v = section.vector("similar_velocity", reading.dimension, dimensions::velocity)) {
-      parameters.similar_velocity.emplace();
-      std::copy(v->begin(), v->end(), parameters.similar_velocity->begin());
-    }
-  if (has("tolerance"))
-    parameters.tolerance = section.quantity("tolerance", dimensions::velocity, not_negative).value_or(0);
-  if (has("subtract_drift")) parameters.subtract_drift = section.boolean("subtract_drift");
-  if (has("about_centre_of_mass")) parameters.about_centre_of_mass = section.boolean("about_centre_of_mass");
-  if (has("mode")) {
-    if (Item const* item = section.need("mode", "mode = [3]")) {
-      std::vector<Item> const one{*item};
-      for (Item const& element : item->is(Item::Kind::array) ? item->elements : one)
-        if (auto const n = read_integer(element, "mode", -1'000'000'000, 1'000'000'000, reading.context))
-          parameters.mode.push_back(static_cast<int>(*n));
-    }
-  }
-  if (has("axis")) parameters.axis = section.word("axis", axis_names(reading)).value_or("");
-  if (has("conductivity") && reading.dimension > 0) {
-    Dimension const conductivity = dimensions::energy / (dimensions::time * dimensions::temperature) /
-                                   pow(dimensions::length, reading.dimension - 2);
-    if (Item const* item = section.need("conductivity", "conductivity = 0.1"))
-      parameters.conductivity =
-          read_quantity(*item, "conductivity", conductivity, reading.context, positive).value_or(0);
-  }
-  if (has("weight"))
-    if (auto const weight = section.word("weight", weight_names())) parameters.weight = weight_named(*weight);
-  if (has("range")) parameters.range = read_range_of_weight(section, reading);
-  if (has("gamma"))
-    parameters.gamma =
-        section.quantity("gamma", dimensions::none, {1, std::numeric_limits<double>::infinity(), true}).value_or(0);
-  if (has("since")) parameters.since = section.quantity("since", dimensions::time).value_or(0);
-  if (has("from")) parameters.from = section.quantity("from", dimensions::length).value_or(parameters.from);
-  if (has("to")) parameters.to = section.quantity("to", dimensions::length).value_or(parameters.to);
-  if (has("count")) parameters.count = static_cast<std::size_t>(section.integer("count", 1, 100'000).value_or(0));
-  if (has("end")) parameters.end = section.word("end", {"low", "high"}).value_or("");
-  if (has("margin")) parameters.margin = section.quantity("margin", dimensions::length, positive).value_or(0);
-  if (has("near")) parameters.near = section.quantity("near", dimensions::length, positive).value_or(0);
-  if (has("far")) parameters.far = section.quantity("far", dimensions::length, positive).value_or(parameters.far);
-  if (has("modes")) parameters.modes = static_cast<std::size_t>(section.integer("modes", 1).value_or(0));
-  if (has("quantity") && kind.of_mesh) parameters.quantity = section.text("quantity").value_or("");
-  if (*name == "shock") parameters.quantity = section.word("quantity", {"velocity", "density"}).value_or("");
-  if (*name == "extremes") {
-    Item const* item = section.need("quantity", "quantity = \"speed\"");
-    parameters.quantity = item ? read_text(*item, "quantity", reading.context).value_or("") : "";
-  }
+  read_options(section, kind.options, &parameters,
+               {reading.dimension, {}, [&](Option const& option, OptionPlace const& place) {
+                  if (option.kind.form == OptionKind::Form::ensembles)
+                    read_ensemble_names(section, option.key, *std::get<std::vector<std::string>*>(place), reading);
+                  else
+                    read_group(section, parameters, reading);
+                }});
+  if (section.has("range")) check_range_of_weight(parameters.range, section.place("range"), reading);
   section.finish();
   if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
   for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
@@ -157,7 +119,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
     for (auto const& column : diagnosis->columns())
       if (std::find(taken.begin(), taken.end(), column.name) != taken.end())
         throw Error(fmt::format("diagnosis '{}': there is a column '{}' already; names must differ{}", *name,
-                                column.name, has("label") ? " (give a label)" : ""));
+                                column.name, kind.options.find("label") ? " (give a label)" : ""));
     reading.result->diagnoses.push_back(std::move(diagnosis));
     reading.diagnosis_places.push_back(table.place);
   });

@@ -166,8 +166,8 @@ void read_stop(Reading& reading);
 std::vector<std::string> column_names(Reading const& reading);
 std::vector<std::string> axis_names(Reading const& reading);
 bool all_loaded(Reading const& reading);
-/// How far the particles of a field are spread; 0: not told. A mistake if they have more images between walls than one.
-double read_range_of_weight(Section& section, Reading& reading);
+/// A mistake if particles that are spread so far have more images between walls than one.
+void check_range_of_weight(double range, Place const& place, Reading& reading);
 void read_picture(Item const& table, Reading& reading);
 /// Reads [[views]], the diagnoses for the window.
 void read_views(Section& document, Reading& reading);

@@ -21,14 +21,6 @@ std::string wanted(Dimension dimension, Base const& base) {
 
 }  // namespace
 
-std::string NumberRange::text() const {
-  if (low_excluded && std::isfinite(high)) return fmt::format("above {}, at most {}", low, high);
-  if (low_excluded && low == 0) return "positive";
-  if (low_excluded) return fmt::format("above {}", low);
-  if (low == 0 && std::isinf(high)) return "zero or more";
-  if (std::isinf(high)) return fmt::format("{} or more", low);
-  return fmt::format("between {} and {}", low, high);
-}
 
 std::string about(std::string_view name, std::string_view message) { return fmt::format("{}: {}", name, message); }
 

@@ -4,6 +4,7 @@
 
 #include <boltzmann/core/dimension.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/number_range.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/scenario/recorder.hpp>
@@ -25,18 +26,6 @@ struct ReadContext {
   Recorder* recorder = nullptr;  ///< notes what has been read; null: nobody does
   bool confined = false;         ///< overrides name only files in `folder`
 };
-
-/// What a number must be.
-struct NumberRange {
-  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  bool low_excluded = false;
-
-  bool contains(double x) const { return (low_excluded ? x > low : x >= low) && x <= high; }
-  std::string text() const;
-};
-inline constexpr NumberRange any_number{};
-inline constexpr NumberRange positive{0, std::numeric_limits<double>::infinity(), true};
-inline constexpr NumberRange not_negative{0, std::numeric_limits<double>::infinity(), false};
 
 /// A finite number in the base from 0.5 or "0.5 ps"; a mistake otherwise. `name` is the key.
 std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,

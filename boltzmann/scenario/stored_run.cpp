@@ -2,9 +2,10 @@
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/laws/weight.hpp>
 #include <boltzmann/scenario/document.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/section.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
-#include <boltzmann/simulation/picture_members.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/run_file.hpp>
 
 #include <filesystem>
@@ -57,12 +58,6 @@ class StoredScheme final : public Scheme {
 struct RunReader {
   ReadContext& context;
 
-  std::vector<double> list(Item const& item, char const* word) {
-    std::vector<double> numbers;
-    if (auto const read = read_vector(item, word, static_cast<int>(item.elements.size()), dimensions::none, context))
-      numbers = *read;
-    return numbers;
-  }
   std::array<double, 3> place(Section& section, char const* key, int dimension) {
     std::array<double, 3> place{};
     if (section.need(key, "low = [0, 0]"))
@@ -74,33 +69,8 @@ struct RunReader {
   void take(Section& section, char const* word, std::string& text) {
     if (auto const read = section.text(word)) text = *read;
   }
-  void take(Section& section, char const* word, bool& truth) { truth = section.boolean(word, truth); }
   void take(Section& section, char const* word, double& number) {
     if (auto const read = section.quantity(word, dimensions::none)) number = *read;
-  }
-  void take(Section& section, char const* word, int& number) {
-    if (auto const read = section.integer(word, 0, 1'000'000)) number = static_cast<int>(*read);
-  }
-  void take(Section& section, char const* word, std::size_t& number) {
-    if (auto const read = section.integer(word, 0)) number = static_cast<std::size_t>(*read);
-  }
-  void take(Section& section, char const* word, WeightShape& shape) {
-    if (auto const read = section.word(word, weight_names())) shape = weight_named(*read);
-  }
-  void take(Section& section, char const* word, std::vector<double>& numbers) {
-    if (Item const* item = section.find(word)) numbers = list(*item, word);
-  }
-  void take(Section& section, char const* word, std::vector<std::array<double, 2>>& pairs) {
-    Item const* item = section.find(word);
-    if (!item) return;
-    for (auto const& element : item->elements)
-      if (auto const pair = read_vector(element, word, 2, dimensions::none, context))
-        pairs.push_back({(*pair)[0], (*pair)[1]});
-  }
-  void take(Section& section, char const* word, std::vector<Dispersion>& curves) {
-    std::vector<std::array<double, 2>> pairs;
-    take(section, word, pairs);
-    for (auto const& [frequency, speed] : pairs) curves.push_back({frequency, speed});
   }
 
   Base base(Section& top) {
@@ -232,7 +202,8 @@ struct RunReader {
     for (Item const* table : find_tables(top, "pictures")) {
       Section section(*table, "[[pictures]]", context);
       PicturePlan plan;
-      each_member(plan, [&](char const* word, auto& member) { take(section, word, member); });
+      read_options(section, picture_options(), static_cast<Picture*>(&plan),
+                   {space ? space->dimension() : 0, [] { return std::optional(dimensions::none); }});
       section.finish();
       run.output.pictures.push_back(std::move(plan));
     }

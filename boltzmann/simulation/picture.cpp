@@ -1,35 +1,53 @@
 // Which drawing is meant, and whether it can be drawn.
-#include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/picture_scene.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 namespace boltzmann {
-namespace {
-
 using namespace pictures;
 
-void check_drawing(Picture const& picture) {
-  auto const& names = drawing_names();
-  if (std::find(names.begin(), names.end(), picture.drawing) == names.end())
-    throw Error("unknown drawing '" + picture.drawing + "'; there are " + join(names) +
-                did_you_mean(picture.drawing, names));
-  if (!std::isfinite(picture.projection.azimuth) || !std::isfinite(picture.projection.elevation))
-    throw Error("azimuth and elevation of a projection are finite angles");
+namespace pictures {
+
+void Question::on(char const* key, std::function<void()> const& check) const {
+  try {
+    check();
+  } catch (Error const& error) {
+    if (!complain) throw;
+    complain(key, error.what());
+  }
 }
 
-}  // namespace
-
-std::vector<std::string> const& drawing_names() {
-  static std::vector<std::string> const names{"cartesian",   "phase-space", "histogram", "spectrum",
-                                              "time-series", "profile",     "mesh",      "wave-spectrum",
-                                              "map",         "contours",    "bands"};
-  return names;
+void Question::known(char const* key, std::string const& name) const {
+  if (!name.empty()) on(key, [&] { meaning(ensembles, name); });
 }
+
+void Question::need_columns() const {
+  on("y", [&] {
+    if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
+    for (auto const& word : split(picture.y))
+      if (std::find(columns.begin(), columns.end(), word) == columns.end())
+        throw Error("no diagnosis gives a column '" + word + "'; there are " + some_of(columns) +
+                    did_you_mean(word, columns));
+  });
+}
+
+void Question::need_slice() const {
+  on("slice", [&] {
+    if (picture.slice != "x" && picture.slice != "y" && picture.slice != "z")
+      throw Error("a slice is normal to x, y or z, not '" + picture.slice + "'");
+  });
+}
+
+std::optional<Dimension> Question::dimension(std::string const& name) const {
+  for (auto const* ensemble : ensembles)
+    for (auto const& quantity : quantities(*ensemble))
+      if (quantity.name == name) return quantity.dimension;
+  return std::nullopt;
+}
+
+}  // namespace pictures
 
 std::vector<std::string> vector_names(std::vector<AnyEnsemble*> const& ensembles) {
   std::vector<std::string> names;
@@ -52,60 +70,36 @@ void check_tracks(Simulation const& simulation) {
 }
 
 Canvas draw(Picture const& picture, PictureContext const& context) {
-  check_drawing(picture);
+  auto const& drawing = drawing_named(picture.drawing);
   if (picture.trace) check_tracks(context.simulation);
   Scene scene(picture, context);
-  if (picture.drawing == "cartesian") return draw_particles(scene);
-  if (picture.drawing == "phase-space") return draw_phase_space(scene, picture.x, picture.y);
-  if (picture.drawing == "histogram") return draw_histogram(scene);
-  if (picture.drawing == "spectrum")
-    return picture.x == "time" ? draw_spectrum_in_time(scene) : draw_spectrum_in_space(scene);
-  if (picture.drawing == "profile") return draw_profiles(scene);
-  if (picture.drawing == "mesh") return draw_mesh(scene);
-  if (picture.drawing == "wave-spectrum") return draw_wave_spectrum(scene);
-  if (of_smooth_field(picture)) return draw_smooth_field(scene);
-  return draw_time_series(scene);
+  return drawing.draw(scene);
 }
 
 void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, std::vector<std::string> const& columns,
-           PictureSources const& sources) {
-  check_drawing(picture);
-  auto const dot = picture.file.rfind('.');
-  std::string const extension = dot == std::string::npos ? "" : picture.file.substr(dot);
-  if (extension != ".png" && extension != ".svg" && extension != ".pdf")
-    throw Error("the picture '" + picture.file + "' ends in none of .png, .svg, .pdf");
-  if (picture.file.find('/') != std::string::npos)
-    throw Error("the picture '" + picture.file + "' is a name in the run's folder, without '/'");
-  auto const known = [&](std::string const& name) {
-    if (!name.empty()) meaning(ensembles, name);
-  };
-  known(picture.colour);
-  known(picture.size);
-  check_vectors(picture, ensembles);
-  if (picture.drawing == "phase-space") known(picture.x), known(picture.y);
-  if (picture.drawing == "histogram") {
-    if (!ensembles.empty()) known(histogram_quantity(picture, ensembles));
-    if (picture.cells < 1 || picture.cells > 100'000)
-      throw Error(fmt::format("a histogram has 1 to 100000 bins, not {}", picture.cells));
-  }
-  if (picture.drawing == "profile" && !ensembles.empty()) check_profile(picture, ensembles.front()->dimension());
-  if (picture.drawing == "spectrum" && picture.x != "time") {
-    if (!picture.x.empty()) check_spectrum_axis(picture.x);
-    known(picture.x), known(picture.y);
-  }
-  if (picture.drawing == "mesh") mesh_quantity(sources.mesh_fields, mesh_name(picture));
-  if ((picture.drawing == "mesh" || of_smooth_field(picture)) && picture.slice != "x" && picture.slice != "y" &&
-      picture.slice != "z")
-    throw Error("a slice is normal to x, y or z, not '" + picture.slice + "'");
-  if (of_smooth_field(picture)) check_smooth_field(picture, ensembles);
-  if (picture.drawing == "wave-spectrum") check_waves(picture, sources.diagnoses);
-  if (picture.drawing == "time-series" || (picture.drawing == "spectrum" && picture.x == "time")) {
-    if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
-    for (auto const& word : split(picture.y))
-      if (std::find(columns.begin(), columns.end(), word) == columns.end())
-        throw Error("no diagnosis gives a column '" + word + "'; there are " + some_of(columns) +
-                    did_you_mean(word, columns));
-  }
+           PictureSources const& sources, Complain const& complain) {
+  Question const question{picture, ensembles, columns, sources, complain};
+  auto const& drawing = drawing_named(picture.drawing);
+  question.on("file", [&] {
+    auto const dot = picture.file.rfind('.');
+    std::string const extension = dot == std::string::npos ? "" : picture.file.substr(dot);
+    if (extension != ".png" && extension != ".svg" && extension != ".pdf")
+      throw Error("the picture '" + picture.file + "' ends in none of .png, .svg, .pdf");
+    if (picture.file.find('/') != std::string::npos)
+      throw Error("the picture '" + picture.file + "' is a name in the run's folder, without '/'");
+  });
+  Picture mine = picture, plain;
+  for (auto const& option : drawing.options)
+    if (auto const wrong = out_of_range(option, &mine, &plain); !wrong.empty())
+      question.on(option.key.c_str(), [&] { throw Error(option.key + ": " + wrong); });
+  drawing.check(question);
+}
+
+std::optional<Dimension> shown_dimension(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles,
+                                         PictureSources const& sources) {
+  auto const& drawing = drawing_named(picture.drawing);
+  if (!drawing.dimension) return dimensions::none;
+  return drawing.dimension({picture, ensembles, {}, sources, {}});
 }
 
 }  // namespace boltzmann

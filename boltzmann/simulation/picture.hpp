@@ -11,7 +11,9 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <array>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,9 +59,9 @@ struct Picture {
   std::vector<std::array<double, 2>> region = {};  ///< cartesian, phase-space: only particles with low <= x <= high,
                                                    ///< for each axis; empty: all
   std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()
-  int cells = 300;  ///< of the grid, along the longest side of the picture; profile: bins at most, fewer
-                    ///< if these had less than 50 particles in the mean; histogram: bins, but with 300 (not
-                    ///< chosen) 10 to 200 of a width that fits (see histograms())
+  std::optional<int> cells = {};  ///< of the grid, along the longest side of the picture; profile: bins at most, fewer
+                                  ///< if these had less than 50 particles in the mean; 300 without it. histogram: bins;
+                                  ///< without it 10 to 200 of a width that fits (see histograms())
 };
 
 /// "cartesian" (in 1D phase space, since space is a line), "phase-space", "histogram", "spectrum", "time-series",
@@ -96,9 +98,17 @@ struct PictureSources {
   std::vector<Diagnosis const*> diagnoses;
 };
 
-/// Throws Error if the picture can't be drawn of these ensembles: an unknown drawing, field or file extension. What
-/// columns diagnoses.csv has is `columns`.
+/// Hears what is wrong with an option of a picture.
+using Complain = std::function<void(std::string const& key, std::string const& what)>;
+
+/// Throws Error if the picture can't be drawn of these ensembles: an unknown drawing, field or file extension, a number
+/// out of range; or tells `complain` of all that is wrong, if it is given. What columns diagnoses.csv has is `columns`.
 void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, std::vector<std::string> const& columns,
-           PictureSources const& sources);
+           PictureSources const& sources, Complain const& complain = {});
+
+/// What the values are measured in that a picture shows by colours, levels or the axis of values, and so its `low`,
+/// `high` and `levels`. Nothing: that isn't known of these ensembles.
+std::optional<Dimension> shown_dimension(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles,
+                                         PictureSources const& sources);
 
 }  // namespace boltzmann

@@ -5,12 +5,23 @@
 #include <algorithm>
 
 namespace boltzmann::pictures {
+namespace {
 
 std::string histogram_quantity(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles) {
   if (!picture.x.empty()) return picture.x;
   bool const moving =
       std::any_of(ensembles.begin(), ensembles.end(), [](AnyEnsemble* e) { return has_quantity(*e, "speed"); });
   return moving ? "speed" : "position.x";
+}
+
+}  // namespace
+
+void check_histogram(Question const& question) {
+  if (!question.ensembles.empty()) question.known("x", histogram_quantity(question.picture, question.ensembles));
+}
+
+std::optional<Dimension> dimension_of_histogram(Question const& question) {
+  return question.dimension(histogram_quantity(question.picture, question.ensembles));
 }
 
 Canvas draw_histogram(Scene& scene) {
@@ -32,9 +43,8 @@ Canvas draw_histogram(Scene& scene) {
     colours.push_back(scene.colour(e));
   }
   if (samples.empty()) throw Error("a histogram of " + what.label + " needs particles; there are none");
-  int const asked = scene.picture.cells;
-  auto const bins = histograms(samples, asked == Picture{}.cells ? 0 : static_cast<std::size_t>(asked),
-                               scene.picture.low, scene.picture.high);
+  auto const bins = histograms(samples, static_cast<std::size_t>(scene.picture.cells.value_or(0)), scene.picture.low,
+                               scene.picture.high);
   if (bins.empty()) return scene.too_few("no particle has a " + what.label + " that is a number");
   auto const unit = scene.shown_in(what.dimension);
   Axis y{unit.unit.empty() ? "probability density" : "part of the particles per " + unit.unit, ""};

@@ -10,9 +10,9 @@
 #include <cmath>
 
 namespace boltzmann::pictures {
-std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
-
 namespace {
+
+std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
 
 // An axis of a mesh: its nodes are the middles of the cells of a picture.
 Axis mesh_axis(Scene const& scene, MeshGrid const& grid, int a) {
@@ -24,7 +24,18 @@ Axis mesh_axis(Scene const& scene, MeshGrid const& grid, int a) {
 
 }  // namespace
 
-Canvas draw_mesh(Scene const& scene) {
+void check_mesh(Question const& question) {
+  question.on("y", [&] { mesh_quantity(question.sources.mesh_fields, mesh_name(question.picture)); });
+  question.need_slice();
+}
+
+std::optional<Dimension> dimension_on_mesh(Question const& question) {
+  for (auto const* field : question.sources.mesh_fields)
+    if (mesh_name(question.picture).starts_with(field->name)) return field->dimension;
+  return std::nullopt;
+}
+
+Canvas draw_mesh(Scene& scene) {
   std::vector<MeshField const*> fields;
   for (auto* scheme : scene.context.simulation.schemes())
     for (auto const* field : scheme->mesh_fields()) fields.push_back(field);

@@ -236,19 +236,30 @@ void note_far_ones(Canvas& canvas, Scene const& scene, Sides const& reach,
 
 }  // namespace
 
-void check_vectors(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles) {
-  if (picture.vectors.empty()) return;
+void check_vectors(std::string const& vectors, std::vector<AnyEnsemble*> const& ensembles) {
+  if (vectors.empty()) return;
   auto const names = vector_names(ensembles);
-  if (std::find(names.begin(), names.end(), picture.vectors) == names.end())
-    throw Error("there is no vector '" + picture.vectors + "' to draw arrows of; " +
-                (names.empty() ? "these particles have none"
-                               : "there are " + join(names) + did_you_mean(picture.vectors, names)));
+  if (std::find(names.begin(), names.end(), vectors) == names.end())
+    throw Error(
+        "there is no vector '" + vectors + "' to draw arrows of; " +
+        (names.empty() ? "these particles have none" : "there are " + join(names) + did_you_mean(vectors, names)));
+}
+
+void check_particles(Question const& question) {
+  question.known("colour", question.picture.colour);
+  question.known("size", question.picture.size);
+  question.on("vectors", [&] { check_vectors(question.picture.vectors, question.ensembles); });
+}
+
+std::optional<Dimension> dimension_of_colour(Question const& question) {
+  if (question.picture.colour.empty()) return dimensions::none;
+  return question.dimension(question.picture.colour);
 }
 
 Canvas draw_particles(Scene& scene) {
   int const D = scene.box().dimension();
   if (D == 1) return draw_phase_space(scene, "position.x", scene.picture.colour);
-  check_vectors(scene.picture, scene.ensembles);
+  check_vectors(scene.picture.vectors, scene.ensembles);
   ParticleClouds clouds = clouds_of(scene);
   std::vector<Track> tracks;
   bool lost = false;

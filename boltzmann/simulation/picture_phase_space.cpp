@@ -80,6 +80,14 @@ double extent_of(std::vector<CloudSource> const& sources, Axis const& axis) {
 
 }  // namespace
 
+void check_phase_space(Question const& question) {
+  check_particles(question);
+  question.known("x", question.picture.x);
+  question.known("y", question.picture.y);
+}
+
+Canvas draw_phase_space(Scene& scene) { return draw_phase_space(scene, scene.picture.x, scene.picture.y); }
+
 Canvas draw_phase_space(Scene& scene, std::string x, std::string y) {
   if (x.empty()) x = "position.x";
   if (y.empty()) y = "velocity.x";

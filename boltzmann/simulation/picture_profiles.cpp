@@ -26,13 +26,24 @@ int profile_axis(Picture const& picture, int dimension) {
 
 }  // namespace
 
-void check_profile(Picture const& picture, int dimension) {
-  profile_axis(picture, dimension);
-  for (auto const& name : profile_names(picture)) profile_quantity(dimension, name);
-  if (picture.cells < 1) throw Error(fmt::format("a profile has one bin or more, not {}", picture.cells));
+void check_profiles(Question const& question) {
+  if (question.ensembles.empty()) return;
+  int const D = question.ensembles.front()->dimension();
+  question.on("x", [&] { profile_axis(question.picture, D); });
+  question.on("y", [&] {
+    for (auto const& name : profile_names(question.picture)) profile_quantity(D, name);
+  });
 }
 
-Canvas draw_profiles(Scene const& scene) {
+std::optional<Dimension> dimension_of_profile(Question const& question) {
+  if (question.ensembles.empty()) return std::nullopt;
+  auto const first = profile_names(question.picture).front();
+  for (auto const& quantity : profile_quantities(question.ensembles.front()->dimension()))
+    if (quantity.name == first) return quantity.dimension;
+  return std::nullopt;
+}
+
+Canvas draw_profiles(Scene& scene) {
   int const D = scene.box().dimension(), a = profile_axis(scene.picture, D);
   Measures const measures = scene.context.simulation.measure();
   double const k = scene.context.base.is_reduced() ? 1 : scene.context.base(constants::boltzmann);
@@ -40,7 +51,8 @@ Canvas draw_profiles(Scene const& scene) {
   std::size_t number = 0;
   for (auto const& source : bodies.sources()) number += source.ensemble->size();
   if (number == 0) return scene.too_few("a profile needs particles with a mass and a velocity");
-  auto const bins = std::clamp<std::size_t>(number / 50, 1, static_cast<std::size_t>(scene.picture.cells));
+  auto const bins =
+      std::clamp<std::size_t>(number / 50, 1, static_cast<std::size_t>(scene.picture.cells.value_or(300)));
   auto const [low, high] = extent(bodies, scene.box(), a);
   Profile const found = profile(bodies, scene.box(), a, low, high, bins, k);
 

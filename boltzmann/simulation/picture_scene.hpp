@@ -95,26 +95,58 @@ bool has_quantity(AnyEnsemble const& ensemble, std::string const& name);
 QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name);
 Values joined(std::vector<Values> const& parts);
 
-// The drawings.
-Canvas draw_particles(Scene& scene);
-Canvas draw_phase_space(Scene& scene, std::string x, std::string y);
-Canvas draw_histogram(Scene& scene);
-Canvas draw_spectrum_in_space(Scene& scene);
-Canvas draw_spectrum_in_time(Scene const& scene);
-Canvas draw_wave_spectrum(Scene const& scene);
-Canvas draw_time_series(Scene const& scene);
-Canvas draw_profiles(Scene const& scene);
-Canvas draw_mesh(Scene const& scene);
-Canvas draw_smooth_field(Scene& scene);
+/// What is known before a picture is drawn, and who hears what is wrong with it.
+struct Question {
+  Picture const& picture;
+  std::vector<AnyEnsemble*> const& ensembles;
+  std::vector<std::string> const& columns;  ///< of diagnoses.csv
+  PictureSources const& sources;
+  Complain const& complain;
 
-// What their names stand for, and what is wrong with them (Error).
-std::string histogram_quantity(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
-void check_spectrum_axis(std::string const& x);
-void check_waves(Picture const& picture, std::vector<Diagnosis const*> const& diagnoses);
-void check_profile(Picture const& picture, int dimension);
-std::string mesh_name(Picture const& picture);
-bool of_smooth_field(Picture const& picture);
-void check_smooth_field(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
-void check_vectors(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
+  /// An Error of `check` is one of the option `key`. Without anybody to hear of it it is thrown.
+  void on(char const* key, std::function<void()> const& check) const;
+  /// `name` is a quantity of particles, or empty.
+  void known(char const* key, std::string const& name) const;
+  /// The names in y are columns of diagnoses.csv.
+  void need_columns() const;
+  void need_slice() const;
+  /// The dimension of a quantity of particles.
+  std::optional<Dimension> dimension(std::string const& name) const;
+};
+
+// The drawings, what can be wrong with their options besides numbers out of range, and what low, high and levels are
+// measured in. One file each; drawings() has them by name.
+Canvas draw_particles(Scene& scene);
+void check_particles(Question const& question);
+std::optional<Dimension> dimension_of_colour(Question const& question);
+
+Canvas draw_phase_space(Scene& scene);
+Canvas draw_phase_space(Scene& scene, std::string x, std::string y);
+void check_phase_space(Question const& question);
+
+Canvas draw_histogram(Scene& scene);
+void check_histogram(Question const& question);
+std::optional<Dimension> dimension_of_histogram(Question const& question);
+
+Canvas draw_spectrum(Scene& scene);
+Canvas draw_spectrum_in_time(Scene const& scene);  ///< of a column
+void check_spectrum(Question const& question);
+Canvas draw_wave_spectrum(Scene& scene);
+void check_waves(Question const& question);
+
+Canvas draw_time_series(Scene& scene);
+void check_time_series(Question const& question);
+
+Canvas draw_profiles(Scene& scene);
+void check_profiles(Question const& question);
+std::optional<Dimension> dimension_of_profile(Question const& question);
+
+Canvas draw_mesh(Scene& scene);
+void check_mesh(Question const& question);
+std::optional<Dimension> dimension_on_mesh(Question const& question);
+
+Canvas draw_smooth_field(Scene& scene);
+void check_smooth_field(Question const& question);
+std::optional<Dimension> dimension_of_smooth_field(Question const& question);
 
 }  // namespace boltzmann::pictures

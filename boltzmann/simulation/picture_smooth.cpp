@@ -11,23 +11,28 @@
 #include <cmath>
 
 namespace boltzmann::pictures {
-bool of_smooth_field(Picture const& picture) {
-  return picture.drawing == "map" || picture.drawing == "contours" || picture.drawing == "bands";
+
+void check_smooth_field(Question const& question) {
+  auto const& picture = question.picture;
+  if (picture.y != "density") question.known("y", picture.y);
+  question.on("drawing", [&] {
+    if (picture.drawing != "map" && !question.ensembles.empty() && question.ensembles.front()->dimension() == 1)
+      throw Error("'" + picture.drawing + "' are drawn in 2D and 3D; in 1D 'map' draws a curve");
+  });
+  question.on("levels", [&] {
+    if (!std::all_of(picture.levels.begin(), picture.levels.end(), [](double v) { return std::isfinite(v); }) ||
+        !std::is_sorted(picture.levels.begin(), picture.levels.end()))
+      throw Error("the levels of contours and bands must be finite and ascend");
+  });
+  question.need_slice();
 }
 
-void check_smooth_field(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles) {
-  if (picture.y != "density" && !picture.y.empty()) meaning(ensembles, picture.y);
-  if (picture.drawing != "map" && !ensembles.empty() && ensembles.front()->dimension() == 1)
-    throw Error("'" + picture.drawing + "' are drawn in 2D and 3D; in 1D 'map' draws a curve");
-  if (!(picture.smoothing.range >= 0) || std::isinf(picture.smoothing.range))
-    throw Error(fmt::format("the range of a smooth field must be above 0, it is {}", picture.smoothing.range));
-  if (!std::all_of(picture.levels.begin(), picture.levels.end(), [](double v) { return std::isfinite(v); }) ||
-      !std::is_sorted(picture.levels.begin(), picture.levels.end()))
-    throw Error("the levels of contours and bands must be finite and ascend");
-  if (picture.level_count < 0 || picture.level_count > 1000)
-    throw Error(fmt::format("a picture has 1 to 1000 levels, not {}", picture.level_count));
-  if (picture.cells < 2 || picture.cells > 4000)
-    throw Error(fmt::format("the grid of a picture has 2 to 4000 cells along a side, not {}", picture.cells));
+std::optional<Dimension> dimension_of_smooth_field(Question const& question) {
+  if (question.ensembles.empty()) return std::nullopt;
+  auto const& name = question.picture.y;
+  if (!name.empty() && name != "density") return question.dimension(name);
+  auto const& first = *question.ensembles.front();
+  return (first.find_field("mass") ? dimensions::mass : dimensions::none) / pow(dimensions::length, first.dimension());
 }
 
 namespace {
@@ -57,7 +62,7 @@ MeshGrid picture_grid(Scene const& scene, std::vector<std::array<double, 2>> con
   for (int k = 0; k < grid.dimension; ++k) longest = std::max(longest, shown[axes[k]][1] - shown[axes[k]][0]);
   for (int k = 0; k < grid.dimension; ++k) {
     auto const [low, high] = shown[axes[k]];
-    double const cells = std::max(2.0, std::round(scene.picture.cells * (high - low) / longest));
+    double const cells = std::max(2.0, std::round(scene.picture.cells.value_or(300) * (high - low) / longest));
     grid.spacing[k] = (high - low) / cells;
     grid.periodic[k] = scene.box().periodic(axes[k]);
     grid.low[k] = corners ? low : low + grid.spacing[k] / 2;

@@ -26,15 +26,9 @@ WaveSpectrum const& recorded_waves(std::vector<Diagnosis const*> const& diagnose
   throw Error("a picture of the wave spectrum needs the diagnosis wave-spectrum, and is drawn when the run ends");
 }
 
-}  // namespace
-
 void check_spectrum_axis(std::string const& x) {
   if (!x.starts_with("position."))
     throw Error("a spectrum is over position.x, position.y, position.z or time, not '" + x + "'");
-}
-
-void check_waves(Picture const& picture, std::vector<Diagnosis const*> const& diagnoses) {
-  recorded_waves(diagnoses, picture.y);
 }
 
 Canvas draw_spectrum_in_space(Scene& scene) {
@@ -53,8 +47,28 @@ Canvas draw_spectrum_in_space(Scene& scene) {
   throw Error("no particles with '" + y + "' to draw a spectrum of");
 }
 
+}  // namespace
+
+Canvas draw_spectrum(Scene& scene) {
+  return scene.picture.x == "time" ? draw_spectrum_in_time(scene) : draw_spectrum_in_space(scene);
+}
+
+void check_spectrum(Question const& question) {
+  if (question.picture.x == "time") return question.need_columns();
+  if (!question.picture.x.empty())
+    question.on("x", [&] {
+      check_spectrum_axis(question.picture.x);
+      meaning(question.ensembles, question.picture.x);
+    });
+  question.known("y", question.picture.y);
+}
+
+void check_waves(Question const& question) {
+  question.on("y", [&] { recorded_waves(question.sources.diagnoses, question.picture.y); });
+}
+
 // Power over wave number and frequency; colours by its logarithm, over six decades.
-Canvas draw_wave_spectrum(Scene const& scene) {
+Canvas draw_wave_spectrum(Scene& scene) {
   WaveSpectrum const& waves = recorded_waves(scene.context.diagnoses, scene.picture.y);
   if (!waves.enough())
     return scene.too_few(fmt::format("a wave spectrum needs 4 or more looks, not {}", waves.looks()));

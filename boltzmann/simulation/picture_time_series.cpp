@@ -38,7 +38,9 @@ std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
 
 }  // namespace
 
-Canvas draw_time_series(Scene const& scene) {
+void check_time_series(Question const& question) { question.need_columns(); }
+
+Canvas draw_time_series(Scene& scene) {
   auto const data = table_of(scene);
   auto const columns = chosen(scene, data);
   std::string const common = heading(data.header[columns[0]]).unit;

@@ -1,7 +1,6 @@
 // TOML, table by table.
 #include <boltzmann/core/toml_text.hpp>
-#include <boltzmann/laws/weight.hpp>
-#include <boltzmann/simulation/picture_members.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/run_file.hpp>
 
 #include <fmt/format.h>
@@ -12,13 +11,7 @@ namespace boltzmann {
 namespace {
 
 std::string value(std::string const& text) { return toml_text(text); }
-std::string value(bool truth) { return truth ? "true" : "false"; }
 std::string value(double number) { return fmt::format("{}", number); }
-std::string value(int number) { return fmt::format("{}", number); }
-std::string value(std::size_t number) { return fmt::format("{}", number); }
-std::string value(WeightShape shape) { return toml_text(to_string(shape)); }
-std::string value(Dispersion const& curve) { return fmt::format("[{}, {}]", curve.frequency, curve.speed); }
-std::string value(std::array<double, 2> const& ends) { return fmt::format("[{}, {}]", ends[0], ends[1]); }
 template <class T>
 std::string value(std::vector<T> const& list) {
   std::string text = "[";
@@ -29,18 +22,6 @@ std::string value(std::vector<T> const& list) {
 /// So many of three numbers.
 std::string numbers(std::array<double, 3> const& all, int count) {
   return value(std::vector<double>(all.begin(), all.begin() + count));
-}
-
-/// What a reader takes for granted: no number, no text, an empty list.
-bool nothing(double number) { return std::isnan(number); }
-bool nothing(std::string const& text) { return text.empty(); }
-template <class T>
-bool nothing(std::vector<T> const& list) {
-  return list.empty();
-}
-template <class T>
-bool nothing(T const&) {
-  return false;
 }
 
 std::string box_text(Box const& box) {
@@ -98,11 +79,12 @@ std::string run_file_text(std::string const& title, Base const& base, double ste
       value(title), step_size, base.is_reduced(), s.length, s.mass, s.time, s.temperature, s.charge);
   text += box_text(box);
   for (auto const* ensemble : ensembles) text += ensemble_text(*ensemble);
-  for (auto const& picture : pictures) {
+  for (Picture picture : pictures) {
     text += "\n[[pictures]]\n";
-    each_member(picture, [&](char const* word, auto const& member) {
-      if (!nothing(member)) text += fmt::format("{} = {}\n", word, value(member));
-    });
+    Picture plain;
+    for (auto const& option : picture_options())
+      if (auto const written = toml_value(option, &picture); written != toml_value(option, &plain))
+        text += fmt::format("{} = {}\n", option.key, written);
   }
   return text;
 }

@@ -6,7 +6,9 @@
 #include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/projection.hpp>
 #include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/window/option_json.hpp>
 #include <boltzmann/window/stage.hpp>
 #include <boltzmann/window/wire.hpp>
 
@@ -42,9 +44,6 @@ std::array<double, 2> range(json const& ends, char const* key) {
   return {ends[0].get<double>(), ends[1].get<double>()};
 }
 
-// JSON has no NaN.
-json finite(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
-
 // "field-energy" -> "Field energy".
 std::string first_upper(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
@@ -52,33 +51,16 @@ std::string first_upper(std::string text) {
   return text;
 }
 
-// What a view changes of the picture of its diagnosis.
+// What a view changes of the picture of its diagnosis: what is left out is the diagnosis' own, null is automatic.
 Picture with(Picture picture, json const& view) {
   std::string const drawing = text_or(view, "drawing", picture.drawing);
   if (drawing != picture.drawing) picture = Picture{.drawing = drawing};
-  picture.x = text_or(view, "x", picture.x);
-  picture.y = text_or(view, "y", picture.y);
   std::string const colour = text_or(view, "colour", picture.colour);
   if (colour != picture.colour)  // the ends were those of another quantity
     picture.low = picture.high = std::numeric_limits<double>::quiet_NaN();
-  picture.colour = colour;
-  picture.size = text_or(view, "size", picture.size);
-  picture.vectors = text_or(view, "vectors", picture.vectors);
-  // Null is automatic; what is left out is the diagnosis' own.
-  double const automatic = std::numeric_limits<double>::quiet_NaN();
-  if (view.contains("low")) picture.low = number_or(view, "low", automatic);
-  if (view.contains("high")) picture.high = number_or(view, "high", automatic);
-  picture.logarithmic = flag_or(view, "logarithmic", picture.logarithmic);
-  picture.slice = text_or(view, "slice", picture.slice);
-  picture.at = number_or(view, "at", picture.at);
-  picture.cells = static_cast<int>(std::clamp(number_or(view, "cells", picture.cells), 1.0, 4000.0));
-  picture.trace = flag_or(view, "trace", false);
-  picture.projection.azimuth = number_or(view, "azimuth", picture.projection.azimuth);
-  picture.projection.elevation = number_or(view, "elevation", picture.projection.elevation);
-  picture.most = static_cast<std::size_t>(std::clamp(number_or(view, "most", 0), 0.0, 1e9));
-  picture.region.clear();
-  if (auto const found = view.find("region"); found != view.end() && found->is_array())
-    for (auto const& side : *found) picture.region.push_back(range(side, "region"));
+  Picture plain;
+  for (auto const& option : drawing_named(drawing).options)
+    if (auto const value = view.find(option.key); value != view.end()) take(option, *value, &picture, &plain);
   return picture;
 }
 
@@ -219,20 +201,17 @@ json Stage::describe() const {
   json& diagnoses = result["diagnoses"] = json::array();
   for (auto const& entry : entries_) {
     Picture const& p = entry.picture;
-    diagnoses.push_back({{"name", entry.name},
-                         {"drawing", entry.installed ? "installed"
-                                     : entry.table   ? "table"
-                                                     : p.drawing},
-                         {"x", p.x},
-                         {"y", p.y},
-                         {"colour", p.colour},
-                         {"size", p.size},
-                         {"low", finite(p.low)},
-                         {"high", finite(p.high)},
-                         {"logarithmic", p.logarithmic},
-                         {"slice", p.slice},
-                         {"at", finite(p.at)},
-                         {"cells", p.cells}});
+    std::string const drawing = entry.installed ? "installed" : entry.table ? "table" : p.drawing;
+    json& shown = diagnoses.emplace_back(json{{"name", entry.name}, {"drawing", drawing}});
+    if (entry.installed) continue;
+    Picture picture = p;
+    for (auto const& option : drawing_named(p.drawing).options) shown[option.key] = option_json(option, &picture);
+  }
+  json& drawings = result["drawings"] = json::object();
+  for (auto const& drawing : boltzmann::drawings()) {
+    json& options = drawings[drawing.name] = json::array();
+    for (auto const& option : drawing.options)
+      options.push_back({{"key", option.key}, {"doc", option.doc}, {"words", option.kind.words}});
   }
   json& columns = result["columns"] = json::array();
   for (std::size_t c = 2; c < header_.size(); ++c) {

@@ -6,6 +6,8 @@
 
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/version.hpp>
 
 #include <cairo/cairo.h>
@@ -460,6 +462,17 @@ TEST(Show, GivesTheBytesOfAParticle) {
   EXPECT_TRUE(has(unit, "1.602176634e-19")) << unit;
 }
 
+TEST(Show, KnowsWhatScenariosKnow) {
+  Folder folder;
+  for (auto const& law : scenario_laws())
+    EXPECT_EQ(bzm({"show", std::string(law.name)}, folder.string()).status, 0) << law.name;
+  for (auto const& drawing : drawings()) {
+    auto const shown = bzm({"show", drawing.name}, folder.string());
+    EXPECT_EQ(shown.status, 0) << drawing.name;
+    for (auto const& key : drawing.options.keys()) EXPECT_TRUE(has(shown.out, "\n  " + key + " ")) << key;
+  }
+}
+
 TEST(Show, ExplainsAMaterial) {
   Folder folder;
   auto const tait = bzm({"show", "tait"}, folder.string()).out;
@@ -555,6 +568,16 @@ TEST(Render, DrawsAnyFrame) {
   for (auto const* drawing : {"phase-space", "spectrum", "time-series"})
     EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--drawing", drawing}, folder.string()).status, 0) << drawing;
   EXPECT_EQ(bzm({"render", "out", "-o", "x.png", "--trace"}, folder.string()).status, 0);
+  // What a scenario can say of a picture the command can, in units.
+  auto const levels = bzm({"render", "out", "-o", "x.png", "--drawing", "contours", "--levels", "0.5, 1", "--weight",
+                           "wendland", "--range", "6 angstrom", "--cells", "40", "--low", "0 amu/angstrom^2"},
+                          folder.string());
+  EXPECT_EQ(levels.status, 0) << levels.err;
+  expect_one_line(bzm({"render", "out", "-o", "x.png", "--drawing", "map", "--low", "1 kg"}, folder.string()), 2,
+                  {"--low 1 kg", "low", "mass"});
+  expect_one_line(
+      bzm({"render", "out", "-o", "x.png", "--drawing", "time-series", "--colour", "speed"}, folder.string()), 2,
+      {"unknown key 'colour'", "'time-series'", "logarithmic"});
   auto const frames = bzm({"render", "out", "-o", "frames/"}, folder.string());
   EXPECT_EQ(frames.status, 0) << frames.err;
   for (auto const* file : {"frames/000000.png", "frames/000001.png", "frames/000002.png"})

@@ -6,7 +6,7 @@
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/picture_members.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/run_file.hpp>
 #include <tests/message.hpp>
@@ -248,9 +248,8 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
               text);
     EXPECT_EQ(back->base, units);
     // None of the words was left out because it looked like nothing.
-    each_member(picture, [&](char const* word, auto const&) {
-      EXPECT_NE(text.find("\n" + std::string(word) + " = ", text.rfind("[[pictures]]")), std::string::npos) << word;
-    });
+    for (auto const& option : picture_options())
+      EXPECT_NE(text.find("\n" + option.key + " = ", text.rfind("[[pictures]]")), std::string::npos) << option.key;
   }
 }
 

@@ -137,8 +137,8 @@ TEST(SmoothPictures, MistakesInOneLine) {
   says(matter, {.drawing = "map", .y = "kinetic-enrgy"}, "did you mean 'kinetic-energy'");
   says(matter, {.drawing = "maps"}, "contours, bands");
   says(matter, {.drawing = "contours", .levels = {2, 1}}, "ascend");
-  says(matter, {.drawing = "map", .smoothing = {.range = -1}}, "above 0");
-  says(matter, {.drawing = "map", .cells = 1}, "2 to 4000");
+  says(matter, {.drawing = "map", .smoothing = {.range = -1}}, "must be positive");
+  says(matter, {.drawing = "map", .cells = 1}, "between 2 and 4000");
   says(matter, {.drawing = "map", .slice = "w"}, "normal to x, y or z");
   says(line, {.drawing = "bands"}, "in 1D 'map' draws a curve");
   says(line, {.drawing = "map"}, "no error");

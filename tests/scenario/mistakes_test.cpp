@@ -697,7 +697,7 @@ std::vector<Mistake> const mesh_rows{
     {"curve of nothing",
      plasma_with("{ frequency = 1, speed = 1 }", "{}"),
      "52:9",
-     {"neither 'frequency' nor 'speed'"}},
+     {"it may have frequency, speed"}},
     {"unknown key of a curve",
      plasma_with("{ frequency = 1, speed = 1 }", "{ frequenzy = 1 }"),
      "52:11",

@@ -1,11 +1,15 @@
 // [[views]]: diagnoses for the window by field names, read as pictures are, and what is told of mistakes in them.
 #include "mistakes.hpp"
 
+#include <boltzmann/simulation/picture_options.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann::views_test {
@@ -84,6 +88,57 @@ TEST(Views, OfOneScenarioAreMany) {
   ASSERT_EQ(again->views.size(), 2U);
   EXPECT_EQ(again->views[1].y, "velocity.x");
   EXPECT_TRUE(parse_scenario(plain, "test.toml")->views.empty());
+}
+
+// A table says what can be said of a drawing: a scenario can say it.
+TEST(Views, SayEverythingOfADrawing) {
+  std::map<std::string, std::string> const values{{"x", "\"position.x\""},
+                                                  {"y", "\"velocity.x\""},
+                                                  {"colour", "\"speed\""},
+                                                  {"size", "\"mass\""},
+                                                  {"vectors", "\"velocity\""},
+                                                  {"low", "1"},
+                                                  {"high", "2"},
+                                                  {"logarithmic", "true"},
+                                                  {"trace", "false"},
+                                                  {"slice", "\"x\""},
+                                                  {"at", "\"0.5 nm\""},
+                                                  {"levels", "[1, \"200 m/s\"]"},
+                                                  {"weight", "\"wendland\""},
+                                                  {"range", "6"},
+                                                  {"cells", "7"},
+                                                  {"azimuth", "10"},
+                                                  {"elevation", "\"0.5 rad\""},
+                                                  {"most", "5"},
+                                                  {"region", "[[0, 5], [1, 9], [0, 9]]"}};
+  std::string cube = plain;
+  for (auto const& [two, three] : {std::pair{"low = [0, 0]", "low = [0, 0, 0]"},
+                                   {"high = [20, 20]", "high = [20, 20, 20]"},
+                                   {"[4, 4]", "[4, 4, 4]"}})
+    cube.replace(cube.find(two), std::string(two).size(), three);
+  for (auto const& drawing : drawings()) {
+    if (drawing.name == "mesh" || drawing.name == "wave-spectrum" || drawing.name == "time-series") continue;
+    std::string text = cube + "[[views]]\nname = \"all\"\ndrawing = \"" + drawing.name + "\"\n";
+    for (auto const& option : drawing.options) {
+      ASSERT_TRUE(values.contains(option.key)) << option.key;
+      text += option.key + " = " + values.at(option.key) + "\n";
+    }
+    auto const scenario = parse_scenario(text, "test.toml");
+    Picture read = scenario->views.at(0), plain_picture;
+    for (auto const& option : drawing.options) {
+      if (option.key == "trace") continue;
+      EXPECT_NE(toml_value(option, &read), toml_value(option, &plain_picture)) << drawing.name << ' ' << option.key;
+    }
+    if (drawing.name == "cartesian") {
+      EXPECT_EQ(read.projection.azimuth, 10);
+      EXPECT_NEAR(read.projection.elevation, 28.6479, 1e-4);  // pages and C++ count degrees
+    }
+    if (drawing.name == "contours") {
+      ASSERT_EQ(read.levels.size(), 2U);
+      EXPECT_DOUBLE_EQ(read.levels[1], 2);
+      EXPECT_EQ(read.at, 5);
+    }
+  }
 }
 
 TEST(Views, AreNamedOnTheCommandLine) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/window/window.hpp>
 
 #include <atomic>
@@ -115,6 +116,39 @@ TEST(LiveRun, SaysWhatThereIsToSee) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   EXPECT_NE(page.hello["can"]["checkpoint"], "");
   EXPECT_EQ(page.hello["can"]["rewind"], "");
+  // All that can be said of each drawing.
+  for (auto const& drawing : drawings()) {
+    std::vector<std::string> keys;
+    for (auto const& option : page.hello["drawings"][drawing.name]) keys.push_back(option["key"]);
+    EXPECT_EQ(keys, drawing.options.keys()) << drawing.name;
+  }
+}
+
+// What a run's picture says is what its page begins with: arrows, too.
+TEST(LiveRun, BeginsWithWhatAPictureSays) {
+  Folder folder;
+  Atoms<3> system;
+  Recording recording(*system.simulation, Base::reduced(), folder.path.string());
+  recording.picture({.vectors = "velocity", .file = "arrows.png", .projection = {10, 60}});
+  recording.picture({.drawing = "contours", .file = "lines.png", .levels = {0.5, 1}, .cells = 50});
+  Running running(recording, 100);
+  PageReader page(running.window.address());
+  json arrows, lines;
+  for (auto const& diagnosis : page.hello["diagnoses"]) {
+    if (diagnosis["name"] == "Arrows") arrows = diagnosis;
+    if (diagnosis["name"] == "Lines") lines = diagnosis;
+  }
+  EXPECT_EQ(arrows["vectors"], "velocity");
+  EXPECT_EQ(arrows["azimuth"], 10);
+  EXPECT_EQ(arrows["low"], nullptr);
+  EXPECT_EQ(lines["levels"], json({0.5, 1}));
+  EXPECT_EQ(lines["cells"], 50);
+  EXPECT_EQ(lines["weight"], "lucy");
+  // Null is automatic again; what is out of range is one line.
+  page.say({{"do", "views"}, {"views", {{{"id", 1}, {"diagnosis", "Lines"}, {"levels", nullptr}, {"cells", 1}}}}});
+  auto const refused =
+      page.until([](json const& u) { return u["views"].size() == 1 && u["views"][0].contains("error"); });
+  EXPECT_EQ(refused.head["views"][0]["error"], "cells: 1 is out of range; it must be between 2 and 4000");
 }
 
 TEST(LiveRun, StepsExactlyAsOftenAsAsked) {

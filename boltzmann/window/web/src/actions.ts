@@ -63,7 +63,9 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     stepping = false;
   };
   const by = (what: "colour" | "size") => () =>
-    changeable[panes.active?.drawing]?.includes(what) ? "" : `${panes.active?.diagnosis} has none to choose`;
+    changeable(session, panes.active?.drawing).some(({ key }) => key === what)
+      ? ""
+      : `${panes.active?.diagnosis} has none to choose`;
   const fields = () => ["", ...(session.hello?.quantities.map(({ name }) => name) ?? [])];
 
   const cycle = (what: "colour" | "size") => () => {

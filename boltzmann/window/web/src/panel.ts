@@ -4,30 +4,17 @@ import { download, fill, h, icon, iconButton, type Child } from "./elements";
 import type { Pane, ViewChanges } from "./pane";
 import { most_panes, type Panes } from "./panes";
 import { written } from "./plot";
-import type { View } from "./protocol";
+import type { Option, View } from "./protocol";
 import { choice, type PictureChoice } from "./saving";
 import type { Session, Theme } from "./session";
 
 type Key = keyof ViewChanges;
 
-/** What can be changed of each drawing, in this order. */
-export const changeable: Record<string, Key[]> = {
-  cartesian: ["colour", "size", "vectors", "low", "high", "trace"],
-  "phase-space": ["x", "y", "colour", "size", "low", "high", "trace"],
-  histogram: ["x", "cells", "logarithmic"],
-  profile: ["x", "y", "cells", "low", "high", "logarithmic"],
-  spectrum: ["x", "y"],
-  "wave-spectrum": ["y"],
-  "time-series": ["y", "logarithmic"],
-  mesh: ["y", "slice", "at", "low", "high"],
-  map: ["y", "slice", "at", "low", "high", "cells"],
-  contours: ["y", "slice", "at", "low", "high", "cells"],
-  bands: ["y", "slice", "at", "low", "high", "cells"],
-  table: ["logarithmic"],
-};
-
-/** What a diagnosis has whose scenario says nothing of cells; a histogram then chooses its bins itself. */
-const usual_cells = 300;
+/** What can be changed of a drawing, in its order. A table of diagnoses is drawn by the page. */
+export function changeable(session: Session, drawing: string): Option[] {
+  if (drawing === "table") return [{ key: "logarithmic", doc: "", words: [] }];
+  return session.hello?.drawings[drawing] ?? [];
+}
 
 /** Steps per frame on the slider. */
 const paces = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
@@ -200,12 +187,12 @@ export class Panel {
 
   private fillView(): void {
     const pane = this.panes.active;
-    const keys = changeable[pane.drawing] ?? [];
+    const options = changeable(this.session, pane.drawing);
     this.ends.clear();
     fill(
       this.view,
       h("h3", {}, this.panes.list.length > 1 ? `${pane.diagnosis} (pane ${pane.id})` : pane.diagnosis),
-      ...keys.map((key) => this.control(pane, key)),
+      ...options.map((option) => this.control(pane, option)),
       pane.drawing === "installed" &&
         h("p", { class: "quiet" }, "Drawn by a function of the program: nothing of it can be changed here."),
       pane.plot !== null &&
@@ -219,7 +206,13 @@ export class Panel {
     );
   }
 
-  private control(pane: Pane, key: Key): Child {
+  private control(pane: Pane, option: Option): Child {
+    const element = this.field(pane, option.key as Key, option.words);
+    if (element && option.doc) element.title = option.doc.replaceAll("`", "");
+    return element;
+  }
+
+  private field(pane: Pane, key: Key, words: string[]): HTMLElement | null {
     const { hello } = this.session;
     if (!hello) return null;
     const now = pane.has(key);
@@ -255,12 +248,12 @@ export class Panel {
       case "y": {
         if (pane.drawing === "phase-space") return line("y", select(id, quantities, text, set));
         const free = input(id, text, set, { list: `${id}-words` });
-        const words =
+        const known =
           pane.drawing === "time-series" ? hello.columns.map(({ name }) => name) : this.words(pane.drawing, text);
         return line(
           "Shows",
           free,
-          h("datalist", { id: `${id}-words` }, ...words.map((value) => h("option", { value }))),
+          h("datalist", { id: `${id}-words` }, ...known.map((value) => h("option", { value }))),
         );
       }
       case "low": {
@@ -280,26 +273,24 @@ export class Panel {
       case "slice":
         if (hello.dimension < 3) return null;
         return line("Slice across", select(id, [["x", "x"], ["y", "y"], ["z", "z"]], text || "z", set)); // prettier-ignore
-      case "at": {
-        if (hello.dimension < 3) return null;
-        const shown = text && String(Number(text) * hello.length_factor);
-        const field = input(
-          id,
-          shown,
-          (value) => this.number(field, value, (number) => set(number === null ? null : number / hello.length_factor)),
-          {
-            placeholder: "the middle",
-            inputmode: "decimal",
-          },
-        );
-        return line("At", field, h("span", { class: "unit" }, hello.length_unit));
+      case "at":
+        return hello.dimension < 3 ? null : this.length("At", id, text, "the middle", set);
+      case "range":
+        return this.length("Spread over", id, Number(text) > 0 ? text : "", "each one's own", set);
+      case "weight":
+        return line("Weight", select(id, words.map((name) => [name, name] as [string, string]), text, set)); // prettier-ignore
+      case "levels": {
+        const shown = Array.isArray(now)
+          ? now.map((level) => String(Number((level * this.scale(pane).factor).toPrecision(6)))).join(", ")
+          : text;
+        const field = input(id, shown, (value) => this.levels(pane, field, value), { placeholder: "automatic" });
+        return line("Levels", field);
       }
       case "cells": {
-        const free = pane.drawing === "histogram" && now === usual_cells;
         const field = input(
           id,
-          free ? "" : text,
-          (value) => this.number(field, value, (number) => set(number === null ? undefined : Math.round(number))),
+          text,
+          (value) => this.number(field, value, (number) => set(number === null ? null : Math.round(number))),
           {
             placeholder: "automatic",
             inputmode: "numeric",
@@ -320,6 +311,35 @@ export class Panel {
       default:
         return null;
     }
+  }
+
+  /** A length, in the unit of the page; empty: null. */
+  private length(
+    words: string,
+    id: string,
+    now: string,
+    placeholder: string,
+    set: (value: number | null) => void,
+  ): HTMLElement {
+    const { length_factor, length_unit } = this.session.hello ?? { length_factor: 1, length_unit: "" };
+    const field = input(
+      id,
+      now && String(Number(now) * length_factor),
+      (value) => this.number(field, value, (number) => set(number === null ? null : number / length_factor)),
+      { placeholder, inputmode: "decimal" },
+    );
+    return line(words, field, h("span", { class: "unit" }, length_unit));
+  }
+
+  /** How many, or which, with commas. */
+  private levels(pane: Pane, field: HTMLInputElement, value: string): void {
+    const numbers = value.split(",").map((part) => Number(part.trim().replace("−", "-")));
+    const wrong = value !== "" && !numbers.every(Number.isFinite);
+    this.fault(field, wrong ? "how many levels, or which: 1, 1.5, 2" : "");
+    if (wrong) return;
+    const { factor } = this.scale(pane);
+    const one = numbers.length === 1 && Number.isInteger(numbers[0]);
+    pane.change({ levels: value === "" ? null : one ? numbers[0] : numbers.map((level) => level / factor) });
   }
 
   /** Words that may be meant where any can be written. */

@@ -107,7 +107,10 @@ export interface View {
   logarithmic?: boolean;
   slice?: string;
   at?: number | null;
-  cells?: number;
+  cells?: number | null;
+  levels?: number | number[] | null;
+  weight?: string;
+  range?: number | null;
   trace?: boolean;
   vectors?: string;
   azimuth?: number;
@@ -122,6 +125,13 @@ export interface View {
 export interface Diagnosis extends Omit<View, "id" | "diagnosis"> {
   name: string;
   drawing: string;
+}
+
+/** What can be said of a drawing: a key of a view, what it means, and the words that it may be (none: any). */
+export interface Option {
+  key: string;
+  doc: string;
+  words: string[];
 }
 
 export interface Quantity {
@@ -152,6 +162,7 @@ export interface Hello {
   quantities: Quantity[];
   vectors: string[];
   diagnoses: Diagnosis[];
+  drawings: Record<string, Option[]>;
   columns: { name: string; unit: string }[];
   /** Empty: it can; otherwise why it can't. */
   can: { rewind: string; step_size: string; checkpoint: string; seek: string; quit: string };

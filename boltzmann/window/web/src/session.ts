@@ -32,6 +32,7 @@ const nothing: Hello = {
   can: { rewind: "", step_size: "", checkpoint: "", seek: "", quit: "" },
   maps: {},
   colours: [],
+  drawings: {},
 };
 
 function firstUpper(text: string): string {

@@ -1,0 +1,185 @@
+// Options: the members of a struct with the keys under which users write them, what each may be and what it means.
+// One table stands beside the struct; readers, writers, forms and reference pages are made from it.
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+#include <boltzmann/core/number_range.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace boltzmann {
+
+class OptionTable;
+
+/// A member whose values have names.
+struct NamedValue {
+  std::function<std::string()> name;
+  std::function<void(std::string const&)> choose;  ///< one of the option's words
+};
+
+/// A member that is a list of structs with options of their own.
+struct OptionList {
+  OptionTable const* options;
+  std::function<std::size_t()> size;
+  std::function<void*(std::size_t)> at;
+  std::function<void*()> add;
+};
+
+/// A member that is written as a number of things or as a list of them.
+struct CountOrList {
+  int* count;
+  std::vector<double>* list;
+};
+
+/// The member of an object that an option is about. A number that is NaN, and an optional without value, are automatic.
+using OptionPlace = std::variant<bool*, int*, std::optional<int>*, std::size_t*, double*, std::string*,
+                                 std::vector<int>*, std::vector<std::uint32_t>*, std::vector<double>*,
+                                 std::vector<std::string>*, std::optional<std::array<double, 3>>*,
+                                 std::vector<std::array<double, 2>>*, NamedValue, OptionList, CountOrList>;
+
+/// What may be written for an option.
+struct OptionKind {
+  enum class Form {
+    flag,
+    whole,             ///< a whole number in `range`
+    wholes,            ///< one, or a list of them
+    number,            ///< a quantity of `dimension` in `range`
+    numbers,           ///< a list of them
+    count_or_numbers,  ///< how many, in `range`, or a list of them
+    vector,            ///< as many of them as space has axes
+    text,
+    name,       ///< a text that names a quantity of particles, a column, ...
+    word,       ///< one of `words`
+    axis,       ///< x, y or z, as far as space has them
+    ensembles,  ///< the name of one, or a list of names
+    particles,  ///< numbers of one ensemble, or words that choose them
+    tables
+  };
+  Form form = Form::text;
+  /// Of numbers; nothing: that of the quantity which is shown, which depends on the other options.
+  std::optional<Dimension> dimension = dimensions::none;
+  NumberRange range = {};
+  std::vector<std::string> words = {};
+  int by_space = 0;       ///< in D dimensions the dimension is that times length^(D by_space): -1 for densities
+  double counted_in = 1;  ///< what a number alone stands for, in the base: pi/180 for angles in degrees
+};
+
+struct Option {
+  std::string key;
+  OptionKind kind;
+  std::string doc;          ///< one line
+  std::string otherwise;    ///< what holds without it, where that is not the member's value at the beginning
+  std::string needed = {};  ///< an example, for options that can't be left out
+  std::function<OptionPlace(void*)> place;
+};
+
+namespace option {
+inline OptionKind flag() { return {OptionKind::Form::flag}; }
+inline OptionKind text() { return {OptionKind::Form::text}; }
+inline OptionKind name_of_quantity() { return {OptionKind::Form::name}; }
+inline OptionKind axis_word() { return {OptionKind::Form::axis}; }
+inline OptionKind word(std::vector<std::string> words) {
+  return {OptionKind::Form::word, dimensions::none, {}, std::move(words)};
+}
+inline OptionKind whole(double low, double high) {
+  return {OptionKind::Form::whole, dimensions::none, {low, high, false}};
+}
+inline OptionKind number(std::optional<Dimension> dimension, NumberRange range = {}) {
+  return {OptionKind::Form::number, dimension, range};
+}
+/// A number of a dimension that depends on the space: times length^(D by_space).
+inline OptionKind number_by_space(Dimension dimension, int by_space, NumberRange range) {
+  OptionKind kind = number(dimension, range);
+  kind.by_space = by_space;
+  return kind;
+}
+inline OptionKind wholes(double low, double high) {
+  return {OptionKind::Form::wholes, dimensions::none, {low, high, false}};
+}
+inline OptionKind vector(Dimension dimension) { return {OptionKind::Form::vector, dimension}; }
+inline OptionKind ensembles() { return {OptionKind::Form::ensembles}; }
+inline OptionKind particles() { return {OptionKind::Form::particles}; }
+inline OptionKind degrees() {
+  OptionKind kind;
+  kind.form = OptionKind::Form::number;
+  kind.counted_in = std::numbers::pi / 180;
+  return kind;
+}
+inline OptionKind numbers(std::optional<Dimension> dimension) { return {OptionKind::Form::numbers, dimension}; }
+inline OptionKind tables() { return {OptionKind::Form::tables}; }
+/// The dimension of the quantity that is shown.
+inline constexpr std::optional<Dimension> of_what_is_shown{};
+}  // namespace option
+
+/// An option of a table that one of several uses of its struct has, and what is particular there; what is empty is as
+/// in the table.
+struct OptionKey {
+  std::string key, doc = {}, otherwise = {}, needed = {};
+  std::optional<OptionKind> kind = {};
+};
+
+/// The options of a struct T, in the order in which they are told.
+class OptionTable {
+ public:
+  OptionTable() = default;
+
+  /// An option that is a member; `member` is a pointer to it, or a function T& -> OptionPlace.
+  template <class T, class M>
+  OptionTable& add(std::string key, M T::*member, OptionKind kind, std::string doc, std::string otherwise = "") {
+    return add({std::move(key),
+                std::move(kind),
+                std::move(doc),
+                std::move(otherwise),
+                {},
+                [member](void* object) -> OptionPlace { return &(static_cast<T*>(object)->*member); }});
+  }
+  template <class T, std::invocable<T&> Member>
+  OptionTable& add_of(std::string key, Member member, OptionKind kind, std::string doc, std::string otherwise = "") {
+    return add({std::move(key),
+                std::move(kind),
+                std::move(doc),
+                std::move(otherwise),
+                {},
+                [member](void* object) -> OptionPlace { return member(*static_cast<T*>(object)); }});
+  }
+
+  OptionTable& add(Option option) {
+    options_.push_back(std::move(option));
+    return *this;
+  }
+
+  auto begin() const { return options_.begin(); }
+  auto end() const { return options_.end(); }
+  /// Nullptr: there is none.
+  Option const* find(std::string_view key) const;
+  /// To say something else of it. Error if there is none.
+  Option& at(std::string_view key);
+  std::vector<std::string> keys() const;
+  bool empty() const { return options_.empty(); }
+  /// Those with these keys, in their order, said otherwise where a key says it. Error if there is no such key.
+  OptionTable only(std::vector<OptionKey> const& keys) const;
+
+ private:
+  std::vector<Option> options_;
+};
+
+/// What is wrong with the value that an object has, "5 is out of range; it must be between 1 and 3"; empty: nothing, or
+/// it is the same as in `plain`.
+std::string out_of_range(Option const& option, void* object, void* plain);
+/// What may be written, in words: "true or false", "a whole number between 1 and 5", "a length, positive".
+std::string allowed(Option const& option);
+/// The value that an object has, as TOML; empty: it is automatic, and need not be written.
+std::string toml_value(Option const& option, void* object);
+
+}  // namespace boltzmann

@@ -1,0 +1,56 @@
+// The members of DiagnosisParameters with their keys.
+#include <boltzmann/diagnoses/diagnosis_parameters.hpp>
+
+namespace boltzmann {
+
+OptionTable const& diagnosis_options() {
+  using namespace option;
+  using P = DiagnosisParameters;
+  static OptionTable const table = [] {
+    OptionTable all;
+    all.add("ensembles", &P::ensembles, ensembles(), "one set of columns for each of them", "the system as a whole");
+    all.add("label", &P::label, text(), "what the columns are called", "by the ensemble");
+    all.add("particles", &P::particles, particles(), "a group of one ensemble, as in `[[ensembles.set]]`", "all");
+    all.add("similar_velocity", &P::similar_velocity, vector(dimensions::velocity),
+            "a group: those of about this velocity at the first look", "all");
+    all.add("tolerance", &P::tolerance, number(dimensions::velocity, not_negative),
+            "within which a velocity is similar");
+    all.add("subtract_drift", &P::subtract_drift, flag(), "without the mean velocity, over N - 1");
+    all.add("about_centre_of_mass", &P::about_centre_of_mass, flag(), "else about the origin");
+    all.add("quantity", &P::quantity, name_of_quantity(), "what is looked at");
+    all.add("mode", &P::mode, wholes(-1e9, 1e9), "periods in the box along each axis");
+    all.add("axis", &P::axis, axis_word(), "along which one looks");
+    all.add("modes", &P::modes, whole(1, __builtin_inf()), "how many waves are kept",
+            "as many as there are, up to 256");
+    all.add_of<P>(
+        "weight",
+        [](P& p) -> OptionPlace {
+          return NamedValue{[&p] { return to_string(p.weight); },
+                            [&p](std::string const& name) { p.weight = weight_named(name); }};
+        },
+        word(weight_names()), "of the averages");
+    all.add("range", &P::range, number(dimensions::length, positive), "of the weight", "each particle's own");
+    all.add("gamma", &P::gamma, number(dimensions::none, {1, __builtin_inf(), true}), "the ratio of specific heats",
+            "1 + 2/D");
+    all.add("conductivity", &P::conductivity,
+            number_by_space(dimensions::energy * dimensions::length * dimensions::length /
+                                (dimensions::time * dimensions::temperature),
+                            -1, positive),
+            "of the material for heat");
+    all.add("since", &P::since, number(dimensions::time), "when means begin", "the start");
+    all.add("from", &P::from, number(dimensions::length), "where the slab begins at the start", "the end of the box");
+    all.add("to", &P::to, number(dimensions::length), "where it ends", "the end of the box");
+    all.add("count", &P::count, whole(1, 100'000), "how many");
+    all.add("end", &P::end, word({"low", "high"}), "of the axis, from which a shock comes",
+            "the one whose wall runs into the matter");
+    all.add("margin", &P::margin, number(dimensions::length, positive),
+            "what is left out beside the front and at the end of the matter", "5 % of the matter");
+    all.add("near", &P::near, number(dimensions::length, positive), "where the window behind the front begins",
+            "two margins behind it");
+    all.add("far", &P::far, number(dimensions::length, positive), "where it ends", "a margin before the driven end");
+    return all;
+  }();
+  return table;
+}
+
+}  // namespace boltzmann

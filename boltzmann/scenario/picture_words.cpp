@@ -1,0 +1,67 @@
+// The words are a table of a document without a file, and read as one.
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/scenario/picture_words.hpp>
+#include <boltzmann/scenario/read_options.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
+
+#include <fmt/format.h>
+
+namespace boltzmann {
+namespace {
+
+Item item_of(Option const& option, std::string const& text, Place const& place) {
+  using Form = OptionKind::Form;
+  switch (option.kind.form) {
+    case Form::text:
+    case Form::name:
+    case Form::word:
+    case Form::axis:
+      return Item::of_text(text, place);
+    case Form::numbers:
+    case Form::count_or_numbers:
+      if (text.find(',') != std::string::npos && !text.starts_with("[")) return value_of("[" + text + "]", place);
+      [[fallthrough]];
+    default:
+      return value_of(text, place);
+  }
+}
+
+}  // namespace
+
+Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words) {
+  Mistakes mistakes("");
+  ReadContext context{mistakes, run.base, ""};
+  Item table;
+  std::string drawing;
+  for (auto const& [key, text] : words) {
+    Place const place{0, 0, mistakes.add_override("--" + key + " " + text)};
+    Option const* option = picture_options().find(key);
+    if (!option) throw Error(fmt::format("a picture has no '{}'{}", key, did_you_mean(key, picture_options().keys())));
+    if (key == "drawing")
+      drawing = drawing_named(text).name;
+    else
+      table.entries.push_back({key, place, item_of(*option, text, place)});
+  }
+  Picture picture;
+  for (auto const& plan : run.output.pictures)
+    if (drawing.empty() || plan.drawing == drawing) {
+      picture = plan;
+      break;
+    }
+  if (!drawing.empty()) picture.drawing = drawing;
+  Section section(table, fmt::format("a picture '{}'", picture.drawing), context);
+  read_options(section, drawing_named(picture.drawing).options, &picture,
+               {run.scheme->box().dimension(), [&] {
+                  PictureSources sources;
+                  std::vector<AnyEnsemble*> ensembles;
+                  for (auto const& ensemble : run.ensembles) ensembles.push_back(ensemble.get());
+                  for (auto* scheme : run.simulation->schemes())
+                    for (auto const* field : scheme->mesh_fields()) sources.mesh_fields.push_back(field);
+                  return shown_dimension(picture, ensembles, sources);
+                }});
+  section.finish();
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  return picture;
+}
+
+}  // namespace boltzmann
