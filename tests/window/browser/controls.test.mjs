@@ -2,7 +2,7 @@
 // from the pixels of the picture.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, readFileSync, statSync } from "node:fs";
+import { existsSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
 import { answer, atStep, browser, bzm, choose, cloud, data, keep, ownFolder, painted, pictureOf, share, test, until, watch } from "./window.mjs";
@@ -276,6 +276,31 @@ test("axes of phase space, bins and logarithm of a histogram", async (t) => {
   await page.check("#view-logarithmic");
   await canvas(page, ({ y }) => y.logarithmic, "a logarithmic axis");
   await painted(page, 1, 2e-4);
+});
+
+test("levels, weight and range of a field of the particles", async (t) => {
+  const cwd = ownFolder(t);
+  const copper = readFileSync(new URL("../../../scenarios/copper.toml", import.meta.url), "utf8");
+  writeFileSync(join(cwd, "lines.toml"), `${copper}\n[[views]]\nname = "Lines"\ndrawing = "contours"\nlevels = 3\n`);
+  const page = await watch(t, chromium, await bzm(t, ["run", "lines.toml", "--window", "--out", "run"], { cwd }));
+  await panel(page);
+  await page.selectOption("#pane-1-diagnosis", "Lines");
+  const view = (key, value) =>
+    until(() => JSON.stringify(page.wire.said.findLast((words) => words.do === "views").views[0][key]) === JSON.stringify(value), `${key} ${value}`);
+  assert.equal(await page.inputValue("#view-levels"), "3");
+  await canvas(page, ({ marks }) => marks.some(({ kind }) => kind === "curve"), "contours");
+  await commit(page, "#view-levels", "5");
+  await view("levels", 5);
+  await commit(page, "#view-levels", "five");
+  await page.waitForSelector("#panel .fault");
+  await commit(page, "#view-levels", "");
+  await view("levels", null);
+  await page.selectOption("#view-weight", "wendland");
+  await view("weight", "wendland");
+  await commit(page, "#view-range", "8");
+  await until(() => page.wire.said.findLast((words) => words.do === "views").views[0].range > 0, "a range");
+  await canvas(page, ({ marks }) => marks.some(({ kind }) => kind === "curve"), "contours of wider particles");
+  await keep(page, "contours");
 });
 
 test("TRACK keeps what was drawn, until it is turned off", async (t) => {
@@ -633,7 +658,7 @@ test("nothing can be pressed that the tests above don't press", async (t) => {
     `play step rewind stop quit popup help help-close quit-no quit-yes done add-pane whole csv track follow most step-size
      steps-per-frame steps-slider full-speed save-format save-scale save-dark save-picture record checkpoint theme-light theme-dark theme-system
      card-follow card-copy card-close view-x view-y view-colour view-size view-vectors view-low view-high view-cells view-logarithmic
-     view-trace view-slice view-at frame replay-speed`.split(/\s+/),
+     view-trace view-slice view-at view-levels view-weight view-range frame replay-speed`.split(/\s+/),
   );
   const unknown = new Set();
   for (const { name } of page.wire.hello.diagnoses) {
