@@ -92,12 +92,16 @@ class MethodOf : public Integrator {
   }
 
   /// Calls function(i, LargestMove&) for every particle. There is one compiled copy of the loop, for one thread and for
-  /// many: in two copies the compiler may contract a product and a sum in one and not in the other.
+  /// many: in two copies the compiler may contract a product and a sum in one and not in the other. Numbers of a row
+  /// are written one by one and would be read again in twos: no vectors. What `function` holds by value is in
+  /// registers.
   template <class Function>
   void each(Function const& function) {
-    auto const loop = [&](std::size_t begin, std::size_t end) __attribute__((noinline)) {
+    auto const loop = [&function](std::size_t begin, std::size_t end)
+        __attribute__((noinline, optimize("no-tree-vectorize"))) {
+      Function const own = function;
       LargestMove part;
-      for (std::size_t i = begin; i < end; ++i) function(i, part);
+      for (std::size_t i = begin; i < end; ++i) own(i, part);
       return part;
     };
     std::size_t const size = ensemble_.size();
@@ -135,7 +139,7 @@ class EulerMethod final : public MethodOf<P> {
   double time_after(int) const override { return 1; }
   Motion advance(int, StepContext const& context) override {
     double const dt = context.dt;
-    this->each([&](std::size_t i, LargestMove& move) {
+    this->each([this, dt](std::size_t i, LargestMove& move) {
       P& p = this->ensemble_[i];
       auto const start = p.position;
       this->equations(i, [&](auto member, auto const& derivative) {
@@ -200,7 +204,7 @@ class LeapFrog final : public Alternating<P> {
     if (stage == 0) {
       for (auto const& rotation : rotations_) turn(rotation, 0.5 * dt);
       if constexpr (predicts) kicks_.resize(kicked * this->ensemble_.size());
-      this->each([&](std::size_t i, LargestMove& move) {
+      this->each([this, dt, plain, kicked](std::size_t i, LargestMove& move) {
         this->kick(i, 0.5 * dt, plain);
         this->drift(i, dt, move, plain);
         if constexpr (predicts) {
@@ -213,7 +217,7 @@ class LeapFrog final : public Alternating<P> {
       });
       return Motion::final;
     }
-    this->each_again([&](std::size_t i, LargestMove& move) {
+    this->each_again([this, dt, plain, kicked](std::size_t i, LargestMove& move) {
       if constexpr (predicts) {
         double const* predicted = kicks_.data() + kicked * i;
         this->kick(i, 0.5 * dt, [&](double& x, double dx) { x += dx - *predicted++; });
@@ -264,21 +268,21 @@ class ReversibleLeapFrog final : public Alternating<P> {
   }
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
-    auto const of_velocity = [&](double& v, double dv) { v += on_grid(dv, grid_.velocity); };
-    auto const of_position = [&](double& x, double dx) { x += on_grid(dx, grid_.position); };
+    auto const of_velocity = [grid = grid_](double& v, double dv) { v += on_grid(dv, grid.velocity); };
+    auto const of_position = [grid = grid_](double& x, double dx) { x += on_grid(dx, grid.position); };
     // Beyond this, numbers are no longer multiples of their quantum.
     double const furthest = square(2251799813685248.0 * grid_.position);
     double const fastest = square(2251799813685248.0 * grid_.velocity);
     double const infinite = std::numeric_limits<double>::infinity();
     if (stage == 0) {
-      this->each([&](std::size_t i, LargestMove& move) {
+      this->each([=, this](std::size_t i, LargestMove& move) {
         this->kick(i, 0.5 * dt, of_velocity);
         this->drift(i, dt, move, of_position);
         if (!(norm2(this->ensemble_[i].position) < furthest)) move.take(infinite, i);
       });
       return Motion::final;
     }
-    this->each_again([&](std::size_t i, LargestMove& move) {
+    this->each_again([=, this](std::size_t i, LargestMove& move) {
       this->kick(i, 0.5 * dt, of_velocity);
       if (!(norm2(this->ensemble_[i].velocity) < fastest)) move.take(infinite, i);
     });
@@ -299,7 +303,7 @@ class Rk2 : public MethodOf<P> {
     double const dt = context.dt;
     if (stage == 0) {
       start_.resize(this->ensemble_.size());
-      this->each([&](std::size_t i, LargestMove&) {
+      this->each([this, dt](std::size_t i, LargestMove&) {
         P &p = this->ensemble_[i], &start = start_[i];
         this->equations(i, [&](auto member, auto const& derivative) {
           each_component(
@@ -312,7 +316,7 @@ class Rk2 : public MethodOf<P> {
       });
       return Motion::intermediate;
     }
-    this->each([&](std::size_t i, LargestMove& move) {
+    this->each([this, dt](std::size_t i, LargestMove& move) {
       P &p = this->ensemble_[i], &start = start_[i];
       this->equations(i, [&](auto member, auto const& derivative) {
         each_component([&](double& x, double& x0, double rate) { x = x0 + dt * rate; }, p.*member, start.*member,
@@ -333,13 +337,13 @@ class Rk4 final : public MethodOf<P> {
   using MethodOf<P>::MethodOf;
   int stages() const override { return 4; }
   double time_after(int stage) const override { return stage < 2 ? 0.5 : 1; }
-  [[gnu::flatten, gnu::optimize("no-tree-vectorize")]] Motion advance(int stage, StepContext const& context) override {
+  [[gnu::flatten]] Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
     switch (stage) {
       case 0:
         start_.resize(this->ensemble_.size());
         sum_.resize(this->ensemble_.size());
-        each_field<false>([&](double& x, double& x0, double& sum, double rate) {
+        each_field<false>([dt](double& x, double& x0, double& sum, double rate) {
           x0 = x;
           sum = rate;
           x = x0 + 0.5 * dt * rate;
@@ -348,14 +352,14 @@ class Rk4 final : public MethodOf<P> {
       case 1:
       case 2: {
         double const h = stage == 1 ? 0.5 * dt : dt;
-        each_field<false>([&](double& x, double& x0, double& sum, double rate) {
+        each_field<false>([h](double& x, double& x0, double& sum, double rate) {
           sum += 2 * rate;
           x = x0 + h * rate;
         });
         return Motion::intermediate;
       }
       default:
-        each_field<true>([&](double& x, double& x0, double& sum, double rate) { x = x0 + dt / 6 * (sum + rate); });
+        each_field<true>([dt](double& x, double& x0, double& sum, double rate) { x = x0 + dt / 6 * (sum + rate); });
         return Motion::final;
     }
   }
@@ -364,7 +368,7 @@ class Rk4 final : public MethodOf<P> {
   /// f(x, x at the start of the step, weighted sum of rates, rate) for every number that changes in time.
   template <bool at_end, class F>
   void each_field(F const& f) {
-    this->each([&](std::size_t i, [[maybe_unused]] LargestMove& move) {
+    this->each([this, f](std::size_t i, [[maybe_unused]] LargestMove& move) {
       P &p = this->ensemble_[i], &start = start_[i], &sum = sum_[i];
       this->equations(i, [&](auto member, auto const& derivative) {
         each_component(f, p.*member, start.*member, sum.*member, derivative);
