@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -106,6 +108,40 @@ TEST(Reference, TablesOfTheGuideAreThoseOfTheOptions) {
       EXPECT_EQ(page.substr(at, count), table.text) << "BOLTZMANN_WRITE_REFERENCE=1 "
                                                     << "tests/docs_tests writes it";
   }
+}
+
+// What the page of troubles quotes is said somewhere.
+TEST(Reference, TroublesAreMessagesThatThereAre) {
+  namespace fs = std::filesystem;
+  std::string sources;
+  for (auto const& file : fs::recursive_directory_iterator(std::string(BOLTZMANN_SOURCE) + "/boltzmann")) {
+    auto const ending = file.path().extension();
+    if (file.path().string().find("node_modules") == std::string::npos && (ending == ".cpp" || ending == ".hpp"))
+      sources += read_text(file.path().string());
+  }
+  // Literals that go on in the next line.
+  std::string joined;
+  for (std::size_t at = 0; at < sources.size(); ++at) {
+    auto const next = sources.find_first_not_of(" \n", at + 1);
+    if (sources[at] == '"' && at + 1 < sources.size() && sources[at + 1] == '\n' && sources[next] == '"')
+      at = next;
+    else
+      joined += sources[at];
+  }
+  std::istringstream page(read_text(std::string(BOLTZMANN_SOURCE) + "/docs/guide/troubleshooting.md"));
+  int quoted = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `")) continue;
+    std::string message = line.substr(3, line.find('`', 3) - 3);
+    for (std::size_t dots; !message.empty(); message = dots == std::string::npos ? "" : message.substr(dots + 4)) {
+      dots = message.find("...");
+      std::string const part = message.substr(0, dots == std::string::npos ? dots : dots - 1);
+      EXPECT_NE(joined.find(part), std::string::npos) << part;
+      ++quoted;
+      if (dots != std::string::npos && dots + 4 > message.size()) break;
+    }
+  }
+  EXPECT_GT(quoted, 10);
 }
 
 }  // namespace
