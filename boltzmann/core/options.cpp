@@ -1,6 +1,7 @@
 // What all tables of options have in common.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/toml_text.hpp>
 
 #include <fmt/format.h>
@@ -11,10 +12,7 @@
 namespace boltzmann {
 namespace {
 
-std::string shortest(double number) {
-  if (number == std::numeric_limits<std::int64_t>::max() || std::isinf(number)) return "any number";
-  return fmt::format("{:.0f}", number);
-}
+std::string in_full(double whole) { return fmt::format("{:.0f}", whole); }
 
 std::string in_toml(bool truth) { return truth ? "true" : "false"; }
 std::string in_toml(double number) { return fmt::format("{}", number); }
@@ -65,7 +63,7 @@ struct Writer {
   }
 };
 
-/// The numbers that a member holds.
+/// The numbers that a member holds; of a list how many.
 struct Numbers {
   std::vector<double> operator()(int* number) const { return {static_cast<double>(*number)}; }
   std::vector<double> operator()(std::size_t* number) const { return {static_cast<double>(*number)}; }
@@ -76,7 +74,8 @@ struct Numbers {
     return std::isnan(*number) ? std::vector<double>{} : std::vector<double>{*number};
   }
   std::vector<double> operator()(CountOrList const& either) const {
-    return *either.count == 0 ? std::vector<double>{} : std::vector<double>{static_cast<double>(*either.count)};
+    double const count = either.list->empty() ? *either.count : static_cast<double>(either.list->size());
+    return count == 0 ? std::vector<double>{} : std::vector<double>{count};
   }
   template <class T>
   std::vector<double> operator()(T const&) const {
@@ -141,19 +140,20 @@ std::string allowed(Option const& option) {
   auto const range = [&](std::string const& what) {
     return kind.range == any_number ? what : what + ", " + kind.range.text();
   };
-  std::string const quantity = kind.counted_in != 1                  ? "degrees"
-                               : !kind.dimension                     ? "a quantity of what is shown"
-                               : *kind.dimension == dimensions::none ? "a number"
-                               : kind.by_space != 0
-                                   ? "in 3D a " + name_of(*kind.dimension * pow(dimensions::length, 3 * kind.by_space))
-                                   : "a " + name_of(*kind.dimension);
+  std::string const quantity =
+      kind.counted_in != 1                  ? "degrees"
+      : !kind.dimension                     ? "a quantity of what is shown"
+      : *kind.dimension == dimensions::none ? "a number"
+      : kind.by_space != 0
+          ? "in 3D " + with_article(name_of(*kind.dimension * pow(dimensions::length, 3 * kind.by_space)))
+          : with_article(name_of(*kind.dimension));
   switch (kind.form) {
     case flag:
       return "true or false";
     case whole:
       return std::isinf(kind.range.high)
-                 ? fmt::format("a whole number, {} or more", shortest(kind.range.low))
-                 : fmt::format("a whole number, {} to {}", shortest(kind.range.low), shortest(kind.range.high));
+                 ? fmt::format("a whole number, {} or more", in_full(kind.range.low))
+                 : fmt::format("a whole number, {} to {}", in_full(kind.range.low), in_full(kind.range.high));
     case number:
       return range(quantity);
     case wholes:
@@ -161,8 +161,8 @@ std::string allowed(Option const& option) {
     case numbers:
       return "a list, each " + range(quantity);
     case count_or_numbers:
-      return fmt::format("a whole number, {} to {}, or a list, each {}", shortest(kind.range.low),
-                         shortest(kind.range.high), quantity);
+      return fmt::format("a whole number, {} to {}, or a list, each {}", in_full(kind.range.low),
+                         in_full(kind.range.high), quantity);
     case vector:
       return quantity + " along each axis";
     case ensembles:

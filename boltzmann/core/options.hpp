@@ -34,6 +34,7 @@ struct OptionList {
   std::function<std::size_t()> size;
   std::function<void*(std::size_t)> at;
   std::function<void*()> add;
+  std::function<void()> clear;
 };
 
 /// A member that is written as a number of things or as a list of them.

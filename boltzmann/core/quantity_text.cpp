@@ -366,10 +366,6 @@ class Reader {
   int depth_ = 0;
 };
 
-std::string with_article(std::string const& noun) {
-  return (std::string_view("aeiou").find(noun[0]) != std::string_view::npos ? "an " : "a ") + noun;
-}
-
 std::string what_it_is(Dimension d) {
   auto const name = name_of(d);
   return name == to_string(d) && d != dimensions::length && d != dimensions::mass && d != dimensions::time &&
@@ -379,6 +375,10 @@ std::string what_it_is(Dimension d) {
 }
 
 }  // namespace
+
+std::string with_article(std::string const& noun) {
+  return (std::string_view("aeiou").find(noun[0]) != std::string_view::npos ? "an " : "a ") + noun;
+}
 
 std::span<NamedUnit const> unit_table() { return table; }
 

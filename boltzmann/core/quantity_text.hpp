@@ -45,6 +45,9 @@ TextQuantity parse_quantity(std::string_view text);
 /// (e.g. 'kg', 'amu')", a unit in a reduced base, or a number beyond the range of double.
 double in_base(std::string_view text, Dimension wanted, Base const& base);
 
+/// "an energy", "a length".
+std::string with_article(std::string const& noun);
+
 /// Up to two units for a dimension, as a reader would write them: {"m/s", "cm/s"}. Empty for a pure number.
 std::vector<std::string> example_units(Dimension);
 

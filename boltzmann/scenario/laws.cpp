@@ -1,5 +1,6 @@
 // From the word of a law to its kernels, and why a class can't have it.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/law_binding.hpp>
 #include <boltzmann/scenario/laws.hpp>
 
@@ -15,10 +16,6 @@ BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension
   for (auto const& binder : binders)
     if (binder.name == law.name) return binder.bind({dimension, parameters});
   throw Error(fmt::format("law '{}' can be used in programs only, not in scenarios", law.name));
-}
-
-std::string with_article(std::string const& noun) {
-  return (std::string("aeiou").find(noun[0]) != std::string::npos ? "an " : "a ") + noun;
 }
 
 /// Why particles of this ensemble can't take the part of `least` in the law; empty if nothing is known against it.

@@ -60,6 +60,7 @@ Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& word
                   return shown_dimension(picture, ensembles, sources);
                 }});
   section.finish();
+  check_picture_keys(section, picture, run.scheme->box().dimension(), &run.scheme->box());
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   return picture;
 }

@@ -84,11 +84,12 @@ class OptionReader {
       return;
     }
     if (auto const read = read_integer(*item, option_.key, low(), high(), section_.context()))
-      *either.count = static_cast<int>(*read);
+      *either.count = static_cast<int>(*read), either.list->clear();
   }
   void operator()(OptionList const& list) const {
     Item const* item = section_.find(option_.key);
     if (!item) return;
+    list.clear();
     std::vector<Item> const one{*item};
     for (Item const& element : item->is(Item::Kind::array) ? item->elements : one) {
       if (!element.is(Item::Kind::table)) {

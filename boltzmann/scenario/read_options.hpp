@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/scenario/section.hpp>
+#include <boltzmann/simulation/picture.hpp>
 
 #include <functional>
 #include <optional>
@@ -22,5 +23,9 @@ struct OptionMeaning {
 /// Reads those of the options that the section has; the members of the others stay as they are. Everything wrong is a
 /// mistake at its place.
 void read_options(Section& section, OptionTable const& options, void* object, OptionMeaning const& meaning);
+
+/// What the table of a picture's options does not say: keys that mean nothing beside others, or in this space. A box
+/// that is not known is null.
+void check_picture_keys(Section& section, Picture const& picture, int dimension, Box const* box);
 
 }  // namespace boltzmann

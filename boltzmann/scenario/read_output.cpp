@@ -25,24 +25,17 @@ std::vector<std::string> column_names(Reading const& reading) {
   return names;
 }
 
-std::vector<std::string> axis_names(Reading const& reading) {
-  std::vector<std::string> names{"x", "y", "z"};
-  if (reading.dimension > 0) names.resize(static_cast<std::size_t>(reading.dimension));
-  return names;
-}
-
 bool all_loaded(Reading const& reading) {
   return !reading.ensembles.empty() && std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
                                                    [](ReadEnsemble const& e) { return e.particles != nullptr; });
 }
 
-void check_range_of_weight(double range, Place const& place, Reading& reading) {
-  for (int a = 0; reading.box && a < reading.dimension; ++a)
-    if (reading.box->boundary(a) == Boundary::mirror && range > reading.box->length(a))
-      return reading.mistake(place,
-                             fmt::format("range: {:.6g} is longer than mirror axis {} of the box, which allows at "
-                                         "most {:.6g}",
-                                         range, "xyz"[a], reading.box->length(a)));
+void check_range_of_weight(Section& section, double range, Box const& box) {
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.boundary(a) == Boundary::mirror && range > box.length(a))
+      return section.mistake(
+          "range", fmt::format("{:.6g} is longer than mirror axis {} of the box, which allows at most {:.6g}", range,
+                               "xyz"[a], box.length(a)));
 }
 
 namespace {
@@ -91,7 +84,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
                   else
                     read_group(section, parameters, reading);
                 }});
-  if (section.has("range")) check_range_of_weight(parameters.range, section.place("range"), reading);
+  if (section.has("range") && reading.box) check_range_of_weight(section, parameters.range, *reading.box);
   section.finish();
   if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
   for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);

@@ -34,27 +34,12 @@ bool of_diagnoses(PicturePlan const& plan) {
          (plan.drawing == "spectrum" && plan.x == "time");
 }
 
-/// What no table says: keys that mean nothing beside others, or in this space.
-void check_keys(Section const& section, PicturePlan const& plan, Reading& reading) {
-  auto const mistake = [&](char const* key, std::string const& what) {
-    reading.mistake(section.place(key), fmt::format("{}: {}", key, what));
-  };
-  bool const of_particles = plan.drawing == "cartesian" || plan.drawing == "phase-space";
-  for (char const* key : {"low", "high"})
-    if (of_particles && section.has(key) && plan.colour.empty())
-      mistake(key, "an end of the colours, but the picture has no 'colour'");
+/// What is wrong with the keys of a scenario's picture besides.
+void check_keys(Section& section, PicturePlan const& plan, Reading& reading) {
+  auto const mistake = [&](char const* key, std::string const& what) { section.mistake(key, what); };
+  check_picture_keys(section, plan, reading.dimension, reading.box ? &*reading.box : nullptr);
   if (plan.trace && !reading.recorded.trajectory)
     mistake("trace", "tracks are those of the trajectory; add e.g. trajectory = 10 to [output]");
-  if (reading.dimension == 1 || reading.dimension == 2)
-    for (char const* key : {"slice", "at"})
-      if (section.has(key))
-        mistake(key, fmt::format("slices are of fields in 3D; in {}D the whole is shown", reading.dimension));
-  int const axis = plan.slice.empty() ? 2 : plan.slice[0] - 'x';
-  if (section.has("at") && reading.box && reading.dimension == 3 &&
-      (plan.at < reading.box->low(axis) || plan.at > reading.box->high(axis)))
-    mistake("at", fmt::format("{} is outside the box, which goes from {} to {} along {}", plan.at,
-                              reading.box->low(axis), reading.box->high(axis), plan.slice));
-  if (section.has("range")) check_range_of_weight(plan.smoothing.range, section.place("range"), reading);
   if ((plan.drawing == "contours" || plan.drawing == "bands") && reading.dimension == 1)
     mistake("drawing", fmt::format("'{}' are drawn in 2D and 3D; in 1D 'map' draws a curve", plan.drawing));
   if (of_diagnoses(plan) && !reading.recorded.diagnoses)
@@ -114,6 +99,23 @@ void read_view(Item const& table, Reading& reading) {
 }
 
 }  // namespace
+
+void check_picture_keys(Section& section, Picture const& picture, int dimension, Box const* box) {
+  bool const of_particles = picture.drawing == "cartesian" || picture.drawing == "phase-space";
+  for (char const* key : {"low", "high"})
+    if (of_particles && section.has(key) && picture.colour.empty())
+      section.mistake(key, "an end of the colours, but the picture has no 'colour'");
+  if (dimension == 1 || dimension == 2)
+    for (char const* key : {"slice", "at"})
+      if (section.has(key))
+        section.mistake(key, fmt::format("slices are of fields in 3D; in {}D the whole is shown", dimension));
+  if (!box) return;
+  int const axis = picture.slice[0] - 'x';
+  if (section.has("at") && dimension == 3 && (picture.at < box->low(axis) || picture.at > box->high(axis)))
+    section.mistake("at", fmt::format("{} is outside the box, which goes from {} to {} along {}", picture.at,
+                                      box->low(axis), box->high(axis), picture.slice));
+  if (section.has("range")) check_range_of_weight(section, picture.smoothing.range, *box);
+}
 
 void read_picture(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();

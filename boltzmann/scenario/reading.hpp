@@ -164,10 +164,9 @@ void read_output(Section& document, Item& resolved, Reading& reading);
 void read_stop(Reading& reading);
 /// The columns that diagnoses.csv will have; the axes that the box has (all three if it is not known).
 std::vector<std::string> column_names(Reading const& reading);
-std::vector<std::string> axis_names(Reading const& reading);
 bool all_loaded(Reading const& reading);
 /// A mistake if particles that are spread so far have more images between walls than one.
-void check_range_of_weight(double range, Place const& place, Reading& reading);
+void check_range_of_weight(Section& section, double range, Box const& box);
 void read_picture(Item const& table, Reading& reading);
 /// Reads [[views]], the diagnoses for the window.
 void read_views(Section& document, Reading& reading);

@@ -83,6 +83,8 @@ class Section {
   void rename(std::string title) { title_ = std::move(title); }
   ReadContext& context() { return context_; }
   void mistake(Place const& place, std::string message) { context_.mistakes.add(place, std::move(message)); }
+  /// At the value of a key: "key: what".
+  void mistake(char const* key, std::string const& what) { mistake(place(key), about(key, what)); }
 
   /// Reports every key that nobody asked for.
   void finish();

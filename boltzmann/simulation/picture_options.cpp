@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <initializer_list>
 
 namespace boltzmann {
 namespace {
@@ -25,7 +25,7 @@ OptionPlace curves_of(Picture& picture) {
   auto* const curves = &picture.curves;
   return OptionList{&dispersion_options(), [=] { return curves->size(); },
                     [=](std::size_t k) -> void* { return &(*curves)[k]; },
-                    [=]() -> void* { return &curves->emplace_back(); }};
+                    [=]() -> void* { return &curves->emplace_back(); }, [=] { curves->clear(); }};
 }
 
 OptionPlace weight_of(Picture& picture) {
@@ -52,7 +52,7 @@ OptionTable make_members() {
   all.add("logarithmic", &Picture::logarithmic, flag(),
           "values on a logarithmic axis; what is not positive, or 12 decades below the largest, is left out");
   all.add("trace", &Picture::trace, flag(), "also the tracks through all frames of the trajectory");
-  all.add("slice", &Picture::slice, axis_word(), "3D: the axis that the slice is normal to");
+  all.add("slice", &Picture::slice, word({"x", "y", "z"}), "3D: the axis that the slice is normal to");
   all.add("at", &Picture::at, number(dimensions::length), "3D: where on that axis", "in the middle");
   all.add_of<Picture>(
       "levels",

@@ -573,6 +573,8 @@ TEST(Render, DrawsAnyFrame) {
                            "wendland", "--range", "6 angstrom", "--cells", "40", "--low", "0 amu/angstrom^2"},
                           folder.string());
   EXPECT_EQ(levels.status, 0) << levels.err;
+  expect_one_line(bzm({"render", "out", "-o", "x.png", "--drawing", "map", "--slice", "x"}, folder.string()), 2,
+                  {"--slice x", "slices are of fields in 3D"});
   expect_one_line(bzm({"render", "out", "-o", "x.png", "--drawing", "map", "--low", "1 kg"}, folder.string()), 2,
                   {"--low 1 kg", "low", "mass"});
   expect_one_line(

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace boltzmann::smooth_pictures_test {
 namespace {
@@ -137,6 +138,10 @@ TEST(SmoothPictures, MistakesInOneLine) {
   says(matter, {.drawing = "map", .y = "kinetic-enrgy"}, "did you mean 'kinetic-energy'");
   says(matter, {.drawing = "maps"}, "contours, bands");
   says(matter, {.drawing = "contours", .levels = {2, 1}}, "ascend");
+  says(matter, {.drawing = "contours", .level_count = 1001}, "between 1 and 1000");
+  std::vector<double> many(1001);
+  std::iota(many.begin(), many.end(), 0);
+  says(matter, {.drawing = "contours", .levels = many}, "between 1 and 1000");
   says(matter, {.drawing = "map", .smoothing = {.range = -1}}, "must be positive");
   says(matter, {.drawing = "map", .cells = 1}, "between 2 and 4000");
   says(matter, {.drawing = "map", .slice = "w"}, "normal to x, y or z");

@@ -1,6 +1,7 @@
 // [[views]]: diagnoses for the window by field names, read as pictures are, and what is told of mistakes in them.
 #include "mistakes.hpp"
 
+#include <boltzmann/scenario/picture_words.hpp>
 #include <boltzmann/simulation/picture_options.hpp>
 
 #include <gtest/gtest.h>
@@ -139,6 +140,18 @@ TEST(Views, SayEverythingOfADrawing) {
       EXPECT_EQ(read.at, 5);
     }
   }
+}
+
+// What a command says replaces what the scenario's picture says, whichever way each has it.
+TEST(Pictures, AreSaidOtherwiseByWords) {
+  auto const run =
+      parse_scenario(plain + "[output]\n[[output.pictures]]\ndrawing = \"contours\"\nlevels = [1, 2]\n", "test.toml");
+  auto const count = picture_by_words(*run, {{"drawing", "contours"}, {"levels", "8"}});
+  EXPECT_EQ(count.level_count, 8);
+  EXPECT_TRUE(count.levels.empty());
+  EXPECT_EQ(picture_by_words(*run, {{"levels", "3, 4, 5"}}).levels, (std::vector<double>{3, 4, 5}));
+  EXPECT_EQ(picture_by_words(*run, {}).levels, (std::vector<double>{1, 2}));
+  EXPECT_THROW(picture_by_words(*run, {{"drawing", "cartesian"}, {"low", "1"}}), ScenarioErrors);  // of no colour
 }
 
 TEST(Views, AreNamedOnTheCommandLine) {
