@@ -1,10 +1,15 @@
 # Batches: sources of one room are compiled a few at a time as one unit, which reads the headers once.
-# batch_rooms(size source...) puts each room's sources into batches of about equal length, `size` sources at most.
+# batch_rooms(size source...) puts each room's sources into batches of about equal length, `size` sources at most. Those that
+# name the kernels of an instruction set keep to themselves: another choice of sets (`make test` after `make run`) compiles no others.
 function(batch_rooms size)
   foreach(source ${ARGN})
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/boltzmann OUTPUT_VARIABLE name)
     cmake_path(GET name PARENT_PATH room)
     string(REPLACE "/" "_" room ${room})
+    file(STRINGS ${source} names_sets REGEX "include.*(kernel_sets|kernel_dispatch|law_binding)\\.hpp")
+    if(names_sets)
+      string(APPEND room _sets)
+    endif()
     list(APPEND room_${room} ${source})
     list(APPEND rooms ${room})
   endforeach()

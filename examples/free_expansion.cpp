@@ -9,7 +9,7 @@
 using namespace boltzmann;
 
 int main(int argc, char** argv) try {
-  double const side = 256, sound_time = side, step = 0.5;  // the speed of sound is 1 at the start
+  double const side = 256, sound_time = side, step = 0.8;  // the speed of sound is 1 at the start
   Box const box(Vector{0.0, 0.0}, Vector{side, side}, Boundary::periodic);
   Ensemble<Smooth<2>> gas("gas", 0);
   block_load(gas, Lattice::square, 1, {128, 128}, {side / 4 + 0.5, side / 4 + 0.5}, true);
@@ -27,8 +27,8 @@ int main(int argc, char** argv) try {
   scheme.complete(0);
   SmoothEntropy const before = smooth_entropy({gas}, box);
   Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/free-expansion-cpp", true);
-  recording.diagnoses(64, {"energies", "momentum", "entropy"});
-  recording.trajectory(512);
+  recording.diagnoses(40, {"energies", "momentum", "entropy"});
+  recording.trajectory(320);
   // Figure 2: above the mean, and below.
   recording.picture({.drawing = "bands", .y = "density"});
   recording.picture({.drawing = "bands", .y = "kinetic-energy", .file = "kinetic-energy.png"});

@@ -301,6 +301,8 @@ void DissipativeFlow::take_lists() {
 
 void DissipativeFlow::advance(StepContext const& context) {
   if (!(context.dt > 0)) throw Error(fmt::format("friction and noise need a positive step, not {}", context.dt));
+  // Runs that are compared with others may have none at all.
+  if (std::all_of(couplings_.begin(), couplings_.end(), [](auto const& c) { return c->vanishes(); })) return;
   if (!take_points()) {
     scheme_.neighbourhood().refresh(threads());
     take_points();

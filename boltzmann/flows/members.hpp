@@ -52,6 +52,7 @@ struct DissipativeFlow::Coupling {
   std::array<std::vector<std::uint32_t>, list_rings> length;
 
   bool same() const { return target == source; }
+  bool vanishes() const { return dissipation.friction == 0 && dissipation.conduction == 0; }
   /// Brings row, length and entries of a chunk up to date.
   void take_chunk(std::size_t chunk, NeighbourList const& neighbours);
   PairNoise noise(StepContext const& context, double boltzmann_constant, std::uint32_t flow) const;

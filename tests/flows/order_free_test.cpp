@@ -33,6 +33,33 @@ Dissipation friction_of(Convention convention, double range) {
 constexpr Convention all_conventions[] = {Convention::fixed_temperature, Convention::constant_noise,
                                           Convention::constant_friction, Convention::deterministic};
 
+/// Without friction and conduction nothing changes, by whatever method; with conduction alone something does.
+TEST(OrderFree, WithoutStrengthNothingHappens) {
+  Box const box = cube<2>(6);
+  for (auto const method : {FlowMethod::order_free, FlowMethod::pair_splitting})
+    for (double const conduction : {0.0, 2.0}) {
+      Ensemble<Meso<2>> matter("matter");
+      scatter(matter, box, 90, Masses::unequal);
+      PairScheme scheme(box, 1);
+      DissipativeFlow flow(scheme, k);
+      flow.state(matter, StateLaw(16));
+      Dissipation d = friction_of(Convention::constant_friction, 1);
+      d.friction = 0;
+      d.conduction = conduction;
+      flow.internal(matter, d);
+      flow.method(method);
+      double const speed = matter[0].velocity[0], sum = flow.internal_energy();
+      bool all_same = true;
+      std::vector<double> energies;
+      for (auto const& p : matter) energies.push_back(p.internal_energy);
+      flow.advance({0.003, 5, test_seed(7)});
+      for (std::size_t i = 0; i < matter.size(); ++i) all_same = all_same && matter[i].internal_energy == energies[i];
+      EXPECT_EQ(all_same, conduction == 0);
+      EXPECT_EQ(matter[0].velocity[0], speed);
+      EXPECT_NEAR(flow.internal_energy(), sum, 1e-12 * sum);
+    }
+}
+
 /// One step of one ensemble of this size; the deviation from the oracle.
 template <int D>
 double one_step(Box const& box, std::size_t count, Dissipation const& d, Masses masses, bool corrector,
