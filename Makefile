@@ -16,7 +16,7 @@ run: | $(BUILD)/build.ninja
 	@echo "Results are in $(CURDIR)/results/copper (start with picture.png)"
 
 test: test-dependencies build
-	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $$(( $(CORES) + 1 ))  # browsers and servers wait much of their time
+	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $$(( $(CORES) + 2 ))  # browsers, servers and what is killed wait much of their time
 
 build: all-sets
 	$(NINJA)

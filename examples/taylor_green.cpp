@@ -1,6 +1,5 @@
 // Taylor and Green's vortices: a viscous fluid whose speeds decay as exp(-8 pi^2 nu t / L^2), here at a Reynolds number
-// of
-// 50. The measured rate of decay against resolution: the order of convergence.
+// of 50. The measured rate of decay against resolution: the order of convergence.
 #include <boltzmann/boltzmann.hpp>
 
 #include <cstdio>

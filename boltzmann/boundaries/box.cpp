@@ -65,19 +65,16 @@ class OddImages {
 
 }  // namespace
 
-std::string to_string(Boundary boundary) {
-  switch (boundary) {
-    case Boundary::open:
-      return "open";
-    case Boundary::bounded:
-      return "bounded";
-    case Boundary::periodic:
-      return "periodic";
-    case Boundary::mirror:
-      return "mirror";
-  }
-  return "?";
+Words<Boundary> const& boundary_words() {
+  static Words<Boundary> const all{
+      "boundary",
+      {{Boundary::open, "open", "particles leave freely"},
+       {Boundary::bounded, "bounded", "elastic walls"},
+       {Boundary::periodic, "periodic", "what leaves on one side enters on the other"},
+       {Boundary::mirror, "mirror", "beyond each wall everything has an image: the walls of smooth particles"}}};
+  return all;
 }
+std::string to_string(Boundary boundary) { return boundary_words().name(boundary); }
 
 Box::Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, std::array<Boundary, 3> boundaries)
     : dimension_(dimension),

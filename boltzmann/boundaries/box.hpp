@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
+#include <boltzmann/core/words.hpp>
 
 #include <array>
 #include <limits>
@@ -22,6 +23,7 @@ enum class Boundary {
   mirror,    ///< beyond its walls every particle has an image (see Wall)
 };
 
+Words<Boundary> const& boundary_words();
 std::string to_string(Boundary boundary);
 
 /// A wall at one end of an axis. On a mirror axis: what the image beyond it of a particle with velocity v and

@@ -39,12 +39,6 @@ struct Row {
   double steps, pairs;  // per second
 };
 
-LawInfo const& law_named(char const* name) {
-  LawInfo const* law = find_law(name);
-  if (!law) throw Error(fmt::format("there is no law '{}'", name));
-  return *law;
-}
-
 Problem make(char const* class_name, int dimension, std::size_t count, Box box, double cutoff) {
   ClassVariant const* variant = find_class(class_name)->in(dimension);
   Problem problem;
@@ -92,7 +86,7 @@ Problem melt() {
   unit_masses(*problem.particles);
   maxwellian_load(*problem.particles, 1.44, 1, 1, {.remove_drift = true, .exact_temperature = true});
   problem.scheme->skin(0.3);
-  install_pairs(*problem.scheme, law_named("lennard-jones"), {{"r0", {std::pow(2.0, 1.0 / 6)}}, {"depth", {1.0}}},
+  install_pairs(*problem.scheme, law_info("lennard-jones"), {{"r0", {std::pow(2.0, 1.0 / 6)}}, {"depth", {1.0}}},
                 LawUse::internal, *problem.particles, *problem.particles, cutoff);
   start(problem, 0.005);
   problem.simulation->run(40);  // until the lattice has melted
@@ -107,7 +101,7 @@ Problem stars() {
   Problem problem = make("Kepler", 3, count, box, no_cutoff);
   unit_masses(*problem.particles);
   random_load(*problem.particles, box, 1);
-  install_pairs(*problem.scheme, law_named("gravity"), {{"G", {1.0 / count}}, {"softening", {0.05}}}, LawUse::internal,
+  install_pairs(*problem.scheme, law_info("gravity"), {{"G", {1.0 / count}}, {"softening", {0.05}}}, LawUse::internal,
                 *problem.particles, *problem.particles, no_cutoff);
   start(problem, 1e-4);
   problem.pairs = static_cast<double>(count) * (count - 1);
@@ -120,7 +114,7 @@ Problem chain() {
   Problem problem = make("Newton", 1, count, Box(Vector{0.0}, Vector{static_cast<double>(count)}), no_cutoff);
   unit_masses(*problem.particles);
   block_load(*problem.particles, Lattice::square, 1.01, {count, 1, 1});
-  install_connections(*problem.scheme, law_named("spring"), {{"stiffness", {1.0}}, {"rest_length", {1.0}}},
+  install_connections(*problem.scheme, law_info("spring"), {{"stiffness", {1.0}}, {"rest_length", {1.0}}},
                       *problem.particles, {{0, count - 1}});
   start(problem, 0.05);
   problem.pairs = 2.0 * (count - 1);

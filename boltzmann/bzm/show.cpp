@@ -4,7 +4,7 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/flows/flow_options.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -24,54 +24,6 @@
 
 namespace boltzmann::bzm {
 namespace {
-
-struct IntegratorDoc {
-  Method method;
-  char const* doc;
-};
-
-constexpr IntegratorDoc integrator_docs[] = {
-    {Method::euler, "first order, one evaluation a step; energy grows: for comparison, and for flows"},
-    {Method::leap_frog,
-     "second order, one evaluation a step, symplectic (velocity Verlet): energy stays bounded; for forces"},
-    {Method::rk2, "second-order Runge-Kutta (midpoint), two evaluations a step"},
-    {Method::rk4, "fourth-order Runge-Kutta, four evaluations a step: for few bodies, vortices and smooth motion"},
-    {Method::reversible_leap_frog,
-     "leap-frog on a fixed-point grid: run backwards it returns to the start to the last bit"},
-    {Method::random_walk, "rk2 and a random step of variance 2 nu dt on each axis: viscous vortices"},
-    {Method::deactivate, "the particles stay where they are"},
-};
-
-std::string integrator_doc(std::string const& name) {
-  for (auto const& entry : integrator_docs)
-    if (to_string(entry.method) == name) return entry.doc;
-  return "";
-}
-
-struct FlowDoc {
-  char const *kind, *doc;
-};
-
-constexpr FlowDoc flow_docs[] = {
-    {"dissipative",
-     "friction and noise between near particles, which keep the momentum; with internal energies also the energy (DPD, "
-     "DPDE)"},
-    {"langevin", "friction and noise from a heat bath on each particle"},
-};
-
-char const* convention_doc(Convention convention) {
-  switch (convention) {
-    case Convention::fixed_temperature:
-      return "a heat bath of this temperature; the energy is not conserved (DPD)";
-    case Convention::constant_noise:
-      return "the noise that the friction has at a reference temperature, everywhere";
-    case Convention::constant_friction:
-      return "one friction; noise from the temperatures of the two particles";
-    case Convention::deterministic:
-      return "no noise: friction in proportion to the difference of kinetic and internal temperature";
-  }
-  return "";
-}
 
 // One name of a list and its line.
 struct Named {
@@ -111,12 +63,12 @@ std::vector<Named> materials() {
 }
 std::vector<Named> integrators() {
   std::vector<Named> all;
-  for (auto const& name : method_names()) all.push_back({name, integrator_doc(name)});
+  for (auto const& word : method_words()) all.push_back({std::string(word.name), std::string(word.doc)});
   return all;
 }
 std::vector<Named> flows() {
   std::vector<Named> all;
-  for (auto const& flow : flow_docs) all.push_back({flow.kind, flow.doc});
+  for (auto const& kind : flow_kinds()) all.push_back({kind.name, kind.doc});
   return all;
 }
 std::vector<Named> diagnoses() {
@@ -230,9 +182,7 @@ void show_law(LawInfo const& law) {
     auto const examples = example_units(parameter.dimension);
     fmt::print("    {:<14} {}{}{}, {}{}\n", parameter.name, parameter.doc, "; ",
                examples.empty() ? "a pure number" : fmt::format("in {}", join(examples, " or ")),
-               parameter.range == AllowedRange::positive       ? "positive"
-               : parameter.range == AllowedRange::non_negative ? "not negative"
-                                                               : "any number",
+               parameter.range.text(),
                parameter.default_text.empty() ? "" : fmt::format("; {} unless told", parameter.default_text));
   }
   fmt::print("\n  in C++: #include <{}>, {}\n", law.header, law.type);
@@ -251,11 +201,7 @@ void print_parameters(std::vector<MaterialParameter> const& parameters) {
                parameter.dimension(3) == dimensions::none
                    ? "a number"
                    : fmt::format("in {}", examples.empty() ? name_of(parameter.dimension(3)) : join(examples, " or ")),
-               parameter.range == MaterialRange::positive       ? "positive"
-               : parameter.range == MaterialRange::non_negative ? "not negative"
-               : parameter.range == MaterialRange::above_one    ? "above 1"
-                                                                : "of any size",
-               usual);
+               parameter.range.text(), usual);
   }
 }
 
@@ -273,23 +219,6 @@ void show_material(MaterialInfo const& material) {
   fmt::print("  in C++: #include <{}>, {}\n", material.header, material.type);
 }
 
-void show_flow(FlowDoc const& flow) {
-  fmt::print("flow {}: {}\n", flow.kind, flow.doc);
-  if (std::string(flow.kind) == "langevin") {
-    fmt::print("\n  in [[flows]]: on, temperature, rate\n");
-    return;
-  }
-  fmt::print(
-      "\n  dp = -friction chi^2 v dt + noise chi dW, chi = (1 - r / range)^exponent\n"
-      "\n  in [[flows]]: on or between, convention, friction, temperature, range, exponent, projected, conduction;\n"
-      "                in the first of them method, corrector, metropolis\n\n  conventions\n");
-  for (auto const& name : convention_names())
-    fmt::print("    {:<18} {}\n", name, convention_doc(convention_named(name)));
-  fmt::print("\n  methods\n    {:<18} all pairs act at once; each particle gets back as heat what its motion loses\n",
-             to_string(FlowMethod::order_free));
-  fmt::print("    {:<18} one pair after the other (Shardlow)\n", to_string(FlowMethod::pair_splitting));
-}
-
 void show_options(OptionTable const& options, void* plain) {
   std::size_t width = 0;
   for (auto const& option : options) width = std::max(width, option.key.size());
@@ -302,6 +231,19 @@ void show_options(OptionTable const& options, void* plain) {
     std::erase(line, '`');
     fmt::print("  {:<{}}  {}\n", option.key, width, line);
   }
+}
+
+void show_flow(FlowKind const& kind) {
+  fmt::print("flow {}: {}\n\n  {}\n\n", kind.name, kind.doc, kind.equation);
+  DissipationOptions pairs;
+  BathOptions bath;
+  bool const dissipative = &kind.options == &dissipation_options();
+  show_options(kind.options, dissipative ? static_cast<void*>(&pairs) : &bath);
+  if (!dissipative) return;
+  fmt::print("\n  conventions\n");
+  for (auto const& word : convention_words()) fmt::print("    {:<18} {}\n", word.name, word.doc);
+  fmt::print("\n  methods\n");
+  for (auto const& word : flow_method_words()) fmt::print("    {:<18} {}\n", word.name, word.doc);
 }
 
 void show_diagnosis(DiagnosisKind const& kind) {
@@ -386,9 +328,9 @@ int show(std::string const& name) {
     show_material(*material);
     return 0;
   }
-  for (auto const& flow : flow_docs)
-    if (flow.kind == name) {
-      show_flow(flow);
+  for (auto const& kind : flow_kinds())
+    if (kind.name == name) {
+      show_flow(kind);
       return 0;
     }
   bool shown = false;  // a drawing may have the name of the diagnosis that records for it
@@ -400,10 +342,11 @@ int show(std::string const& name) {
     show_drawing(drawing), shown = true;
   }
   if (shown) return 0;
-  if (auto const doc = integrator_doc(name); !doc.empty()) {
-    fmt::print("integrator {}: {}\n", name, doc);
-    return 0;
-  }
+  for (auto const& word : method_words())
+    if (word.name == name) {
+      fmt::print("integrator {}: {}\n", name, word.doc);
+      return 0;
+    }
   if (show_unit(name)) return 0;
   std::vector<std::string> names;
   for (auto const& section : sections)

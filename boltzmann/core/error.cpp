@@ -1,5 +1,6 @@
 // The nearest allowed word, for messages that help.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/words.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -73,6 +74,11 @@ std::string join(std::span<std::string const> words, std::string_view separator)
     text += word;
   }
   return text;
+}
+
+void refuse_word(std::string_view what, std::string_view word, std::vector<std::string> const& words) {
+  throw Error("unknown " + std::string(what) + " '" + std::string(word) + "'; there are " + join(words) +
+              did_you_mean(word, words));
 }
 
 }  // namespace boltzmann

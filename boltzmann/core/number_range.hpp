@@ -19,5 +19,6 @@ struct NumberRange {
 inline constexpr NumberRange any_number{};
 inline constexpr NumberRange positive{0, std::numeric_limits<double>::infinity(), true};
 inline constexpr NumberRange not_negative{0, std::numeric_limits<double>::infinity(), false};
+constexpr NumberRange above(double low) { return {low, std::numeric_limits<double>::infinity(), true}; }
 
 }  // namespace boltzmann

@@ -86,6 +86,7 @@ struct Numbers {
 }  // namespace
 
 std::string NumberRange::text() const {
+  if (std::isinf(low) && std::isinf(high)) return "any number";
   if (low_excluded && std::isfinite(high)) return fmt::format("above {}, at most {}", low, high);
   if (low_excluded && low == 0) return "positive";
   if (low_excluded) return fmt::format("above {}", low);

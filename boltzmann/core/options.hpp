@@ -4,6 +4,7 @@
 
 #include <boltzmann/core/dimension.hpp>
 #include <boltzmann/core/number_range.hpp>
+#include <boltzmann/core/words.hpp>
 
 #include <array>
 #include <concepts>
@@ -27,6 +28,12 @@ struct NamedValue {
   std::function<std::string()> name;
   std::function<void(std::string const&)> choose;  ///< one of the option's words
 };
+
+template <class Value>
+NamedValue named_value(Value* value, Words<Value> const& words) {
+  return {[value, &words] { return words.name(*value); },
+          [value, &words](std::string const& name) { *value = words.named(name); }};
+}
 
 /// A member that is a list of structs with options of their own.
 struct OptionList {

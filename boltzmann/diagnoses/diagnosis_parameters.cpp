@@ -23,12 +23,8 @@ OptionTable const& diagnosis_options() {
     all.add("modes", &P::modes, whole(1, __builtin_inf()), "how many waves are kept",
             "as many as there are, up to 256");
     all.add_of<P>(
-        "weight",
-        [](P& p) -> OptionPlace {
-          return NamedValue{[&p] { return to_string(p.weight); },
-                            [&p](std::string const& name) { p.weight = weight_named(name); }};
-        },
-        word(weight_names()), "of the averages");
+        "weight", [](P& p) -> OptionPlace { return named_value(&p.weight, weight_words()); },
+        word(weight_words().names()), "of the averages");
     all.add("range", &P::range, number(dimensions::length, positive), "of the weight", "each particle's own");
     all.add("gamma", &P::gamma, number(dimensions::none, {1, __builtin_inf(), true}), "the ratio of specific heats",
             "1 + 2/D");

@@ -5,51 +5,34 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace boltzmann {
-namespace {
 
-constexpr std::array<std::pair<Convention, char const*>, 4> conventions{
-    {{Convention::fixed_temperature, "fixed-temperature"},
-     {Convention::constant_noise, "constant-noise"},
-     {Convention::constant_friction, "constant-friction"},
-     {Convention::deterministic, "deterministic"}}};
-
-constexpr std::array<std::pair<FlowMethod, char const*>, 2> methods{
-    {{FlowMethod::order_free, "order-free"}, {FlowMethod::pair_splitting, "pair-splitting"}}};
-
-template <class Table>
-std::vector<std::string> names_of(Table const& table) {
-  std::vector<std::string> all;
-  for (auto const& entry : table) all.emplace_back(entry.second);
+Words<Convention> const& convention_words() {
+  static Words<Convention> const all{
+      "convention",
+      {{Convention::fixed_temperature, "fixed-temperature",
+        "a heat bath of this temperature; the energy is not conserved (DPD)"},
+       {Convention::constant_noise, "constant-noise",
+        "the noise that the friction has at a reference temperature, everywhere"},
+       {Convention::constant_friction, "constant-friction",
+        "one friction; noise from the temperatures of the two particles"},
+       {Convention::deterministic, "deterministic",
+        "no noise: friction in proportion to the difference of kinetic and internal temperature"}}};
   return all;
 }
+std::string to_string(Convention convention) { return convention_words().name(convention); }
 
-template <class Table>
-auto named(Table const& table, std::string_view name, char const* what) {
-  for (auto const& [value, text] : table)
-    if (name == text) return value;
-  auto const all = names_of(table);
-  throw Error(fmt::format("unknown {} '{}'; there are {}{}", what, name, join(all), did_you_mean(name, all)));
+Words<FlowMethod> const& flow_method_words() {
+  static Words<FlowMethod> const all{
+      "method of dissipation",
+      {{FlowMethod::order_free, "order-free",
+        "all pairs act at once; each particle gets back as heat what its motion loses"},
+       {FlowMethod::pair_splitting, "pair-splitting", "one pair after the other (Shardlow)"}}};
+  return all;
 }
-
-template <class Table, class Value>
-std::string name_of(Table const& table, Value wanted) {
-  for (auto const& [value, text] : table)
-    if (value == wanted) return text;
-  return "?";
-}
-
-}  // namespace
-
-std::string to_string(Convention convention) { return name_of(conventions, convention); }
-std::vector<std::string> convention_names() { return names_of(conventions); }
-Convention convention_named(std::string_view name) { return named(conventions, name, "convention"); }
-std::string to_string(FlowMethod method) { return name_of(methods, method); }
-FlowMethod flow_method_named(std::string_view name) { return named(methods, name, "method of dissipation"); }
+std::string to_string(FlowMethod method) { return flow_method_words().name(method); }
 
 void Dissipation::check() const {
   auto const need = [](char const* name, double value, bool right, char const* allowed) {

@@ -1,9 +1,9 @@
 // Dissipation: what one kind of friction and noise between two particles is made of.
 #pragma once
 
+#include <boltzmann/core/words.hpp>
+
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace boltzmann {
 
@@ -17,10 +17,8 @@ enum class Convention {
   deterministic,      ///< no noise: friction gamma (T_ext - T_int) / T_ref, of either sign (section 4 of the source)
 };
 
+Words<Convention> const& convention_words();
 std::string to_string(Convention convention);
-std::vector<std::string> convention_names();
-/// "fixed-temperature", "constant-noise", "constant-friction", "deterministic"; Error with the allowed names.
-Convention convention_named(std::string_view name);
 
 /// Friction, noise and heat conduction between two particles at distance r, with chi = (1 - r / range)^exponent up to
 /// the range (Eq 1 to 4 of the DPDE source, put right):

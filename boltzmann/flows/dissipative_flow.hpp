@@ -19,8 +19,8 @@ enum class FlowMethod {
                ///< its motion has lost (energy reinjection)
   pair_splitting,  ///< one pair after the other (Shardlow), in an order that depends on neighbour lists alone
 };
+Words<FlowMethod> const& flow_method_words();
 std::string to_string(FlowMethod method);
-FlowMethod flow_method_named(std::string_view name);
 
 /// Total momentum, and total energy where particles have internal energies, are kept to rounding by every method,
 /// whatever the masses. Noise depends on the seed, the step and the numbers of the two particles alone; the same bits

@@ -1,41 +1,24 @@
 // Names of the methods.
 #include <boltzmann/integrators/integrator.hpp>
 
-#include <boltzmann/core/error.hpp>
-
-#include <array>
-#include <utility>
-
 namespace boltzmann {
-namespace {
 
-constexpr std::array<std::pair<Method, char const*>, 7> names{{{Method::euler, "euler"},
-                                                               {Method::leap_frog, "leap-frog"},
-                                                               {Method::rk2, "rk2"},
-                                                               {Method::rk4, "rk4"},
-                                                               {Method::reversible_leap_frog, "reversible-leap-frog"},
-                                                               {Method::random_walk, "random-walk"},
-                                                               {Method::deactivate, "deactivate"}}};
-
-}  // namespace
-
-std::string to_string(Method method) {
-  for (auto const& [value, name] : names)
-    if (value == method) return name;
-  return "?";
-}
-
-std::vector<std::string> method_names() {
-  std::vector<std::string> all;
-  for (auto const& entry : names) all.emplace_back(entry.second);
+Words<Method> const& method_words() {
+  static Words<Method> const all{
+      "integrator",
+      {{Method::euler, "euler", "first order, one evaluation a step; energy grows: for comparison, and for flows"},
+       {Method::leap_frog, "leap-frog",
+        "second order, one evaluation a step, symplectic (velocity Verlet): energy stays bounded; for forces"},
+       {Method::rk2, "rk2", "second-order Runge-Kutta (midpoint), two evaluations a step"},
+       {Method::rk4, "rk4",
+        "fourth-order Runge-Kutta, four evaluations a step: for few bodies, vortices and smooth motion"},
+       {Method::reversible_leap_frog, "reversible-leap-frog",
+        "leap-frog on a fixed-point grid: run backwards it returns to the start to the last bit"},
+       {Method::random_walk, "random-walk", "rk2 and a random step of variance 2 nu dt on each axis: viscous vortices"},
+       {Method::deactivate, "deactivate", "the particles stay where they are"}}};
   return all;
 }
 
-Method method_named(std::string_view name) {
-  for (auto const& [value, text] : names)
-    if (name == text) return value;
-  auto const all = method_names();
-  throw Error("unknown integrator '" + std::string(name) + "'; there are " + join(all) + did_you_mean(name, all));
-}
+std::string to_string(Method method) { return method_words().name(method); }
 
 }  // namespace boltzmann

@@ -2,6 +2,7 @@
 // calculated anew.
 #pragma once
 
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/schemes/rotation.hpp>
 
 #include <cstddef>
@@ -17,19 +18,17 @@ namespace boltzmann {
 /// for the leap-frogs where influences depend on positions (and time) only; otherwise the result is first order in the
 /// step.
 enum class Method {
-  euler,                 ///< first order
-  leap_frog,             ///< kick, drift, kick (velocity Verlet); second order, symplectic
-  rk2,                   ///< second-order Runge-Kutta, midpoint
-  rk4,                   ///< fourth-order Runge-Kutta
-  reversible_leap_frog,  ///< leap-frog on a fixed-point grid: run backwards it returns to the last bit
-  random_walk,           ///< RK2 and a random step of variance 2 nu dt per axis, for viscous vortices (Eq 3.13)
-  deactivate,            ///< stays put
+  euler,
+  leap_frog,  ///< kick, drift, kick (velocity Verlet)
+  rk2,
+  rk4,
+  reversible_leap_frog,
+  random_walk,  ///< Eq 3.13
+  deactivate,
 };
 
+Words<Method> const& method_words();
 std::string to_string(Method method);
-std::vector<std::string> method_names();
-/// The method of that name ("leap-frog", "rk4", ...); Error with the allowed names.
-Method method_named(std::string_view name);
 
 /// What a stage did to the positions.
 enum class Motion {

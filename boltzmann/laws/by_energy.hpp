@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/dual.hpp>
 #include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/parameter.hpp>
 
 #include <type_traits>
 
@@ -70,9 +71,7 @@ struct ByEnergy {
   }
 
   double length_scale() const { return length_scale_of(of_pair); }
-  void check() const {
-    if constexpr (requires { of_pair.check(); }) of_pair.check();
-  }
+  void check() const { check_law(of_pair); }
 };
 
 /// The pair law whose energy is `energy(p, q)`: it returns Interaction{force, energy} with force on p =

@@ -12,11 +12,20 @@ struct Drag {
 
   double friction;
 
+  static constexpr LawText text{.name = "drag",
+                                .doc = "friction against a medium at rest",
+                                .formula = "force -friction v",
+                                .target = "Newton",
+                                .source = "",
+                                .has_energy = false};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&Drag::friction, {"friction", dimensions::friction, "force per velocity", not_negative}}};
+  }
+
   template <class P>
   requires requires(P const& p) { p.velocity; }
   auto operator()(P const& p) const { return p.velocity * -friction; }
-
-  void check() const { check_parameter("drag", "friction", friction, AllowedRange::non_negative); }
 };
 
 }  // namespace boltzmann

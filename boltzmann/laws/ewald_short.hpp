@@ -79,8 +79,8 @@ struct EwaldShort {
 
   double length_scale() const { return 1 / alpha; }
   void check() const {
-    check_parameter("ewald_short", "constant", constant, AllowedRange::any);
-    check_parameter("ewald_short", "alpha", alpha, AllowedRange::positive);
+    check_parameter("ewald_short", "constant", constant, any_number);
+    check_parameter("ewald_short", "alpha", alpha, positive);
   }
 };
 

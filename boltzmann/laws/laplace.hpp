@@ -44,15 +44,62 @@ struct LaplaceLaw {
 
   double length_scale() const { return softening > 0 ? softening : __builtin_inf(); }
   void check() const {
-    check_parameter("laplace", "constant", constant, AllowedRange::any);
-    check_parameter("laplace", "softening", softening, AllowedRange::non_negative);
+    check_parameter("laplace", "constant", constant, any_number);
+    check_parameter("laplace", "softening", softening, not_negative);
   }
 };
 
-/// Charges: force k s s'/r^2 in 3D; k = 1 in cgs, base(constants::coulomb) in any base. Like charges repel.
-inline LaplaceLaw coulomb(double k, double softening = 0) { return {4 * pi * k, softening}; }
+/// Charges, as scenarios name their law: force k s s'/r^2 in 3D; k = 1 in cgs, base(constants::coulomb) in any base.
+struct CoulombLaw {
+  double k;
+  double softening = 0;
 
-/// Masses: force G m m'/r^2 in 3D; base(constants::gravitation) in any base. Masses attract.
-inline LaplaceLaw gravity(double G, double softening = 0) { return {-4 * pi * G, softening}; }
+  static constexpr LawText text{
+      .name = "coulomb",
+      .doc = "charges: like ones repel; in 1D sheets, in 2D rods of unit length",
+      .formula = "k q q'/r in 3D, -2 k q q' ln r in 2D, -2 pi k q q' |x| in 1D; r^2 -> r^2 + softening^2",
+      .target = "Coulomb",
+      .source = "Coulomb",
+      .in_programs = "coulomb"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&CoulombLaw::k,
+                  {"k", dimensions::energy * dimensions::length / pow(dimensions::charge, 2),
+                   "Coulomb's constant: 1 in cgs, 1/(4 pi eps0) in SI", positive, "8.9875517923e9 N m^2/C^2", false}},
+        LawMember{&CoulombLaw::softening,
+                  {"softening", dimensions::length, "Plummer's length, within which the force is weaker", not_negative,
+                   "0"}}};
+  }
+  LaplaceLaw law() const { return {4 * pi * k, softening}; }
+};
+
+/// Masses, as scenarios name their law: force G m m'/r^2 in 3D; base(constants::gravitation) in any base.
+struct GravityLaw {
+  double G;
+  double softening = 0;
+
+  static constexpr LawText text{
+      .name = "gravity",
+      .doc = "masses attract; in 1D sheets, in 2D rods of unit length",
+      .formula = "-G m m'/r in 3D, 2 G m m' ln r in 2D, 2 pi G m m' |x| in 1D; r^2 -> r^2 + softening^2",
+      .target = "Kepler",
+      .source = "Kepler",
+      .in_programs = "gravity"};
+  static constexpr auto parameters() {
+    return std::tuple{LawMember{&GravityLaw::G,
+                                {"G", dimensions::volume / (dimensions::mass * pow(dimensions::time, 2)),
+                                 "Newton's constant", positive, "6.67430e-11 m^3/(kg s^2)", false}},
+                      LawMember{&GravityLaw::softening,
+                                {"softening", dimensions::length, "Plummer's length, within which the force is weaker",
+                                 not_negative, "0"}}};
+  }
+  LaplaceLaw law() const { return {-4 * pi * G, softening}; }
+};
+
+/// Like charges repel.
+inline LaplaceLaw coulomb(double k, double softening = 0) { return CoulombLaw{k, softening}.law(); }
+
+/// Masses attract.
+inline LaplaceLaw gravity(double G, double softening = 0) { return GravityLaw{G, softening}.law(); }
 
 }  // namespace boltzmann

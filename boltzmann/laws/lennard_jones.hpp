@@ -13,6 +13,17 @@ struct LennardJones {
   double depth;
   double r0;
 
+  static constexpr LawText text{.name = "lennard-jones",
+                                .doc = "atoms of a noble gas: repulsion as r^-12, attraction as r^-6",
+                                .formula = "depth [(r0/r)^12 - 2 (r0/r)^6]",
+                                .target = "Newton",
+                                .source = "Particle"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&LennardJones::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        LawMember{&LennardJones::r0, {"r0", dimensions::length, "distance of the minimum: 2^(1/6) sigma", positive}}};
+  }
+
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
     auto const r = q.position - p.position;
@@ -22,10 +33,6 @@ struct LennardJones {
   }
 
   double length_scale() const { return r0; }
-  void check() const {
-    check_parameter("lennard-jones", "depth", depth, AllowedRange::non_negative);
-    check_parameter("lennard-jones", "r0", r0, AllowedRange::positive);
-  }
 };
 
 }  // namespace boltzmann

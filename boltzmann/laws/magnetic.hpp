@@ -16,6 +16,21 @@ struct UniformMagneticField {
 
   Vector<cross_dimension<D>> field;
 
+  static constexpr LawText text{.name = "uniform-magnetic-field",
+                                .doc = "the same magnetic field everywhere; charges gyrate about it",
+                                .formula = "0: the force charge v x field does no work",
+                                .target = "Coulomb",
+                                .source = "",
+                                .least_dimension = 2};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&UniformMagneticField::field,
+                  {.name = "field",
+                   .dimension = dimensions::magnetic_field,
+                   .doc = "force per charge and velocity; a vector in 3D, in 2D one number, out of the plane",
+                   .axial = true}}};
+  }
+
   template <class P>
   requires requires(P const& p) {
     p.charge;
@@ -29,10 +44,6 @@ struct UniformMagneticField {
   template <class P>
   auto rotation(P const& p) const {
     return field * (-p.charge / p.mass);
-  }
-
-  void check() const {
-    for (double b : field.component) check_parameter("uniform-magnetic-field", "field", b, AllowedRange::any);
   }
 };
 

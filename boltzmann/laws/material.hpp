@@ -32,15 +32,15 @@ struct Fluxes {
 
 // A material is a plain struct with some of these functions of one particle p (of the user's class, doubles):
 //
-//   State state(p)                     needed: pressure, temperature, sound speed from p.density and p.specific_energy
-//   Fluxes<D> fluxes(p, gradients)     viscosity, conduction, strength
-//   double diffusivity(p)              of momentum or heat, the larger, in length^2 / time: limits the step; with
-//   fluxes void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid) double
-//   energy(density)             barotropic: the specific energy is this function of the density, and does not
-//                                      evolve
-//   double pressure_by_density2()      P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces
-//                                      then need no density
-//   void check()                       Error if a parameter is out of range
+//   State state(p)                       needed: pressure, temperature, sound speed from p.density, p.specific_energy
+//   Fluxes<D> fluxes(p, gradients)       viscosity, conduction, strength
+//   double diffusivity(p)                of momentum or heat, the larger, in length^2 / time: limits the step; with fluxes
+//   void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid)
+//   double energy(density)               barotropic: the specific energy is this function of the density, and does not
+//                                        evolve
+//   double pressure_by_density2()        P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces
+//                                        then need no density
+//   void check()                         Error if a parameter is out of range
 
 template <class M, class P>
 concept Material = requires(M const& material, P const& p) {

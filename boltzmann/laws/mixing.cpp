@@ -7,8 +7,8 @@
 namespace boltzmann {
 
 LennardJones mix(LennardJones const& a, LennardJones const& b, Mixing rule) {
-  a.check();
-  b.check();
+  check_law(a);
+  check_law(b);
   double const depth = std::sqrt(a.depth * b.depth);
   switch (rule) {
     case Mixing::lorentz_berthelot:

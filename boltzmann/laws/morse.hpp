@@ -14,7 +14,19 @@ struct Morse {
 
   double depth;
   double r0;
-  double a;  ///< steepness: 1/a is the width of the well
+  double a;
+
+  static constexpr LawText text{.name = "morse",
+                                .doc = "a chemical bond that breaks, with a core of finite height",
+                                .formula = "depth [(1 - exp(-a (r - r0)))^2 - 1]",
+                                .target = "Newton",
+                                .source = "Particle"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&Morse::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        LawMember{&Morse::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
+        LawMember{&Morse::a, {"a", dimensions::wave_number, "steepness: 1/a is the width of the well", positive}}};
+  }
 
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
@@ -28,11 +40,6 @@ struct Morse {
   }
 
   double length_scale() const { return 1 / a; }
-  void check() const {
-    check_parameter("morse", "depth", depth, AllowedRange::non_negative);
-    check_parameter("morse", "r0", r0, AllowedRange::positive);
-    check_parameter("morse", "a", a, AllowedRange::positive);
-  }
 };
 
 }  // namespace boltzmann

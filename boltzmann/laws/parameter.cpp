@@ -1,21 +1,17 @@
 // Parameters of laws: which numbers are allowed.
-#include <fmt/core.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/parameter.hpp>
+
+#include <fmt/core.h>
 
 #include <cmath>
 
 namespace boltzmann {
 
-void check_parameter(char const* law, char const* parameter, double value, AllowedRange range) {
-  char const* allowed = nullptr;
-  if (!std::isfinite(value))
-    allowed = "finite";
-  else if (range == AllowedRange::positive && value <= 0)
-    allowed = "positive";
-  else if (range == AllowedRange::non_negative && value < 0)
-    allowed = "zero or positive";
-  if (allowed) throw Error(fmt::format("{}: {} = {:.6g} must be {}", law, parameter, value, allowed));
+void check_parameter(std::string_view law, std::string_view parameter, double value, NumberRange const& range) {
+  if (!std::isfinite(value)) throw Error(fmt::format("{}: {} = {:.6g} must be finite", law, parameter, value));
+  if (!range.contains(value))
+    throw Error(fmt::format("{}: {} = {:.6g} must be {}", law, parameter, value, range.text()));
 }
 
 }  // namespace boltzmann

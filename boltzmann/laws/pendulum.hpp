@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/parameter.hpp>
 
 namespace boltzmann {
 
@@ -13,7 +14,21 @@ struct PendulumCoupling {
   static constexpr Symmetry symmetry = Symmetry::general;
 
   double stiffness;
-  double rest_length;
+  double rest_length = 0;
+
+  static constexpr LawText text{.name = "pendulum-coupling",
+                                .doc = "a spring from bob to bob; its two torques differ, the energy is conserved",
+                                .formula = "stiffness (d - rest_length)^2 / 2, d the distance of the bobs",
+                                .target = "Pendulum",
+                                .source = "Pendulum",
+                                .greatest_dimension = 1};
+  static constexpr auto parameters() {
+    return std::tuple{LawMember{&PendulumCoupling::stiffness,
+                                {"stiffness", dimensions::spring_constant, "force constant", not_negative}},
+                      LawMember{&PendulumCoupling::rest_length,
+                                {"rest_length", dimensions::length, "distance at which it neither pulls nor pushes",
+                                 not_negative, "0"}}};
+  }
 
   template <class P>
   auto operator()(P const& p, P const& q) const {
@@ -30,6 +45,17 @@ struct PendulumCoupling {
 /// hangs.
 struct PendulumGravity {
   double acceleration;
+
+  static constexpr LawText text{.name = "pendulum-gravity",
+                                .doc = "the weight of a bob as a torque",
+                                .formula = "m acceleration l (1 - cos angle)",
+                                .target = "Pendulum",
+                                .source = "",
+                                .greatest_dimension = 1};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&PendulumGravity::acceleration, {"acceleration", dimensions::acceleration, "g, downwards"}}};
+  }
 
   template <class P>
   auto operator()(P const& p) const {

@@ -15,8 +15,21 @@ struct Rydberg {
 
   double depth;
   double r0;
-  double a;          ///< a pure number: r0 / a is the width of the well
-  double alpha = 0;  ///< a pure number; from 0 to below 4/9 there is one minimum and no maximum
+  double a;
+  double alpha = 0;  ///< from 0 to below 4/9 there is one minimum and no maximum
+
+  static constexpr LawText text{.name = "rydberg",
+                                .doc = "the universal binding curve of Rose, Ferrante and Smith, for metals",
+                                .formula = "-depth (1 + x + alpha x^3) exp(-x), x = a (r - r0)/r0",
+                                .target = "Newton",
+                                .source = "Particle"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&Rydberg::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        LawMember{&Rydberg::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
+        LawMember{&Rydberg::a, {"a", dimensions::none, "steepness: r0/a is the width of the well", positive}},
+        LawMember{&Rydberg::alpha, {"alpha", dimensions::none, "cubic term: above 0 a harder core", any_number, "0"}}};
+  }
 
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
@@ -28,12 +41,6 @@ struct Rydberg {
   }
 
   double length_scale() const { return r0 / a; }
-  void check() const {
-    check_parameter("rydberg", "depth", depth, AllowedRange::non_negative);
-    check_parameter("rydberg", "r0", r0, AllowedRange::positive);
-    check_parameter("rydberg", "a", a, AllowedRange::positive);
-    check_parameter("rydberg", "alpha", alpha, AllowedRange::any);
-  }
 };
 
 }  // namespace boltzmann

@@ -15,6 +15,18 @@ struct Soft {
   double repulsion;
   double range;
 
+  static constexpr LawText text{.name = "soft",
+                                .doc = "lumps of fluid that may lie on top of each other: Groot and Warren's repulsion",
+                                .formula = "repulsion range/2 (1 - r/range)^2 up to the range",
+                                .target = "Newton",
+                                .source = "Particle"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&Soft::repulsion,
+                  {"repulsion", dimensions::force, "greatest force, between particles at one place", not_negative}},
+        LawMember{&Soft::range, {"range", dimensions::length, "distance from which on there is no force", positive}}};
+  }
+
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
     auto const [direction, distance] = separation(p, q);
@@ -25,10 +37,6 @@ struct Soft {
   }
 
   double length_scale() const { return range; }
-  void check() const {
-    check_parameter("soft", "repulsion", repulsion, AllowedRange::non_negative);
-    check_parameter("soft", "range", range, AllowedRange::positive);
-  }
 };
 
 }  // namespace boltzmann

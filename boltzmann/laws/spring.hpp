@@ -15,6 +15,19 @@ struct Spring {
   double stiffness;
   double rest_length = 0;
 
+  static constexpr LawText text{.name = "spring",
+                                .doc = "Hooke's law with a rest length; in 1D it keeps the order of its ends",
+                                .formula = "stiffness (r - rest_length)^2 / 2",
+                                .target = "Newton",
+                                .source = "Particle"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&Spring::stiffness, {"stiffness", dimensions::spring_constant, "force constant", not_negative}},
+        LawMember{
+            &Spring::rest_length,
+            {"rest_length", dimensions::length, "length at which it neither pulls nor pushes", not_negative, "0"}}};
+  }
+
   template <class P, class Q>
   auto operator()(P const& p, Q const& q) const {
     auto const [direction, distance] = separation(p, q);
@@ -24,10 +37,6 @@ struct Spring {
 
   /// Beyond the rest length the ends may have changed places.
   double length_scale() const { return rest_length > 0 ? rest_length : __builtin_inf(); }
-  void check() const {
-    check_parameter("spring", "stiffness", stiffness, AllowedRange::non_negative);
-    check_parameter("spring", "rest_length", rest_length, AllowedRange::non_negative);
-  }
 };
 
 }  // namespace boltzmann

@@ -15,11 +15,11 @@
 namespace boltzmann {
 namespace {
 
-bool positive(double x) { return x > 0 && std::isfinite(x); }
+bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 
 double checked_capacity(std::function<double(double)> const& heat_capacity, double temperature) {
   double const value = heat_capacity(temperature);
-  if (!positive(value))
+  if (!is_positive(value))
     throw Error(fmt::format("state law: the heat capacity must be positive and finite, at the temperature {} it is {}",
                             temperature, std::isnan(value) ? std::abs(value) : value));  // no sign of what is none
   return value;
@@ -51,7 +51,7 @@ struct Sampling {
 }  // namespace
 
 StateLaw::StateLaw(double heat_capacity) : heat_capacity_(heat_capacity) {
-  if (!positive(heat_capacity))
+  if (!is_positive(heat_capacity))
     throw Error(fmt::format("state law: the heat capacity must be positive and finite, it is {}", heat_capacity));
 }
 
@@ -61,7 +61,7 @@ StateLaw::StateLaw(std::vector<double> temperatures, std::vector<double> heat_ca
 }
 
 StateLaw::StateLaw(std::function<double(double)> const& heat_capacity, double lowest, double highest) {
-  if (!positive(lowest) || !(highest > lowest) || !std::isfinite(highest / lowest))
+  if (!is_positive(lowest) || !(highest > lowest) || !std::isfinite(highest / lowest))
     throw Error(fmt::format(
         "state law: the temperatures must ascend from above zero, by a factor that is a number, not from {} "
         "to {}",
@@ -89,10 +89,10 @@ void StateLaw::check_and_integrate() {
   if (size < 2) throw Error(fmt::format("state law: a table needs at least two temperatures, it has {}", size));
   if (size > std::numeric_limits<std::uint32_t>::max() / 8) throw Error("state law: the table is too long");
   for (std::size_t i = 0; i < size; ++i) {
-    if (!positive(temperature_[i]))
+    if (!is_positive(temperature_[i]))
       throw Error(
           fmt::format("state law: temperatures must be positive and finite, number {} is {}", i + 1, temperature_[i]));
-    if (!positive(capacity_[i]))
+    if (!is_positive(capacity_[i]))
       throw Error(
           fmt::format("state law: the heat capacity must be positive and finite, at the temperature {} it is {}",
                       temperature_[i], capacity_[i]));

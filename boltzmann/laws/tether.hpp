@@ -3,12 +3,21 @@
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/parameter.hpp>
 
 namespace boltzmann {
 
 /// F = -stiffness (position - anchor), energy stiffness |position - anchor|^2 / 2; both are fields of the particle
 /// (class Tethered). The straight line to the anchor counts, also where an axis is periodic.
 struct Tether {
+  static constexpr LawText text{
+      .name = "tether",
+      .doc = "a spring from each particle to its own anchor; anchor and stiffness are fields of the particle",
+      .formula = "stiffness |x - anchor|^2 / 2",
+      .target = "Tethered",
+      .source = ""};
+  static constexpr auto parameters() { return std::tuple{}; }
+
   template <class P>
   requires requires(P const& p) {
     p.anchor;

@@ -13,15 +13,21 @@ struct UniformGravity {
   static constexpr bool uniform = true;
   Vector<D> acceleration;
 
+  static constexpr LawText text{.name = "uniform-gravity",
+                                .doc = "weight: the same acceleration for every mass",
+                                .formula = "-m acceleration . x",
+                                .target = "Newton",
+                                .source = ""};
+  static constexpr auto parameters() {
+    return std::tuple{LawMember{&UniformGravity::acceleration,
+                                {"acceleration", dimensions::acceleration, "acceleration of every particle"}}};
+  }
+
   template <class P>
   requires requires(P const& p) { p.mass; }
   auto operator()(P const& p) const {
     auto const force = acceleration * p.mass;
     return Interaction{force, -dot(force, p.position)};
-  }
-
-  void check() const {
-    for (double g : acceleration.component) check_parameter("uniform-gravity", "acceleration", g, AllowedRange::any);
   }
 };
 
@@ -31,15 +37,21 @@ struct UniformElectricField {
   static constexpr bool uniform = true;
   Vector<D> field;
 
+  static constexpr LawText text{.name = "uniform-electric-field",
+                                .doc = "the same electric field everywhere",
+                                .formula = "-charge field . x",
+                                .target = "Coulomb",
+                                .source = ""};
+  static constexpr auto parameters() {
+    return std::tuple{
+        LawMember{&UniformElectricField::field, {"field", dimensions::electric_field, "force per charge"}}};
+  }
+
   template <class P>
   requires requires(P const& p) { p.charge; }
   auto operator()(P const& p) const {
     auto const force = field * p.charge;
     return Interaction{force, -dot(force, p.position)};
-  }
-
-  void check() const {
-    for (double e : field.component) check_parameter("uniform-electric-field", "field", e, AllowedRange::any);
   }
 };
 
@@ -49,16 +61,22 @@ struct UniformFlow {
   static constexpr bool uniform = true;
   Vector<D> velocity;
 
+  static constexpr LawText text{.name = "uniform-flow",
+                                .doc = "a flow that carries every fluid particle with the same velocity",
+                                .formula = "velocity",
+                                .target = "Euler",
+                                .source = "",
+                                .has_energy = false};
+  static constexpr auto parameters() {
+    return std::tuple{LawMember{&UniformFlow::velocity, {"velocity", dimensions::velocity, "velocity of the flow"}}};
+  }
+
   template <class P>
   auto operator()(P const&) const {
     if constexpr (std::is_same_v<typename P::Influence, Vector<D>>)
       return velocity;
     else
       return typename P::Influence{velocity, {}};
-  }
-
-  void check() const {
-    for (double v : velocity.component) check_parameter("uniform-flow", "velocity", v, AllowedRange::any);
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/particles/vortex.hpp>
 
 namespace boltzmann {
@@ -15,6 +16,18 @@ namespace boltzmann {
 /// A positive vortex (3D: along +z) turns counterclockwise. Test particles (Euler) carry no vorticity: use
 /// one_way(BiotSavart{}) between them and vortices. There is no energy.
 struct BiotSavart {
+  static constexpr LawText text{
+      .name = "biot-savart",
+      .doc = "vortices carry fluid particles and each other; regularised inside the core of the source",
+      .formula =
+          "velocity Gamma k x r/(2 pi max(r, core)^2) in 2D, -r x omega/(4 pi (r^2 + core^2)^(3/2)) in 3D, "
+          "which also stretches the vorticity of Inviscid and Viscous",
+      .target = "Euler",
+      .source = "Vortex",
+      .least_dimension = 2,
+      .has_energy = false};
+  static constexpr auto parameters() { return std::tuple{}; }
+
   template <class P, class Q>
   requires requires(P const& p, Q const& q) {
     p.position;

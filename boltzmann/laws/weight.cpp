@@ -20,22 +20,15 @@ WeightAt at(WeightShape shape, double r, double range) {
 
 }  // namespace
 
-std::string to_string(WeightShape shape) {
-  return for_weight(shape, [](auto s) { return std::string(decltype(s)::name); });
+Words<WeightShape> const& weight_words() {
+  static Words<WeightShape> const all{"weight",
+                                      {{WeightShape::lucy, Lucy::name, "that of Lucy (1977) and of the sources"},
+                                       {WeightShape::wendland, Wendland::name, "Wendland's C2 function"},
+                                       {WeightShape::cubic_spline, CubicSpline::name, "the cubic B-spline"},
+                                       {WeightShape::quintic_spline, QuinticSpline::name, "the quintic B-spline"}}};
+  return all;
 }
-
-std::vector<std::string> weight_names() { return {Lucy::name, Wendland::name, CubicSpline::name, QuinticSpline::name}; }
-
-WeightShape weight_named(std::string_view name) {
-  auto const names = weight_names();
-  auto const found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    auto const close = nearest(name, names);
-    throw Error("there is no weight '" + std::string(name) + "'; the weights are " + join(names) +
-                (close.empty() ? "" : "; did you mean '" + close + "'?"));
-  }
-  return static_cast<WeightShape>(found - names.begin());
-}
+std::string to_string(WeightShape shape) { return weight_words().name(shape); }
 
 WeightAt weight_at(WeightShape shape, int dimension, double r, double range) {
   if (!(r < range)) return {};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/number.hpp>
+#include <boltzmann/core/words.hpp>
 
 #include <numbers>
 #include <string>
@@ -152,10 +153,8 @@ template <class Shape, int D, class Real>
 
 /// The shapes by name, for code that learns them at run time.
 enum class WeightShape { lucy, wendland, cubic_spline, quintic_spline };
+Words<WeightShape> const& weight_words();
 std::string to_string(WeightShape shape);
-std::vector<std::string> weight_names();
-/// The shape of that name ("lucy", "wendland", "cubic-spline", "quintic-spline"); Error with the allowed names.
-WeightShape weight_named(std::string_view name);
 
 /// Calls function(Shape{}) for the shape.
 template <class Function>

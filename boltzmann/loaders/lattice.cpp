@@ -59,35 +59,18 @@ void check(LatticeBlock const& block, int dimension) {
     if (!std::isfinite(block.origin[a])) throw Error("lattice: the origin is not finite");
 }
 
-std::vector<std::string> lattice_names() {
-  return {to_string(Lattice::square), to_string(Lattice::triangular), to_string(Lattice::fcc), to_string(Lattice::bcc),
-          to_string(Lattice::hcp)};
-}
-
 }  // namespace
 
-std::string to_string(Lattice kind) {
-  switch (kind) {
-    case Lattice::square:
-      return "square";
-    case Lattice::triangular:
-      return "triangular";
-    case Lattice::fcc:
-      return "fcc";
-    case Lattice::bcc:
-      return "bcc";
-    case Lattice::hcp:
-      return "hcp";
-  }
-  return "?";
+Words<Lattice> const& lattice_words() {
+  static Words<Lattice> const all{"lattice",
+                                  {{Lattice::square, "square", "a line in 1D, square in 2D, simple cubic in 3D"},
+                                   {Lattice::triangular, "triangular", "2D: 6 neighbours"},
+                                   {Lattice::fcc, "fcc", "3D, face-centred cubic: 12 neighbours"},
+                                   {Lattice::bcc, "bcc", "3D, body-centred cubic: 8 neighbours"},
+                                   {Lattice::hcp, "hcp", "3D, hexagonal close packing: 12 neighbours"}}};
+  return all;
 }
-
-Lattice lattice_named(std::string_view name) {
-  for (Lattice const kind : {Lattice::square, Lattice::triangular, Lattice::fcc, Lattice::bcc, Lattice::hcp})
-    if (to_string(kind) == name) return kind;
-  auto const names = lattice_names();
-  throw Error(fmt::format("there is no lattice '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
-}
+std::string to_string(Lattice kind) { return lattice_words().name(kind); }
 
 std::size_t site_count(LatticeBlock const& block, int dimension) {
   check(block, dimension);

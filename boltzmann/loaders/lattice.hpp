@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <array>
@@ -21,10 +22,8 @@ enum class Lattice {
         ///< 1 x sqrt(3) x sqrt(8/3) spacings, 4 sites in each
 };
 
-/// "square", "triangular", "fcc", "bcc", "hcp".
+Words<Lattice> const& lattice_words();
 std::string to_string(Lattice kind);
-/// The kind of that name; Error with the names there are.
-Lattice lattice_named(std::string_view name);
 
 /// A block of crystal: `counts` cells along x, y, z (what is beyond the dimension does not count). A cell is one site,
 /// or the cube of fcc and bcc, or the block of hcp.

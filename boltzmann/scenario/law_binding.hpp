@@ -93,22 +93,11 @@ struct LawValues {
       if (key == name) return value;
     throw Error("a law asks for a parameter '" + std::string(name) + "' that its catalogue entry does not have");
   }
-  double operator()(std::string_view name) const { return vector(name).front(); }
+  void give(std::string_view name, double& member) const { member = vector(name).front(); }
   template <int D>
-  Vector<D> as_vector(std::string_view name) const {
-    Vector<D> result{};
-    for (int a = 0; a < D; ++a) result[static_cast<std::size_t>(a)] = vector(name)[static_cast<std::size_t>(a)];
-    return result;
+  void give(std::string_view name, Vector<D>& member) const {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a) member[a] = vector(name)[a];
   }
 };
-
-/// The word of a law and how it is made.
-struct LawBinder {
-  std::string_view name;
-  BoundLaw (*bind)(LawValues const& values);
-};
-std::vector<LawBinder> const& law_binders();
-/// Those that act on smooth particles, too; their kernels give whole influences there.
-std::vector<LawBinder> const& smooth_law_binders();
 
 }  // namespace boltzmann

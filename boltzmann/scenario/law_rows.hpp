@@ -66,6 +66,17 @@ struct OfScenario : Law {
   static constexpr bool on_longer_rows = true;
 };
 
+/// The law that a shipped one obeys: itself, or what its law() gives.
+template <class Law>
+auto law_of(Law const& law) {
+  if constexpr (requires { law.law(); })
+    return law.law();
+  else
+    return law;
+}
+template <class Law>
+using LawOf = decltype(law_of(std::declval<Law const&>()));
+
 /// Kernels of a law for the layouts of its rows, in their order.
 struct LawKernels {
   PairKernels const* pairs;

@@ -6,16 +6,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace boltzmann {
 namespace {
 
-BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension,
-              std::vector<LawBinder> const& binders = law_binders()) {
-  for (auto const& binder : binders)
-    if (binder.name == law.name) return binder.bind({dimension, parameters});
-  throw Error(fmt::format("law '{}' can be used in programs only, not in scenarios", law.name));
+BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension) {
+  return law.bind({dimension, parameters});
 }
 
 /// Why particles of this ensemble can't take the part of `least` in the law; empty if nothing is known against it.
@@ -77,49 +72,17 @@ void install_one_way(PairScheme& scheme, LawInfo const& law, BoundLaw const& bou
 
 }  // namespace
 
-std::vector<LawInfo> const& scenario_laws() {
-  static std::vector<LawInfo> const all = [] {
-    using enum AllowedRange;
-    std::vector<LawInfo> laws = law_catalogue();
-    laws.push_back({.name = "pendulum-coupling",
-                    .kind = LawKind::pair,
-                    .doc = "a spring from bob to bob; its two torques differ, the energy is conserved",
-                    .formula = "stiffness (d - rest_length)^2 / 2, d the distance of the bobs",
-                    .target = "Pendulum",
-                    .source = "Pendulum",
-                    .least_dimension = 1,
-                    .greatest_dimension = 1,
-                    .symmetry = Symmetry::general,
-                    .has_energy = true,
-                    .velocity_dependent = false,
-                    .header = "boltzmann/laws/pendulum.hpp",
-                    .type = "PendulumCoupling",
-                    .parameters = {{"stiffness", dimensions::spring_constant, "force constant", non_negative},
-                                   {"rest_length", dimensions::length, "distance at which it neither pulls nor pushes",
-                                    non_negative, false, "0"}}});
-    laws.push_back({.name = "pendulum-gravity",
-                    .kind = LawKind::external,
-                    .doc = "the weight of a bob as a torque",
-                    .formula = "m g l (1 - cos angle)",
-                    .target = "Pendulum",
-                    .source = "",
-                    .least_dimension = 1,
-                    .greatest_dimension = 1,
-                    .symmetry = Symmetry::general,
-                    .has_energy = true,
-                    .velocity_dependent = false,
-                    .header = "boltzmann/laws/pendulum.hpp",
-                    .type = "PendulumGravity",
-                    .parameters = {{"acceleration", dimensions::acceleration, "g, downwards", any}}});
-    return laws;
-  }();
-  return all;
-}
-
 LawInfo const* find_law(std::string_view name) {
   for (auto const& law : scenario_laws())
     if (law.name == name) return &law;
   return nullptr;
+}
+
+LawInfo const& law_info(std::string_view name) {
+  if (LawInfo const* law = find_law(name)) return *law;
+  std::vector<std::string> names;
+  for (auto const& law : scenario_laws()) names.emplace_back(law.name);
+  throw Error(fmt::format("unknown law '{}'{}; there are {}", name, did_you_mean(name, names), join(names)));
 }
 
 void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, LawUse use, AnyEnsemble& a,
@@ -161,14 +124,14 @@ void install_external(PairScheme& scheme, LawInfo const& law, LawParameters cons
 void install_external(SmoothScheme& scheme, LawInfo const& law, LawParameters const& parameters,
                       AnyEnsemble& ensemble) {
   require(law, ensemble, true);
-  auto const& binders = smooth_law_binders();
-  if (std::none_of(binders.begin(), binders.end(), [&](LawBinder const& binder) { return binder.name == law.name; })) {
+  if (!law.bind_on_smooth) {
     std::vector<std::string> names;
-    for (auto const& binder : binders) names.emplace_back(binder.name);
+    for (auto const& other : scenario_laws())
+      if (other.bind_on_smooth) names.emplace_back(other.name);
     throw Error(
         fmt::format("law '{}' does not act on smooth particles; from outside there are {}", law.name, join(names)));
   }
-  BoundLaw const bound = bind(law, parameters, ensemble.dimension(), binders);
+  BoundLaw const bound = law.bind_on_smooth({ensemble.dimension(), parameters});
   for (auto const& choice : bound.externals)
     if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law);
   throw unfit(law, ensemble);

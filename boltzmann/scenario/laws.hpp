@@ -1,7 +1,8 @@
 // Laws: the shipped laws by name, for code that learns the law at run time.
 #pragma once
 
-#include <boltzmann/laws/catalogue.hpp>
+#include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
@@ -13,10 +14,32 @@
 
 namespace boltzmann {
 
-/// The laws that scenarios can name: the catalogue, and those of pendulums.
+enum class LawKind {
+  pair,      ///< between two particles: law(p, q)
+  external,  ///< from outside: law(p)
+};
+
+struct BoundLaw;
+struct LawValues;
+
+/// A shipped law: what its struct says of itself, where it stands, and how it is made from its parameters.
+struct LawInfo : LawText {
+  LawKind kind;
+  Symmetry symmetry;  ///< of pair laws; one_way can always be asked for
+  bool velocity_dependent;
+  std::string header;  ///< for programs
+  std::string type;    ///< what a program writes: "LennardJones", "gravity"
+  std::vector<LawParameter> parameters;
+  BoundLaw (*bind)(LawValues const& values);
+  BoundLaw (*bind_on_smooth)(LawValues const& values) = nullptr;  ///< none: it does not act on smooth particles
+};
+
+/// Those of shipped_laws.list: the laws that scenarios can name, pair laws first.
 std::vector<LawInfo> const& scenario_laws();
 /// nullptr if there is none of that name.
 LawInfo const* find_law(std::string_view name);
+/// The same; Error with the nearest name if there is none.
+LawInfo const& law_info(std::string_view name);
 
 /// Parameters of a law by name, in the simulation's base; a vector has one number for each dimension.
 using LawParameters = std::vector<std::pair<std::string, std::vector<double>>>;

@@ -1,93 +1,103 @@
-// The laws of scenarios: how each is made from its parameters, and on which rows it runs.
-#include <boltzmann/laws/drag.hpp>
-#include <boltzmann/laws/laplace.hpp>
-#include <boltzmann/laws/lennard_jones.hpp>
-#include <boltzmann/laws/magnetic.hpp>
-#include <boltzmann/laws/morse.hpp>
-#include <boltzmann/laws/pendulum.hpp>
-#include <boltzmann/laws/rydberg.hpp>
-#include <boltzmann/laws/soft.hpp>
-#include <boltzmann/laws/spring.hpp>
-#include <boltzmann/laws/tether.hpp>
-#include <boltzmann/laws/uniform.hpp>
-#include <boltzmann/laws/vortex.hpp>
+// The laws of scenarios: each as its struct describes it, made from its parameters, with the rows on which it runs.
 #include <boltzmann/scenario/law_binding.hpp>
+#include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/schemes/smooth/force_on.hpp>
+
+#include <shipped_laws.hpp>  // the headers of the list
+
+#include <algorithm>
 
 namespace boltzmann {
 namespace {
 
-/// Law<D>{vector} for the dimension of the space.
-template <template <int> class Law, template <int> class Rows>
-BoundLaw uniform(LawValues const& v, std::string_view name) {
-  return v.dimension == 1   ? bind_law<Rows<1>>(Law<1>{v.as_vector<1>(name)})
-         : v.dimension == 2 ? bind_law<Rows<2>>(Law<2>{v.as_vector<2>(name)})
-                            : bind_law<Rows<3>>(Law<3>{v.as_vector<3>(name)});
+template <class Law, class Value>
+LawParameter described(LawMember<Law, Value> const& of) {
+  LawParameter parameter = of.parameter;
+  parameter.vector = !std::is_same_v<Value, double>;
+  return parameter;
 }
 
-template <int D>
-BoundLaw smooth_gravity(LawValues const& v) {
-  return bind_law<OnSmoothIn<D>>(ForceOn<UniformGravity<D>>{{v.as_vector<D>("acceleration")}});
+template <class Law>
+LawInfo describe(char const* header, char const* type, BoundLaw (*bind)(LawValues const&)) {
+  LawInfo info{Law::text,
+               Law::text.source.empty() ? LawKind::external : LawKind::pair,
+               symmetry_of<LawOf<Law>>(),
+               depends_on_velocity<LawOf<Law>>(),
+               header,
+               Law::text.in_programs.empty() ? type : std::string(Law::text.in_programs),
+               {},
+               bind};
+  std::apply([&](auto const&... of) { (info.parameters.push_back(described(of)), ...); }, Law::parameters());
+  return info;
+}
+
+template <class Law>
+Law law_from(LawValues const& values) {
+  Law law{};
+  std::apply([&](auto const&... of) { (values.give(of.parameter.name, law.*of.member), ...); }, Law::parameters());
+  return law;
+}
+
+/// Of the struct that is for the space's dimension; with rows for no other, none.
+template <template <int> class Law, template <int> class Rows, template <class> class As, int... D>
+BoundLaw bind_in(LawValues const& values) {
+  BoundLaw bound{};
+  ((values.dimension == D ? void(bound = bind_law<Rows<D>>(As<Law<D>>{law_from<Law<D>>(values)})) : void()), ...);
+  return bound;
+}
+template <class Law>
+using Itself = Law;
+
+template <class Law, class Rows>
+LawInfo shipped(char const* header, char const* type) {
+  return describe<Law>(header, type,
+                       [](LawValues const& values) { return bind_law<Rows>(law_of(law_from<Law>(values))); });
+}
+template <template <int> class Law, template <int> class Rows, int... D>
+LawInfo shipped(char const* header, char const* type) {
+  return describe<Law<std::max({D...})>>(header, type, bind_in<Law, Rows, Itself, D...>);
+}
+
+LawInfo& entry(std::vector<LawInfo>& laws, std::string_view name) {
+  return *std::find_if(laws.begin(), laws.end(), [&](LawInfo const& law) { return law.name == name; });
+}
+template <class Law, class Rows>
+void on_smooth(std::vector<LawInfo>& laws) {
+  entry(laws, Law::text.name).bind_on_smooth = [](LawValues const& values) {
+    return bind_law<Rows>(ForceOn<Law>{law_from<Law>(values)});
+  };
+}
+template <template <int> class Law, template <int> class Rows, int... D>
+void on_smooth(std::vector<LawInfo>& laws) {
+  entry(laws, Law<std::max({D...})>::text.name).bind_on_smooth = bind_in<Law, Rows, ForceOn, D...>;
 }
 
 }  // namespace
 
-std::vector<LawBinder> const& law_binders() {
-  using Values = LawValues const&;
-  static std::vector<LawBinder> const all = {
-      {"lennard-jones",
-       [](Values v) {
-         return bind_law<NewtonRows>(LennardJones{v("depth"), v("r0")});
-       }},
-      {"morse",
-       [](Values v) {
-         return bind_law<NewtonRows>(Morse{v("depth"), v("r0"), v("a")});
-       }},
-      {"rydberg",
-       [](Values v) {
-         return bind_law<NewtonRows>(Rydberg{v("depth"), v("r0"), v("a"), v("alpha")});
-       }},
-      {"spring",
-       [](Values v) {
-         return bind_law<NewtonRows>(Spring{v("stiffness"), v("rest_length")});
-       }},
-      {"soft",
-       [](Values v) {
-         return bind_law<NewtonRows>(Soft{v("repulsion"), v("range")});
-       }},
-      {"coulomb", [](Values v) { return bind_law<CoulombRows>(coulomb(v("k"), v("softening"))); }},
-      {"gravity", [](Values v) { return bind_law<KeplerRows>(gravity(v("G"), v("softening"))); }},
-      {"biot-savart", [](Values) { return bind_law<VortexRows>(BiotSavart{}); }},
-      {"pendulum-coupling",
-       [](Values v) {
-         return bind_law<PendulumRows>(PendulumCoupling{v("stiffness"), v("rest_length")});
-       }},
-      {"pendulum-gravity", [](Values v) { return bind_law<OnPendulum>(PendulumGravity{v("acceleration")}); }},
-      {"drag", [](Values v) { return bind_law<OnNewton>(Drag{v("friction")}); }},
-      {"tether", [](Values) { return bind_law<OnTethered>(Tether{}); }},
-      {"uniform-gravity", [](Values v) { return uniform<UniformGravity, OnNewtonIn>(v, "acceleration"); }},
-      {"uniform-electric-field", [](Values v) { return uniform<UniformElectricField, OnCoulombIn>(v, "field"); }},
-      {"uniform-magnetic-field",
-       [](Values v) {
-         return v.dimension == 2 ? bind_law<OnCoulombIn<2>>(UniformMagneticField<2>{v.as_vector<1>("field")})
-                                 : bind_law<OnCoulombIn<3>>(UniformMagneticField<3>{v.as_vector<3>("field")});
-       }},
-      {"uniform-flow", [](Values v) { return uniform<UniformFlow, OnFlowIn>(v, "velocity"); }},
-  };
-  return all;
-}
-
-std::vector<LawBinder> const& smooth_law_binders() {
-  using Values = LawValues const&;
-  static std::vector<LawBinder> const all = {
-      {"drag", [](Values v) { return bind_law<OnSmooth>(ForceOn<Drag>{{v("friction")}}); }},
-      {"uniform-gravity",
-       [](Values v) {
-         return v.dimension == 1   ? smooth_gravity<1>(v)
-                : v.dimension == 2 ? smooth_gravity<2>(v)
-                                   : smooth_gravity<3>(v);
-       }},
-  };
+std::vector<LawInfo> const& scenario_laws() {
+  static std::vector<LawInfo> const all = [] {
+    std::vector<LawInfo> laws{
+#define LAW(header, Law, Rows) shipped<Law, Rows>("boltzmann/laws/" #header ".hpp", #Law),
+#define LAW_IN(header, Law, Rows, ...) shipped<Law, Rows, __VA_ARGS__>("boltzmann/laws/" #header ".hpp", #Law),
+#define LAW_ON_SMOOTH(header, Law, Rows)
+#define LAW_ON_SMOOTH_IN(header, Law, Rows, ...)
+#include <boltzmann/scenario/shipped_laws.list>
+#undef LAW
+#undef LAW_IN
+#undef LAW_ON_SMOOTH
+#undef LAW_ON_SMOOTH_IN
+    };
+#define LAW(header, Law, Rows)
+#define LAW_IN(header, Law, Rows, ...)
+#define LAW_ON_SMOOTH(header, Law, Rows) on_smooth<Law, Rows>(laws);
+#define LAW_ON_SMOOTH_IN(header, Law, Rows, ...) on_smooth<Law, Rows, __VA_ARGS__>(laws);
+#include <boltzmann/scenario/shipped_laws.list>
+#undef LAW
+#undef LAW_IN
+#undef LAW_ON_SMOOTH
+#undef LAW_ON_SMOOTH_IN
+    return laws;
+  }();
   return all;
 }
 

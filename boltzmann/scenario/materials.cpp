@@ -22,11 +22,10 @@ Dimension by_density2(int space) { return pressure(space) / pow(density(space), 
 Dimension by_density(int space) { return dimensions::none / density(space); }
 
 MaterialParameter gamma_parameter(std::optional<double> usual = {}) {
-  return {"gamma", none, "ratio of the specific heats", MaterialRange::above_one, usual};
+  return {"gamma", none, "ratio of the specific heats", above(1), usual};
 }
 MaterialParameter specific_heat_parameter() {
-  return {"specific_heat",         specific_heat, "at constant volume, energy by mass and temperature",
-          MaterialRange::positive, 1.0,           false};
+  return {"specific_heat", specific_heat, "at constant volume, energy by mass and temperature", positive, 1.0, false};
 }
 
 double number(MaterialValues const& values, std::string_view name, std::vector<MaterialParameter> const& parameters) {
@@ -61,7 +60,6 @@ BoundMaterial bind(detail::EquationOfState const& state, MaterialChoice const& c
 }  // namespace
 
 std::vector<MaterialInfo> const& material_catalogue() {
-  using enum MaterialRange;
   static std::vector<MaterialInfo> const all = {
       {"ideal-gas",
        "the ideal gas",
@@ -97,7 +95,7 @@ std::vector<MaterialInfo> const& material_catalogue() {
        {{"reference_density", density, "where the pressure is the background", positive},
         {"sound_speed", velocity, "at the reference density", positive},
         {"gamma", none, "7 for water; 1: pressure linear in the density", positive, 7.0},
-        {"background_pressure", pressure, "added everywhere", any, 0.0}}},
+        {"background_pressure", pressure, "added everywhere", any_number, 0.0}}},
       {"stiffened-gas",
        "liquids and solids under strong shocks, with heat",
        "P = (gamma - 1) rho e - gamma stiffness, e = specific_heat T + stiffness / rho",
@@ -106,7 +104,7 @@ std::vector<MaterialInfo> const& material_catalogue() {
        "boltzmann/laws/materials/stiffened_gas.hpp",
        "StiffenedGas",
        {gamma_parameter(),
-        {"stiffness", pressure, "a pressure; 0: the ideal gas", non_negative},
+        {"stiffness", pressure, "a pressure; 0: the ideal gas", not_negative},
         specific_heat_parameter()}},
       {"van-der-waals",
        "gas and liquid in one equation",
@@ -115,8 +113,8 @@ std::vector<MaterialInfo> const& material_catalogue() {
        false,
        "boltzmann/laws/materials/van_der_waals.hpp",
        "VanDerWaals",
-       {{"a", by_density2, "attraction: pressure by the square of the density", non_negative},
-        {"b", by_density, "volume that molecules take, by mass", non_negative},
+       {{"a", by_density2, "attraction: pressure by the square of the density", not_negative},
+        {"b", by_density, "volume that molecules take, by mass", not_negative},
         {"k_over_m", specific_heat, "Boltzmann's constant by the mass of a molecule", positive},
         {"degrees_of_freedom", none, "f, of a molecule", positive}}},
       {"table",
@@ -138,16 +136,14 @@ MaterialInfo const* find_material(std::string_view name) {
 }
 
 std::vector<MaterialParameter> const& flux_parameters() {
-  using enum MaterialRange;
   static std::vector<MaterialParameter> const all = {
-      {"shear_viscosity", viscosity, "against shear", non_negative, 0.0},
-      {"bulk_viscosity", viscosity, "against compression", non_negative, 0.0},
-      {"conductivity", heat_conductivity, "of heat; needs a material with a temperature", non_negative, 0.0}};
+      {"shear_viscosity", viscosity, "against shear", not_negative, 0.0},
+      {"bulk_viscosity", viscosity, "against compression", not_negative, 0.0},
+      {"conductivity", heat_conductivity, "of heat; needs a material with a temperature", not_negative, 0.0}};
   return all;
 }
 
 std::vector<MaterialParameter> const& elastic_parameters() {
-  using enum MaterialRange;
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   static std::vector<MaterialParameter> const all = {
       {"shear_modulus", pressure, "stress by strain, in shear", positive},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
+#include <boltzmann/core/number_range.hpp>
 #include <boltzmann/laws/materials/pressure_table.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/schemes/smooth/material_kernels.hpp>
@@ -14,14 +15,11 @@
 
 namespace boltzmann {
 
-/// The values that a parameter of a material may have.
-enum class MaterialRange { any, non_negative, positive, above_one };
-
 struct MaterialParameter {
   std::string_view name;
   Dimension (*dimension)(int of_space);  ///< in 1D and 2D densities are mass per length and area, pressures alike
   std::string_view doc;
-  MaterialRange range;
+  NumberRange range;
   std::optional<double> usual = {};  ///< the value unless told; none: required
   bool usual_with_units = true;      ///< false: only a base without units has that value
 };

@@ -50,7 +50,7 @@ std::optional<double> count_of_fill(Item const& load, Item const& box, int dimen
   std::string const lattice = text_in(load, "lattice");
   try {
     Filling filling;
-    if (!lattice.empty()) filling.kind = lattice_named(lattice);
+    if (!lattice.empty()) filling.kind = lattice_words().named(lattice);
     filling.spacing = spacing->number;
     filling.low = *low;
     filling.high = *high;

@@ -63,7 +63,7 @@ void read_ensemble(Item const& table, Reading& reading) {
 
   Item const* method_item = section.find("integrator");
   auto const method_word =
-      method_item ? read_word(*method_item, "integrator", method_names(), reading.context) : std::nullopt;
+      method_item ? read_word(*method_item, "integrator", method_words(), reading.context) : std::nullopt;
   Place const method_place = method_item ? method_item->place : table.place;
 
   std::optional<std::size_t> number;
@@ -227,7 +227,7 @@ void read_ensemble(Item const& table, Reading& reading) {
   }
   if (kind) section.finish();
 
-  Method const method = method_word ? method_named(*method_word) : kind ? kind->usual_method : Method::leap_frog;
+  Method const method = method_word.value_or(kind ? kind->usual_method : Method::leap_frog);
   // Whether the class can be advanced that way is known without particles, too.
   if (variant && (method_word || !method_item)) {
     std::unique_ptr<AnyEnsemble> nobody;

@@ -1,7 +1,8 @@
 // Reads [[flows]], friction and noise, and [prepare], which brings particles to a temperature before the run.
 #include <boltzmann/diagnoses/measures.hpp>
-#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/flows/flow_options.hpp>
 #include <boltzmann/flows/langevin_flow.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@
 namespace boltzmann {
 namespace {
 
-/// Dissipation times temperature: what moves between two particles is kappa (1/Ti - 1/Tj).
-constexpr Dimension conduction_dimension = dimensions::energy * dimensions::temperature / dimensions::time;
 /// A preparation longer than this is a slip of the pen.
 constexpr double most_steps = 9e15;
 
@@ -24,18 +23,12 @@ struct Taken {
   Place place;
 };
 
-/// How all dissipative flows of a scenario act together.
-struct HowToFlow {
-  FlowMethod method = FlowMethod::order_free;
-  bool corrector = false, metropolis = false;
-};
-
 /// What the readers of single flows share.
 struct Flows {
   Reading& reading;
   DissipativeFlow* dissipative = nullptr;  // all of them together
   std::optional<Place> first_dissipative;
-  HowToFlow how;
+  DissipationOptions together;  // method, corrector and metropolis: those of the first
   std::vector<Taken> dissipations, baths;
 };
 
@@ -103,14 +96,8 @@ std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& rea
   return {a, b};
 }
 
-/// method, corrector and metropolis, in the first of the dissipative flows.
-HowToFlow read_method(Section& section, Flows& flows) {
-  HowToFlow how;
-  if (auto const word =
-          section.word("method", {to_string(FlowMethod::order_free), to_string(FlowMethod::pair_splitting)}))
-    how.method = flow_method_named(*word);
-  how.corrector = section.boolean("corrector");
-  how.metropolis = section.boolean("metropolis");
+/// method, corrector and metropolis stand in the first of the dissipative flows.
+void check_method(Section& section, DissipationOptions const& options, Flows& flows) {
   Reading& reading = flows.reading;
   if (flows.first_dissipative) {
     for (char const* key : {"method", "corrector", "metropolis"})
@@ -119,52 +106,28 @@ HowToFlow read_method(Section& section, Flows& flows) {
                         fmt::format("{}: dissipative flows act together, in one way for all, which the first of them "
                                     "says (line {})",
                                     key, flows.first_dissipative->line));
-    return how;
+    return;
   }
-  bool const splitting = how.method == FlowMethod::pair_splitting;
-  if (how.corrector && splitting)
+  bool const splitting = options.method == FlowMethod::pair_splitting;
+  if (options.corrector && splitting)
     reading.mistake(section.place("corrector"), "corrector: it belongs to method = \"order-free\"");
-  if (how.metropolis && !splitting)
+  if (options.metropolis && !splitting)
     reading.mistake(section.place("metropolis"), "metropolis: it belongs to method = \"pair-splitting\"");
-  return how;
 }
 
-/// convention, friction, temperature, range, exponent, projected, conduction.
-Dissipation read_dissipation(Section& section, Reading& reading) {
-  Dissipation dissipation;
+/// What its convention asks of the temperature and of conduction.
+void check_convention(Section& section, Dissipation const& dissipation, Reading& reading) {
   using enum Convention;
-  Item const* word = section.need("convention", "convention = \"constant-friction\"");
-  auto const name = word ? read_word(*word, "convention", convention_names(), reading.context) : std::nullopt;
-  if (name) dissipation.convention = convention_named(*name);
-  bool const reduced = reading.context.base.is_reduced();
-  dissipation.friction = section
-                             .need_quantity("friction", dimensions::friction,
-                                            reduced ? "friction = 4.5" : "friction = \"1e-14 kg/s\"", not_negative)
-                             .value_or(0);
-  dissipation.range =
-      section.need_quantity("range", dimensions::length, reduced ? "range = 1" : "range = \"15 angstrom\"", positive)
-          .value_or(1);
-  dissipation.exponent = section.quantity("exponent", dimensions::none, not_negative).value_or(dissipation.exponent);
-  dissipation.projected = section.boolean("projected", dissipation.projected);
-  dissipation.conduction = section.quantity("conduction", conduction_dimension, not_negative).value_or(0);
-  section.allow("temperature");
-  if (!name) return dissipation;
-  if (dissipation.convention == constant_friction) {
-    if (section.has("temperature"))
-      reading.mistake(section.place("temperature"), fmt::format("temperature: convention \"{}\" uses none but the "
-                                                                "particles' own; leave it out",
-                                                                *name));
-  } else {
-    dissipation.temperature = section
-                                  .need_quantity("temperature", dimensions::temperature,
-                                                 reduced ? "temperature = 1" : "temperature = \"300 K\"", positive)
-                                  .value_or(1);
-  }
+  std::string const name = to_string(dissipation.convention);
+  if (dissipation.convention != constant_friction)
+    section.need("temperature", reading.context.base.is_reduced() ? "temperature = 1" : "temperature = \"300 K\"");
+  else if (section.has("temperature"))
+    reading.mistake(section.place("temperature"),
+                    fmt::format("temperature: convention \"{}\" uses none but the particles' own; leave it out", name));
   if (dissipation.convention == fixed_temperature && dissipation.conduction > 0)
     reading.mistake(section.place("conduction"),
                     "conduction: with convention \"fixed-temperature\" particles have no temperatures of their own "
                     "between which heat could flow; another convention has");
-  return dissipation;
 }
 
 /// Whether a temperature belongs to the internal energy of each particle; a mistake if not.
@@ -200,14 +163,18 @@ void read_dissipative(Section& section, Item const& table, Flows& flows) {
   Reading& reading = flows.reading;
   std::size_t const before = reading.context.mistakes.count();
   auto const [a, b] = read_pair(section, reading);
-  Dissipation const dissipation = read_dissipation(section, reading);
-  HowToFlow const how = read_method(section, flows);
+  DissipationOptions options;
+  read_options(section, dissipation_options(), &options, {.dimension = reading.dimension});
+  Dissipation const& dissipation = options.dissipation;
+  if (section.has("convention") && section.item("convention")->text == to_string(dissipation.convention))
+    check_convention(section, dissipation, reading);
+  check_method(section, options, flows);
   section.finish();
   if (!flows.first_dissipative) {
     flows.first_dissipative = table.place;
-    flows.how = how;
+    flows.together = options;
   }
-  if (flows.how.metropolis &&
+  if (flows.together.metropolis &&
       (dissipation.convention == Convention::fixed_temperature || dissipation.convention == Convention::deterministic))
     reading.mistake(section.place("convention"),
                     fmt::format("convention: 'metropolis' is for friction with noise and internal energies, not for "
@@ -234,9 +201,9 @@ void read_dissipative(Section& section, Item const& table, Flows& flows) {
   if (!flows.dissipative)
     guarded(reading, table.place, [&] {
       auto flow = std::make_unique<DissipativeFlow>(*reading.result->pairs, reading.boltzmann_constant());
-      flow->method(flows.how.method);
-      flow->corrector(flows.how.corrector);
-      flow->metropolis(flows.how.metropolis);
+      flow->method(flows.together.method);
+      flow->corrector(flows.together.corrector);
+      flow->metropolis(flows.together.metropolis);
       flows.dissipative = flow.get();
       reading.result->flows.push_back(std::move(flow));
     });
@@ -253,13 +220,11 @@ void read_dissipative(Section& section, Item const& table, Flows& flows) {
 
 /// A heat bath for every particle, from `temperature` and `rate`.
 std::unique_ptr<LangevinFlow> read_bath(Section& section, Reading& reading) {
-  bool const reduced = reading.context.base.is_reduced();
-  auto const temperature = section.need_quantity("temperature", dimensions::temperature,
-                                                 reduced ? "temperature = 1" : "temperature = \"300 K\"", not_negative);
-  auto const rate =
-      section.need_quantity("rate", dimensions::frequency, reduced ? "rate = 1" : "rate = \"5 1/ps\"", positive);
-  if (!temperature || !rate || !reading.base_known) return nullptr;
-  return std::make_unique<LangevinFlow>(*temperature, *rate, reading.boltzmann_constant());
+  std::size_t const before = reading.context.mistakes.count();
+  BathOptions bath;
+  read_options(section, bath_options(), &bath, {.dimension = reading.dimension});
+  if (reading.context.mistakes.count() != before || !reading.base_known) return nullptr;
+  return std::make_unique<LangevinFlow>(bath.temperature, bath.rate, reading.boltzmann_constant());
 }
 
 void read_langevin(Section& section, Flows& flows) {
@@ -291,7 +256,9 @@ void read_flow(Item const& table, Flows& flows) {
   if (refused_with_smooth(table, "[[flows]]", reading)) return;
   Section section(table, "[[flows]]", reading.context);
   Item const* word = section.need("kind", "kind = \"dissipative\"");
-  auto const kind = word ? read_word(*word, "flow", {"dissipative", "langevin"}, reading.context) : std::nullopt;
+  std::vector<std::string> kinds;
+  for (auto const& one : flow_kinds()) kinds.push_back(one.name);
+  auto const kind = word ? read_word(*word, "flow", kinds, reading.context) : std::nullopt;
   if (!kind) return;
   section.rename(fmt::format("[[flows]] '{}'", *kind));
   if (*kind == "dissipative")

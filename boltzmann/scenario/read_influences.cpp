@@ -8,14 +8,6 @@
 #include <array>
 
 namespace boltzmann {
-namespace {
-
-NumberRange range_of(AllowedRange range) {
-  return range == AllowedRange::positive ? positive : range == AllowedRange::non_negative ? not_negative : any_number;
-}
-
-}  // namespace
-
 std::optional<LawParameters> read_parameters(Section& section, LawInfo const& law, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   LawParameters parameters;
@@ -42,8 +34,7 @@ std::optional<LawParameters> read_parameters(Section& section, LawInfo const& la
       if (auto const value =
               read_vector(*item, name, one_number ? 1 : reading.dimension, parameter.dimension, reading.context))
         parameters.push_back({name, *value});
-    } else if (auto const value =
-                   read_quantity(*item, name, parameter.dimension, reading.context, range_of(parameter.range))) {
+    } else if (auto const value = read_quantity(*item, name, parameter.dimension, reading.context, parameter.range)) {
       parameters.push_back({name, {*value}});
     }
   }

@@ -150,8 +150,7 @@ void Loader::load(AnyEnsemble& particles) {
 
 double Loader::read_block() {
   int const dimension = reading_.dimension;
-  auto const name = section_.word("lattice", {"square", "triangular", "fcc", "bcc", "hcp"});
-  if (name) block_.kind = lattice_named(*name);
+  block_.kind = section_.word("lattice", lattice_words()).value_or(block_.kind);
   block_.spacing =
       section_.need_quantity("spacing", dimensions::length, "spacing = \"2.551 angstrom\"", positive).value_or(1);
   double count = 1;
@@ -196,7 +195,7 @@ double Loader::read_fill() {
   int const dimension = reading_.dimension;
   std::size_t const before = reading_.context.mistakes.count();
   auto const name = section_.word("lattice", {"square", "triangular"});
-  if (name) block_.kind = lattice_named(*name);
+  if (name) block_.kind = lattice_words().named(*name);
   auto const spacing = section_.need_quantity("spacing", dimensions::length, "spacing = 0.1", positive);
   std::array<double, 3> low{}, high{};
   Item const *low_item = section_.find("low"), *high_item = section_.find("high"), *where = section_.find("where");

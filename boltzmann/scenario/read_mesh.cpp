@@ -52,11 +52,7 @@ std::optional<std::vector<std::size_t>> read_cells(Item const& item, Reading& re
 }
 
 FieldBoundary read_end(Item const& item, Reading& reading) {
-  auto const word = read_word(item, "boundary", {"periodic", "dirichlet", "neumann", "open"}, reading.context);
-  return !word || *word == "periodic" ? FieldBoundary::periodic
-         : *word == "dirichlet"       ? FieldBoundary::dirichlet
-         : *word == "neumann"         ? FieldBoundary::neumann
-                                      : FieldBoundary::open;
+  return read_word(item, "boundary", field_boundary_words(), reading.context).value_or(FieldBoundary::periodic);
 }
 
 /// One word for all axes, or for each axis a word or two of them, for its low and its high end.
@@ -99,18 +95,16 @@ void read_plain_mesh(Section& section, LaplaceLaw const& law, Reading& reading) 
   std::size_t const before = reading.context.mistakes.count();
   Item const* item = section.need("cells", "cells = 64");
   auto const cells = item ? read_cells(*item, reading) : std::nullopt;
-  auto const assignment = section.word("assignment", {"ngp", "cic", "tsc"});
-  auto const poisson = section.word("poisson", {"finite-difference", "spectral"});
-  auto const precision = section.word("precision", {"full", "single"});
+  auto const assignment = section.word("assignment", assignment_words());
+  auto const form = section.word("poisson", poisson_form_words());
+  auto const precision = section.word("precision", precision_words());
   Item const* boundary = section.find("boundary");
   if (!cells) return;
   guarded(reading, item->place, [&] {
     auto mesh = std::make_unique<MeshScheme>(*reading.box, *cells, law);
-    mesh->assignment(!assignment || *assignment == "cic" ? Assignment::cic
-                     : *assignment == "ngp"              ? Assignment::ngp
-                                                         : Assignment::tsc);
-    if (poisson && *poisson == "spectral") mesh->form(PoissonForm::spectral);
-    if (precision && *precision == "single") mesh->precision(Precision::single);
+    mesh->assignment(assignment.value_or(Assignment::cic));
+    if (form) mesh->form(*form);
+    if (precision) mesh->precision(*precision);
     if (boundary) read_boundary(*boundary, *mesh, reading);
     if (reading.context.mistakes.count() == before) mesh->grid();  // refuses what is too large for the memory
     reading.result->mesh = mesh.get();

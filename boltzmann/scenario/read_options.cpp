@@ -146,7 +146,10 @@ void read_options(Section& section, OptionTable const& options, void* object, Op
   auto const read = [&](Option const& option, Dimension dimension) {
     auto const place = option.place(object);
     bool const of_scenario = option.kind.form == Form::ensembles || option.kind.form == Form::particles;
-    if (!option.needed.empty() && !section.need(option.key, option.key + " = " + option.needed)) return;
+    // An example with a unit says nothing where there are none.
+    bool const plain =
+        option.needed.starts_with('"') && option.kind.form == Form::number && section.context().base.is_reduced();
+    if (!option.needed.empty() && !section.need(option.key, option.key + " = " + (plain ? "1" : option.needed))) return;
     if (of_scenario && meaning.of_scenario)
       meaning.of_scenario(option, place);
     else

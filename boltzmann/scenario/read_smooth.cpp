@@ -48,20 +48,6 @@ std::optional<VariableRange> read_variable_range(Section& section, Reading& read
 
 // ---- Materials ----
 
-NumberRange range_of(MaterialRange range) {
-  switch (range) {
-    case MaterialRange::any:
-      break;
-    case MaterialRange::non_negative:
-      return not_negative;
-    case MaterialRange::positive:
-      return positive;
-    case MaterialRange::above_one:
-      return {1, std::numeric_limits<double>::infinity(), true};
-  }
-  return any_number;
-}
-
 /// The parameters that stand in a table; those that may be missing are left out.
 MaterialValues read_values(Section& section, std::string_view what, std::vector<MaterialParameter> const& parameters,
                            Reading& reading) {
@@ -78,7 +64,7 @@ MaterialValues read_values(Section& section, std::string_view what, std::vector<
                       fmt::format("{} needs '{}', {}; add e.g. {}", what, parameter.name, parameter.doc, example));
     } else if (item && reading.dimension > 0) {
       if (auto const value = read_quantity(*item, parameter.name, parameter.dimension(reading.dimension),
-                                           reading.context, range_of(parameter.range)))
+                                           reading.context, parameter.range))
         values.emplace_back(parameter.name, *value);
     }
   }
@@ -182,10 +168,10 @@ void read_smooth(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   ReadSmooth& smooth = reading.smooth;
   Section section(table, "[smooth]", reading.context);
-  auto const weight = section.word("weight", weight_names());
-  auto const density = section.word("density", {"summation", "continuity", "volumes"});
-  auto const mean = section.word("mean_density", {"arithmetic", "geometric"});
-  auto const heating = section.word("heating", {"shared", "own"});
+  auto const weight = section.word("weight", weight_words());
+  auto const density = section.word("density", density_from_words());
+  auto const mean = section.word("mean_density", mean_density_words());
+  auto const heating = section.word("heating", heating_words());
   smooth.heating_place = section.place("heating");
   auto const viscosity = read_artificial_viscosity(section, reading);
   smooth.variable_place = section.place("variable_range");
@@ -193,7 +179,7 @@ void read_smooth(Item const& table, Reading& reading) {
   read_rezone(section, reading);
   auto const skin = section.quantity("skin", dimensions::length, not_negative);
   section.finish();
-  smooth.from_continuity = density && *density != "summation";
+  smooth.from_continuity = density && *density != DensityFrom::summation;
   if (smooth.from_continuity && smooth.variable)
     reading.mistake(smooth.variable_place,
                     "variable_range: ranges follow densities that are summed; with density = \"continuity\" they stay");
@@ -204,11 +190,10 @@ void read_smooth(Item const& table, Reading& reading) {
   reading.run.skin_place = section.place("skin");
   if (reading.context.mistakes.count() != before || !reading.box) return;
   guarded(reading, table.place, [&] {
-    auto scheme = std::make_unique<SmoothScheme>(*reading.box, weight ? weight_named(*weight) : WeightShape::lucy);
-    if (smooth.from_continuity)
-      scheme->density_from(*density == "volumes" ? DensityFrom::volumes : DensityFrom::continuity);
-    if (mean && *mean == "geometric") scheme->mean_density(MeanDensity::geometric);
-    if (heating && *heating == "own") scheme->heating(Heating::own);
+    auto scheme = std::make_unique<SmoothScheme>(*reading.box, weight.value_or(WeightShape::lucy));
+    if (density) scheme->density_from(*density);
+    if (mean) scheme->mean_density(*mean);
+    if (heating) scheme->heating(*heating);
     if (viscosity) scheme->artificial_viscosity(*viscosity);
     if (skin) scheme->skin(*skin);
     reading.result->smooth = scheme.get();

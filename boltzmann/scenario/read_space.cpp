@@ -190,11 +190,7 @@ void read_box(Section& document, Reading& reading) {
     if (values) (item == low_item ? low : high) = *values;
   }
   auto const kind = [&](Item const& item) {
-    auto const word = read_word(item, "boundary", {"open", "bounded", "periodic", "mirror"}, reading.context);
-    return !word || *word == "open" ? Boundary::open
-           : *word == "bounded"     ? Boundary::bounded
-           : *word == "periodic"    ? Boundary::periodic
-                                    : Boundary::mirror;
+    return read_word(item, "boundary", boundary_words(), reading.context).value_or(Boundary::open);
   };
   std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
   if (Item const* item = section.find("boundary")) {

@@ -41,6 +41,12 @@ std::optional<std::string> read_path(Item const& item, std::string_view name, Re
 /// One of the words; a mistake that lists them and says the nearest.
 std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,
                                      ReadContext& context);
+template <class Value>
+std::optional<Value> read_word(Item const& item, std::string_view name, Words<Value> const& words,
+                               ReadContext& context) {
+  auto const word = read_word(item, name, words.names(), context);
+  return word ? std::optional(words.named(*word)) : std::nullopt;
+}
 std::vector<std::string> read_texts(Item const& item, std::string_view name, ReadContext& context);
 
 /// "position.x: ..." -> what stands before a message about a key.
@@ -75,6 +81,11 @@ class Section {
                                       std::int64_t high = std::numeric_limits<std::int64_t>::max());
   std::optional<std::string> text(std::string_view key);
   std::optional<std::string> word(std::string_view key, std::vector<std::string> const& words);
+  template <class Value>
+  std::optional<Value> word(std::string_view key, Words<Value> const& words) {
+    auto const found = word(key, words.names());
+    return found ? std::optional(words.named(*found)) : std::nullopt;
+  }
   bool boolean(std::string_view key, bool otherwise = false);
 
   /// The place of a key's value, or of the table if the key is missing.

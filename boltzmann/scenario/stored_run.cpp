@@ -107,11 +107,11 @@ struct RunReader {
     }
     std::array<Boundary, 3> boundaries{};
     for (std::size_t a = 0; a < kinds.size(); ++a) {
-      bool known = false;
-      for (auto const kind : {Boundary::open, Boundary::bounded, Boundary::periodic, Boundary::mirror})
-        if (to_string(kind) == kinds[a]) boundaries[a] = kind, known = true;
-      if (!known)
+      try {
+        boundaries[a] = boundary_words().named(kinds[a]);
+      } catch (Error const&) {
         context.mistakes.add(section.place("boundary"), "boundary: unknown word " + boltzmann::quoted(kinds[a]));
+      }
     }
     auto const low = place(section, "low", D), high = place(section, "high", D);
     if (!context.mistakes.none()) return std::nullopt;

@@ -28,10 +28,7 @@ OptionPlace curves_of(Picture& picture) {
                     [=]() -> void* { return &curves->emplace_back(); }, [=] { curves->clear(); }};
 }
 
-OptionPlace weight_of(Picture& picture) {
-  auto* const shape = &picture.smoothing.shape;
-  return NamedValue{[=] { return to_string(*shape); }, [=](std::string const& name) { *shape = weight_named(name); }};
-}
+OptionPlace weight_of(Picture& picture) { return named_value(&picture.smoothing.shape, weight_words()); }
 
 /// What drawings choose from.
 OptionTable make_members() {
@@ -60,7 +57,7 @@ OptionTable make_members() {
         return CountOrList{&p.level_count, &p.levels};
       },
       {OptionKind::Form::count_or_numbers, of_what_is_shown, {1, 1000}}, "how many levels, or which, ascending");
-  all.add_of<Picture>("weight", weight_of, word(weight_names()), "how particles are spread over space");
+  all.add_of<Picture>("weight", weight_of, word(weight_words().names()), "how particles are spread over space");
   all.add_of<Picture>(
       "range", [](Picture& p) -> OptionPlace { return &p.smoothing.range; }, number(dimensions::length, positive),
       "how far they are spread", "each particle's own, or one that fits");

@@ -145,7 +145,7 @@ void Simulation::check() {
     auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
     if (part == parts_.end())
       throw Error("ensemble '" + ensemble->name() +
-                  "' has no integrator: call integrate(ensemble, Method::...), one of " + join(method_names()));
+                  "' has no integrator: call integrate(ensemble, Method::...), one of " + join(method_words().names()));
     part->time_after.clear();
     part->integrator->threads(schemes_.front()->threads());
     bool const takes = part->integrator->takes_rotations();

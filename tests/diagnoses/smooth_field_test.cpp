@@ -83,8 +83,8 @@ TEST(SmoothField, SumOverAllImages) {
   Ensemble<Smooth<2>> matter("matter", 40);
   scatter(matter, box, 0.8, 4.9);
   std::vector<double> const points{0, 3, -0.99, 2.01, 3.999, 5.999, 17.2, -8.4};
-  for (auto const& name : weight_names()) {
-    auto const shape = weight_named(name);
+  for (auto const& name : weight_words().names()) {
+    auto const shape = weight_words().named(name);
     SmoothField const field(matter, box, {shape});
     auto const density = field.density(points).value, velocity = field.value(points, "velocity.y").value;
     for (std::size_t p = 0; p < points.size() / 2; ++p) {

@@ -3,7 +3,9 @@
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/flows/flow_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/simulation/picture_options.hpp>
 
 #include <gtest/gtest.h>
@@ -22,57 +24,107 @@ namespace {
 struct Kind {
   std::string name, doc;
   OptionTable const& options;
+  void* plain;  ///< an object as it is without options
 };
 
-/// The kinds, and their options: one row for those that mean the same in several.
-std::string kinds_and_options(std::string const& head, std::vector<Kind> const& kinds, void* plain) {
-  struct Row {
-    Option option;
-    std::vector<std::string> kinds;
+/// An option, and the kinds that have it.
+struct Row {
+  Option option;
+  std::string usual;  ///< its value without being written
+  std::vector<std::string> kinds;
+};
+
+/// One row for those that mean the same in several kinds.
+void add(std::vector<Row>& rows, Option const& option, std::string const& usual, std::string const& kind) {
+  auto const same = [&](Row const& row) {
+    return row.option.key == option.key && row.option.doc == option.doc && row.option.otherwise == option.otherwise &&
+           row.usual == usual && allowed(row.option) == allowed(option);
   };
+  auto const found = std::find_if(rows.begin(), rows.end(), same);
+  if (found != rows.end())
+    found->kinds.push_back(kind);
+  else
+    rows.push_back({option, usual, {kind}});
+}
+
+std::string keys_of(std::vector<Row> const& rows, std::size_t kinds) {
+  std::string text = "\n| key | what it is | | without it | of |\n|---|---|---|---|---|\n";
+  for (auto const& [option, usual, of] : rows) {
+    std::string const otherwise = !option.needed.empty()      ? "(needed)"
+                                  : !option.otherwise.empty() ? option.otherwise
+                                  : usual.empty()             ? ""
+                                                              : "`" + usual + "`";
+    text += "| `" + option.key + "` | " + option.doc + " | " + allowed(option) + " | " + otherwise + " | " +
+            (of.size() == kinds ? "all" : join(of)) + " |\n";
+  }
+  return text;
+}
+
+/// The kinds, and their options.
+std::string kinds_and_options(std::string const& head, std::vector<Kind> const& kinds) {
   std::vector<Row> rows;
   std::string text = head + "\n|---|---|---|\n";
   for (auto const& kind : kinds) {
     std::string keys;
     for (auto const& option : kind.options) {
       keys += (keys.empty() ? "`" : " `") + option.key + "`";
-      auto const same = [&](Row const& row) {
-        return row.option.key == option.key && row.option.doc == option.doc &&
-               row.option.otherwise == option.otherwise && allowed(row.option) == allowed(option);
-      };
-      auto const found = std::find_if(rows.begin(), rows.end(), same);
-      if (found != rows.end())
-        found->kinds.push_back(kind.name);
-      else
-        rows.push_back({option, {kind.name}});
+      add(rows, option, toml_value(option, kind.plain), kind.name);
     }
     text += "| `" + kind.name + "` | " + kind.doc + " | " + keys + " |\n";
   }
-  text += "\n| key | what it is | | without it | of |\n|---|---|---|---|---|\n";
-  for (auto const& [option, of] : rows) {
-    auto const value = option.otherwise.empty() ? toml_value(option, plain) : "";
-    std::string const otherwise = !option.needed.empty()      ? "(needed)"
-                                  : !option.otherwise.empty() ? option.otherwise
-                                  : value.empty()             ? ""
-                                                              : "`" + value + "`";
-    text += "| `" + option.key + "` | " + option.doc + " | " + allowed(option) + " | " + otherwise + " | " +
-            (of.size() == kinds.size() ? "all" : join(of)) + " |\n";
-  }
-  return text;
+  return text + keys_of(rows, kinds.size());
 }
 
 std::string pictures() {
   Picture plain;
   std::vector<Kind> kinds;
-  for (auto const& drawing : drawings()) kinds.push_back({drawing.name, drawing.doc, drawing.options});
-  return kinds_and_options("| drawing | shows | keys |", kinds, &plain);
+  for (auto const& drawing : drawings()) kinds.push_back({drawing.name, drawing.doc, drawing.options, &plain});
+  return kinds_and_options("| drawing | shows | keys |", kinds);
 }
 
 std::string diagnoses() {
   DiagnosisParameters plain;
   std::vector<Kind> kinds;
-  for (auto const& kind : diagnosis_kinds()) kinds.push_back({kind.name, kind.doc, kind.options});
-  return kinds_and_options("| kind | columns | keys |", kinds, &plain);
+  for (auto const& kind : diagnosis_kinds()) kinds.push_back({kind.name, kind.doc, kind.options, &plain});
+  return kinds_and_options("| kind | columns | keys |", kinds);
+}
+
+/// The laws with their parameters.
+std::string laws() {
+  auto const cell = [](std::string_view text) {
+    std::string cell;
+    for (char const c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);
+    return cell;
+  };
+  std::vector<Row> rows;
+  std::string text = "| law | what it is | on, by | parameters | energy, or influence |\n|---|---|---|---|---|\n";
+  for (auto const& law : scenario_laws()) {
+    std::string keys;
+    for (auto const& parameter : law.parameters) {
+      std::string const name(parameter.name), usual(parameter.default_text);
+      keys += (keys.empty() ? "`" : " `") + name + "`";
+      OptionKind const kind =
+          parameter.vector ? option::vector(parameter.dimension) : option::number(parameter.dimension, parameter.range);
+      Option option{name, kind, std::string(parameter.doc), usual.empty() ? "" : "`" + usual + "`", {}, {}};
+      if (!parameter.in_reduced_base) option.otherwise += ", but needed in the base `\"reduced\"`";
+      if (usual.empty()) option.needed = "1";
+      add(rows, option, "", std::string(law.name));
+    }
+    text += "| `" + std::string(law.name) + "` | " + cell(law.doc) + " | " + std::string(law.target) +
+            (law.source.empty() ? ", from outside" : ", " + std::string(law.source)) + " | " + keys + " | " +
+            cell(law.formula) + " |\n";
+  }
+  return text + keys_of(rows, scenario_laws().size());
+}
+
+std::string flows() {
+  DissipationOptions pairs;
+  BathOptions bath;
+  std::vector<Kind> kinds;
+  for (auto const& kind : flow_kinds())
+    kinds.push_back({kind.name, kind.doc, kind.options,
+                     &kind.options == &dissipation_options() ? static_cast<void*>(&pairs) : &bath});
+  return kinds_and_options("| kind | what it is | keys |", kinds);
 }
 
 /// The classes with their fields.
@@ -95,6 +147,8 @@ TEST(Reference, TablesOfTheGuideAreThoseOfTheOptions) {
   };
   for (auto const& table : {Table{"scenarios.md", "pictures", pictures()},
                             {"scenarios.md", "diagnoses", diagnoses()},
+                            {"scenarios.md", "laws", laws()},
+                            {"scenarios.md", "flows", flows()},
                             {"scenarios.md", "classes", classes()}}) {
     std::string const path = std::string(BOLTZMANN_SOURCE) + "/docs/guide/" + table.page;
     std::string page = read_text(path);

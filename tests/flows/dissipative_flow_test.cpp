@@ -498,14 +498,14 @@ TEST(DissipativeFlowErrors, Dissipations) {
 }
 
 TEST(DissipativeFlowErrors, Names) {
-  for (auto const& name : convention_names()) EXPECT_EQ(to_string(convention_named(name)), name);
-  EXPECT_EQ(convention_names().size(), 4U);
+  for (auto const& name : convention_words().names()) EXPECT_EQ(to_string(convention_words().named(name)), name);
+  EXPECT_EQ(convention_words().names().size(), 4U);
   for (FlowMethod const method : {FlowMethod::order_free, FlowMethod::pair_splitting})
-    EXPECT_EQ(flow_method_named(to_string(method)), method);
-  EXPECT_EQ(message([] { convention_named("constant-frictions"); }),
+    EXPECT_EQ(flow_method_words().named(to_string(method)), method);
+  EXPECT_EQ(message([] { convention_words().named("constant-frictions"); }),
             "unknown convention 'constant-frictions'; there are fixed-temperature, constant-noise, constant-friction, "
             "deterministic; did you mean 'constant-friction'?");
-  EXPECT_EQ(message([] { flow_method_named("shardlow"); }),
+  EXPECT_EQ(message([] { flow_method_words().named("shardlow"); }),
             "unknown method of dissipation 'shardlow'; there are order-free, pair-splitting");
 }
 

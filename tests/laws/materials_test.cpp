@@ -190,12 +190,12 @@ TEST(Materials, RefuseWrongParameters) {
   EXPECT_EQ(message([] { IsentropicGas{0, 2}.check(); }), "isentropic-gas: constant = 0 must be positive");
   EXPECT_EQ(message([] { QuadraticGas{-1}.check(); }), "quadratic-gas: coefficient = -1 must be positive");
   EXPECT_EQ(message([] { Tait{1, 0}.check(); }), "tait: sound_speed = 0 must be positive");
-  EXPECT_EQ(message([] { StiffenedGas{1.4, -1}.check(); }), "stiffened-gas: stiffness = -1 must be zero or positive");
+  EXPECT_EQ(message([] { StiffenedGas{1.4, -1}.check(); }), "stiffened-gas: stiffness = -1 must be zero or more");
   EXPECT_EQ(message([] { VanDerWaals{1, 1, 1, 0}.check(); }), "van-der-waals: degrees_of_freedom = 0 must be positive");
   EXPECT_EQ(message([] {
               Newtonian<IdealGas>{{1.4}, -1}.check();
             }),
-            "newtonian: shear_viscosity = -1 must be zero or positive");
+            "newtonian: shear_viscosity = -1 must be zero or more");
   EXPECT_EQ(message([] { Newtonian<IdealGas>{{0.4}}.check(); }), "ideal-gas: gamma - 1 = -0.6 must be positive");
   EXPECT_EQ(message([] {
               Newtonian<Tait>{{1, 1}, 0, 0, 1}.check();

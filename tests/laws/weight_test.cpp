@@ -134,9 +134,9 @@ TEST(Weight, PacksAndDoublesAgree) {
 }
 
 TEST(Weight, ByName) {
-  for (auto const& name : weight_names()) EXPECT_EQ(to_string(weight_named(name)), name);
-  EXPECT_EQ(weight_named("cubic-spline"), WeightShape::cubic_spline);
-  auto const text = message([] { weight_named("wendlant"); });
+  for (auto const& name : weight_words().names()) EXPECT_EQ(to_string(weight_words().named(name)), name);
+  EXPECT_EQ(weight_words().named("cubic-spline"), WeightShape::cubic_spline);
+  auto const text = message([] { weight_words().named("wendlant"); });
   EXPECT_NE(text.find("did you mean 'wendland'"), std::string::npos) << text;
   EXPECT_NE(text.find("quintic-spline"), std::string::npos) << text;
 }

@@ -298,8 +298,8 @@ TEST(Guide, NamesEverythingThatAScenarioCanSay) {
   for (auto const& parameter : elastic_parameters()) {
     EXPECT_NE(guide.find(std::string(parameter.name) + " = ..."), std::string::npos) << parameter.name;
   }
-  for (auto const& weight : weight_names()) expect(weight);
-  for (auto const& method : method_names()) expect(method);
+  for (auto const& weight : weight_words().names()) expect(weight);
+  for (auto const& method : method_words().names()) expect(method);
   for (auto const& kind : diagnosis_kinds()) {
     expect(kind.name);
     for (auto const& option : kind.options) expect(option.key);

@@ -108,10 +108,9 @@ struct Elastic {
 
   void check() const {
     if constexpr (requires { material.check(); }) material.check();
-    check_parameter("elastic", "shear_modulus", shear_modulus, AllowedRange::positive);
-    if (yield_stress != unlimited) check_parameter("elastic", "yield_stress", yield_stress, AllowedRange::positive);
-    if (tensile_strength != unlimited)
-      check_parameter("elastic", "tensile_strength", tensile_strength, AllowedRange::positive);
+    check_parameter("elastic", "shear_modulus", shear_modulus, positive);
+    if (yield_stress != unlimited) check_parameter("elastic", "yield_stress", yield_stress, positive);
+    if (tensile_strength != unlimited) check_parameter("elastic", "tensile_strength", tensile_strength, positive);
   }
 
  private:

@@ -19,8 +19,8 @@ struct IdealGas {
   double specific_heat() const { return cv; }
 
   void check() const {
-    check_parameter("ideal-gas", "gamma - 1", gamma - 1, AllowedRange::positive);
-    check_parameter("ideal-gas", "cv", cv, AllowedRange::positive);
+    check_parameter("ideal-gas", "gamma - 1", gamma - 1, positive);
+    check_parameter("ideal-gas", "cv", cv, positive);
   }
 };
 

@@ -18,8 +18,8 @@ struct IsentropicGas {
   double energy(double density) const { return constant * pow(density, gamma - 1) / (gamma - 1); }
 
   void check() const {
-    check_parameter("isentropic-gas", "constant", constant, AllowedRange::positive);
-    check_parameter("isentropic-gas", "gamma - 1", gamma - 1, AllowedRange::positive);
+    check_parameter("isentropic-gas", "constant", constant, positive);
+    check_parameter("isentropic-gas", "gamma - 1", gamma - 1, positive);
   }
 };
 
@@ -36,7 +36,7 @@ struct QuadraticGas {
   double energy(double density) const { return coefficient * density; }
   double pressure_by_density2() const { return coefficient; }
 
-  void check() const { check_parameter("quadratic-gas", "coefficient", coefficient, AllowedRange::positive); }
+  void check() const { check_parameter("quadratic-gas", "coefficient", coefficient, positive); }
 };
 
 }  // namespace boltzmann

@@ -65,9 +65,9 @@ struct Newtonian {
 
   void check() const {
     if constexpr (requires { material.check(); }) material.check();
-    check_parameter("newtonian", "shear_viscosity", shear_viscosity, AllowedRange::non_negative);
-    check_parameter("newtonian", "bulk_viscosity", bulk_viscosity, AllowedRange::non_negative);
-    check_parameter("newtonian", "conductivity", conductivity, AllowedRange::non_negative);
+    check_parameter("newtonian", "shear_viscosity", shear_viscosity, not_negative);
+    check_parameter("newtonian", "bulk_viscosity", bulk_viscosity, not_negative);
+    check_parameter("newtonian", "conductivity", conductivity, not_negative);
     if (!has_specific_heat && conductivity > 0)
       throw Error("newtonian: a conductivity needs a material with a temperature and a specific_heat()");
   }

@@ -25,9 +25,9 @@ struct StiffenedGas {
   }
 
   void check() const {
-    check_parameter("stiffened-gas", "gamma - 1", gamma - 1, AllowedRange::positive);
-    check_parameter("stiffened-gas", "stiffness", stiffness, AllowedRange::non_negative);
-    check_parameter("stiffened-gas", "cv", cv, AllowedRange::positive);
+    check_parameter("stiffened-gas", "gamma - 1", gamma - 1, positive);
+    check_parameter("stiffened-gas", "stiffness", stiffness, not_negative);
+    check_parameter("stiffened-gas", "cv", cv, positive);
   }
 };
 

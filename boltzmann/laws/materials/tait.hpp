@@ -29,10 +29,10 @@ struct Tait {
   }
 
   void check() const {
-    check_parameter("tait", "reference_density", reference_density, AllowedRange::positive);
-    check_parameter("tait", "sound_speed", sound_speed, AllowedRange::positive);
-    check_parameter("tait", "gamma", gamma, AllowedRange::positive);
-    check_parameter("tait", "background_pressure", background_pressure, AllowedRange::any);
+    check_parameter("tait", "reference_density", reference_density, positive);
+    check_parameter("tait", "sound_speed", sound_speed, positive);
+    check_parameter("tait", "gamma", gamma, positive);
+    check_parameter("tait", "background_pressure", background_pressure, any_number);
   }
 };
 

@@ -34,10 +34,10 @@ struct VanDerWaals {
   double energy_at(double density, double temperature) const { return specific_heat() * temperature - a * density; }
 
   void check() const {
-    check_parameter("van-der-waals", "a", a, AllowedRange::non_negative);
-    check_parameter("van-der-waals", "b", b, AllowedRange::non_negative);
-    check_parameter("van-der-waals", "k_over_m", k_over_m, AllowedRange::positive);
-    check_parameter("van-der-waals", "degrees_of_freedom", degrees_of_freedom, AllowedRange::positive);
+    check_parameter("van-der-waals", "a", a, not_negative);
+    check_parameter("van-der-waals", "b", b, not_negative);
+    check_parameter("van-der-waals", "k_over_m", k_over_m, positive);
+    check_parameter("van-der-waals", "degrees_of_freedom", degrees_of_freedom, positive);
   }
 };
 

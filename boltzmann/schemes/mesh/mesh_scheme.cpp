@@ -46,6 +46,21 @@ void check_walls(Box const& box) {
 
 }  // namespace
 
+Words<Assignment> const& assignment_words() {
+  static Words<Assignment> const all{"assignment",
+                                     {{Assignment::ngp, "ngp", "to the nearest grid point"},
+                                      {Assignment::cic, "cic", "cloud in cell: to 2 nodes on each axis"},
+                                      {Assignment::tsc, "tsc", "triangular-shaped cloud: to 3"}}};
+  return all;
+}
+
+Words<Precision> const& precision_words() {
+  static Words<Precision> const all{"precision",
+                                    {{Precision::full, "full", "particles are stored in double"},
+                                     {Precision::single, "single", "particles are stored in half the memory"}}};
+  return all;
+}
+
 MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const& law)
     : Scheme(box), law_(law), pairs_(box), cells_(std::move(cells)) {
   law.check();

@@ -6,6 +6,7 @@
 //   Simulation simulation(mesh, dt);
 #pragma once
 
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -28,6 +29,7 @@ struct AssignTask;
 /// How strengths are spread over nodes, and the field brought back: the nearest node, the 2 (4, 8) nodes of the cell,
 /// or the 3 (9, 27) nearest, by B-splines of order 1, 2, 3.
 enum class Assignment { ngp = 1, cic = 2, tsc = 3 };
+Words<Assignment> const& assignment_words();
 
 /// What particles are stored in while a run goes through the mesh's own loop; the user's rows are doubles always.
 enum class Precision {
@@ -35,6 +37,7 @@ enum class Precision {
   single,  ///< velocities as floats, positions as integers of 32 bits (2^-24 of a cell, or 2^-29 of the
            ///< longest axis if that is more): half the memory, and faster
 };
+Words<Precision> const& precision_words();
 
 class MeshScheme : public Scheme {
  public:

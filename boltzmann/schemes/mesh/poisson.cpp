@@ -828,18 +828,23 @@ void PoissonSolver::solve(std::vector<double> const& density, double constant, s
   plans_->solve(density, constant, potential, &field);
 }
 
-std::string to_string(FieldBoundary boundary) {
-  switch (boundary) {
-    case FieldBoundary::periodic:
-      return "periodic";
-    case FieldBoundary::dirichlet:
-      return "dirichlet";
-    case FieldBoundary::neumann:
-      return "neumann";
-    case FieldBoundary::open:
-      return "open";
-  }
-  return "?";
+Words<FieldBoundary> const& field_boundary_words() {
+  static Words<FieldBoundary> const all{
+      "boundary",
+      {{FieldBoundary::periodic, "periodic", "both ends"},
+       {FieldBoundary::dirichlet, "dirichlet", "potential zero: a grounded conductor"},
+       {FieldBoundary::neumann, "neumann", "no normal field: a plane of symmetry, an insulator"},
+       {FieldBoundary::open, "open", "both ends: empty space outside"}}};
+  return all;
+}
+std::string to_string(FieldBoundary boundary) { return field_boundary_words().name(boundary); }
+
+Words<PoissonForm> const& poisson_form_words() {
+  static Words<PoissonForm> const all{
+      "form of Poisson's equation",
+      {{PoissonForm::finite_difference, "finite-difference", "three-point Laplacian, central differences"},
+       {PoissonForm::spectral, "spectral", "k^2 and i k: exact for smooth densities"}}};
+  return all;
 }
 
 void PoissonSolver::threads(int count) { plans_->threads = threads_for(plans_->grid, count); }

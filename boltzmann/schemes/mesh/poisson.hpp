@@ -1,6 +1,7 @@
 // Poisson's equation on a mesh, by fast Fourier transforms: from a density to the potential to the field.
 #pragma once
 
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
 
 #include <array>
@@ -20,7 +21,7 @@ enum class FieldBoundary {
   open,       ///< (both ends) empty space outside
 };
 
-/// "periodic", "dirichlet", "neumann", "open".
+Words<FieldBoundary> const& field_boundary_words();
 std::string to_string(FieldBoundary boundary);
 
 /// How derivatives along an axis are taken. Along open axes the potential is the spectral one in both forms; only the
@@ -32,6 +33,7 @@ enum class PoissonForm {
   /// order.
   spectral,
 };
+Words<PoissonForm> const& poisson_form_words();
 
 struct FieldEnds {
   FieldBoundary low = FieldBoundary::periodic, high = FieldBoundary::periodic;

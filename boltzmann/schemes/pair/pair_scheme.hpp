@@ -2,6 +2,7 @@
 // connections.
 #pragma once
 
+#include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/neighbours/connection.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/schemes/pair/external_kernels.hpp>
@@ -135,7 +136,7 @@ class PairScheme final : public Scheme {
                     std::vector<std::uint32_t> const* only);
   template <class Law>
   static LawPointer keep(Law const& law) {
-    if constexpr (requires { law.check(); }) law.check();
+    check_law(law);
     return std::make_shared<Law>(law);
   }
 

@@ -1,6 +1,8 @@
 // A law that gives a force, as one that gives the influence on smooth particles.
 #pragma once
 
+#include <boltzmann/laws/parameter.hpp>
+
 namespace boltzmann {
 
 /// Calls law(p) or law(p, time), and puts the force into an influence that has nothing else: no heat.
@@ -28,9 +30,7 @@ struct ForceOn {
     }
   }
 
-  void check() const {
-    if constexpr (requires { law.check(); }) law.check();
-  }
+  void check() const { check_law(law); }
 };
 
 }  // namespace boltzmann

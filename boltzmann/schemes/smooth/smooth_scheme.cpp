@@ -86,6 +86,30 @@ SmoothKernelTable const& smooth_kernels_of(WeightShape shape) {
   });
 }
 
+Words<DensityFrom> const& density_from_words() {
+  static Words<DensityFrom> const all{
+      "density",
+      {{DensityFrom::summation, "summation", "of the weights around it: mass is conserved exactly"},
+       {DensityFrom::continuity, "continuity", "of its past, as the sum would change: no deficit at free surfaces"},
+       {DensityFrom::volumes, "volumes", "the same, where bodies of different densities touch"}}};
+  return all;
+}
+
+Words<MeanDensity> const& mean_density_words() {
+  static Words<MeanDensity> const all{"mean density",
+                                      {{MeanDensity::arithmetic, "arithmetic", "half the sum of the two"},
+                                       {MeanDensity::geometric, "geometric", "the root of their product"}}};
+  return all;
+}
+
+Words<Heating> const& heating_words() {
+  static Words<Heating> const all{
+      "heating",
+      {{Heating::shared, "shared", "both of a pair are heated by the same"},
+       {Heating::own, "own", "each by what its own pressure does: in smooth flow it stays on its isentrope"}}};
+  return all;
+}
+
 SmoothScheme::SmoothScheme(Box box, WeightShape shape) : Scheme(std::move(box)), shape_(shape) {
   points_ = in_dimension(this->box().dimension(), [](auto d) -> std::unique_ptr<AnyEnsemble> {
     return std::make_unique<Ensemble<SmoothPlace<d>>>("smooth particles");
@@ -121,8 +145,8 @@ void SmoothScheme::heating(Heating heating) {
 }
 
 void SmoothScheme::artificial_viscosity(ArtificialViscosity const& viscosity) {
-  check_parameter("artificial viscosity", "alpha", viscosity.alpha, AllowedRange::non_negative);
-  check_parameter("artificial viscosity", "beta", viscosity.beta, AllowedRange::non_negative);
+  check_parameter("artificial viscosity", "alpha", viscosity.alpha, not_negative);
+  check_parameter("artificial viscosity", "beta", viscosity.beta, not_negative);
   viscosity_ = viscosity;
   parameters_.alpha = viscosity.alpha;
   parameters_.beta = viscosity.beta;

@@ -1,6 +1,7 @@
 // SmoothScheme: continuum mechanics with smooth particles (SPAM): the recipe of Hoover and Hoover as passes over pairs.
 #pragma once
 
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/schemes/pair/external_kernels.hpp>
 #include <boltzmann/schemes/scheme.hpp>
@@ -22,11 +23,14 @@ enum class DensityFrom {
                ///< start
   volumes  ///< the same, where bodies of different densities touch: a neighbour counts by its volume, not by its mass
 };
+Words<DensityFrom> const& density_from_words();
 /// The mean density in gradients (Eq 17).
 enum class MeanDensity { arithmetic, geometric };
+Words<MeanDensity> const& mean_density_words();
 /// Who is heated by the work that pressure does on a pair: both by the same (Eq 14), or each by what its own pressure
 /// does, so that in smooth flow each stays on its isentrope. Total energy is conserved either way.
 enum class Heating { shared, own };
+Words<Heating> const& heating_words();
 
 /// Monaghan's artificial viscosity: alpha for weak shocks, beta against particles that run through each other.
 struct ArtificialViscosity {
@@ -61,7 +65,7 @@ class SmoothScheme final : public Scheme {
   template <class P, class Law>
   void external(Ensemble<P>& ensemble, Law const& law) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
-    if constexpr (requires { law.check(); }) law.check();
+    check_law(law);
     add_external(ensemble, external_kernels<P, ForceOn<Law>>(), std::make_shared<ForceOn<Law>>(ForceOn<Law>{law}));
   }
 

@@ -12,9 +12,9 @@ namespace boltzmann {
 using namespace detail;
 
 void SmoothScheme::variable_range(VariableRange const& variable) {
-  check_parameter("variable range", "spacings", variable.spacings, AllowedRange::positive);
-  check_parameter("variable range", "shortest", variable.shortest, AllowedRange::non_negative);
-  check_parameter("variable range", "longest", variable.longest, AllowedRange::non_negative);
+  check_parameter("variable range", "spacings", variable.spacings, positive);
+  check_parameter("variable range", "shortest", variable.shortest, not_negative);
+  check_parameter("variable range", "longest", variable.longest, not_negative);
   if (density_from_ != DensityFrom::summation)
     throw Error("ranges follow densities that are summed; with densities from continuity they stay");
   if (loaded_.empty()) throw Error("variable_range() finds the ranges of particles: say what they are made of before");
