@@ -72,7 +72,9 @@ int window(WindowCommand const& command);
 /// `kind` empty: all kinds of names; or "scenarios", "classes", "laws", "integrators", "diagnoses", "units".
 int list(std::string const& kind, bool names_only);
 std::vector<std::string> listed_kinds();
+/// Error if there is no name.
 int show(std::string const& name);
+int show_schema();
 int check(std::string const& scenario, Overrides const& overrides);
 int new_scenario(std::string const& name);
 

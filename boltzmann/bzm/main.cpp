@@ -231,17 +231,22 @@ int command_line(int argc, char** argv) {
 
   std::string kind;
   bool names_only = false;
-  sub = command("list", "list scenarios, particle classes, laws, materials, flows, integrators, diagnoses, drawings",
+  sub = command("list",
+                "list scenarios, particle classes, laws, materials, flows, loaders, integrators, diagnoses, drawings",
                 [&] { return list(kind, names_only); });
   sub->add_option(
       "kind", kind,
-      "scenarios, classes, laws, materials, flows, integrators, diagnoses, drawings or units [all but units]");
+      "scenarios, classes, laws, materials, flows, loaders, tables, integrators, diagnoses, drawings or units [all but "
+      "units]");
   sub->add_flag("--names", names_only, "only the names, one a line");
 
   std::string name;
   Overrides overrides;
-  sub = command("show", "explain a scenario, class, law, integrator, diagnosis or unit", [&] { return show(name); });
-  sub->add_option("name", name, "a word that bzm list shows, or a unit")->required();
+  bool schema = false;
+  sub = command("show", "explain a scenario, class, law, loader, integrator, diagnosis, table or unit",
+                [&] { return schema ? show_schema() : show(name); });
+  sub->add_option("name", name, "a word that bzm list shows, or a unit");
+  sub->add_flag("--schema", schema, "the JSON Schema of scenario files, for editors");
   sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name, overrides); });
   sub->add_option("scenario", name, "a file, the name of a shipped scenario, or -: standard input")->required();
   scenario_options(sub, overrides);

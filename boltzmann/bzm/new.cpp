@@ -2,7 +2,7 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/scenario/schema.hpp>
 
 #include <fmt/format.h>
 
@@ -12,7 +12,8 @@ namespace boltzmann::bzm {
 namespace {
 
 // Argon at 2/3 of the triple-point density, in two dimensions.
-constexpr char const* starter = R"toml(# A scenario of Boltzmann. Change what you like, then
+constexpr char const* starter = R"toml(#:schema ./boltzmann.schema.json
+# A scenario of Boltzmann. Change what you like, then
 #   bzm check @name.toml    shows all mistakes, and runs nothing
 #   bzm run @name.toml      leaves its results in results/@name
 # `bzm list` shows all classes, laws, integrators and diagnoses; `bzm show lennard-jones` explains one.
@@ -72,6 +73,12 @@ y = "kinetic energy, potential energy, total energy"
 file = "energies.png"
 )toml";
 
+void write_file(std::string const& path, std::string const& text) {
+  TextFile file(path, TextFile::Mode::replace);
+  file.write(text);
+  file.close();
+}
+
 }  // namespace
 
 int new_scenario(std::string const& word) {
@@ -88,10 +95,10 @@ int new_scenario(std::string const& word) {
     text.replace(at, 5, replacement);
     at += replacement.size();
   }
-  TextFile file(path, TextFile::Mode::replace);
-  file.write(text);
-  file.close();
-  fmt::print("{} is written; next: bzm run {}\n", path, path);
+  write_file(path, text);
+  write_file((fs::path(path).parent_path() / "boltzmann.schema.json").string(), scenario_schema());
+  fmt::print("{} is written, and boltzmann.schema.json, with which editors complete and mark; next: bzm run {}\n", path,
+             path);
   return 0;
 }
 

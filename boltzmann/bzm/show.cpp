@@ -8,8 +8,11 @@
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/scenario/schema.hpp>
+#include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/picture_options.hpp>
@@ -45,40 +48,11 @@ std::vector<Named> scenarios() {
   for (auto const& name : shipped_scenarios()) all.push_back({name, title_line(name)});
   return all;
 }
-std::vector<Named> classes() {
+/// Those of a catalogue whose entries have a name and a doc.
+template <auto catalogue>
+std::vector<Named> of() {
   std::vector<Named> all;
-  for (auto const& one : particle_classes()) all.push_back({one.name, one.doc});
-  return all;
-}
-std::vector<Named> laws() {
-  std::vector<Named> all;
-  for (auto const& law : scenario_laws()) all.push_back({std::string(law.name), std::string(law.doc)});
-  return all;
-}
-std::vector<Named> materials() {
-  std::vector<Named> all;
-  for (auto const& material : material_catalogue())
-    all.push_back({std::string(material.name), std::string(material.doc)});
-  return all;
-}
-std::vector<Named> integrators() {
-  std::vector<Named> all;
-  for (auto const& word : method_words()) all.push_back({std::string(word.name), std::string(word.doc)});
-  return all;
-}
-std::vector<Named> flows() {
-  std::vector<Named> all;
-  for (auto const& kind : flow_kinds()) all.push_back({kind.name, kind.doc});
-  return all;
-}
-std::vector<Named> diagnoses() {
-  std::vector<Named> all;
-  for (auto const& kind : diagnosis_kinds()) all.push_back({kind.name, kind.doc});
-  return all;
-}
-std::vector<Named> drawing_list() {
-  std::vector<Named> all;
-  for (auto const& drawing : drawings()) all.push_back({drawing.name, drawing.doc});
+  for (auto const& one : catalogue()) all.push_back({std::string(one.name), std::string(one.doc)});
   return all;
 }
 std::vector<Named> unit_list() {
@@ -97,9 +71,17 @@ struct Section {
   char const* name;
   std::vector<Named> (*entries)();
 };
-constexpr Section sections[] = {{"scenarios", scenarios}, {"classes", classes},         {"laws", laws},
-                                {"materials", materials}, {"integrators", integrators}, {"flows", flows},
-                                {"diagnoses", diagnoses}, {"drawings", drawing_list},   {"units", unit_list}};
+constexpr Section sections[] = {{"scenarios", scenarios},
+                                {"classes", of<particle_classes>},
+                                {"laws", of<scenario_laws>},
+                                {"materials", of<material_catalogue>},
+                                {"integrators", of<method_words>},
+                                {"flows", of<flow_kinds>},
+                                {"loaders", of<load_kinds>},
+                                {"tables", of<scenario_tables>},
+                                {"diagnoses", of<diagnosis_kinds>},
+                                {"drawings", of<drawings>},
+                                {"units", unit_list}};
 
 void show_scenario(std::string const& name) {
   std::string const path = find_scenario(name);
@@ -253,6 +235,19 @@ void show_diagnosis(DiagnosisKind const& kind) {
   show_options(kind.options, &plain);
 }
 
+void show_loader(LoadKind const& kind) {
+  fmt::print("loader {}: {}\n", kind.name, kind.doc);
+  if (kind.counted) fmt::print("\n  its ensemble says how many: number = 1000\n");
+  LoadOptions plain;
+  if (!kind.options.empty()) fmt::print("\n");
+  show_options(kind.options, &plain);
+}
+
+void show_table(ScenarioTable const& table) {
+  fmt::print("{}: {}\n\n", table.heading, table.doc);
+  show_options(*table.options, table.plain);
+}
+
 void show_drawing(Drawing const& drawing) {
   fmt::print("drawing {}: {}\n\n", drawing.name, drawing.doc);
   Picture plain;
@@ -309,44 +304,40 @@ int list(std::string const& kind, bool names_only) {
   return 0;
 }
 
+int show_schema() {
+  std::fputs(scenario_schema().c_str(), stdout);
+  return 0;
+}
+
 int show(std::string const& name) {
+  if (name.empty()) throw Error("bzm show needs a name that bzm list shows, or --schema");
   auto const shipped = shipped_scenarios();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end() || name.ends_with(".toml")) {
     show_scenario(name);
     return 0;
   }
-  if (auto const* one = find_class(name)) {
-    show_class(*one);
-    return 0;
-  }
-  for (auto const& law : scenario_laws())
-    if (law.name == name) {
-      show_law(law);
-      return 0;
-    }
-  if (auto const* material = find_material(name)) {
-    show_material(*material);
-    return 0;
-  }
-  for (auto const& kind : flow_kinds())
-    if (kind.name == name) {
-      show_flow(kind);
-      return 0;
-    }
-  bool shown = false;  // a drawing may have the name of the diagnosis that records for it
-  for (auto const& kind : diagnosis_kinds())
-    if (kind.name == name) show_diagnosis(kind), shown = true;
-  for (auto const& drawing : drawings()) {
-    if (drawing.name != name) continue;
+  // Two things may have one name: a law and a loader, a diagnosis and the drawing of what it records.
+  bool shown = false;
+  auto const next = [&] {
     if (shown) fmt::print("\n");
-    show_drawing(drawing), shown = true;
-  }
-  if (shown) return 0;
+    shown = true;
+  };
+  if (auto const* one = find_class(name)) next(), show_class(*one);
+  if (auto const* law = find_law(name)) next(), show_law(*law);
+  if (auto const* material = find_material(name)) next(), show_material(*material);
+  for (auto const& kind : flow_kinds())
+    if (kind.name == name) next(), show_flow(kind);
+  for (auto const& table : scenario_tables())
+    if (table.name == name) next(), show_table(table);
+  for (auto const& kind : load_kinds())
+    if (kind.name == name) next(), show_loader(kind);
+  for (auto const& kind : diagnosis_kinds())
+    if (kind.name == name) next(), show_diagnosis(kind);
+  for (auto const& drawing : drawings())
+    if (drawing.name == name) next(), show_drawing(drawing);
   for (auto const& word : method_words())
-    if (word.name == name) {
-      fmt::print("integrator {}: {}\n", name, word.doc);
-      return 0;
-    }
+    if (word.name == name) next(), fmt::print("integrator {}: {}\n", name, word.doc);
+  if (shown) return 0;
   if (show_unit(name)) return 0;
   std::vector<std::string> names;
   for (auto const& section : sections)

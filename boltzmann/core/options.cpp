@@ -47,6 +47,10 @@ struct Writer {
   std::string operator()(std::size_t const* number) const { return in_toml(*number); }
   std::string operator()(std::optional<int> const* number) const { return *number ? in_toml(**number) : ""; }
   std::string operator()(double const* number) const { return std::isnan(*number) ? "" : in_toml(*number); }
+  std::string operator()(std::int64_t const* number) const { return fmt::format("{}", *number); }
+  std::string operator()(std::optional<double> const* number) const { return *number ? in_toml(**number) : ""; }
+  std::string operator()(OptionGroup const&) const { return ""; }
+  std::string operator()(std::monostate) const { return ""; }
   std::string operator()(std::string const* text) const { return text->empty() ? "" : in_toml(*text); }
   template <class T>
   std::string operator()(std::vector<T> const* list) const {
@@ -67,6 +71,10 @@ struct Writer {
 struct Numbers {
   std::vector<double> operator()(int* number) const { return {static_cast<double>(*number)}; }
   std::vector<double> operator()(std::size_t* number) const { return {static_cast<double>(*number)}; }
+  std::vector<double> operator()(std::int64_t* number) const { return {static_cast<double>(*number)}; }
+  std::vector<double> operator()(std::optional<double>* number) const {
+    return *number ? std::vector<double>{**number} : std::vector<double>{};
+  }
   std::vector<double> operator()(std::optional<int>* number) const {
     return *number ? std::vector<double>{static_cast<double>(**number)} : std::vector<double>{};
   }
@@ -143,8 +151,8 @@ std::string allowed(Option const& option) {
   };
   std::string const quantity =
       kind.counted_in != 1                  ? "degrees"
-      : !kind.dimension                     ? "a quantity of what is shown"
-      : *kind.dimension == dimensions::none ? "a number"
+      : !kind.dimension                     ? kind.words.empty() ? "a quantity of what is shown" : kind.words.front()
+                          : *kind.dimension == dimensions::none ? "a number"
       : kind.by_space != 0
           ? "in 3D " + with_article(name_of(*kind.dimension * pow(dimensions::length, 3 * kind.by_space)))
           : with_article(name_of(*kind.dimension));
@@ -174,12 +182,19 @@ std::string allowed(Option const& option) {
       return "a text";
     case name:
       return "a name";
-    case word:
-      return join(kind.words);
+    case word: {
+      std::string all;
+      for (auto const& word : kind.words) all += (all.empty() ? "`\"" : ", `\"") + word + "\"`";
+      return all;
+    }
     case axis:
       return "x, y or z";
     case tables:
       return "a table, or a list of tables";
+    case group:
+      return "a table, `" + kind.words.front() + "`";
+    case said:
+      return kind.words.front();
   }
   return "";
 }

@@ -50,11 +50,19 @@ struct CountOrList {
   std::vector<double>* list;
 };
 
+/// A member that is a struct with options of its own, which make() makes anew when its table is there.
+struct OptionGroup {
+  OptionTable const* options;
+  std::function<void*()> make;
+};
+
 /// The member of an object that an option is about. A number that is NaN, and an optional without value, are automatic.
-using OptionPlace = std::variant<bool*, int*, std::optional<int>*, std::size_t*, double*, std::string*,
-                                 std::vector<int>*, std::vector<std::uint32_t>*, std::vector<double>*,
-                                 std::vector<std::string>*, std::optional<std::array<double, 3>>*,
-                                 std::vector<std::array<double, 2>>*, NamedValue, OptionList, CountOrList>;
+/// std::monostate: it is no plain member; whoever reads the table reads it by code of its own.
+using OptionPlace =
+    std::variant<bool*, int*, std::optional<int>*, std::int64_t*, std::size_t*, double*, std::optional<double>*,
+                 std::string*, std::vector<int>*, std::vector<std::uint32_t>*, std::vector<double>*,
+                 std::vector<std::string>*, std::optional<std::array<double, 3>>*, std::vector<std::array<double, 2>>*,
+                 NamedValue, OptionList, OptionGroup, CountOrList, std::monostate>;
 
 /// What may be written for an option.
 struct OptionKind {
@@ -72,13 +80,15 @@ struct OptionKind {
     axis,       ///< x, y or z, as far as space has them
     ensembles,  ///< the name of one, or a list of names
     particles,  ///< numbers of one ensemble, or words that choose them
-    tables
+    tables,
+    group,  ///< a table in braces; words: an example of one
+    said    ///< what is allowed is said by the word
   };
   Form form = Form::text;
   /// Of numbers; nothing: that of the quantity which is shown, which depends on the other options.
   std::optional<Dimension> dimension = dimensions::none;
   NumberRange range = {};
-  std::vector<std::string> words = {};
+  std::vector<std::string> words = {};  ///< of a word; of a number of no dimension what it is; of a group an example
   int by_space = 0;       ///< in D dimensions the dimension is that times length^(D by_space): -1 for densities
   double counted_in = 1;  ///< what a number alone stands for, in the base: pi/180 for angles in degrees
 };
@@ -126,6 +136,9 @@ inline OptionKind degrees() {
 }
 inline OptionKind numbers(std::optional<Dimension> dimension) { return {OptionKind::Form::numbers, dimension}; }
 inline OptionKind tables() { return {OptionKind::Form::tables}; }
+inline OptionKind group(std::string example) {
+  return {OptionKind::Form::group, dimensions::none, {}, {std::move(example)}};
+}
 /// The dimension of the quantity that is shown.
 inline constexpr std::optional<Dimension> of_what_is_shown{};
 }  // namespace option
@@ -160,6 +173,16 @@ class OptionTable {
                 std::move(otherwise),
                 {},
                 [member](void* object) -> OptionPlace { return member(*static_cast<T*>(object)); }});
+  }
+
+  /// An option that is read by code of its own: what may be written, in words.
+  OptionTable& add_said(std::string key, std::string what, std::string doc, std::string otherwise = "") {
+    return add({std::move(key),
+                {OptionKind::Form::said, dimensions::none, {}, {std::move(what)}},
+                std::move(doc),
+                std::move(otherwise),
+                {},
+                [](void*) -> OptionPlace { return std::monostate{}; }});
   }
 
   OptionTable& add(Option option) {

@@ -4,6 +4,7 @@
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/ripple_load.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
 #include <cstddef>
@@ -40,17 +41,16 @@ class Loader {
   ClassVariant const* variant_;
   Section section_;
   Place place_;
-  std::string kind_, file_;
+  LoadKind const* kind_ = nullptr;
+  LoadOptions options_;
+  std::string file_;
   std::size_t count_ = 0;
   LatticeBlock block_;
   bool centred_ = true;
   std::optional<double> volume_;
-  double jitter_ = 0, distance_ = 0, temperature_ = 1, acceleration_ = 0, amplitude_ = 0;
   Wave wave_;
-  bool quiet_ = false;
   std::vector<double> positions_;
   XyzFrame frame_;
-  XyzOptions options_;
 };
 
 /// A wave to be added to the velocities.

@@ -4,6 +4,7 @@
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/loader.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -41,18 +42,16 @@ int read_axis(Section& section, char const* key, int otherwise, Reading const& r
   return word ? (*word)[0] - 'x' : otherwise;
 }
 
-/// axis, mode or wave_number, phase.
-Wave read_wave(Section& section, Reading& reading) {
-  int const axis = read_axis(section, "axis", 0, reading);
-  double const phase = section.quantity("phase", dimensions::angle).value_or(0);
-  auto const mode = section.integer("mode", 1);
-  auto const wave_number = section.quantity("wave_number", dimensions::wave_number, positive);
+/// What `mode` or `wave_number` say.
+Wave wave_of(LoadOptions const& options, Section& section, Reading& reading) {
+  int const axis = options.axis[0] - 'x';
   if (section.has("mode") == section.has("wave_number"))
     reading.mistake(section.place("wave_number"),
                     "a wave needs 'mode', its periods in the box, or 'wave_number', 2 pi over its length: one of them");
-  if (wave_number) return {axis, *wave_number, phase};
-  return mode && reading.box ? wave_of_mode(*reading.box, axis, static_cast<double>(*mode), phase)
-                             : Wave{axis, 0, phase};
+  if (options.wave_number) return {axis, *options.wave_number, options.phase};
+  return options.mode > 0 && reading.box
+             ? wave_of_mode(*reading.box, axis, static_cast<double>(options.mode), options.phase)
+             : Wave{axis, 0, options.phase};
 }
 
 }  // namespace
@@ -66,7 +65,9 @@ VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
   }
   Section section(item, "velocity_ripple", reading.context);
   VelocityRipple ripple;
-  ripple.wave = read_wave(section, reading);
+  LoadOptions options;
+  read_options(section, wave_options(), &options, {.dimension = reading.dimension});
+  ripple.wave = wave_of(options, section, reading);
   ripple.component = read_axis(section, "component", ripple.wave.axis, reading);
   ripple.amplitude = section.need_quantity("amplitude", dimensions::velocity, "amplitude = 0.1").value_or(0);
   section.finish();
@@ -77,46 +78,37 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   std::size_t const before = reading_.context.mistakes.count();
   Item const* word = section_.need("kind", "kind = \"block\"");
   if (!word) return false;
-  auto const kind = read_word(
-      *word, "load", {"block", "fill", "random", "quiet", "ripple", "gravity", "positions", "file"}, reading_.context);
-  if (!kind) return false;
-  kind_ = *kind;
+  std::vector<std::string> names;
+  for (auto const& one : load_kinds()) names.push_back(one.name);
+  auto const name = read_word(*word, "load", names, reading_.context);
+  if (!name) return false;
+  for (auto const& one : load_kinds())
+    if (one.name == *name) kind_ = &one;
+  read_options(section_, kind_->options, &options_, {.dimension = reading_.dimension});
+  block_.kind = options_.lattice;
+  block_.spacing = options_.spacing;
   double own_count = 0;  // from what is loaded
-  if (kind_ == "block") own_count = read_block();
-  if (kind_ == "fill") own_count = read_fill();
-  if (kind_ == "block" || kind_ == "fill")
-    jitter_ = section_.quantity("jitter", dimensions::none, {0, 1}).value_or(0) * block_.spacing;
-  if (kind_ == "random")
-    distance_ = section_.quantity("minimum_distance", dimensions::length, not_negative).value_or(0);
-  if (kind_ == "ripple") {
-    wave_ = read_wave(section_, reading_);
-    amplitude_ = section_.need_quantity("amplitude", dimensions::none, "amplitude = 0.1", {-1, 1}).value_or(0);
-    quiet_ = section_.boolean("quiet");
-  }
-  if (kind_ == "gravity") {
-    temperature_ =
-        section_.need_quantity("temperature", dimensions::temperature, "temperature = \"300 K\"", positive).value_or(1);
-    acceleration_ =
-        section_.need_quantity("acceleration", dimensions::acceleration, "acceleration = \"9.81 m/s^2\"").value_or(0);
-  }
-  if (kind_ == "positions") own_count = read_positions();
-  if (kind_ == "file") own_count = read_file();
+  if (*name == "block") own_count = read_block();
+  if (*name == "fill") own_count = read_fill();
+  if (*name == "ripple") wave_ = wave_of(options_, section_, reading_);
+  if (*name == "positions") own_count = read_positions();
+  if (*name == "file") own_count = read_file();
   section_.finish();
   if (reading_.context.mistakes.count() != before) return false;
-  if (kind_ == "random" || kind_ == "quiet" || kind_ == "ripple" || kind_ == "gravity") {
+  if (kind_->counted) {
     if (!number) {
-      reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", kind_));
+      reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", *name));
       return false;
     }
     own_count = static_cast<double>(*number);
   } else if (number.value_or(0) != 0 && static_cast<double>(*number) != own_count) {
     reading_.mistake(number_place, fmt::format("number: {} particles, but load \"{}\" has places for {:.0f}; leave "
                                                "'number' out",
-                                               *number, kind_, own_count));
+                                               *number, *name, own_count));
     return false;
   }
   if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
-  if (kind_ == "fill" && own_count == 0) {
+  if (*name == "fill" && own_count == 0) {
     if (reading_.box) reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
     return false;
   }
@@ -126,35 +118,35 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
 
 void Loader::load(AnyEnsemble& particles) {
   std::uint64_t const seed = reading_.run.seed;
-  if (kind_ == "block") {
+  std::string const& kind = kind_->name;
+  if (kind == "block") {
     block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
-  } else if (kind_ == "random") {
-    random_load(particles, *reading_.box, seed, distance_);
-  } else if (kind_ == "quiet") {
+  } else if (kind == "random") {
+    random_load(particles, *reading_.box, seed, options_.minimum_distance);
+  } else if (kind == "quiet") {
     quiet_load(particles, *reading_.box);
-  } else if (kind_ == "ripple" && quiet_) {
-    quiet_load(particles, *reading_.box, wave_, amplitude_);
-  } else if (kind_ == "ripple") {
-    ripple_load(particles, *reading_.box, wave_, amplitude_, seed);
-  } else if (kind_ == "gravity") {
-    gravity_load(particles, *reading_.box, temperature_, acceleration_, reading_.boltzmann_constant(), seed);
-  } else if (kind_ == "positions" || kind_ == "fill") {
+  } else if (kind == "ripple" && options_.quiet) {
+    quiet_load(particles, *reading_.box, wave_, options_.amplitude);
+  } else if (kind == "ripple") {
+    ripple_load(particles, *reading_.box, wave_, options_.amplitude, seed);
+  } else if (kind == "gravity") {
+    gravity_load(particles, *reading_.box, options_.temperature, options_.acceleration, reading_.boltzmann_constant(),
+                 seed);
+  } else if (kind == "positions" || kind == "fill") {
     for (std::size_t i = 0; i < count_; ++i)
       std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),
                   particles.row(i));
   } else {
-    xyz_load(particles, frame_, options_);
+    xyz_load(particles, frame_,
+             {.species = options_.species, .length = options_.length, .velocity = options_.velocity});
   }
-  if (jitter_ > 0) jitter(particles, jitter_, seed);
+  if (options_.jitter > 0) jitter(particles, options_.jitter * block_.spacing, seed);
 }
 
 double Loader::read_block() {
   int const dimension = reading_.dimension;
-  block_.kind = section_.word("lattice", lattice_words()).value_or(block_.kind);
-  block_.spacing =
-      section_.need_quantity("spacing", dimensions::length, "spacing = \"2.551 angstrom\"", positive).value_or(1);
   double count = 1;
-  if (Item const* counts = section_.need("counts", "counts = [25, 10]")) {
+  if (Item const* counts = section_.find("counts")) {
     if (!counts->is(Item::Kind::array) ||
         (dimension > 0 && counts->elements.size() != static_cast<std::size_t>(dimension))) {
       reading_.mistake(
@@ -194,9 +186,6 @@ double Loader::read_block() {
 double Loader::read_fill() {
   int const dimension = reading_.dimension;
   std::size_t const before = reading_.context.mistakes.count();
-  auto const name = section_.word("lattice", {"square", "triangular"});
-  if (name) block_.kind = lattice_words().named(*name);
-  auto const spacing = section_.need_quantity("spacing", dimensions::length, "spacing = 0.1", positive);
   std::array<double, 3> low{}, high{};
   Item const *low_item = section_.find("low"), *high_item = section_.find("high"), *where = section_.find("where");
   for (int a = 0; a < dimension && reading_.box; ++a) {
@@ -218,11 +207,10 @@ double Loader::read_fill() {
   FormulaNames names(std::max(dimension, 1));
   auto const formula =
       where && dimension > 0 ? read_formula(*where, "where", names, {}, reading_) : std::optional<Formula>{};
-  if (!spacing || !reading_.box || reading_.context.mistakes.count() != before) return 0;
-  block_.spacing = *spacing;
+  if (!section_.has("spacing") || !reading_.box || reading_.context.mistakes.count() != before) return 0;
   double count = 0;
   guarded(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
-    Filling const filling{block_.kind, *spacing, low, high};
+    Filling const filling{block_.kind, block_.spacing, low, high};
     count = static_cast<double>(filling_count(filling, dimension));
     if (variant_ && !fits_memory(count, *variant_, section_.place("spacing"), reading_)) return;
     volume_ = site_volume(filling, dimension);
@@ -237,7 +225,7 @@ double Loader::read_fill() {
 }
 
 double Loader::read_positions() {
-  Item const* list = section_.need("positions", "positions = [[0, 0], [1, 0]]");
+  Item const* list = section_.find("positions");
   if (!list) return 0;
   if (!list->is(Item::Kind::array) || list->elements.empty()) {
     reading_.mistake(list->place,
@@ -256,16 +244,13 @@ double Loader::read_positions() {
 }
 
 double Loader::read_file() {
-  Item const* path_item = section_.need("path", "path = \"atoms.xyz\"");
+  Item const* path_item = section_.find("path");
   auto const path = path_item ? read_path(*path_item, "path", reading_.context) : std::nullopt;
-  auto const frame = section_.integer("frame", 0).value_or(0);
   Item const* species_item = section_.find("species");
-  if (species_item) options_.species = read_text(*species_item, "species", reading_.context).value_or("");
-  options_.length = section_.quantity("length", dimensions::length, positive).value_or(1);
-  options_.velocity = section_.quantity("velocity", dimensions::velocity, positive).value_or(1);
   if (!path) return 0;
   file_ = *path;
-  if (!guarded(reading_, path_item->place, [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(frame)); }))
+  if (!guarded(reading_, path_item->place,
+               [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(options_.frame)); }))
     return 0;
   if (reading_.box)
     if (auto const line = lattice_misfit(frame_, *reading_.box, options_.length); !line.empty())

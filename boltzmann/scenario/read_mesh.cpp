@@ -1,7 +1,9 @@
 // Reads [mesh]: which field the particles make on a mesh; without it, schemes are pairs alone.
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/mesh/mesh_options.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 
 #include <fmt/format.h>
@@ -27,6 +29,17 @@ std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
   if (!parameters) return std::nullopt;
   double const k = parameters->front().second.front();
   return *name == "coulomb" ? coulomb(k) : gravity(k);
+}
+
+/// read_law knows law, k and G.
+OptionTable const& keys_but_of_the_law() {
+  static OptionTable const all = [] {
+    std::vector<OptionKey> keys;
+    for (auto const& key : mesh_options().keys())
+      if (key != "law" && key != "k" && key != "G") keys.push_back({key});
+    return mesh_options().only(keys);
+  }();
+  return all;
 }
 
 std::optional<std::vector<std::size_t>> read_cells(Item const& item, Reading& reading) {
@@ -91,20 +104,17 @@ void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
   }
 }
 
-void read_plain_mesh(Section& section, LaplaceLaw const& law, Reading& reading) {
+void read_plain_mesh(Section& section, MeshOptions const& options, LaplaceLaw const& law, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Item const* item = section.need("cells", "cells = 64");
   auto const cells = item ? read_cells(*item, reading) : std::nullopt;
-  auto const assignment = section.word("assignment", assignment_words());
-  auto const form = section.word("poisson", poisson_form_words());
-  auto const precision = section.word("precision", precision_words());
   Item const* boundary = section.find("boundary");
   if (!cells) return;
   guarded(reading, item->place, [&] {
     auto mesh = std::make_unique<MeshScheme>(*reading.box, *cells, law);
-    mesh->assignment(assignment.value_or(Assignment::cic));
-    if (form) mesh->form(*form);
-    if (precision) mesh->precision(*precision);
+    mesh->assignment(options.assignment);
+    mesh->form(options.poisson);
+    mesh->precision(options.precision);
     if (boundary) read_boundary(*boundary, *mesh, reading);
     if (reading.context.mistakes.count() == before) mesh->grid();  // refuses what is too large for the memory
     reading.result->mesh = mesh.get();
@@ -116,33 +126,25 @@ void read_mesh(Item const& table, Reading& reading) {
   Section section(table, "[mesh]", reading.context);
   reading.mesh.background_place = section.place("background");
   auto const law = read_law(section, reading);
-  bool const background = section.boolean("background");
-  Item const* accuracy_item = section.find("accuracy");
-  section.find("on");  // read when the ensembles are there
-  if (accuracy_item) {
-    auto const accuracy = read_quantity(*accuracy_item, "accuracy", dimensions::none, reading.context, positive);
+  MeshOptions options;
+  read_options(section, keys_but_of_the_law(), &options, {.dimension = reading.dimension});
+  if (section.has("accuracy")) {
     for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"})
-      if (section.has(key)) {
-        section.find(key);
+      if (section.has(key))
         reading.mistake(section.place(key),
                         fmt::format("{}: with 'accuracy' it is chosen by the scheme; leave it out", key));
-      }
     section.finish();
-    if (!law || !accuracy || !reading.box) return;
-    guarded(reading, accuracy_item->place, [&] {
-      auto mesh = std::make_unique<P3MScheme>(*reading.box, *law, *accuracy);
+    if (!law || !options.accuracy || !reading.box) return;
+    guarded(reading, section.place("accuracy"), [&] {
+      auto mesh = std::make_unique<P3MScheme>(*reading.box, *law, *options.accuracy);
       reading.result->mesh = mesh.get();
       reading.result->scheme = std::move(mesh);
     });
   } else {
-    if (law && reading.box) {
-      read_plain_mesh(section, *law, reading);
-    } else {
-      for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"}) section.find(key);
-    }
+    if (law && reading.box) read_plain_mesh(section, options, *law, reading);
     section.finish();
   }
-  if (reading.result->mesh) reading.result->mesh->background(background);
+  if (reading.result->mesh) reading.result->mesh->background(options.background);
 }
 
 }  // namespace

@@ -22,12 +22,24 @@ class OptionReader {
     int read = 0;
     if (whole(&read)) *number = read;
   }
+  void operator()(std::int64_t* number) const { whole(number); }
   void operator()(double* number) const {
+    if (auto const read = quantity()) *number = *read;
+  }
+  void operator()(std::optional<double>* number) const {
+    if (auto const read = quantity()) *number = read;
+  }
+  void operator()(OptionGroup const& group) const {
     Item const* item = section_.find(option_.key);
     if (!item) return;
-    if (auto const read = read_quantity(*item, option_.key, dimension_, section_.context(), kind_.range))
-      *number = item->is(Item::Kind::text) ? *read / kind_.counted_in : *read;
+    if (!item->is(Item::Kind::table))
+      return mistake(*item,
+                     fmt::format("a table is needed, {} = {}, not {}", option_.key, kind_.words.front(), found(*item)));
+    Section part(*item, option_.key, section_.context());
+    read_options(part, *group.options, group.make(), meaning_);
+    part.finish();
   }
+  void operator()(std::monostate) const { section_.allow(option_.key); }
   void operator()(std::string* text) const {
     using Form = OptionKind::Form;
     auto const read = kind_.form == Form::word   ? section_.word(option_.key, kind_.words)
@@ -111,6 +123,12 @@ class OptionReader {
     auto const read = section_.integer(option_.key, low(), high());
     if (read) *number = static_cast<Whole>(*read);
     return read.has_value();
+  }
+  std::optional<double> quantity() const {
+    Item const* item = section_.find(option_.key);
+    if (!item) return std::nullopt;
+    auto const read = read_quantity(*item, option_.key, dimension_, section_.context(), kind_.range);
+    return read && item->is(Item::Kind::text) ? std::optional(*read / kind_.counted_in) : read;
   }
   void numbers(Item const& item, std::vector<double>& list) const {
     if (!item.is(Item::Kind::array)) return mistake(item, fmt::format("a list is needed, [1, 2], not {}", found(item)));

@@ -1,5 +1,7 @@
 // Reads `rezone` of [smooth]: which smooth particles are split and merged while the simulation runs.
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/smooth/smooth_options.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 
 #include <fmt/format.h>
@@ -8,8 +10,6 @@
 
 namespace boltzmann {
 namespace {
-
-constexpr NumberRange part_of_range{0, 1, true};
 
 std::optional<Rezoning::Block> read_block(Section& section, Reading& reading) {
   Item const *low = section.find("low"), *high = section.find("high");
@@ -41,28 +41,20 @@ void read_one(Item const& table, Reading& reading) {
   ReadRezone rezone;
   rezone.place = table.place;
   rezone.on = section.find("on");  // read when the ensembles are there
-  section.need("every", "every = 20");
-  rezone.every = section.integer("every", 1).value_or(1);
+  RezoneOptions options;
+  read_options(section, rezone_options(), &options,
+               {.dimension = reading.dimension, .shown = [&]() -> std::optional<Dimension> {
+                  if (reading.dimension == 0) return std::nullopt;
+                  Dimension const volume = pow(dimensions::length, reading.dimension);
+                  return options.policy.by == Rezoning::By::density ? dimensions::mass / volume : volume;
+                }});
+  rezone.every = options.every;
   Rezoning& policy = rezone.policy;
-  if (section.word("by", {"density", "volume"}) == "volume") policy.by = Rezoning::By::volume;
+  policy = options.policy;
   if (!section.has("split_above") && !section.has("merge_below"))
     reading.mistake(table.place,
                     "rezone needs 'split_above' or 'merge_below', or both; add e.g. split_above = 2, smallest_mass = "
                     "0.5");
-  int const D = std::max(reading.dimension, 1);
-  Dimension const volume = pow(dimensions::length, D);
-  Dimension const size = policy.by == Rezoning::By::density ? dimensions::mass / volume : volume;
-  auto const number = [&](char const* key, Dimension dimension, NumberRange range, double& into) {
-    if (section.has(key) && reading.dimension == 0)
-      section.allow(key);  // of unknown dimension
-    else
-      into = section.quantity(key, dimension, range).value_or(into);
-  };
-  number("split_above", size, not_negative, policy.split_above);
-  number("merge_below", size, not_negative, policy.merge_below);
-  number("smallest_mass", dimensions::mass, not_negative, policy.smallest_mass);
-  number("largest_mass", dimensions::mass, positive, policy.largest_mass);
-  number("merge_within", dimensions::none, part_of_range, policy.merge_within);
   policy.region = read_block(section, reading);
   section.finish();
   if (reading.context.mistakes.count() == before) guarded(reading, table.place, [&] { policy.check(); });

@@ -1,7 +1,9 @@
 // Reads [smooth] and the materials of ensembles: continuum mechanics with smooth particles.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/materials.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/smooth/smooth_options.hpp>
 
 #include <fmt/format.h>
 
@@ -17,33 +19,6 @@ Item const* inner_table(Section& section, std::string_view key, std::string_view
   if (!item || item->is(Item::Kind::table)) return item;
   reading.mistake(item->place, fmt::format("{}: a table is needed, {} = {}, not {}", key, key, example, found(*item)));
   return nullptr;
-}
-
-std::optional<ArtificialViscosity> read_artificial_viscosity(Section& section, Reading& reading) {
-  Item const* table = inner_table(section, "artificial_viscosity", "{ alpha = 1, beta = 2, balsara = false }", reading);
-  if (!table) return std::nullopt;
-  Section inner(*table, "artificial_viscosity", reading.context);
-  ArtificialViscosity viscosity;
-  viscosity.alpha = inner.quantity("alpha", dimensions::none, not_negative).value_or(viscosity.alpha);
-  viscosity.beta = inner.quantity("beta", dimensions::none, not_negative).value_or(viscosity.beta);
-  viscosity.balsara = inner.boolean("balsara", viscosity.balsara);
-  inner.finish();
-  return viscosity;
-}
-
-std::optional<VariableRange> read_variable_range(Section& section, Reading& reading) {
-  Item const* table = inner_table(section, "variable_range", "{ spacings = 3 }", reading);
-  if (!table) return std::nullopt;
-  Section inner(*table, "variable_range", reading.context);
-  VariableRange variable;
-  variable.spacings = inner.quantity("spacings", dimensions::none, positive).value_or(variable.spacings);
-  variable.shortest = inner.quantity("shortest", dimensions::length, not_negative).value_or(0);
-  variable.longest = inner.quantity("longest", dimensions::length, positive).value_or(0);
-  if (variable.longest > 0 && variable.longest < variable.shortest)
-    reading.mistake(inner.place("longest"),
-                    fmt::format("longest: {} is below shortest = {}", variable.longest, variable.shortest));
-  inner.finish();
-  return variable;
 }
 
 // ---- Materials ----
@@ -168,18 +143,18 @@ void read_smooth(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   ReadSmooth& smooth = reading.smooth;
   Section section(table, "[smooth]", reading.context);
-  auto const weight = section.word("weight", weight_words());
-  auto const density = section.word("density", density_from_words());
-  auto const mean = section.word("mean_density", mean_density_words());
-  auto const heating = section.word("heating", heating_words());
+  SmoothOptions options;
+  read_options(section, smooth_options(), &options, {.dimension = reading.dimension});
   smooth.heating_place = section.place("heating");
-  auto const viscosity = read_artificial_viscosity(section, reading);
   smooth.variable_place = section.place("variable_range");
-  smooth.variable = read_variable_range(section, reading);
+  smooth.variable = options.variable_range;
+  if (smooth.variable && smooth.variable->longest > 0 && smooth.variable->longest < smooth.variable->shortest)
+    reading.mistake(
+        section.item("variable_range")->find("longest")->item.place,
+        fmt::format("longest: {} is below shortest = {}", smooth.variable->longest, smooth.variable->shortest));
   read_rezone(section, reading);
-  auto const skin = section.quantity("skin", dimensions::length, not_negative);
   section.finish();
-  smooth.from_continuity = density && *density != DensityFrom::summation;
+  smooth.from_continuity = options.density != DensityFrom::summation;
   if (smooth.from_continuity && smooth.variable)
     reading.mistake(smooth.variable_place,
                     "variable_range: ranges follow densities that are summed; with density = \"continuity\" they stay");
@@ -190,12 +165,12 @@ void read_smooth(Item const& table, Reading& reading) {
   reading.run.skin_place = section.place("skin");
   if (reading.context.mistakes.count() != before || !reading.box) return;
   guarded(reading, table.place, [&] {
-    auto scheme = std::make_unique<SmoothScheme>(*reading.box, weight.value_or(WeightShape::lucy));
-    if (density) scheme->density_from(*density);
-    if (mean) scheme->mean_density(*mean);
-    if (heating) scheme->heating(*heating);
-    if (viscosity) scheme->artificial_viscosity(*viscosity);
-    if (skin) scheme->skin(*skin);
+    auto scheme = std::make_unique<SmoothScheme>(*reading.box, options.weight);
+    scheme->density_from(options.density);
+    scheme->mean_density(options.mean_density);
+    scheme->heating(options.heating);
+    if (options.artificial_viscosity) scheme->artificial_viscosity(*options.artificial_viscosity);
+    if (options.skin) scheme->skin(*options.skin);
     reading.result->smooth = scheme.get();
     reading.result->scheme = std::move(scheme);
   });

@@ -1,6 +1,8 @@
 // Reads [units], [box] and [run].
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/scenario/tables.hpp>
 
 #include <fmt/format.h>
 
@@ -61,24 +63,20 @@ void read_wall(Item const& table, Reading& reading) {
   Section section(table, "[[box.walls]]", reading.context);
   std::vector<std::string> axes{"x", "y", "z"};
   if (reading.dimension > 0) axes.resize(static_cast<std::size_t>(reading.dimension));
-  Item const* axis_item = section.need("axis", "axis = \"y\"");
+  Item const* axis_item = section.find("axis");
   auto const axis = axis_item ? read_word(*axis_item, "axis", axes, reading.context) : std::nullopt;
-  Item const* end_item = section.need("end", "end = \"low\"");
-  auto const end = end_item ? read_word(*end_item, "end", {"low", "high"}, reading.context) : std::nullopt;
-  bool const open = section.boolean("open");
-  Wall wall;
-  wall.slips = section.boolean("slips", true);
+  WallOptions options;
+  read_options(section, wall_options(), &options, {.dimension = reading.dimension});
+  Wall& wall = options.wall;
   if (Item const* item = section.find("velocity"); item && reading.dimension > 0)
     if (auto const v = read_vector(*item, "velocity", reading.dimension, dimensions::velocity, reading.context))
       std::copy(v->begin(), v->end(), wall.velocity.begin());
-  if (auto const temperature = section.quantity("temperature", dimensions::temperature, not_negative))
-    wall.temperature = *temperature;
-  if (open)
+  if (options.open)
     for (char const* key : {"slips", "velocity", "temperature"})
       if (section.has(key))
         reading.mistake(section.place(key), fmt::format("{}: with open = true there is no wall that has one", key));
   section.finish();
-  if (!axis || !end || reading.context.mistakes.count() != before || !reading.box) return;
+  if (!axis || reading.context.mistakes.count() != before || !reading.box) return;
   int const a = (*axis)[0] - 'x';
   Boundary const boundary = reading.box->boundary(a);
   if (boundary != Boundary::mirror && boundary != Boundary::bounded)
@@ -98,8 +96,8 @@ void read_wall(Item const& table, Reading& reading) {
     if (along != std::array<double, 3>{}) refuse("velocity", "move along it only");
     if (reading.context.mistakes.count() != before) return;
   }
-  Box::End const which = *end == "low" ? Box::End::low : Box::End::high;
-  guarded(reading, table.place, [&] { open ? reading.box->open_end(a, which) : reading.box->wall(a, which, wall); });
+  guarded(reading, table.place,
+          [&] { options.open ? reading.box->open_end(a, options.end) : reading.box->wall(a, options.end, wall); });
 }
 
 /// A time, "courant" or { courant = 0.5 }.
@@ -245,7 +243,7 @@ void read_run(Section& document, Reading& reading) {
   Section section(*table, "[run]", reading.context);
   run.place = table->place;
   run.step_place = section.place("step");
-  if (Item const* step = section.need("step", "step = 0.01")) read_step(*step, run, reading);
+  if (Item const* step = section.find("step")) read_step(*step, run, reading);
   Item const *steps = section.find("steps"), *time = section.find("time");
   if (time && steps) reading.mistake(time->place, "time: 'steps' say how long the run is, too; leave one out");
   if (time) {
@@ -254,12 +252,14 @@ void read_run(Section& document, Reading& reading) {
   } else if (steps || (steps = section.need("steps", "steps = 1000"))) {
     run.steps = read_integer(*steps, "steps", 0, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0);
   }
-  run.seed = static_cast<std::uint64_t>(section.integer("seed", 0).value_or(1));
-  run.threads = static_cast<int>(section.integer("threads", 0, 4096).value_or(0));
-  run.cutoff = section.quantity("cutoff", dimensions::length, positive);
+  RunOptions options;
+  read_options(section, run_options(), &options, {.dimension = reading.dimension});
+  run.seed = static_cast<std::uint64_t>(options.seed);
+  run.threads = options.threads;
+  run.cutoff = options.cutoff;
   run.cutoff_known = run.cutoff_known || run.cutoff;
   run.cutoff_place = section.place("cutoff");
-  run.skin = section.quantity("skin", dimensions::length, not_negative);
+  run.skin = options.skin;
   run.skin_place = section.place("skin");
   if (Item const* stop = section.find("stop")) run.stop = *stop;
   section.finish();

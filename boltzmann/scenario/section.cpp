@@ -21,7 +21,6 @@ std::string wanted(Dimension dimension, Base const& base) {
 
 }  // namespace
 
-
 std::string about(std::string_view name, std::string_view message) { return fmt::format("{}: {}", name, message); }
 
 std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,

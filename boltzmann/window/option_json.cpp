@@ -22,6 +22,9 @@ struct ToJson {
   json operator()(std::optional<std::array<double, 3>> const* vector) const {
     return *vector ? json(**vector) : json(nullptr);
   }
+  json operator()(std::optional<double> const* number) const { return *number ? json(**number) : json(nullptr); }
+  json operator()(OptionGroup const&) const { return nullptr; }
+  json operator()(std::monostate) const { return nullptr; }
   json operator()(NamedValue const& value) const { return value.name(); }
   json operator()(CountOrList const& either) const {
     if (!either.list->empty()) return *either.list;

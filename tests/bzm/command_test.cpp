@@ -7,6 +7,8 @@
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/load_options.hpp>
+#include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/simulation/picture_options.hpp>
 #include <boltzmann/simulation/version.hpp>
 
@@ -432,6 +434,8 @@ TEST(New, KeepsWhatIsThere) {
   expect_one_line(bzm({"new", "gas"}, folder.string()), 2, {"gas.toml", "is there already"});
   EXPECT_EQ(text_of(folder / "gas.toml"), "mine");
   EXPECT_EQ(bzm({"new", "other.toml"}, folder.string()).status, 0);
+  EXPECT_EQ(text_of(folder / "other.toml").find("#:schema ./boltzmann.schema.json\n"), 0U);
+  EXPECT_EQ(text_of(folder / "boltzmann.schema.json"), bzm({"show", "--schema"}, folder.string()).out);
   EXPECT_TRUE(has(text_of(folder / "other.toml"), "bzm run other.toml"));
   expect_one_line(bzm({"new", "no/such/folder/x"}, folder.string()), 2, {"no/such/folder/x.toml"});
 }
@@ -471,6 +475,13 @@ TEST(Show, KnowsWhatScenariosKnow) {
     EXPECT_EQ(shown.status, 0) << drawing.name;
     for (auto const& key : drawing.options.keys()) EXPECT_TRUE(has(shown.out, "\n  " + key + " ")) << key;
   }
+  for (auto const& table : scenario_tables()) {
+    auto const shown = bzm({"show", table.name}, folder.string());
+    EXPECT_EQ(shown.status, 0) << table.name;
+    for (auto const& key : table.options->keys()) EXPECT_TRUE(has(shown.out, "\n  " + key + " ")) << key;
+  }
+  for (auto const& kind : load_kinds())
+    EXPECT_TRUE(has(bzm({"show", kind.name}, folder.string()).out, "loader " + kind.name + ": ")) << kind.name;
 }
 
 TEST(Show, ExplainsAMaterial) {

@@ -6,6 +6,8 @@
 #include <boltzmann/flows/flow_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/load_options.hpp>
+#include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/simulation/picture_options.hpp>
 
 #include <gtest/gtest.h>
@@ -47,16 +49,18 @@ void add(std::vector<Row>& rows, Option const& option, std::string const& usual,
     rows.push_back({option, usual, {kind}});
 }
 
+std::string without(Row const& row) {
+  return !row.option.needed.empty()      ? "(needed)"
+         : !row.option.otherwise.empty() ? row.option.otherwise
+         : row.usual.empty()             ? ""
+                                         : "`" + row.usual + "`";
+}
+
 std::string keys_of(std::vector<Row> const& rows, std::size_t kinds) {
   std::string text = "\n| key | what it is | | without it | of |\n|---|---|---|---|---|\n";
-  for (auto const& [option, usual, of] : rows) {
-    std::string const otherwise = !option.needed.empty()      ? "(needed)"
-                                  : !option.otherwise.empty() ? option.otherwise
-                                  : usual.empty()             ? ""
-                                                              : "`" + usual + "`";
-    text += "| `" + option.key + "` | " + option.doc + " | " + allowed(option) + " | " + otherwise + " | " +
-            (of.size() == kinds ? "all" : join(of)) + " |\n";
-  }
+  for (auto const& row : rows)
+    text += "| `" + row.option.key + "` | " + row.option.doc + " | " + allowed(row.option) + " | " + without(row) +
+            " | " + (row.kinds.size() == kinds ? "all" : join(row.kinds)) + " |\n";
   return text;
 }
 
@@ -73,6 +77,17 @@ std::string kinds_and_options(std::string const& head, std::vector<Kind> const& 
     text += "| `" + kind.name + "` | " + kind.doc + " | " + keys + " |\n";
   }
   return text + keys_of(rows, kinds.size());
+}
+
+/// The keys of one table.
+std::string keys_of(ScenarioTable const& table) {
+  std::vector<Row> rows;
+  for (auto const& option : *table.options) add(rows, option, toml_value(option, table.plain), table.name);
+  std::string text = "| key | what it is | | without it |\n|---|---|---|---|\n";
+  for (auto const& row : rows)
+    text +=
+        "| `" + row.option.key + "` | " + row.option.doc + " | " + allowed(row.option) + " | " + without(row) + " |\n";
+  return text;
 }
 
 std::string pictures() {
@@ -117,6 +132,14 @@ std::string laws() {
   return text + keys_of(rows, scenario_laws().size());
 }
 
+std::string loaders() {
+  LoadOptions plain;
+  std::vector<Kind> kinds;
+  for (auto const& kind : load_kinds())
+    kinds.push_back({kind.name, kind.doc + (kind.counted ? "; needs `number`" : ""), kind.options, &plain});
+  return kinds_and_options("| `load = { kind = ...` | where the particles are | keys |", kinds);
+}
+
 std::string flows() {
   DissipationOptions pairs;
   BathOptions bath;
@@ -145,11 +168,11 @@ TEST(Reference, TablesOfTheGuideAreThoseOfTheOptions) {
   struct Table {
     std::string page, name, text;
   };
-  for (auto const& table : {Table{"scenarios.md", "pictures", pictures()},
-                            {"scenarios.md", "diagnoses", diagnoses()},
-                            {"scenarios.md", "laws", laws()},
-                            {"scenarios.md", "flows", flows()},
-                            {"scenarios.md", "classes", classes()}}) {
+  std::vector<Table> tables{{"scenarios.md", "pictures", pictures()}, {"scenarios.md", "diagnoses", diagnoses()},
+                            {"scenarios.md", "laws", laws()},         {"scenarios.md", "flows", flows()},
+                            {"scenarios.md", "loaders", loaders()},   {"scenarios.md", "classes", classes()}};
+  for (auto const& table : scenario_tables()) tables.push_back({"scenarios.md", table.heading, keys_of(table)});
+  for (auto const& table : tables) {
     std::string const path = std::string(BOLTZMANN_SOURCE) + "/docs/guide/" + table.page;
     std::string page = read_text(path);
     std::string const begin = "<!-- made from options: " + table.name + " -->\n", end = "<!-- end -->";

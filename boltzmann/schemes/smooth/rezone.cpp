@@ -267,6 +267,13 @@ Merged merge(AnyEnsemble& ensemble, Box const& box, std::size_t i, std::size_t j
   return {j < i ? i - 1 : i, lost};
 }
 
+Words<Rezoning::By> const& rezone_by_words() {
+  static Words<Rezoning::By> const all{"measure of size",
+                                       {{Rezoning::By::density, "density", "mass in a volume"},
+                                        {Rezoning::By::volume, "volume", "the space that a particle takes"}}};
+  return all;
+}
+
 void Rezoning::check() const {
   auto const refuse = [](std::string const& what) { throw Error("rezoning: " + what); };
   if (!(split_above >= 0) || !(merge_below >= 0))

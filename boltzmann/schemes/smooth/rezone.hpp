@@ -1,6 +1,7 @@
 // Rezoning: one smooth particle becomes two, two become one, where more or less detail is wanted.
 #pragma once
 
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
@@ -63,6 +64,8 @@ struct Rezoning {
   /// Error if these can't be met, or would split and merge the same particles for ever.
   void check() const;
 };
+
+Words<Rezoning::By> const& rezone_by_words();
 
 struct Rezoned {
   std::size_t splits = 0, merges = 0;

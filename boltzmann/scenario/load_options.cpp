@@ -1,0 +1,86 @@
+// The members of loaders with their keys, and which of them each kind has.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/scenario/load_options.hpp>
+
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+using namespace option;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+OptionTable make_members() {
+  using L = LoadOptions;
+  OptionTable all;
+  all.add_of<L>(
+      "lattice", [](L& l) -> OptionPlace { return named_value(&l.lattice, lattice_words()); },
+      word(lattice_words().names()), "`\"square\"`: in 1D a line, in 3D simple cubic");
+  all.add("spacing", &L::spacing, number(dimensions::length, positive), "of nearest neighbours");
+  all.add_said("counts", "a list of whole numbers, one for each axis", "cells along each axis");
+  all.add_said("origin", "a length along each axis, or `\"centred\"`", "of the first site", "centred in the box");
+  all.add("jitter", &L::jitter, number(dimensions::none, {0, 1}),
+          "moved at random, by at most this part of the spacing along each axis");
+  all.add_said("low", "a length along each axis", "where the lattice begins", "the box");
+  all.add_said("high", "a length along each axis", "where it ends", "the box");
+  all.add_said("where", "a [formula](#formulas)", "only where it is true: `\"r < 1\"`", "everywhere");
+  all.add("minimum_distance", &L::minimum_distance, number(dimensions::length, not_negative), "between any two");
+  all.add("axis", &L::axis, axis_word(), "of the wave");
+  all.add("mode", &L::mode, whole(1, unlimited), "periods in the box", "or `wave_number`");
+  all.add("wave_number", &L::wave_number, number(dimensions::wave_number, positive), "2 pi over the wave's length",
+          "or `mode`");
+  all.add("phase", &L::phase, number(dimensions::angle), "the density is 1 + amplitude sin(k x + phase)");
+  all.add("amplitude", &L::amplitude, number(dimensions::none, {-1, 1}), "of the density");
+  all.add("quiet", &L::quiet, flag(), "at the quantiles, without noise; else at random");
+  all.add("temperature", &L::temperature, number(dimensions::temperature, positive), "of the atmosphere");
+  all.add("acceleration", &L::acceleration, number(dimensions::acceleration), "downwards, along the last axis");
+  all.add_said("positions", "a list of places, `[[0, 0], [1, 0]]`", "one for each particle");
+  all.add_said("path", "a text", "of an XYZ file, from the scenario's folder");
+  all.add("frame", &L::frame, whole(0, unlimited), "of the file, from 0");
+  all.add("species", &L::species, text(), "only these", "all");
+  all.add("length", &L::length, number(dimensions::length, positive), "the file's unit of length", "the base's");
+  all.add("velocity", &L::velocity, number(dimensions::velocity, positive), "and of velocities", "the base's");
+  all.at("spacing").needed = "\"2.551 angstrom\"";
+  all.at("counts").needed = "[25, 10]";
+  all.at("amplitude").needed = "0.1";
+  all.at("temperature").needed = "\"300 K\"";
+  all.at("acceleration").needed = "\"9.81 m/s^2\"";
+  all.at("positions").needed = "[[0, 0], [1, 0]]";
+  all.at("path").needed = "\"atoms.xyz\"";
+  return all;
+}
+
+std::vector<LoadKind> make_kinds() {
+  OptionTable const members = make_members();
+  auto const of = [&](std::vector<OptionKey> const& keys) { return members.only(keys); };
+  OptionKey const simple{"lattice", "in 1D a line, in 3D simple cubic", "", "", word({"square", "triangular"})};
+  OptionKey const about{"spacing", "about that of nearest neighbours: cells fill the block exactly", "", "0.1"};
+  return {
+      {"block", "a block of crystal", false, of({{"lattice"}, {"spacing"}, {"counts"}, {"origin"}, {"jitter"}})},
+      {"fill", "a lattice that fills a block exactly, a particle in the middle of each cell", false,
+       of({simple, about, {"low"}, {"high"}, {"where"}, {"jitter"}})},
+      {"random", "uniform in the box", true, of({{"minimum_distance"}})},
+      {"quiet", "uniform without noise: in order along x, evenly in bit-reversed order along the others", true, {}},
+      {"ripple", "a density with a wave", true,
+       of({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}, {"amplitude"}, {"quiet"}})},
+      {"gravity", "the barometric density along the last axis", true, of({{"temperature"}, {"acceleration"}})},
+      {"positions", "where you say", false, of({{"positions"}})},
+      {"file", "an XYZ file; its `Lattice` has to be the box along axes that are periodic in both (`pbc`)", false,
+       of({{"path"}, {"frame"}, {"species"}, {"length"}, {"velocity"}})},
+  };
+}
+
+}  // namespace
+
+std::vector<LoadKind> const& load_kinds() {
+  static std::vector<LoadKind> const all = make_kinds();
+  return all;
+}
+
+OptionTable const& wave_options() {
+  static OptionTable const all = make_members().only({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}});
+  return all;
+}
+
+}  // namespace boltzmann

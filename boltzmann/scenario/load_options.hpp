@@ -1,0 +1,40 @@
+// Load options: the kinds of loaders that scenarios name, with their keys.
+#pragma once
+
+#include <boltzmann/core/options.hpp>
+#include <boltzmann/loaders/lattice.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// What is a plain number or word; counts, places, formulas and files are read by code.
+struct LoadOptions {
+  Lattice lattice = Lattice::square;
+  double spacing = 1;
+  double jitter = 0;  ///< a part of the spacing
+  double minimum_distance = 0;
+  std::string axis = "x";
+  std::int64_t mode = 0;  ///< 0: the wave number is given
+  std::optional<double> wave_number;
+  double phase = 0, amplitude = 0;
+  bool quiet = false;
+  double temperature = 1, acceleration = 0;
+  std::int64_t frame = 0;
+  std::string species;
+  double length = 1, velocity = 1;
+};
+
+struct LoadKind {
+  std::string name, doc;
+  bool counted;  ///< the ensemble says the number of particles
+  OptionTable options;
+};
+std::vector<LoadKind> const& load_kinds();
+/// axis, mode or wave_number, phase: of a wave along an axis.
+OptionTable const& wave_options();
+
+}  // namespace boltzmann

@@ -1,0 +1,278 @@
+// JSON by hand: texts, lists and objects of a schema.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/options.hpp>
+#include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/flows/flow_options.hpp>
+#include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/load_options.hpp>
+#include <boltzmann/scenario/schema.hpp>
+#include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/simulation/picture_options.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+std::string quoted_text(std::string_view plain) {
+  std::string quoted = "\"";
+  for (char const c : plain) {
+    if (c == '`') continue;
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+std::string list(std::vector<std::string> const& texts) {
+  std::string all;
+  for (auto const& one : texts) all += (all.empty() ? "" : ", ") + quoted_text(one);
+  return "[" + all + "]";
+}
+
+/// Members in their order; a schema's value is JSON already.
+using Members = std::vector<std::pair<std::string, std::string>>;
+std::string object(Members const& members) {
+  std::string all;
+  for (auto const& [key, value] : members)
+    all += fmt::format("{}{}: {}", all.empty() ? "" : ", ", quoted_text(key), value);
+  return "{" + all + "}";
+}
+
+/// A table: with these keys and no others, or with others, too.
+std::string table(Members const& properties, bool closed, std::string_view doc = "") {
+  Members members{{"type", quoted_text("object")}, {"properties", object(properties)}};
+  if (closed) members.push_back({"additionalProperties", "false"});
+  if (!doc.empty()) members.push_back({"description", quoted_text(doc)});
+  return object(members);
+}
+std::string tables(std::string const& one) { return object({{"type", quoted_text("array")}, {"items", one}}); }
+std::string one_or_tables(std::string const& one) { return fmt::format("{{\"anyOf\": [{}, {}]}}", one, tables(one)); }
+
+std::string words(std::vector<std::string> const& all, std::string_view doc) {
+  return object({{"enum", list(all)}, {"description", quoted_text(doc)}});
+}
+
+Members properties_of(OptionTable const& options, void* plain = nullptr);
+
+/// What may stand there, without its documentation.
+/// `plain`: an object with these options, from which the keys of a group are had; null: there is none.
+Members shape(Option const& option, void* plain = nullptr) {
+  using enum OptionKind::Form;
+  auto const& kind = option.kind;
+  auto const limits = [&](Members members) {
+    if (std::isfinite(kind.range.low))
+      members.push_back({kind.range.low_excluded ? "exclusiveMinimum" : "minimum", fmt::format("{}", kind.range.low)});
+    if (std::isfinite(kind.range.high)) members.push_back({"maximum", fmt::format("{}", kind.range.high)});
+    return members;
+  };
+  switch (kind.form) {
+    case flag:
+      return {{"type", quoted_text("boolean")}};
+    case whole:  // 1e6 is a whole number
+      return limits({{"type", quoted_text("number")}, {"multipleOf", "1"}});
+    case number:
+      return limits({{"type", list({"number", "string"})}});
+    case wholes:
+      return {{"type", list({"integer", "array"})}};
+    case numbers:
+    case vector:
+      return {{"type", quoted_text("array")}};
+    case count_or_numbers:
+      return {{"type", list({"integer", "array"})}};
+    case text:
+    case name:
+      return {{"type", quoted_text("string")}};
+    case word:
+      return {{"enum", list(kind.words)}};
+    case axis:
+      return {{"enum", list({"x", "y", "z"})}};
+    case ensembles:
+      return {{"type", list({"string", "array"})}};
+    case particles:
+      return {{"type", list({"string", "array"})}};
+    case OptionKind::Form::tables:
+      return {{"type", list({"object", "array"})}};
+    case group: {
+      Members members{{"type", quoted_text("object")}};
+      if (!plain) return members;
+      auto const place = option.place(plain);
+      if (auto const* inner = std::get_if<OptionGroup>(&place))
+        members.push_back({"properties", object(properties_of(*inner->options))});
+      return members;
+    }
+    case said:
+      return {};
+  }
+  return {};
+}
+
+std::string documented(Option const& option) {
+  std::string doc = option.doc + ": " + allowed(option);
+  if (!option.otherwise.empty()) doc += " [" + option.otherwise + "]";
+  return doc;
+}
+
+Members properties_of(OptionTable const& options, void* plain) {
+  Members all;
+  for (auto const& option : options) {
+    auto members = shape(option, plain);
+    members.push_back({"description", quoted_text(documented(option))});
+    all.push_back({option.key, object(members)});
+  }
+  return all;
+}
+
+void replace(Members& members, std::string const& key, std::string value) {
+  auto const found = std::find_if(members.begin(), members.end(), [&](auto const& one) { return one.first == key; });
+  if (found == members.end())
+    members.push_back({key, std::move(value)});
+  else
+    found->second = std::move(value);
+}
+
+/// One kind of several in one place: its word, and the keys that it has.
+struct KindOf {
+  std::string name, doc;
+  OptionTable const* options;
+};
+
+/// A table with a key that chooses the kind: with the keys of all, each documented for those that have it. What is
+/// common to all that have a key is asked of it.
+std::string kinds(std::string const& key, std::vector<KindOf> const& all, Members more, bool closed = true) {
+  std::vector<std::string> names;
+  std::string doc;
+  for (auto const& kind : all) {
+    names.push_back(kind.name);
+    doc += fmt::format("{}{}: {}", doc.empty() ? "" : "; ", kind.name, kind.doc);
+  }
+  std::vector<std::string> order;
+  std::map<std::string, std::pair<Members, std::string>> keys;  // shape and documentation
+  for (auto const& kind : all)
+    for (auto const& option : *kind.options) {
+      auto const known = keys.find(option.key);
+      std::string const said = kind.name + ": " + documented(option);
+      if (known == keys.end()) {
+        order.push_back(option.key);
+        keys[option.key] = {shape(option), said};
+        continue;
+      }
+      if (known->second.first != shape(option)) known->second.first.clear();
+      known->second.second += "; " + said;
+    }
+  Members properties{{key, words(names, doc)}};
+  for (auto const& one : order) {
+    auto [members, said] = keys[one];
+    members.push_back({"description", quoted_text(said)});
+    properties.push_back({one, object(members)});
+  }
+  for (auto& [name, schema] : more) replace(properties, name, schema);
+  return table(properties, closed);
+}
+
+std::string something(std::string_view doc) { return object({{"description", quoted_text(doc)}}); }
+
+std::string of_pictures(Members more) {
+  std::vector<KindOf> all;
+  for (auto const& drawing : drawings()) all.push_back({drawing.name, drawing.doc, &drawing.options});
+  return tables(kinds("drawing", all, std::move(more)));
+}
+
+ScenarioTable const& table_named(std::string_view name) {
+  for (auto const& one : scenario_tables())
+    if (one.name == name) return one;
+  throw Error("there is no table '" + std::string(name) + "'");
+}
+
+std::string ensembles() {
+  auto properties = properties_of(ensemble_options());
+  std::vector<std::string> classes;
+  std::string class_docs;
+  for (auto const& one : particle_classes()) {
+    classes.push_back(one.name);
+    class_docs += (class_docs.empty() ? "" : "; ") + one.name + ": " + one.doc;
+    for (auto const& field : one.variants.back().fields)
+      if (field.name != "position" && !ensemble_options().find(field.name))
+        replace(properties, field.name, something(fmt::format("a field, {}: {}", name_of(field.dimension), field.doc)));
+  }
+  replace(properties, "class", words(classes, class_docs));
+  std::string methods;
+  for (auto const& word : method_words())
+    methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", word.name, word.doc);
+  replace(properties, "integrator", words(method_words().names(), methods));
+  std::vector<KindOf> loads;
+  for (auto const& kind : load_kinds()) loads.push_back({kind.name, kind.doc, &kind.options});
+  replace(properties, "load", kinds("kind", loads, {}));
+  return tables(table(properties, true));
+}
+
+std::string influences() {
+  auto properties = properties_of(influence_options());
+  std::vector<std::string> names;
+  std::string docs;
+  std::map<std::string, std::string> parameters;
+  for (auto const& law : scenario_laws()) {
+    names.emplace_back(law.name);
+    docs += fmt::format("{}{}: {}", docs.empty() ? "" : "; ", law.name, law.doc);
+    for (auto const& parameter : law.parameters) {
+      auto& doc = parameters[std::string(parameter.name)];
+      doc += fmt::format("{}{}: {}", doc.empty() ? "" : "; ", law.name, parameter.doc);
+    }
+  }
+  replace(properties, "law", words(names, docs));
+  for (auto const& [name, doc] : parameters) replace(properties, name, something(doc));
+  return tables(table(properties, true));
+}
+
+}  // namespace
+
+std::string scenario_schema() {
+  std::vector<KindOf> diagnoses, flows;
+  for (auto const& kind : diagnosis_kinds()) diagnoses.push_back({kind.name, kind.doc, &kind.options});
+  for (auto const& kind : flow_kinds()) flows.push_back({kind.name, kind.doc, &kind.options});
+  auto const closed = [](std::string_view name, Members more = {}) {
+    auto const& of = table_named(name);
+    auto properties = properties_of(*of.options, of.plain);
+    for (auto& [key, schema] : more) replace(properties, key, schema);
+    return table(properties, true);
+  };
+  std::string const title =
+      object({{"type", quoted_text("string")}, {"description", quoted_text("one line; stands above pictures")}});
+  std::string const description =
+      object({{"type", quoted_text("string")}, {"description", quoted_text("what one sees, and where it comes from")}});
+  Members const properties{
+      {"title", title},
+      {"description", description},
+      {"units", table({{"base", words({"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"},
+                                      "the units in which the simulation counts")}},
+                      false, "what plain numbers mean, and the units of the results")},
+      {"box", closed("box", {{"walls", tables(closed("box.walls"))}})},
+      {"run", closed("run")},
+      {"mesh", closed("mesh")},
+      {"smooth", closed("smooth", {{"rezone", one_or_tables(closed("smooth.rezone"))}})},
+      {"ensembles", ensembles()},
+      {"influences", influences()},
+      {"flows", tables(kinds("kind", flows,
+                             {{"on", something("an ensemble, for the pairs within it")},
+                              {"between", something("two ensembles, for the pairs of one of each")}}))},
+      {"prepare", closed("prepare")},
+      {"diagnoses", tables(kinds("kind", diagnoses, {}))},
+      {"output", closed("output", {{"pictures", of_pictures({{"file", object({{"type", quoted_text("string")}})}})}})},
+      {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},
+      {"sweep", table({}, false, "the same scenario for several values of its keys, and with several seeds")}};
+  return object({{"$schema", quoted_text("http://json-schema.org/draft-07/schema#")},
+                 {"title", quoted_text("A scenario of Boltzmann")},
+                 {"type", quoted_text("object")},
+                 {"properties", object(properties)},
+                 {"additionalProperties", "false"}}) +
+         "\n";
+}
+
+}  // namespace boltzmann

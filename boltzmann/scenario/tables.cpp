@@ -1,0 +1,224 @@
+// What the tables of a scenario say, but those whose room has its own.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/colour.hpp>
+#include <boltzmann/flows/flow_options.hpp>
+#include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/schemes/mesh/mesh_options.hpp>
+#include <boltzmann/schemes/smooth/smooth_options.hpp>
+
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+using namespace option;
+
+OptionTable make_run_options() {
+  OptionTable all;
+  all.add_said("step", "a time; with `[smooth]` also `\"courant\"`, or `{ courant = 0.5 }`",
+               "of each step; that part of the Courant step of the state at the start");
+  all.add_said("steps", "a whole number, 0 or more", "how many", "or `time`");
+  all.add_said("time", "a time, zero or more", "how long: as many steps as it takes", "or `steps`");
+  all.add("seed", &RunOptions::seed, whole(0, std::numeric_limits<double>::infinity()),
+          "of all random numbers: the same seed gives the same bits");
+  all.add("threads", &RunOptions::threads, whole(0, 4096), "0: all cores; the result has the same bits for any number");
+  all.add("cutoff", &RunOptions::cutoff, number(dimensions::length, positive),
+          "distance beyond which pair laws are zero; periodic axes need one. Energies of pairs are shifted, so that "
+          "they are zero there and a run conserves energy; forces stay as they are",
+          "all pairs count");
+  all.add("skin", &RunOptions::skin, number(dimensions::length, not_negative),
+          "by how much neighbour lists reach further than the cut-off, at most 4 cut-offs; it changes the speed, not "
+          "the result",
+          "chosen for you");
+  all.add_said("stop", "a condition: [see below](#stop)", "ends the run before its last step", "none");
+  all.at("step").needed = "0.01";
+  return all;
+}
+
+constexpr char const* ensemble_or_list = "the name of an ensemble, or a list";
+
+OptionTable make_box_options() {
+  OptionTable all;
+  all.add_said("low", "a list of lengths, one for each axis",
+               "the lower edges: one, two or three numbers make the space 1D, 2D or 3D");
+  all.add_said("high", "a list of lengths, one for each axis", "the upper edges");
+  std::string kinds;
+  for (auto const& word : boundary_words())
+    kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
+  all.add_said("boundary", "a word, or a list with one for each axis", kinds, "`\"open\"`");
+  all.add_said("walls", "tables, `[[box.walls]]`", "of mirror and bounded axes: [see below](#boxwalls)", "none");
+  all.add_said("regions", "tables, `[[box.regions]]`",
+               "blocks inside the space with elastic faces: `low`, `high`, `side = \"keep-out\"` or `\"keep-in\"`",
+               "none");
+  all.at("low").needed = "[0, 0]";
+  all.at("high").needed = "[10, 10]";
+  return all;
+}
+
+OptionTable make_ensemble_options() {
+  std::string methods;
+  for (auto const& word : method_words())
+    methods += (methods.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
+  OptionTable all;
+  all.add_said("name", "a text", "for the rest of the file, the columns and the legends");
+  all.add_said("class", "a class: see below", "what each particle is");
+  all.add_said("integrator", "a word", methods,
+               "`\"leap-frog\"` for classical particles, `\"rk4\"` for those that a flow carries");
+  all.add_said("load", "a table, `{ kind = \"block\", ... }`", "where the particles are: see below");
+  all.add_said("number", "a whole number, 1 or more", "how many, for loaders that don't know");
+  all.add_said("formulas", "a table of formulas", "fields that depend on the place: [see below](#formulas)", "none");
+  all.add_said("temperature", "a temperature, zero or more", "velocities from Maxwell's distribution", "none");
+  all.add_said("drift", "a velocity along each axis", "a common velocity, added to these", "none");
+  all.add_said("remove_drift", "true or false", "takes the mean off first", "`false`");
+  all.add_said("exact_temperature", "true or false", "scales them so that the measured temperature is the wanted one",
+               "`false`");
+  all.add_said("quiet", "true or false",
+               "puts them at the quantiles of the distribution, so that noise is far lower than that of random ones",
+               "`false`");
+  all.add_said("velocity_ripple",
+               "a table, `{ axis = \"x\", mode = 1, amplitude = \"100 m/s\", phase = 0, component = \"x\" }`",
+               "a wave on top of the velocities", "none");
+  all.add_said("density", "a density", "of smooth particles on a lattice: the masses follow", "none");
+  all.add_said("material", "a table, `{ kind = \"tait\", ... }`", "of smooth particles: [see below](#material)",
+               "needed with `[smooth]`");
+  all.add_said("heat_capacity",
+               "a number, `\"16 kB\"`; `{ file = \"cv.csv\" }`; or `{ formula = \"kB*(10 + T/100)\", from = \"50 K\", "
+               "to = \"3000 K\" }`",
+               "of `Meso`: which temperature an internal energy stands for. The file has two columns, temperature and "
+               "heat capacity, numbers of the base or of the units that `temperature = \"1 K\"` and `heat_capacity = "
+               "\"1 kB\"` beside it name; the formula is in T and Boltzmann's constant kB as numbers of the base. "
+               "Outside a table or the two ends the last value stays",
+               "internal energies have no temperature");
+  all.add_said("internal_energy", "an energy as any other field, or `{ temperature = \"300 K\" }`",
+               "of `Meso`: each particle draws its own from the equilibrium at that temperature (mean (Cv + k) T for a "
+               "constant heat capacity)",
+               "0");
+  all.add_said("colour", join(colour_names()) + ", or `\"#rrggbb\"`", "in pictures", "chosen for you");
+  all.add_said("diameter", "a length, zero or more", "in pictures", "0");
+  all.add_said("set", "tables, `[[ensembles.set]]`", "other values for some particles: see below", "none");
+  all.at("name").needed = "\"atoms\"";
+  all.at("class").needed = "\"Newton\"";
+  all.at("load").needed = "{ kind = \"random\" }";
+  return all;
+}
+
+OptionTable make_influence_options() {
+  OptionTable all;
+  all.add_said("law", "a law: see below", "its parameters stand beside it");
+  all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
+               "one of `on`, `between`, `one_way`");
+  all.add_said("between", "the names of two ensembles", "between the particles of two ensembles, both ways",
+               "one of `on`, `between`, `one_way`");
+  all.add_said("one_way", "the names of two ensembles, `[\"on\", \"by\"]`",
+               "of the second on the first; nothing acts back", "one of `on`, `between`, `one_way`");
+  all.add_said("cutoff", "a length, positive", "of this law", "that of `[run]`");
+  all.add_said("connect", "`[[first, last, interval]]`",
+               "with `on`: only between fixed pairs, (first, first + interval), (first + interval, first + 2 "
+               "interval), ... up to last",
+               "all pairs");
+  all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`",
+               "laws from outside: only on these, written as in `[[ensembles.set]]`", "on all");
+  all.add_said("margin", "a length", "with `particles = \"edge\"`", "0");
+  all.add_said("where", "a [formula](#formulas)", "laws from outside: only on those for which it is true", "on all");
+  all.at("law").needed = "\"lennard-jones\"";
+  return all;
+}
+
+OptionTable make_output_options() {
+  OptionTable all;
+  all.add_said("diagnoses", "a whole number, 0 or more", "steps between two rows of `diagnoses.csv`", "200 rows");
+  all.add_said("trajectory", "a whole number, 0 or more", "steps between two frames of `trajectory.h5`", "none");
+  all.add_said("checkpoint", "a whole number, 0 or more", "steps between two checkpoints",
+               "at the start and at the end");
+  all.add_said("mesh", "a whole number, 0 or more",
+               "steps between two frames of density, potential and field: `mesh/000000100.vti`, ... and `mesh.pvd`, "
+               "which ParaView opens as a time series",
+               "none");
+  all.add_said("pictures", "tables, `[[output.pictures]]`", "pictures of the last state", "none");
+  return all;
+}
+
+OptionTable make_wall_options() {
+  using W = WallOptions;
+  static Words<Box::End> const ends{"end", {{Box::End::low, "low", ""}, {Box::End::high, "high", ""}}};
+  OptionTable all;
+  all.add_said("axis", "x, y or z", "that the wall ends");
+  all.add_of<W>(
+      "end", [](W& w) -> OptionPlace { return named_value(&w.end, ends); }, word(ends.names()), "which end of it");
+  all.add("open", &W::open, flag(), "no wall at this end: a free surface");
+  all.add_of<W>(
+      "slips", [](W& w) -> OptionPlace { return &w.wall.slips; }, flag(),
+      "of a mirror; else matter at the wall moves with it");
+  all.add_said("velocity", "a velocity along each axis", "along the axis it makes a piston; else of a mirror", "none");
+  all.add_of<W>(
+      "temperature", [](W& w) -> OptionPlace { return &w.wall.temperature; },
+      number(dimensions::temperature, not_negative), "of a mirror", "no heat goes through");
+  all.at("axis").needed = "\"y\"";
+  all.at("end").needed = "\"low\"";
+  return all;
+}
+
+OptionTable make_preparation_options() {
+  OptionTable all = bath_options();
+  all.add_said("time", "a time, zero or more", "how long");
+  all.add_said("on", ensemble_or_list, "who is prepared", "all that leap-frog moves");
+  all.at("time").needed = "\"2 ps\"";
+  return all;
+}
+
+}  // namespace
+
+OptionTable const& run_options() {
+  static OptionTable const all = make_run_options();
+  return all;
+}
+OptionTable const& box_options() {
+  static OptionTable const all = make_box_options();
+  return all;
+}
+OptionTable const& ensemble_options() {
+  static OptionTable const all = make_ensemble_options();
+  return all;
+}
+OptionTable const& influence_options() {
+  static OptionTable const all = make_influence_options();
+  return all;
+}
+OptionTable const& output_options() {
+  static OptionTable const all = make_output_options();
+  return all;
+}
+OptionTable const& wall_options() {
+  static OptionTable const all = make_wall_options();
+  return all;
+}
+OptionTable const& preparation_options() {
+  static OptionTable const all = make_preparation_options();
+  return all;
+}
+
+std::vector<ScenarioTable> const& scenario_tables() {
+  static WallOptions wall;
+  static RunOptions run;
+  static MeshOptions mesh;
+  static SmoothOptions smooth;
+  static RezoneOptions rezone;
+  static BathOptions bath;
+  static std::vector<ScenarioTable> const all = {
+      {"box", "[box]", "the space", &box_options(), nullptr},
+      {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of bounded ones",
+       &wall_options(), &wall},
+      {"run", "[run]", "how long, in which steps", &run_options(), &run},
+      {"mesh", "[mesh]", "charges or masses influence each other through a field on a mesh", &mesh_options(), &mesh},
+      {"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
+      {"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
+       &rezone_options(), &rezone},
+      {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), nullptr},
+      {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
+      {"output", "[output]", "what is written, and how often", &output_options(), nullptr},
+      {"prepare", "[prepare]", "a heat bath before the run begins", &preparation_options(), &bath}};
+  return all;
+}
+
+}  // namespace boltzmann

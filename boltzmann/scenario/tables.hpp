@@ -1,0 +1,51 @@
+// Tables: the tables of a scenario with their keys, for `bzm show`, the guide and whoever writes scenarios by program.
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/options.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// [run]; its step, its length and what ends it are read by code.
+struct RunOptions {
+  std::int64_t seed = 1;
+  int threads = 0;
+  std::optional<double> cutoff, skin;
+};
+OptionTable const& run_options();
+
+/// [[box.walls]]; the axis is read by code.
+struct WallOptions {
+  Box::End end = Box::End::low;
+  bool open = false;
+  Wall wall;
+};
+OptionTable const& wall_options();
+
+/// [prepare]: a heat bath for a while.
+OptionTable const& preparation_options();
+
+/// [box], [[ensembles]], [[influences]] and [output], which are read by code of their own; beside these keys, ensembles
+/// have fields and influences have parameters.
+OptionTable const& box_options();
+OptionTable const& ensemble_options();
+OptionTable const& influence_options();
+OptionTable const& output_options();
+
+struct ScenarioTable {
+  std::string name;     ///< "smooth.rezone"
+  std::string heading;  ///< as a scenario writes it: "[[smooth.rezone]]"
+  std::string doc;
+  OptionTable const* options;
+  void* plain;  ///< an object as it is without keys; null: none of the keys is a plain member
+};
+/// Those that have a table of options, in the order of the guide; those of several kinds (flows, pictures, diagnoses)
+/// have one for each kind and are not here.
+std::vector<ScenarioTable> const& scenario_tables();
+
+}  // namespace boltzmann

@@ -1,0 +1,47 @@
+// The members of mesh schemes with their keys.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/schemes/mesh/mesh_options.hpp>
+
+namespace boltzmann {
+namespace {
+
+using namespace option;
+
+OptionTable make_mesh_options() {
+  using M = MeshOptions;
+  OptionTable all;
+  all.add_said("law", "coulomb with `k`, or gravity with `G`", "what the field is made by");
+  all.add_said("k", "as of the law", "of `law = \"coulomb\"`", "that of nature");
+  all.add_said("G", "as of the law", "of `law = \"gravity\"`", "that of nature");
+  all.add_said("on", "the name of an ensemble, or a list", "who makes the field and feels it",
+               "all whose class has a charge (a mass) for that law");
+  all.add_said("cells", "a whole number, or a list with one for each axis", "of the mesh",
+               "needed, but with `accuracy`");
+  all.add_of<M>(
+      "assignment", [](M& m) -> OptionPlace { return named_value(&m.assignment, assignment_words()); },
+      word(assignment_words().names()), "how particles are spread over nodes");
+  all.add_of<M>(
+      "poisson", [](M& m) -> OptionPlace { return named_value(&m.poisson, poisson_form_words()); },
+      word(poisson_form_words().names()), "Poisson's equation on the mesh");
+  all.add_said("boundary", join(field_boundary_words().names()) + "; a word, or for each axis a word or a pair",
+               "of the field", "periodic where the box is, elsewhere open");
+  all.add("background", &M::background, flag(), "a uniform background makes the whole neutral");
+  all.add_of<M>(
+      "precision", [](M& m) -> OptionPlace { return named_value(&m.precision, precision_words()); },
+      word(precision_words().names()), "of the particles during a run");
+  all.add("accuracy", &M::accuracy, number(dimensions::none, positive),
+          "P3M: mesh plus near pairs, forces to this part of their rms; `cells`, `assignment`, `poisson`, `boundary` "
+          "and `precision` are then chosen for you",
+          "a mesh alone");
+  all.at("law").needed = "\"coulomb\"";
+  return all;
+}
+
+}  // namespace
+
+OptionTable const& mesh_options() {
+  static OptionTable const all = make_mesh_options();
+  return all;
+}
+
+}  // namespace boltzmann

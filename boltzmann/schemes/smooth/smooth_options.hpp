@@ -1,0 +1,31 @@
+// Smooth options: what scenarios say of a continuum, with their keys.
+#pragma once
+
+#include <boltzmann/core/options.hpp>
+#include <boltzmann/schemes/smooth/rezone.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace boltzmann {
+
+struct SmoothOptions {
+  WeightShape weight = WeightShape::lucy;
+  DensityFrom density = DensityFrom::summation;
+  MeanDensity mean_density = MeanDensity::arithmetic;
+  Heating heating = Heating::shared;
+  std::optional<ArtificialViscosity> artificial_viscosity;
+  std::optional<VariableRange> variable_range;
+  std::optional<double> skin;
+};
+OptionTable const& smooth_options();
+
+/// A rezoning, and how often it is done. On whom, and where, the reader of the scenario finds.
+struct RezoneOptions {
+  std::int64_t every = 1;
+  Rezoning policy;
+};
+OptionTable const& rezone_options();
+
+}  // namespace boltzmann
