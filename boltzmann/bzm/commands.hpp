@@ -69,12 +69,12 @@ struct WindowCommand {
 };
 int window(WindowCommand const& command);
 
-/// `kind` empty: all kinds of names; or "scenarios", "classes", "laws", "integrators", "diagnoses", "units".
+/// `kind` empty: all kinds of names; or one of listed_kinds().
 int list(std::string const& kind, bool names_only);
 std::vector<std::string> listed_kinds();
-/// Error if there is no name.
+/// Error if there is no name, or, of the schema, if there is one.
 int show(std::string const& name);
-int show_schema();
+int show_schema(std::string const& name);
 int check(std::string const& scenario, Overrides const& overrides);
 int new_scenario(std::string const& name);
 

@@ -56,8 +56,7 @@ void picture_words(CLI::App* command, PictureWords& words) {
     if (option.key == "file") continue;
     std::string const& key = option.key;
     std::string const names = "--" + key + (key == "colour" ? ",--color" : key == "logarithmic" ? ",--log" : "");
-    std::string doc = option.doc;
-    std::erase(doc, '`');
+    std::string const doc = plain_text(option.doc);
     if (option.kind.form == OptionKind::Form::flag)
       command->add_flag_callback(
           names, [&words, key] { words.emplace_back(key, "true"); }, doc);
@@ -231,20 +230,15 @@ int command_line(int argc, char** argv) {
 
   std::string kind;
   bool names_only = false;
-  sub = command("list",
-                "list scenarios, particle classes, laws, materials, flows, loaders, integrators, diagnoses, drawings",
-                [&] { return list(kind, names_only); });
-  sub->add_option(
-      "kind", kind,
-      "scenarios, classes, laws, materials, flows, loaders, tables, integrators, diagnoses, drawings or units [all but "
-      "units]");
+  sub = command("list", "list the names there are, each with a line", [&] { return list(kind, names_only); });
+  sub->add_option("kind", kind, join(listed_kinds()) + " [all but units]");
   sub->add_flag("--names", names_only, "only the names, one a line");
 
   std::string name;
   Overrides overrides;
   bool schema = false;
   sub = command("show", "explain a scenario, class, law, loader, integrator, diagnosis, table or unit",
-                [&] { return schema ? show_schema() : show(name); });
+                [&] { return schema ? show_schema(name) : show(name); });
   sub->add_option("name", name, "a word that bzm list shows, or a unit");
   sub->add_flag("--schema", schema, "the JSON Schema of scenario files, for editors");
   sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name, overrides); });

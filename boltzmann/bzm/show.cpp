@@ -206,12 +206,11 @@ void show_options(OptionTable const& options, void* plain) {
   for (auto const& option : options) width = std::max(width, option.key.size());
   for (auto const& option : options) {
     std::string const value = option.otherwise.empty() ? toml_value(option, plain) : option.otherwise;
-    std::string line = fmt::format("{}: {}{}", option.doc, allowed(option),
-                                   !option.needed.empty() ? " (needed)"
-                                   : value.empty()        ? ""
-                                                          : " [" + value + "]");
-    std::erase(line, '`');
-    fmt::print("  {:<{}}  {}\n", option.key, width, line);
+    std::string const line = fmt::format("{}: {}{}", option.doc, allowed(option),
+                                         !option.needed.empty() ? " (needed)"
+                                         : value.empty()        ? ""
+                                                                : " [" + value + "]");
+    fmt::print("  {:<{}}  {}\n", option.key, width, plain_text(line));
   }
 }
 
@@ -304,7 +303,8 @@ int list(std::string const& kind, bool names_only) {
   return 0;
 }
 
-int show_schema() {
+int show_schema(std::string const& name) {
+  if (!name.empty()) throw Error("--schema is of all that a scenario may have; leave '" + name + "' out");
   std::fputs(scenario_schema().c_str(), stdout);
   return 0;
 }

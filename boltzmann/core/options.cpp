@@ -143,16 +143,33 @@ std::string out_of_range(Option const& option, void* object, void* plain) {
   return "";
 }
 
+std::string plain_text(std::string_view doc) {
+  std::string plain;
+  for (std::size_t at = 0; at < doc.size(); ++at) {
+    auto const middle = doc[at] == '[' ? doc.find("](", at) : std::string_view::npos;
+    if (middle != std::string_view::npos &&
+        doc.substr(at + 1, middle - at - 1).find_first_of("[]") == std::string_view::npos) {
+      plain += plain_text(doc.substr(at + 1, middle - at - 1));
+      at = doc.find(')', middle);
+      if (at == std::string_view::npos) break;
+    } else if (doc[at] != '`') {
+      plain += doc[at];
+    }
+  }
+  return plain;
+}
+
 std::string allowed(Option const& option) {
   using enum OptionKind::Form;
   auto const& kind = option.kind;
   auto const range = [&](std::string const& what) {
     return kind.range == any_number ? what : what + ", " + kind.range.text();
   };
+  std::string const of_the_rest = kind.words.empty() ? "a quantity of what is shown" : kind.words.front();
   std::string const quantity =
       kind.counted_in != 1                  ? "degrees"
-      : !kind.dimension                     ? kind.words.empty() ? "a quantity of what is shown" : kind.words.front()
-                          : *kind.dimension == dimensions::none ? "a number"
+      : !kind.dimension                     ? of_the_rest
+      : *kind.dimension == dimensions::none ? "a number"
       : kind.by_space != 0
           ? "in 3D " + with_article(name_of(*kind.dimension * pow(dimensions::length, 3 * kind.by_space)))
           : with_article(name_of(*kind.dimension));

@@ -208,6 +208,8 @@ class OptionTable {
 /// What is wrong with the value that an object has, "5 is out of range; it must be between 1 and 3"; empty: nothing, or
 /// it is the same as in `plain`.
 std::string out_of_range(Option const& option, void* object, void* plain);
+/// A line of documentation where nothing marks it up: without backquotes, and of a link its text.
+std::string plain_text(std::string_view doc);
 /// What may be written, in words: "true or false", "a whole number between 1 and 5", "a length, positive".
 std::string allowed(Option const& option);
 /// The value that an object has, as TOML; empty: it is automatic, and need not be written.

@@ -56,11 +56,20 @@ void check_value(std::string_view law, LawParameter const& parameter, Vector con
 }
 }  // namespace detail
 
+/// "law": it has parameters, but does not say what it is.
+template <class Law>
+constexpr std::string_view name_of_law() {
+  if constexpr (requires { Law::text; })
+    return Law::text.name;
+  else
+    return "law";
+}
+
 /// Throws Error at the first parameter that can't be, and as the law's own check() does, if it has one.
 template <class Law>
 void check_law(Law const& law) {
   if constexpr (requires { Law::parameters(); })
-    std::apply([&](auto const&... of) { (detail::check_value(Law::text.name, of.parameter, law.*of.member), ...); },
+    std::apply([&](auto const&... of) { (detail::check_value(name_of_law<Law>(), of.parameter, law.*of.member), ...); },
                Law::parameters());
   if constexpr (requires { law.check(); }) law.check();
 }

@@ -9,10 +9,6 @@
 namespace boltzmann {
 namespace {
 
-BoundLaw bind(LawInfo const& law, LawParameters const& parameters, int dimension) {
-  return law.bind({dimension, parameters});
-}
-
 /// Why particles of this ensemble can't take the part of `least` in the law; empty if nothing is known against it.
 std::string missing(LawInfo const& law, std::string_view least, AnyEnsemble const& ensemble, bool is_target) {
   ParticleClass const* wanted = find_class(least);
@@ -87,7 +83,7 @@ LawInfo const& law_info(std::string_view name) {
 
 void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, LawUse use, AnyEnsemble& a,
                    AnyEnsemble& b, double cutoff) {
-  BoundLaw const bound = bind(law, parameters, a.dimension());
+  BoundLaw const bound = law.bind({a.dimension(), parameters});
   if (use == LawUse::between && !bound.one_way) {
     // Both ways or none: the second must be possible before the first is installed.
     require(law, a, true);
@@ -105,7 +101,7 @@ void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters c
                          std::vector<Connection> const& connections) {
   require(law, ensemble, true);
   require(law, ensemble, false);
-  BoundLaw const bound = bind(law, parameters, ensemble.dimension());
+  BoundLaw const bound = law.bind({ensemble.dimension(), parameters});
   for (auto const& choice : bound.connections)
     if (choice.ensemble(ensemble))
       return scheme.add_connections(ensemble, connections, choice.kernels, bound.law, bound.traits);
@@ -115,7 +111,7 @@ void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters c
 void install_external(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
                       std::vector<std::uint32_t> const* only) {
   require(law, ensemble, true);
-  BoundLaw const bound = bind(law, parameters, ensemble.dimension());
+  BoundLaw const bound = law.bind({ensemble.dimension(), parameters});
   for (auto const& choice : bound.externals)
     if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law, bound.traits, only);
   throw unfit(law, ensemble);

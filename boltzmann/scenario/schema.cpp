@@ -25,12 +25,12 @@ namespace {
 std::string quoted_text(std::string_view plain) {
   std::string quoted = "\"";
   for (char const c : plain) {
-    if (c == '`') continue;
     if (c == '"' || c == '\\') quoted += '\\';
     quoted += c;
   }
   return quoted + "\"";
 }
+std::string described(std::string_view doc) { return quoted_text(plain_text(doc)); }
 std::string list(std::vector<std::string> const& texts) {
   std::string all;
   for (auto const& one : texts) all += (all.empty() ? "" : ", ") + quoted_text(one);
@@ -50,14 +50,14 @@ std::string object(Members const& members) {
 std::string table(Members const& properties, bool closed, std::string_view doc = "") {
   Members members{{"type", quoted_text("object")}, {"properties", object(properties)}};
   if (closed) members.push_back({"additionalProperties", "false"});
-  if (!doc.empty()) members.push_back({"description", quoted_text(doc)});
+  if (!doc.empty()) members.push_back({"description", described(doc)});
   return object(members);
 }
 std::string tables(std::string const& one) { return object({{"type", quoted_text("array")}, {"items", one}}); }
 std::string one_or_tables(std::string const& one) { return fmt::format("{{\"anyOf\": [{}, {}]}}", one, tables(one)); }
 
 std::string words(std::vector<std::string> const& all, std::string_view doc) {
-  return object({{"enum", list(all)}, {"description", quoted_text(doc)}});
+  return object({{"enum", list(all)}, {"description", described(doc)}});
 }
 
 Members properties_of(OptionTable const& options, void* plain = nullptr);
@@ -124,7 +124,7 @@ Members properties_of(OptionTable const& options, void* plain) {
   Members all;
   for (auto const& option : options) {
     auto members = shape(option, plain);
-    members.push_back({"description", quoted_text(documented(option))});
+    members.push_back({"description", described(documented(option))});
     all.push_back({option.key, object(members)});
   }
   return all;
@@ -170,14 +170,14 @@ std::string kinds(std::string const& key, std::vector<KindOf> const& all, Member
   Members properties{{key, words(names, doc)}};
   for (auto const& one : order) {
     auto [members, said] = keys[one];
-    members.push_back({"description", quoted_text(said)});
+    members.push_back({"description", described(said)});
     properties.push_back({one, object(members)});
   }
   for (auto& [name, schema] : more) replace(properties, name, schema);
   return table(properties, closed);
 }
 
-std::string something(std::string_view doc) { return object({{"description", quoted_text(doc)}}); }
+std::string something(std::string_view doc) { return object({{"description", described(doc)}}); }
 
 std::string of_pictures(Members more) {
   std::vector<KindOf> all;
@@ -244,9 +244,9 @@ std::string scenario_schema() {
     return table(properties, true);
   };
   std::string const title =
-      object({{"type", quoted_text("string")}, {"description", quoted_text("one line; stands above pictures")}});
+      object({{"type", quoted_text("string")}, {"description", described("one line; stands above pictures")}});
   std::string const description =
-      object({{"type", quoted_text("string")}, {"description", quoted_text("what one sees, and where it comes from")}});
+      object({{"type", quoted_text("string")}, {"description", described("what one sees, and where it comes from")}});
   Members const properties{
       {"title", title},
       {"description", description},

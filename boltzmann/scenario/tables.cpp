@@ -31,7 +31,7 @@ OptionTable make_run_options() {
           "by how much neighbour lists reach further than the cut-off, at most 4 cut-offs; it changes the speed, not "
           "the result",
           "chosen for you");
-  all.add_said("stop", "a condition: [see below](#stop)", "ends the run before its last step", "none");
+  all.add_said("stop", "a [condition](#stop)", "ends the run before its last step", "none");
   all.at("step").needed = "0.01";
   return all;
 }
@@ -47,7 +47,7 @@ OptionTable make_box_options() {
   for (auto const& word : boundary_words())
     kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   all.add_said("boundary", "a word, or a list with one for each axis", kinds, "`\"open\"`");
-  all.add_said("walls", "tables, `[[box.walls]]`", "of mirror and bounded axes: [see below](#boxwalls)", "none");
+  all.add_said("walls", "tables, `[[box.walls]]`", "of [mirror and bounded axes](#boxwalls)", "none");
   all.add_said("regions", "tables, `[[box.regions]]`",
                "blocks inside the space with elastic faces: `low`, `high`, `side = \"keep-out\"` or `\"keep-in\"`",
                "none");
@@ -62,12 +62,13 @@ OptionTable make_ensemble_options() {
     methods += (methods.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   OptionTable all;
   all.add_said("name", "a text", "for the rest of the file, the columns and the legends");
-  all.add_said("class", "a class: see below", "what each particle is");
+  all.add_said("class", "a class (`bzm list classes`)", "what each particle is");
   all.add_said("integrator", "a word", methods,
                "`\"leap-frog\"` for classical particles, `\"rk4\"` for those that a flow carries");
-  all.add_said("load", "a table, `{ kind = \"block\", ... }`", "where the particles are: see below");
+  all.add_said("load", "a table, `{ kind = \"block\", ... }`",
+               "where the particles are: a [loader](#load) (`bzm list loaders`)");
   all.add_said("number", "a whole number, 1 or more", "how many, for loaders that don't know");
-  all.add_said("formulas", "a table of formulas", "fields that depend on the place: [see below](#formulas)", "none");
+  all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
   all.add_said("temperature", "a temperature, zero or more", "velocities from Maxwell's distribution", "none");
   all.add_said("drift", "a velocity along each axis", "a common velocity, added to these", "none");
   all.add_said("remove_drift", "true or false", "takes the mean off first", "`false`");
@@ -80,8 +81,8 @@ OptionTable make_ensemble_options() {
                "a table, `{ axis = \"x\", mode = 1, amplitude = \"100 m/s\", phase = 0, component = \"x\" }`",
                "a wave on top of the velocities", "none");
   all.add_said("density", "a density", "of smooth particles on a lattice: the masses follow", "none");
-  all.add_said("material", "a table, `{ kind = \"tait\", ... }`", "of smooth particles: [see below](#material)",
-               "needed with `[smooth]`");
+  all.add_said("material", "a table, `{ kind = \"tait\", ... }`",
+               "of smooth particles: a [material](#material) (`bzm list materials`)", "needed with `[smooth]`");
   all.add_said("heat_capacity",
                "a number, `\"16 kB\"`; `{ file = \"cv.csv\" }`; or `{ formula = \"kB*(10 + T/100)\", from = \"50 K\", "
                "to = \"3000 K\" }`",
@@ -96,7 +97,7 @@ OptionTable make_ensemble_options() {
                "0");
   all.add_said("colour", join(colour_names()) + ", or `\"#rrggbb\"`", "in pictures", "chosen for you");
   all.add_said("diameter", "a length, zero or more", "in pictures", "0");
-  all.add_said("set", "tables, `[[ensembles.set]]`", "other values for some particles: see below", "none");
+  all.add_said("set", "tables, `[[ensembles.set]]`", "other values for [some particles](#ensemblesset)", "none");
   all.at("name").needed = "\"atoms\"";
   all.at("class").needed = "\"Newton\"";
   all.at("load").needed = "{ kind = \"random\" }";
@@ -105,7 +106,7 @@ OptionTable make_ensemble_options() {
 
 OptionTable make_influence_options() {
   OptionTable all;
-  all.add_said("law", "a law: see below", "its parameters stand beside it");
+  all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
   all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
                "one of `on`, `between`, `one_way`");
   all.add_said("between", "the names of two ensembles", "between the particles of two ensembles, both ways",

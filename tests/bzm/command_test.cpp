@@ -484,6 +484,16 @@ TEST(Show, KnowsWhatScenariosKnow) {
     EXPECT_TRUE(has(bzm({"show", kind.name}, folder.string()).out, "loader " + kind.name + ": ")) << kind.name;
 }
 
+TEST(Show, RefusesWhatSaysNothingOrTooMuch) {
+  Folder folder;
+  expect_one_line(bzm({"show"}, folder.string()), 2, {"needs a name", "--schema"});
+  expect_one_line(bzm({"show", "copper", "--schema"}, folder.string()), 2, {"leave 'copper' out"});
+  expect_one_line(bzm({"show", "lennard-jone"}, folder.string()), 2, {"did you mean 'lennard-jones'"});
+  auto const told = bzm({"show", "run"}, folder.string()).out;
+  EXPECT_TRUE(has(told, "a condition [none]")) << told;  // links are for pages
+  EXPECT_FALSE(has(told, "`") || has(told, "](")) << told;
+}
+
 TEST(Show, ExplainsAMaterial) {
   Folder folder;
   auto const tait = bzm({"show", "tait"}, folder.string()).out;

@@ -446,6 +446,27 @@ TEST(Laws, EveryPairLawOfTheCatalogueIsTestedHere) {
   EXPECT_EQ(tested, shipped);
 }
 
+/// Of a user: two parameters, and nothing else said of it.
+struct Screened {
+  double strength, decay;
+  static constexpr auto parameters() {
+    return std::tuple{LawMember{&Screened::strength, {"strength", dimensions::energy, "at the range"}},
+                      LawMember{&Screened::decay, {"decay", dimensions::wave_number, "by distance", positive}}};
+  }
+};
+TEST(Laws, ThoseOfUsersAreCheckedByTheirParameters) {
+  EXPECT_NO_THROW(check_law(Screened{-1, 1}));
+  for (auto const& wrong : {Screened{1, 0}, Screened{nan_value, 1}}) {
+    std::string said;
+    try {
+      check_law(wrong);
+    } catch (Error const& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(said, wrong.decay == 0 ? "law: decay = 0 must be positive" : "law: strength = nan must be finite");
+  }
+}
+
 TEST(Laws, ParameterErrorsAreOneReadableLine) {
   try {
     check_law(Morse{.depth = 1, .r0 = -1, .a = 1});

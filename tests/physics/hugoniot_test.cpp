@@ -89,7 +89,7 @@ TEST(Hugoniot, TheKnownPointFromStatesInEquilibrium) {
 // A piston at 2000 m/s, friction tenfold so that the wave is thin. Mass, momentum and energy behind it.
 TEST(Hugoniot, ADrivenShockMeetsTheSamePoint) {
   double const k = pvdf::boltzmann_constant, up = 20, dt = 0.0025;
-  std::size_t const nx = 260, ny = 12;
+  std::size_t const nx = 280, ny = 12;
   LatticeBlock const block{Lattice::triangular, pvdf::spacing, {nx, ny, 1}};
   auto const lengths = repeat_lengths(block, 2);
   Ensemble<Meso<2>> molecules("molecules", nx * ny);
@@ -133,7 +133,7 @@ TEST(Hugoniot, ADrivenShockMeetsTheSamePoint) {
   simulation.run(1);
   double const start = energy();
   std::vector<double> times, places, density, stress, kinetic, internal, velocity;
-  while (simulation.time() < 17) {
+  while (simulation.time() < 18.5) {
     simulation.run(40);
     double const t = simulation.time(), at = front();
     if (t < 4) continue;
@@ -179,7 +179,7 @@ TEST(Hugoniot, ADrivenShockMeetsTheSamePoint) {
   EXPECT_NEAR(p / pvdf::newton_per_metre / 6.64, 1, 0.04);
   EXPECT_NEAR(estimate(velocity).mean / up, 1, 0.02);
   EXPECT_NEAR(estimate(internal).mean / 765, 1, 0.06);
-  EXPECT_NEAR(estimate(kinetic).mean / estimate(internal).mean, 1.07, 0.08);  // it still falls
+  EXPECT_NEAR(estimate(kinetic).mean / estimate(internal).mean, 1.05, 0.07);  // it still falls
   // Mass and momentum through the front; what the piston has done is in the matter.
   EXPECT_NEAR(rho * (us - up) / (rho0 * us), 1, 0.035);
   EXPECT_NEAR(p / (rho0 * us * up), 1, 0.035);
