@@ -58,3 +58,19 @@ namespace boltzmann {
 ")
   list(APPEND law_kernels ${file})
 endforeach()
+
+# The headers of the shipped materials.
+set(list ${CMAKE_CURRENT_SOURCE_DIR}/boltzmann/scenario/shipped_materials.list)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+set(includes)
+file(STRINGS ${list} entries REGEX "^MATERIAL")
+foreach(entry ${entries})
+  if(NOT entry MATCHES "^MATERIAL\\(([a-z_]+), ([A-Za-z]+)\\)$")
+    message(FATAL_ERROR "${list}: '${entry}' is not MATERIAL(header, struct)")
+  endif()
+  list(APPEND includes "#include <boltzmann/laws/materials/${CMAKE_MATCH_1}.hpp>\n")
+endforeach()
+list(REMOVE_DUPLICATES includes)
+list(JOIN includes "" includes)
+file(CONFIGURE OUTPUT ${generated}/shipped_materials.hpp
+     CONTENT "// Written by CMake from shipped_materials.list.\n#pragma once\n@includes@" @ONLY)

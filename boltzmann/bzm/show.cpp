@@ -146,6 +146,19 @@ void show_class(ParticleClass const& one) {
     fmt::print("    {:<18} {}\n", quantity.name, name_of(quantity.dimension));
 }
 
+void show_options(OptionTable const& options, void* plain = nullptr) {
+  std::size_t width = 0;
+  for (auto const& option : options) width = std::max(width, option.key.size());
+  for (auto const& option : options) {
+    std::string const value = option.otherwise.empty() ? toml_value(option, plain) : option.otherwise;
+    std::string const line = fmt::format("{}: {}{}", option.doc, allowed(option),
+                                         !option.needed.empty() ? " (needed)"
+                                         : value.empty()        ? ""
+                                                                : " [" + value + "]");
+    fmt::print("  {:<{}}  {}\n", option.key, width, plain_text(line));
+  }
+}
+
 void show_law(LawInfo const& law) {
   fmt::print("law {}: {}\n\n  {}     {}\n", law.name, law.doc, law.has_energy ? "energy   " : "influence", law.formula);
   if (law.kind == LawKind::pair)
@@ -160,58 +173,22 @@ void show_law(LawInfo const& law) {
   if (law.velocity_dependent) fmt::print("  depends on velocities: not for the reversible leap-frog\n");
   if (!law.has_energy) fmt::print("  has no energy: total energies are not defined with it\n");
   fmt::print("\n  parameters\n");
-  for (auto const& parameter : law.parameters) {
-    auto const examples = example_units(parameter.dimension);
-    fmt::print("    {:<14} {}{}{}, {}{}\n", parameter.name, parameter.doc, "; ",
-               examples.empty() ? "a pure number" : fmt::format("in {}", join(examples, " or ")),
-               parameter.range.text(),
-               parameter.default_text.empty() ? "" : fmt::format("; {} unless told", parameter.default_text));
-  }
+  show_options(options_of(law.parameters));
   fmt::print("\n  in C++: #include <{}>, {}\n", law.header, law.type);
-}
-
-void print_parameters(std::vector<MaterialParameter> const& parameters) {
-  for (auto const& parameter : parameters) {
-    auto const examples = example_units(parameter.dimension(3));
-    std::string usual;
-    if (parameter.usual && std::isinf(*parameter.usual))
-      usual = "; unlimited unless told";
-    else if (parameter.usual)
-      usual = fmt::format("; {} unless told{}", *parameter.usual,
-                          parameter.usual_with_units ? "" : " (in the base \"reduced\")");
-    fmt::print("    {:<19} {}; {}, {}{}\n", parameter.name, parameter.doc,
-               parameter.dimension(3) == dimensions::none
-                   ? "a number"
-                   : fmt::format("in {}", examples.empty() ? name_of(parameter.dimension(3)) : join(examples, " or ")),
-               parameter.range.text(), usual);
-  }
 }
 
 void show_material(MaterialInfo const& material) {
   fmt::print("material {}: {}\n\n  equation of state   {}\n", material.name, material.doc, material.formula);
   if (material.barotropic) fmt::print("  has no temperature: pressure and energy follow from the density alone\n");
   fmt::print("\n  in an ensemble of class Smooth or Solid: material = {{ kind = \"{}\", ... }}\n", material.name);
-  print_parameters(material.parameters);
+  show_options(options_of(material.parameters));
   if (material.tabulated) fmt::print("    points or file      at least two, of rising density\n");
   fmt::print("\n  with any material\n");
-  print_parameters(flux_parameters());
+  show_options(options_of(flux_parameters()));
   fmt::print("\n  of class Solid, in elastic = {{ ... }} inside the material\n");
-  print_parameters(elastic_parameters());
+  show_options(options_of(elastic_parameters()));
   fmt::print("\n  units are those in 3D; in 2D and 1D volumes are areas and lengths\n");
   fmt::print("  in C++: #include <{}>, {}\n", material.header, material.type);
-}
-
-void show_options(OptionTable const& options, void* plain) {
-  std::size_t width = 0;
-  for (auto const& option : options) width = std::max(width, option.key.size());
-  for (auto const& option : options) {
-    std::string const value = option.otherwise.empty() ? toml_value(option, plain) : option.otherwise;
-    std::string const line = fmt::format("{}: {}{}", option.doc, allowed(option),
-                                         !option.needed.empty() ? " (needed)"
-                                         : value.empty()        ? ""
-                                                                : " [" + value + "]");
-    fmt::print("  {:<{}}  {}\n", option.key, width, plain_text(line));
-  }
 }
 
 void show_flow(FlowKind const& kind) {

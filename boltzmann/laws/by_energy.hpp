@@ -71,7 +71,7 @@ struct ByEnergy {
   }
 
   double length_scale() const { return length_scale_of(of_pair); }
-  void check() const { check_law(of_pair); }
+  void check() const { check_parameters(of_pair); }
 };
 
 /// The pair law whose energy is `energy(p, q)`: it returns Interaction{force, energy} with force on p =

@@ -20,7 +20,7 @@ struct Drag {
                                 .has_energy = false};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&Drag::friction, {"friction", dimensions::friction, "force per velocity", not_negative}}};
+        ParameterOf{&Drag::friction, {"friction", dimensions::friction, "force per velocity", not_negative}}};
   }
 
   template <class P>

@@ -49,8 +49,8 @@ struct LaplaceLaw {
   }
 };
 
-inline constexpr LawParameter softening_parameter{
-    "softening", dimensions::length, "Plummer's length, within which the force is weaker", not_negative, "0"};
+inline constexpr Parameter softening_parameter{"softening", dimensions::length,
+                                               "Plummer's length, within which the force is weaker", not_negative, "0"};
 
 /// Charges, as scenarios name their law: force k s s'/r^2 in 3D; k = 1 in cgs, base(constants::coulomb) in any base.
 struct CoulombLaw {
@@ -65,11 +65,11 @@ struct CoulombLaw {
       .source = "Coulomb",
       .in_programs = "coulomb"};
   static constexpr auto parameters() {
-    return std::tuple{
-        LawMember{&CoulombLaw::k,
-                  {"k", dimensions::energy * dimensions::length / pow(dimensions::charge, 2),
-                   "Coulomb's constant: 1 in cgs, 1/(4 pi eps0) in SI", positive, "8.9875517923e9 N m^2/C^2", false}},
-        LawMember{&CoulombLaw::softening, softening_parameter}};
+    return std::tuple{ParameterOf{&CoulombLaw::k,
+                                  {"k", dimensions::energy * dimensions::length / pow(dimensions::charge, 2),
+                                   "Coulomb's constant: 1 in cgs, 1/(4 pi eps0) in SI", positive,
+                                   "8.9875517923e9 N m^2/C^2", DefaultIn::those_with_units}},
+                      ParameterOf{&CoulombLaw::softening, softening_parameter}};
   }
   LaplaceLaw law() const { return {4 * pi * k, softening}; }
 };
@@ -87,10 +87,11 @@ struct GravityLaw {
       .source = "Kepler",
       .in_programs = "gravity"};
   static constexpr auto parameters() {
-    return std::tuple{LawMember{&GravityLaw::G,
-                                {"G", dimensions::volume / (dimensions::mass * pow(dimensions::time, 2)),
-                                 "Newton's constant", positive, "6.67430e-11 m^3/(kg s^2)", false}},
-                      LawMember{&GravityLaw::softening, softening_parameter}};
+    return std::tuple{
+        ParameterOf{&GravityLaw::G,
+                    {"G", dimensions::volume / (dimensions::mass * pow(dimensions::time, 2)), "Newton's constant",
+                     positive, "6.67430e-11 m^3/(kg s^2)", DefaultIn::those_with_units}},
+        ParameterOf{&GravityLaw::softening, softening_parameter}};
   }
   LaplaceLaw law() const { return {-4 * pi * G, softening}; }
 };

@@ -20,8 +20,8 @@ struct LennardJones {
                                 .source = "Particle"};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&LennardJones::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
-        LawMember{&LennardJones::r0, {"r0", dimensions::length, "distance of the minimum: 2^(1/6) sigma", positive}}};
+        ParameterOf{&LennardJones::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        ParameterOf{&LennardJones::r0, {"r0", dimensions::length, "distance of the minimum: 2^(1/6) sigma", positive}}};
   }
 
   template <class P, class Q>

@@ -24,11 +24,11 @@ struct UniformMagneticField {
                                 .least_dimension = 2};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&UniformMagneticField::field,
-                  {.name = "field",
-                   .dimension = dimensions::magnetic_field,
-                   .doc = "force per charge and velocity; a vector in 3D, in 2D one number, out of the plane",
-                   .axial = true}}};
+        ParameterOf{&UniformMagneticField::field,
+                    {.name = "field",
+                     .dimension = dimensions::magnetic_field,
+                     .doc = "force per charge and velocity; a vector in 3D, in 2D one number, out of the plane",
+                     .axial = true}}};
   }
 
   template <class P>

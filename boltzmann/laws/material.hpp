@@ -40,7 +40,21 @@ struct Fluxes {
 //                                        evolve
 //   double pressure_by_density2()        P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces
 //                                        then need no density
-//   void check()                         Error if a parameter is out of range
+//   text, parameters()                   what it is and what its parameters may be (laws/parameter.hpp), for scenarios
+//   void check()                         Error if they don't go together
+
+namespace material_dimensions {
+inline constexpr DimensionBySpace density{dimensions::mass, -1}, pressure{dimensions::energy, -1},
+    viscosity{dimensions::energy * dimensions::time, -1},
+    heat_conductivity{dimensions::energy * pow(dimensions::length, 2) / (dimensions::time * dimensions::temperature),
+                      -1},
+    pressure_by_density2{dimensions::energy / pow(dimensions::mass, 2), 1},
+    volume_by_mass{dimensions::none / dimensions::mass, 1};
+}
+inline constexpr Parameter specific_heat_parameter{
+    "specific_heat",   dimensions::specific_heat, "at constant volume, energy by mass and temperature", positive, "1",
+    DefaultIn::reduced};
+inline constexpr Parameter gamma_parameter{"gamma", dimensions::none, "ratio of the specific heats", above(1)};
 
 template <class M, class P>
 concept Material = requires(M const& material, P const& p) {

@@ -7,8 +7,8 @@
 namespace boltzmann {
 
 LennardJones mix(LennardJones const& a, LennardJones const& b, Mixing rule) {
-  check_law(a);
-  check_law(b);
+  check_parameters(a);
+  check_parameters(b);
   double const depth = std::sqrt(a.depth * b.depth);
   switch (rule) {
     case Mixing::lorentz_berthelot:

@@ -151,7 +151,7 @@ class LennardJonesMixture {
   }
   void check() const {
     for (int a = 0; a < K; ++a)
-      for (int b = 0; b <= a; ++b) check_law(between(a, b));
+      for (int b = 0; b <= a; ++b) check_parameters(between(a, b));
   }
 
  private:

@@ -23,9 +23,9 @@ struct Morse {
                                 .source = "Particle"};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&Morse::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
-        LawMember{&Morse::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
-        LawMember{&Morse::a, {"a", dimensions::wave_number, "steepness: 1/a is the width of the well", positive}}};
+        ParameterOf{&Morse::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        ParameterOf{&Morse::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
+        ParameterOf{&Morse::a, {"a", dimensions::wave_number, "steepness: 1/a is the width of the well", positive}}};
   }
 
   template <class P, class Q>

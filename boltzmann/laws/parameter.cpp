@@ -1,4 +1,4 @@
-// Parameters of laws: which numbers are allowed.
+// Parameters: which numbers are allowed.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/parameter.hpp>
 
@@ -8,10 +8,10 @@
 
 namespace boltzmann {
 
-void check_parameter(std::string_view law, std::string_view parameter, double value, NumberRange const& range) {
-  if (!std::isfinite(value)) throw Error(fmt::format("{}: {} = {:.6g} must be finite", law, parameter, value));
+void check_parameter(std::string_view owner, std::string_view parameter, double value, NumberRange const& range) {
+  if (!std::isfinite(value)) throw Error(fmt::format("{}: {} = {:.6g} must be finite", owner, parameter, value));
   if (!range.contains(value))
-    throw Error(fmt::format("{}: {} = {:.6g} must be {}", law, parameter, value, range.text()));
+    throw Error(fmt::format("{}: {} = {:.6g} must be {}", owner, parameter, value, range.text()));
 }
 
 }  // namespace boltzmann

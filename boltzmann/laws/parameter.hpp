@@ -1,10 +1,11 @@
-// Parameters of laws: what a law says of itself, once, in its struct. Its checks, scenarios, `bzm show` and the
-// reference pages are made from that.
+// Parameters of laws and materials: what one says of itself, once, in its struct. Its checks, scenarios, `bzm show` and
+// the reference pages are made from that.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
 #include <boltzmann/core/number_range.hpp>
 
+#include <limits>
 #include <string_view>
 #include <tuple>
 
@@ -22,55 +23,79 @@ struct LawText {
   std::string_view in_programs = {};  ///< what a program writes; empty: the struct's name
 };
 
-/// What one number of a law, or one vector, may be.
-struct LawParameter {
+/// What a shipped material is: `static constexpr MaterialText text{...}` in its struct.
+struct MaterialText {
+  std::string_view name;     ///< the word in scenarios: "ideal-gas"
+  std::string_view doc;      ///< one line
+  std::string_view formula;  ///< its equation of state
+};
+
+/// A dimension that may depend on that of the space, D: times length^(D by_space). Densities and pressures are by
+/// volume (-1), which in 2D and 1D is an area and a length.
+struct DimensionBySpace {
+  Dimension dimension;
+  int by_space = 0;
+
+  constexpr DimensionBySpace(Dimension of, int power = 0) : dimension(of), by_space(power) {}
+  constexpr Dimension in(int space) const { return dimension * pow(dimensions::length, by_space * space); }
+};
+
+/// In which bases of units a default holds.
+enum class DefaultIn { all, those_with_units, reduced };
+
+/// What one number of a law or a material, or one vector, may be.
+struct Parameter {
   std::string_view name;
-  Dimension dimension;  ///< the same in 1D, 2D and 3D: in fewer dimensions particles are sheets and rods of unit size
+  /// Of laws the same in all spaces: in 1D and 2D particles are sheets and rods of unit size.
+  DimensionBySpace dimension;
   std::string_view doc;
   NumberRange range = any_number;
-  std::string_view default_text = {};  ///< as a scenario would write it; empty: required
-  bool in_reduced_base = true;         ///< false: the default has units, so a base without units needs the value
-  bool axial = false;                  ///< of a vector: that of a rotation, which in 2D is one number, out of the plane
-  bool vector = false;                 ///< one number for each dimension of the space
+  std::string_view default_text = {};  ///< as a scenario would write it; empty: required, where not unlimited
+  DefaultIn default_in = DefaultIn::all;
+  bool unlimited = false;  ///< infinity is allowed, and is the default
+  bool axial = false;      ///< of a vector: that of a rotation, which in 2D is one number, out of the plane
+  bool vector = false;     ///< one number for each dimension of the space
 };
 
-/// A parameter and the member of the law that it is. `static constexpr auto parameters()` gives a tuple of these.
-template <class Law, class Value>
-struct LawMember {
-  Value Law::*member;
-  LawParameter parameter;
+/// A parameter and the member of the struct that it is. `static constexpr auto parameters()` gives a tuple of these.
+template <class T, class Value>
+struct ParameterOf {
+  Value T::*member;
+  Parameter parameter;
 };
-template <class Law, class Value>
-LawMember(Value Law::*, LawParameter) -> LawMember<Law, Value>;
+template <class T, class Value>
+ParameterOf(Value T::*, Parameter) -> ParameterOf<T, Value>;
 
 /// Throws Error, "morse: r0 = -1 must be positive", if the value is not finite or outside the range.
-void check_parameter(std::string_view law, std::string_view parameter, double value, NumberRange const& range);
+void check_parameter(std::string_view owner, std::string_view parameter, double value, NumberRange const& range);
 
 namespace detail {
-inline void check_value(std::string_view law, LawParameter const& parameter, double value) {
-  check_parameter(law, parameter.name, value, parameter.range);
+inline void check_value(std::string_view owner, Parameter const& parameter, double value) {
+  if (parameter.unlimited && value == std::numeric_limits<double>::infinity()) return;
+  check_parameter(owner, parameter.name, value, parameter.range);
 }
 template <class Vector>
-void check_value(std::string_view law, LawParameter const& parameter, Vector const& value) {
-  for (double const x : value.component) check_parameter(law, parameter.name, x, parameter.range);
+void check_value(std::string_view owner, Parameter const& parameter, Vector const& value) {
+  for (double const x : value.component) check_value(owner, parameter, x);
 }
 }  // namespace detail
 
 /// "law": it has parameters, but does not say what it is.
-template <class Law>
+template <class T>
 constexpr std::string_view name_of_law() {
-  if constexpr (requires { Law::text; })
-    return Law::text.name;
+  if constexpr (requires { T::text; })
+    return T::text.name;
   else
     return "law";
 }
 
-/// Throws Error at the first parameter that can't be, and as the law's own check() does, if it has one.
-template <class Law>
-void check_law(Law const& law) {
-  if constexpr (requires { Law::parameters(); })
-    std::apply([&](auto const&... of) { (detail::check_value(name_of_law<Law>(), of.parameter, law.*of.member), ...); },
-               Law::parameters());
+/// Of a law or a material: throws Error at the first parameter that can't be, and as its own check() does, if it has
+/// one.
+template <class T>
+void check_parameters(T const& law) {
+  if constexpr (requires { T::parameters(); })
+    std::apply([&](auto const&... of) { (detail::check_value(name_of_law<T>(), of.parameter, law.*of.member), ...); },
+               T::parameters());
   if constexpr (requires { law.check(); }) law.check();
 }
 

@@ -23,11 +23,11 @@ struct PendulumCoupling {
                                 .source = "Pendulum",
                                 .greatest_dimension = 1};
   static constexpr auto parameters() {
-    return std::tuple{LawMember{&PendulumCoupling::stiffness,
-                                {"stiffness", dimensions::spring_constant, "force constant", not_negative}},
-                      LawMember{&PendulumCoupling::rest_length,
-                                {"rest_length", dimensions::length, "distance at which it neither pulls nor pushes",
-                                 not_negative, "0"}}};
+    return std::tuple{ParameterOf{&PendulumCoupling::stiffness,
+                                  {"stiffness", dimensions::spring_constant, "force constant", not_negative}},
+                      ParameterOf{&PendulumCoupling::rest_length,
+                                  {"rest_length", dimensions::length, "distance at which it neither pulls nor pushes",
+                                   not_negative, "0"}}};
   }
 
   template <class P>
@@ -54,7 +54,7 @@ struct PendulumGravity {
                                 .greatest_dimension = 1};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&PendulumGravity::acceleration, {"acceleration", dimensions::acceleration, "g, downwards"}}};
+        ParameterOf{&PendulumGravity::acceleration, {"acceleration", dimensions::acceleration, "g, downwards"}}};
   }
 
   template <class P>

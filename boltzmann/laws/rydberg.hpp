@@ -25,10 +25,11 @@ struct Rydberg {
                                 .source = "Particle"};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&Rydberg::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
-        LawMember{&Rydberg::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
-        LawMember{&Rydberg::a, {"a", dimensions::none, "steepness: r0/a is the width of the well", positive}},
-        LawMember{&Rydberg::alpha, {"alpha", dimensions::none, "cubic term: above 0 a harder core", any_number, "0"}}};
+        ParameterOf{&Rydberg::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        ParameterOf{&Rydberg::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
+        ParameterOf{&Rydberg::a, {"a", dimensions::none, "steepness: r0/a is the width of the well", positive}},
+        ParameterOf{&Rydberg::alpha,
+                    {"alpha", dimensions::none, "cubic term: above 0 a harder core", any_number, "0"}}};
   }
 
   template <class P, class Q>

@@ -22,9 +22,9 @@ struct Soft {
                                 .source = "Particle"};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&Soft::repulsion,
-                  {"repulsion", dimensions::force, "greatest force, between particles at one place", not_negative}},
-        LawMember{&Soft::range, {"range", dimensions::length, "distance from which on there is no force", positive}}};
+        ParameterOf{&Soft::repulsion,
+                    {"repulsion", dimensions::force, "greatest force, between particles at one place", not_negative}},
+        ParameterOf{&Soft::range, {"range", dimensions::length, "distance from which on there is no force", positive}}};
   }
 
   template <class P, class Q>

@@ -22,8 +22,8 @@ struct Spring {
                                 .source = "Particle"};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&Spring::stiffness, {"stiffness", dimensions::spring_constant, "force constant", not_negative}},
-        LawMember{
+        ParameterOf{&Spring::stiffness, {"stiffness", dimensions::spring_constant, "force constant", not_negative}},
+        ParameterOf{
             &Spring::rest_length,
             {"rest_length", dimensions::length, "length at which it neither pulls nor pushes", not_negative, "0"}}};
   }

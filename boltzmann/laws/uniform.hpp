@@ -19,8 +19,8 @@ struct UniformGravity {
                                 .target = "Newton",
                                 .source = ""};
   static constexpr auto parameters() {
-    return std::tuple{LawMember{&UniformGravity::acceleration,
-                                {"acceleration", dimensions::acceleration, "acceleration of every particle"}}};
+    return std::tuple{ParameterOf{&UniformGravity::acceleration,
+                                  {"acceleration", dimensions::acceleration, "acceleration of every particle"}}};
   }
 
   template <class P>
@@ -44,7 +44,7 @@ struct UniformElectricField {
                                 .source = ""};
   static constexpr auto parameters() {
     return std::tuple{
-        LawMember{&UniformElectricField::field, {"field", dimensions::electric_field, "force per charge"}}};
+        ParameterOf{&UniformElectricField::field, {"field", dimensions::electric_field, "force per charge"}}};
   }
 
   template <class P>
@@ -68,7 +68,7 @@ struct UniformFlow {
                                 .source = "",
                                 .has_energy = false};
   static constexpr auto parameters() {
-    return std::tuple{LawMember{&UniformFlow::velocity, {"velocity", dimensions::velocity, "velocity of the flow"}}};
+    return std::tuple{ParameterOf{&UniformFlow::velocity, {"velocity", dimensions::velocity, "velocity of the flow"}}};
   }
 
   template <class P>

@@ -427,6 +427,7 @@ std::string write_value(Item const& item) {
     }
     case Item::Kind::text:
     case Item::Kind::date:
+      if (!item.absolute.empty()) return toml_text(item.absolute, false);
       return toml_text(item.text, item.text.find('\n') != std::string::npos);
     case Item::Kind::integer:
       return std::to_string(item.integer);

@@ -83,21 +83,4 @@ BoundLaw bind_law(Law const& law) {
   return bound;
 }
 
-/// The parameters of a law in the simulation's base.
-struct LawValues {
-  int dimension;
-  std::vector<std::pair<std::string, std::vector<double>>> values;
-
-  std::vector<double> const& vector(std::string_view name) const {
-    for (auto const& [key, value] : values)
-      if (key == name) return value;
-    throw Error("a law asks for a parameter '" + std::string(name) + "' that its catalogue entry does not have");
-  }
-  void give(std::string_view name, double& member) const { member = vector(name).front(); }
-  template <int D>
-  void give(std::string_view name, Vector<D>& member) const {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a) member[a] = vector(name)[a];
-  }
-};
-
 }  // namespace boltzmann

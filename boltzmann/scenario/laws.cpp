@@ -81,9 +81,9 @@ LawInfo const& law_info(std::string_view name) {
   throw Error(fmt::format("unknown law '{}'{}; there are {}", name, did_you_mean(name, names), join(names)));
 }
 
-void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, LawUse use, AnyEnsemble& a,
-                   AnyEnsemble& b, double cutoff) {
-  BoundLaw const bound = law.bind({a.dimension(), parameters});
+void install_pairs(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, LawUse use,
+                   AnyEnsemble& a, AnyEnsemble& b, double cutoff) {
+  BoundLaw const bound = law.bind(parameters, a.dimension());
   if (use == LawUse::between && !bound.one_way) {
     // Both ways or none: the second must be possible before the first is installed.
     require(law, a, true);
@@ -97,27 +97,27 @@ void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& 
   install_one_way(scheme, law, bound, a, use == LawUse::internal ? a : b, cutoff);
 }
 
-void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
-                         std::vector<Connection> const& connections) {
+void install_connections(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
+                         AnyEnsemble& ensemble, std::vector<Connection> const& connections) {
   require(law, ensemble, true);
   require(law, ensemble, false);
-  BoundLaw const bound = law.bind({ensemble.dimension(), parameters});
+  BoundLaw const bound = law.bind(parameters, ensemble.dimension());
   for (auto const& choice : bound.connections)
     if (choice.ensemble(ensemble))
       return scheme.add_connections(ensemble, connections, choice.kernels, bound.law, bound.traits);
   throw unfit(law, ensemble);
 }
 
-void install_external(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
+void install_external(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, AnyEnsemble& ensemble,
                       std::vector<std::uint32_t> const* only) {
   require(law, ensemble, true);
-  BoundLaw const bound = law.bind({ensemble.dimension(), parameters});
+  BoundLaw const bound = law.bind(parameters, ensemble.dimension());
   for (auto const& choice : bound.externals)
     if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law, bound.traits, only);
   throw unfit(law, ensemble);
 }
 
-void install_external(SmoothScheme& scheme, LawInfo const& law, LawParameters const& parameters,
+void install_external(SmoothScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
                       AnyEnsemble& ensemble) {
   require(law, ensemble, true);
   if (!law.bind_on_smooth) {
@@ -127,7 +127,7 @@ void install_external(SmoothScheme& scheme, LawInfo const& law, LawParameters co
     throw Error(
         fmt::format("law '{}' does not act on smooth particles; from outside there are {}", law.name, join(names)));
   }
-  BoundLaw const bound = law.bind_on_smooth({ensemble.dimension(), parameters});
+  BoundLaw const bound = law.bind_on_smooth(parameters, ensemble.dimension());
   for (auto const& choice : bound.externals)
     if (choice.ensemble(ensemble)) return scheme.add_external(ensemble, choice.kernels, bound.law);
   throw unfit(law, ensemble);

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
-#include <boltzmann/laws/parameter.hpp>
+
 #include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/law_parameters.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
@@ -20,7 +21,6 @@ enum class LawKind {
 };
 
 struct BoundLaw;
-struct LawValues;
 
 /// A shipped law: what its struct says of itself, where it stands, and how it is made from its parameters.
 struct LawInfo : LawText {
@@ -29,9 +29,10 @@ struct LawInfo : LawText {
   bool velocity_dependent;
   std::string header;  ///< for programs
   std::string type;    ///< what a program writes: "LennardJones", "gravity"
-  std::vector<LawParameter> parameters;
-  BoundLaw (*bind)(LawValues const& values);
-  BoundLaw (*bind_on_smooth)(LawValues const& values) = nullptr;  ///< none: it does not act on smooth particles
+  std::vector<Parameter> parameters;
+  BoundLaw (*bind)(ParameterValues const& values, int dimension);
+  BoundLaw (*bind_on_smooth)(ParameterValues const& values,
+                             int dimension) = nullptr;  ///< none: it does not act on smooth particles
 };
 
 /// Those of shipped_laws.list: the laws that scenarios can name, pair laws first.
@@ -41,23 +42,21 @@ LawInfo const* find_law(std::string_view name);
 /// The same; Error with the nearest name if there is none.
 LawInfo const& law_info(std::string_view name);
 
-/// Parameters of a law by name, in the simulation's base; a vector has one number for each dimension.
-using LawParameters = std::vector<std::pair<std::string, std::vector<double>>>;
-
 /// How a pair law acts.
 enum class LawUse { internal, between, one_way };
 
 /// Installs a pair law in a scheme: within `a` (internal), between two ensembles, or of `b` on `a` (one_way). Error,
 /// "law 'coulomb' needs a charge; class Newton has none; classes with one: Coulomb", if the classes can't have it.
-void install_pairs(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, LawUse use, AnyEnsemble& a,
-                   AnyEnsemble& b, double cutoff);
+void install_pairs(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, LawUse use,
+                   AnyEnsemble& a, AnyEnsemble& b, double cutoff);
 /// A pair law over fixed pairs of one ensemble. Errors as above, and those of connected_pairs().
-void install_connections(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
-                         std::vector<Connection> const& connections);
+void install_connections(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
+                         AnyEnsemble& ensemble, std::vector<Connection> const& connections);
 /// An external law on all particles or the chosen ones. Errors as above.
-void install_external(PairScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble,
+void install_external(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, AnyEnsemble& ensemble,
                       std::vector<std::uint32_t> const* only);
 /// The same on smooth particles.
-void install_external(SmoothScheme& scheme, LawInfo const& law, LawParameters const& parameters, AnyEnsemble& ensemble);
+void install_external(SmoothScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
+                      AnyEnsemble& ensemble);
 
 }  // namespace boltzmann

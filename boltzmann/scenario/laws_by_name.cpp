@@ -10,39 +10,23 @@
 namespace boltzmann {
 namespace {
 
-template <class Law, class Value>
-LawParameter described(LawMember<Law, Value> const& of) {
-  LawParameter parameter = of.parameter;
-  parameter.vector = !std::is_same_v<Value, double>;
-  return parameter;
-}
-
 template <class Law>
-LawInfo describe(char const* header, char const* type, BoundLaw (*bind)(LawValues const&)) {
-  LawInfo info{Law::text,
-               Law::text.source.empty() ? LawKind::external : LawKind::pair,
-               symmetry_of<LawOf<Law>>(),
-               depends_on_velocity<LawOf<Law>>(),
-               header,
-               Law::text.in_programs.empty() ? type : std::string(Law::text.in_programs),
-               {},
-               bind};
-  std::apply([&](auto const&... of) { (info.parameters.push_back(described(of)), ...); }, Law::parameters());
-  return info;
-}
-
-template <class Law>
-Law law_from(LawValues const& values) {
-  Law law{};
-  std::apply([&](auto const&... of) { (values.give(of.parameter.name, law.*of.member), ...); }, Law::parameters());
-  return law;
+LawInfo describe(char const* header, char const* type, BoundLaw (*bind)(ParameterValues const&, int)) {
+  return {Law::text,
+          Law::text.source.empty() ? LawKind::external : LawKind::pair,
+          symmetry_of<LawOf<Law>>(),
+          depends_on_velocity<LawOf<Law>>(),
+          header,
+          Law::text.in_programs.empty() ? type : std::string(Law::text.in_programs),
+          parameters_of<Law>(),
+          bind};
 }
 
 /// Of the struct that is for the space's dimension; with rows for no other, none.
 template <template <int> class Law, template <int> class Rows, template <class> class As, int... D>
-BoundLaw bind_in(LawValues const& values) {
+BoundLaw bind_in(ParameterValues const& values, int dimension) {
   BoundLaw bound{};
-  ((values.dimension == D ? void(bound = bind_law<Rows<D>>(As<Law<D>>{law_from<Law<D>>(values)})) : void()), ...);
+  ((dimension == D ? void(bound = bind_law<Rows<D>>(As<Law<D>>{made_from<Law<D>>(values)})) : void()), ...);
   return bound;
 }
 template <class Law>
@@ -50,8 +34,8 @@ using Itself = Law;
 
 template <class Law, class Rows>
 LawInfo shipped(char const* header, char const* type) {
-  return describe<Law>(header, type,
-                       [](LawValues const& values) { return bind_law<Rows>(law_of(law_from<Law>(values))); });
+  return describe<Law>(
+      header, type, [](ParameterValues const& values, int) { return bind_law<Rows>(law_of(made_from<Law>(values))); });
 }
 template <template <int> class Law, template <int> class Rows, int... D>
 LawInfo shipped(char const* header, char const* type) {
@@ -63,8 +47,8 @@ LawInfo& entry(std::vector<LawInfo>& laws, std::string_view name) {
 }
 template <class Law, class Rows>
 void on_smooth(std::vector<LawInfo>& laws) {
-  entry(laws, Law::text.name).bind_on_smooth = [](LawValues const& values) {
-    return bind_law<Rows>(ForceOn<Law>{law_from<Law>(values)});
+  entry(laws, Law::text.name).bind_on_smooth = [](ParameterValues const& values, int) {
+    return bind_law<Rows>(ForceOn<Law>{made_from<Law>(values)});
   };
 }
 template <template <int> class Law, template <int> class Rows, int... D>

@@ -28,7 +28,6 @@ class Loader {
   std::optional<double> volume() const { return volume_; }
   /// Error if the lower rooms refuse.
   void load(AnyEnsemble& particles);
-  std::string const& file() const { return file_; }
 
  private:
   double read_block();
@@ -43,7 +42,6 @@ class Loader {
   Place place_;
   LoadKind const* kind_ = nullptr;
   LoadOptions options_;
-  std::string file_;
   std::size_t count_ = 0;
   LatticeBlock block_;
   bool centred_ = true;

@@ -3,8 +3,8 @@
 
 namespace boltzmann::detail {
 
-BoundMaterial bind_fluid(EquationOfState const& state, FluxNumbers const& fluxes, int dimension) {
-  return std::visit([&](auto const& material) { return bound_with_fluxes<Smooth>(material, fluxes, dimension); },
+BoundMaterial bind_fluid(EquationOfState const& state, MaterialChoice const& choice, int dimension) {
+  return std::visit([&](auto const& material) { return bound_with_fluxes<Smooth>(material, choice.fluxes, dimension); },
                     state);
 }
 

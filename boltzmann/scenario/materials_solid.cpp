@@ -3,13 +3,12 @@
 
 namespace boltzmann::detail {
 
-BoundMaterial bind_solid(EquationOfState const& state, FluxNumbers const& fluxes, ElasticNumbers const& elastic,
-                         int dimension) {
+BoundMaterial bind_solid(EquationOfState const& state, MaterialChoice const& choice, int dimension) {
   return std::visit(
-      [&](auto const& material) {
-        Elastic<std::decay_t<decltype(material)>> const solid{material, elastic.shear_modulus, elastic.yield_stress,
-                                                              elastic.tensile_strength};
-        return bound_with_fluxes<Solid>(solid, fluxes, dimension);
+      [&]<class Material>(Material const& material) {
+        Elastic<Material> solid{material, 0};
+        set_parameters(solid, choice.elastic);
+        return bound_with_fluxes<Solid>(solid, choice.fluxes, dimension);
       },
       state);
 }

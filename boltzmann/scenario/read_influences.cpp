@@ -8,40 +8,6 @@
 #include <array>
 
 namespace boltzmann {
-std::optional<LawParameters> read_parameters(Section& section, LawInfo const& law, Reading& reading) {
-  std::size_t const before = reading.context.mistakes.count();
-  LawParameters parameters;
-  for (auto const& parameter : law.parameters) {
-    std::string const name(parameter.name);
-    bool const has_default =
-        !parameter.default_text.empty() && (parameter.in_reduced_base || !reading.context.base.is_reduced());
-    auto const units = example_units(parameter.dimension);
-    bool const one_number = !parameter.vector || (parameter.axial && reading.dimension != 3);
-    std::string const example =
-        !one_number ? fmt::format("{} = {}", name, reading.dimension == 3 ? "[0, 0, -1]" : "[0, -1]")
-        : reading.context.base.is_reduced() || units.empty() ? fmt::format("{} = 1", name)
-                                                             : fmt::format("{} = \"1 {}\"", name, units[0]);
-    Item const* item = section.find(name);
-    if (!item && !has_default) {
-      reading.mistake(section.place(),
-                      fmt::format("law '{}' needs '{}', {}; add e.g. {}", law.name, name, parameter.doc, example));
-      continue;
-    }
-    if (!item) {
-      parameters.push_back({name, {in_base(parameter.default_text, parameter.dimension, reading.context.base)}});
-    } else if (!one_number || (parameter.vector && item->is(Item::Kind::array))) {
-      if (reading.dimension == 0) continue;
-      if (auto const value =
-              read_vector(*item, name, one_number ? 1 : reading.dimension, parameter.dimension, reading.context))
-        parameters.push_back({name, *value});
-    } else if (auto const value = read_quantity(*item, name, parameter.dimension, reading.context, parameter.range)) {
-      parameters.push_back({name, {*value}});
-    }
-  }
-  if (reading.context.mistakes.count() != before) return std::nullopt;
-  return parameters;
-}
-
 namespace {
 
 /// [first, last, interval] or [first, last].
@@ -134,13 +100,13 @@ void read_influence(Item const& table, Reading& reading) {
     }
   }
 
-  std::optional<LawParameters> parameters;
+  std::optional<ParameterValues> parameters;
   std::optional<std::vector<std::uint32_t>> only;
   std::vector<Connection> connections;
   Item const* connect = nullptr;
   std::optional<double> cutoff;
   if (law) {
-    parameters = read_parameters(section, *law, reading);
+    parameters = read_parameters(section, fmt::format("law '{}'", law->name), law->parameters, reading);
     if (external) {
       only = read_particles(section, a ? a->particles : nullptr, reading);
     } else {

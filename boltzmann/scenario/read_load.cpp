@@ -248,9 +248,8 @@ double Loader::read_file() {
   auto const path = path_item ? read_path(*path_item, "path", reading_.context) : std::nullopt;
   Item const* species_item = section_.find("species");
   if (!path) return 0;
-  file_ = *path;
   if (!guarded(reading_, path_item->place,
-               [&] { frame_ = from_xyz_file(file_, static_cast<std::size_t>(options_.frame)); }))
+               [&] { frame_ = from_xyz_file(*path, static_cast<std::size_t>(options_.frame)); }))
     return 0;
   if (reading_.box)
     if (auto const line = lattice_misfit(frame_, *reading_.box, options_.length); !line.empty())

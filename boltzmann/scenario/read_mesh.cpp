@@ -22,12 +22,12 @@ std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
     section.know("G");
     return std::nullopt;
   }
-  LawInfo law = *find_law(*name);
+  auto parameters = find_law(*name)->parameters;
   // A mesh smooths by its cells.
-  std::erase_if(law.parameters, [](LawParameter const& parameter) { return parameter.name == "softening"; });
-  auto const parameters = read_parameters(section, law, reading);
-  if (!parameters) return std::nullopt;
-  double const k = parameters->front().second.front();
+  std::erase_if(parameters, [](Parameter const& parameter) { return parameter.name == "softening"; });
+  auto const values = read_parameters(section, fmt::format("law '{}'", *name), parameters, reading);
+  if (!values) return std::nullopt;
+  double const k = values->front().second.front();
   return *name == "coulomb" ? coulomb(k) : gravity(k);
 }
 

@@ -1,5 +1,4 @@
 // Reads [smooth] and the materials of ensembles: continuum mechanics with smooth particles.
-#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -23,29 +22,6 @@ Item const* inner_table(Section& section, std::string_view key, std::string_view
 
 // ---- Materials ----
 
-/// The parameters that stand in a table; those that may be missing are left out.
-MaterialValues read_values(Section& section, std::string_view what, std::vector<MaterialParameter> const& parameters,
-                           Reading& reading) {
-  MaterialValues values;
-  for (auto const& parameter : parameters) {
-    Item const* item = section.find(parameter.name);
-    bool const reduced = reading.context.base.is_reduced();
-    if (!item && !usual_value(parameter, reduced)) {
-      Dimension const dimension = parameter.dimension(std::max(reading.dimension, 1));
-      auto const units = example_units(dimension);
-      std::string const example = reduced || units.empty() ? fmt::format("{} = 1.4", parameter.name)
-                                                           : fmt::format("{} = \"1 {}\"", parameter.name, units[0]);
-      reading.mistake(section.place(),
-                      fmt::format("{} needs '{}', {}; add e.g. {}", what, parameter.name, parameter.doc, example));
-    } else if (item && reading.dimension > 0) {
-      if (auto const value = read_quantity(*item, parameter.name, parameter.dimension(reading.dimension),
-                                           reading.context, parameter.range))
-        values.emplace_back(parameter.name, *value);
-    }
-  }
-  return values;
-}
-
 std::vector<PressurePoint> read_points(Item const& item, Reading& reading) {
   auto const wrong = [&](Item const& where) {
     reading.mistake(where.place, fmt::format("points: pairs of a density and a pressure are needed, [[1, 0], [2, 3]], "
@@ -68,22 +44,22 @@ std::vector<PressurePoint> read_points(Item const& item, Reading& reading) {
   return points;
 }
 
-/// The points of a table; the table itself checks them.
-void read_table(Section& section, MaterialChoice& choice, Reading& reading, std::optional<PressureTable>& from_file) {
+/// Of one that is tabulated.
+std::optional<PressureTable> read_table(Section& section, Reading& reading) {
   Item const *points = section.find("points"), *file = section.find("file");
   if ((points == nullptr) == (file == nullptr)) {
     reading.mistake(points ? points->place : section.place(),
                     "material 'table' needs 'points' or 'file', one of them; e.g. points = [[1, 0], [2, 3]]");
-    return;
+    return std::nullopt;
   }
-  if (points) {
-    choice.points = read_points(*points, reading);
-    return;
-  }
-  auto const path = read_path(*file, "file", reading.context);
-  if (!path) return;
-  if (guarded(reading, file->place, [&] { from_file = PressureTable::from_file(*path); }))
-    const_cast<Item&>(*file).text = *path;  // the stored scenario must find the file from any folder
+  std::size_t const before = reading.context.mistakes.count();
+  auto const path = file ? read_path(*file, "file", reading.context) : std::nullopt;
+  auto const read = points ? read_points(*points, reading) : std::vector<PressurePoint>{};
+  if (reading.context.mistakes.count() != before || (points && read.empty())) return std::nullopt;
+  std::optional<PressureTable> table;
+  guarded(reading, (file ? file : points)->place,
+          [&] { table = file ? PressureTable::from_file(*path) : PressureTable(read); });
+  return table;
 }
 
 }  // namespace
@@ -105,15 +81,14 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
   section.rename(fmt::format("material '{}'", *name));
   MaterialChoice choice;
   choice.info = find_material(*name);
-  choice.parameters = read_values(section, fmt::format("material '{}'", *name), choice.info->parameters, reading);
-  std::optional<PressureTable> from_file;
-  if (choice.info->tabulated) read_table(section, choice, reading, from_file);
-  choice.fluxes = read_values(section, "a material", flux_parameters(), reading);
-  if (choice.info->barotropic)
-    for (auto const& [key, value] : choice.fluxes)
-      if (key == "conductivity" && value > 0)
-        reading.mistake(section.place("conductivity"),
-                        fmt::format("conductivity: material '{}' has no temperature, so that no heat flows", *name));
+  auto const parameters =
+      read_parameters(section, fmt::format("material '{}'", *name), choice.info->parameters, reading);
+  if (parameters) choice.parameters = *parameters;
+  if (choice.info->tabulated) choice.table = read_table(section, reading);
+  if (auto const fluxes = read_parameters(section, "a material", flux_parameters(), reading)) choice.fluxes = *fluxes;
+  if (choice.info->barotropic && !choice.fluxes.empty() && value_of(choice.fluxes, "conductivity").front() > 0)
+    reading.mistake(section.place("conductivity"),
+                    fmt::format("conductivity: material '{}' has no temperature, so that no heat flows", *name));
   if (Item const* elastic = inner_table(section, "elastic", "{ shear_modulus = 1 }", reading)) {
     if (kind.matter != Matter::solid) {
       reading.mistake(
@@ -121,7 +96,8 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
           fmt::format("elastic: particles of class {} have no strength; those of class Solid have", kind.name));
     } else {
       Section inner(*elastic, "elastic", reading.context);
-      choice.elastic = read_values(inner, "elastic", elastic_parameters(), reading);
+      if (auto const strength = read_parameters(inner, "elastic", elastic_parameters(), reading))
+        choice.elastic = *strength;
       inner.finish();
     }
   } else if (kind.matter == Matter::solid && !section.has("elastic")) {
@@ -132,10 +108,7 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
   section.finish();
   if (reading.context.mistakes.count() != before || reading.dimension == 0) return std::nullopt;
   std::optional<BoundMaterial> bound;
-  guarded(reading, table->place, [&] {
-    bound = from_file ? bind_table(*from_file, choice, kind.matter, reading.dimension)
-                      : bind_material(choice, kind.matter, reading.dimension);
-  });
+  guarded(reading, table->place, [&] { bound = bind_material(choice, kind.matter, reading.dimension); });
   return bound;
 }
 

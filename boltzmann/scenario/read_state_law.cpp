@@ -38,7 +38,6 @@ std::optional<StateLaw> read_file(Section& section, Item const& file, Reading& r
       capacities.push_back(capacity * unit);
     }
     law.emplace(std::move(temperatures), std::move(capacities));
-    const_cast<Item&>(file).text = *path;  // the stored scenario must find the file from any folder
   });
   return law;
 }

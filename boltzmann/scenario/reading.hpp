@@ -114,13 +114,17 @@ bool guarded(Reading& reading, Place const& place, Function const& function) {
 /// Where the ensemble is loaded that an error of a lower room names.
 Place place_of(std::string const& message, Reading const& reading);
 
+/// 0, 1, ...: all particles.
+std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles);
 /// Which particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
 /// `ensemble` may be null: then only the form is checked.
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
                                                          Reading& reading);
 
-/// The parameters of a law that stand in a table. Nothing, and mistakes, if one is missing or wrong.
-std::optional<LawParameters> read_parameters(Section& section, LawInfo const& law, Reading& reading);
+/// The parameters of a law or a material, `owner` in messages, that stand in a table. Nothing, and mistakes, if one is
+/// missing or wrong.
+std::optional<ParameterValues> read_parameters(Section& section, std::string_view owner,
+                                               std::vector<Parameter> const& parameters, Reading& reading);
 
 void read_units(Section& document, Reading& reading);
 void read_box(Section& document, Reading& reading);

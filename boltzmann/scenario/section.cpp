@@ -110,7 +110,9 @@ std::optional<std::string> read_path(Item const& item, std::string_view name, Re
     context.mistakes.add(item.place, about(name, "from a page only files in the folder of the scenario can be named"));
     return std::nullopt;
   }
-  return std::filesystem::absolute(context.folder.empty() ? given : context.folder / given).lexically_normal().string();
+  item.absolute =
+      std::filesystem::absolute(context.folder.empty() ? given : context.folder / given).lexically_normal().string();
+  return item.absolute;
 }
 
 std::optional<std::string> read_word(Item const& item, std::string_view name, std::vector<std::string> const& words,

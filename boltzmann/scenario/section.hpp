@@ -6,6 +6,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number_range.hpp>
 #include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/scenario/recorder.hpp>
 

@@ -61,22 +61,33 @@ OptionTable make_ensemble_options() {
   for (auto const& word : method_words())
     methods += (methods.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   OptionTable all;
-  all.add_said("name", "a text", "for the rest of the file, the columns and the legends");
+  all.add("name", &EnsembleOptions::name, text(), "for the rest of the file, the columns and the legends");
   all.add_said("class", "a class (`bzm list classes`)", "what each particle is");
-  all.add_said("integrator", "a word", methods,
-               "`\"leap-frog\"` for classical particles, `\"rk4\"` for those that a flow carries");
+  all.add_of<EnsembleOptions>(
+      "integrator",
+      [](EnsembleOptions& of) -> OptionPlace {
+        return NamedValue{[&of] { return of.integrator ? method_words().name(*of.integrator) : ""; },
+                          [&of](std::string const& name) { of.integrator = method_words().named(name); }};
+      },
+      word(method_words().names()), methods,
+      "`\"leap-frog\"` for classical particles, `\"rk4\"` for those that a flow carries");
   all.add_said("load", "a table, `{ kind = \"block\", ... }`",
                "where the particles are: a [loader](#load) (`bzm list loaders`)");
-  all.add_said("number", "a whole number, 1 or more", "how many, for loaders that don't know");
+  all.add("number", &EnsembleOptions::number, whole(1, std::numeric_limits<double>::infinity()),
+          "how many, for loaders that don't know", "what the loader knows");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
-  all.add_said("temperature", "a temperature, zero or more", "velocities from Maxwell's distribution", "none");
-  all.add_said("drift", "a velocity along each axis", "a common velocity, added to these", "none");
-  all.add_said("remove_drift", "true or false", "takes the mean off first", "`false`");
-  all.add_said("exact_temperature", "true or false", "scales them so that the measured temperature is the wanted one",
-               "`false`");
-  all.add_said("quiet", "true or false",
-               "puts them at the quantiles of the distribution, so that noise is far lower than that of random ones",
-               "`false`");
+  all.add("temperature", &EnsembleOptions::temperature, number(dimensions::temperature, not_negative),
+          "velocities from Maxwell's distribution", "none");
+  all.add("drift", &EnsembleOptions::drift, vector(dimensions::velocity), "a common velocity, added to these", "none");
+  all.add_of<EnsembleOptions>(
+      "remove_drift", [](EnsembleOptions& of) -> OptionPlace { return &of.thermal.remove_drift; }, flag(),
+      "takes the mean off first");
+  all.add_of<EnsembleOptions>(
+      "exact_temperature", [](EnsembleOptions& of) -> OptionPlace { return &of.thermal.exact_temperature; }, flag(),
+      "scales them so that the measured temperature is the wanted one");
+  all.add_of<EnsembleOptions>(
+      "quiet", [](EnsembleOptions& of) -> OptionPlace { return &of.thermal.quiet; }, flag(),
+      "puts them at the quantiles of the distribution, so that noise is far lower than that of random ones");
   all.add_said("velocity_ripple",
                "a table, `{ axis = \"x\", mode = 1, amplitude = \"100 m/s\", phase = 0, component = \"x\" }`",
                "a wave on top of the velocities", "none");
@@ -95,8 +106,12 @@ OptionTable make_ensemble_options() {
                "of `Meso`: each particle draws its own from the equilibrium at that temperature (mean (Cv + k) T for a "
                "constant heat capacity)",
                "0");
-  all.add_said("colour", join(colour_names()) + ", or `\"#rrggbb\"`", "in pictures", "chosen for you");
-  all.add_said("diameter", "a length, zero or more", "in pictures", "0");
+  all.add_of<EnsembleOptions>(
+      "colour", [](EnsembleOptions& of) -> OptionPlace { return &of.appearance.colour; }, text(),
+      "in pictures: " + join(colour_names()) + ", or `\"#rrggbb\"`", "chosen for you");
+  all.add_of<EnsembleOptions>(
+      "diameter", [](EnsembleOptions& of) -> OptionPlace { return &of.appearance.diameter; },
+      number(dimensions::length, not_negative), "in pictures", "0");
   all.add_said("set", "tables, `[[ensembles.set]]`", "other values for [some particles](#ensemblesset)", "none");
   all.at("name").needed = "\"atoms\"";
   all.at("class").needed = "\"Newton\"";
@@ -206,6 +221,7 @@ std::vector<ScenarioTable> const& scenario_tables() {
   static SmoothOptions smooth;
   static RezoneOptions rezone;
   static BathOptions bath;
+  static EnsembleOptions ensemble;
   static std::vector<ScenarioTable> const all = {
       {"box", "[box]", "the space", &box_options(), nullptr},
       {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of bounded ones",
@@ -215,7 +231,7 @@ std::vector<ScenarioTable> const& scenario_tables() {
       {"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
       {"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
        &rezone_options(), &rezone},
-      {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), nullptr},
+      {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
       {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
       {"output", "[output]", "what is written, and how often", &output_options(), nullptr},
       {"prepare", "[prepare]", "a heat bath before the run begins", &preparation_options(), &bath}};

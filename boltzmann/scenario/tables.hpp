@@ -3,7 +3,11 @@
 
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/particles/ensemble.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,13 +31,24 @@ struct WallOptions {
 };
 OptionTable const& wall_options();
 
+/// [[ensembles]]; the class, how it is loaded and the fields are read by code.
+struct EnsembleOptions {
+  std::string name;
+  std::optional<Method> integrator;
+  std::size_t number = 0;
+  Appearance appearance;
+  std::optional<double> temperature;
+  MaxwellianOptions thermal;
+  std::optional<std::array<double, 3>> drift;
+};
+OptionTable const& ensemble_options();
+
 /// [prepare]: a heat bath for a while.
 OptionTable const& preparation_options();
 
-/// [box], [[ensembles]], [[influences]] and [output], which are read by code of their own; beside these keys, ensembles
-/// have fields and influences have parameters.
+/// [box], [[influences]] and [output], which are read by code of their own; beside these keys, influences have
+/// parameters.
 OptionTable const& box_options();
-OptionTable const& ensemble_options();
 OptionTable const& influence_options();
 OptionTable const& output_options();
 

@@ -7,6 +7,7 @@
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/load_options.hpp>
+#include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/simulation/picture_options.hpp>
 
@@ -80,9 +81,9 @@ std::string kinds_and_options(std::string const& head, std::vector<Kind> const& 
 }
 
 /// The keys of one table.
-std::string keys_of(ScenarioTable const& table) {
+std::string keys_of(OptionTable const& options, void* plain) {
   std::vector<Row> rows;
-  for (auto const& option : *table.options) add(rows, option, toml_value(option, table.plain), table.name);
+  for (auto const& option : options) add(rows, option, toml_value(option, plain), "");
   std::string text = "| key | what it is | | without it |\n|---|---|---|---|\n";
   for (auto const& row : rows)
     text +=
@@ -115,14 +116,8 @@ std::string laws() {
   std::string text = "| law | what it is | on, by | parameters | energy, or influence |\n|---|---|---|---|---|\n";
   for (auto const& law : scenario_laws()) {
     std::string keys;
-    for (auto const& parameter : law.parameters) {
-      std::string const name(parameter.name), usual(parameter.default_text);
-      keys += (keys.empty() ? "`" : " `") + name + "`";
-      OptionKind const kind =
-          parameter.vector ? option::vector(parameter.dimension) : option::number(parameter.dimension, parameter.range);
-      Option option{name, kind, std::string(parameter.doc), usual.empty() ? "" : "`" + usual + "`", {}, {}};
-      if (!parameter.in_reduced_base) option.otherwise += ", but needed in the base `\"reduced\"`";
-      if (usual.empty()) option.needed = "1";
+    for (auto const& option : options_of(law.parameters)) {
+      keys += (keys.empty() ? "`" : " `") + option.key + "`";
       add(rows, option, "", std::string(law.name));
     }
     text += "| `" + std::string(law.name) + "` | " + cell(law.doc) + " | " + std::string(law.target) +
@@ -132,6 +127,17 @@ std::string laws() {
   return text + keys_of(rows, scenario_laws().size());
 }
 
+std::string materials() {
+  std::vector<OptionTable> parameters;
+  parameters.reserve(material_catalogue().size());
+  std::vector<Kind> kinds;
+  for (auto const& material : material_catalogue()) {
+    parameters.push_back(options_of(material.parameters));
+    kinds.push_back({std::string(material.name), std::string(material.doc) + ": " + std::string(material.formula),
+                     parameters.back(), nullptr});
+  }
+  return kinds_and_options("| `material = { kind = ...` | what it is | keys |", kinds);
+}
 std::string loaders() {
   LoadOptions plain;
   std::vector<Kind> kinds;
@@ -168,10 +174,17 @@ TEST(Reference, TablesOfTheGuideAreThoseOfTheOptions) {
   struct Table {
     std::string page, name, text;
   };
-  std::vector<Table> tables{{"scenarios.md", "pictures", pictures()}, {"scenarios.md", "diagnoses", diagnoses()},
-                            {"scenarios.md", "laws", laws()},         {"scenarios.md", "flows", flows()},
-                            {"scenarios.md", "loaders", loaders()},   {"scenarios.md", "classes", classes()}};
-  for (auto const& table : scenario_tables()) tables.push_back({"scenarios.md", table.heading, keys_of(table)});
+  std::vector<Table> tables{{"scenarios.md", "pictures", pictures()},
+                            {"scenarios.md", "diagnoses", diagnoses()},
+                            {"scenarios.md", "laws", laws()},
+                            {"scenarios.md", "flows", flows()},
+                            {"scenarios.md", "loaders", loaders()},
+                            {"scenarios.md", "classes", classes()},
+                            {"scenarios.md", "materials", materials()},
+                            {"scenarios.md", "fluxes", keys_of(options_of(flux_parameters()), nullptr)},
+                            {"scenarios.md", "elastic", keys_of(options_of(elastic_parameters()), nullptr)}};
+  for (auto const& table : scenario_tables())
+    tables.push_back({"scenarios.md", table.heading, keys_of(*table.options, table.plain)});
   for (auto const& table : tables) {
     std::string const path = std::string(BOLTZMANN_SOURCE) + "/docs/guide/" + table.page;
     std::string page = read_text(path);

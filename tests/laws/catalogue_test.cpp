@@ -18,7 +18,7 @@
 namespace boltzmann::catalogue_test {
 namespace {
 
-LawParameter const& parameter(std::string_view law, std::string_view name) {
+Parameter const& parameter(std::string_view law, std::string_view name) {
   for (auto const& p : law_info(law).parameters)
     if (p.name == name) return p;
   throw Error("no parameter " + std::string(name));

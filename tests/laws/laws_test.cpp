@@ -252,7 +252,7 @@ void PrintTo(PairLaw const& law, std::ostream* out) { *out << law.name << " " <<
 
 bool refuses(auto const& law) {
   try {
-    check_law(law);
+    check_parameters(law);
   } catch (Error const&) {
     return true;
   }
@@ -286,7 +286,7 @@ PairLaw pair_law() {
                        : width == 4 ? numbers_of_packs<P, 4>(law, data)
                                     : numbers_of_packs<P, 8>(law, data);
               },
-          .check = [] { check_law(Case::law()); },
+          .check = [] { check_parameters(Case::law()); },
           .wrong_are_refused =
               [] {
                 std::vector<bool> refused;
@@ -450,16 +450,16 @@ TEST(Laws, EveryPairLawOfTheCatalogueIsTestedHere) {
 struct Screened {
   double strength, decay;
   static constexpr auto parameters() {
-    return std::tuple{LawMember{&Screened::strength, {"strength", dimensions::energy, "at the range"}},
-                      LawMember{&Screened::decay, {"decay", dimensions::wave_number, "by distance", positive}}};
+    return std::tuple{ParameterOf{&Screened::strength, {"strength", dimensions::energy, "at the range"}},
+                      ParameterOf{&Screened::decay, {"decay", dimensions::wave_number, "by distance", positive}}};
   }
 };
 TEST(Laws, ThoseOfUsersAreCheckedByTheirParameters) {
-  EXPECT_NO_THROW(check_law(Screened{-1, 1}));
+  EXPECT_NO_THROW(check_parameters(Screened{-1, 1}));
   for (auto const& wrong : {Screened{1, 0}, Screened{nan_value, 1}}) {
     std::string said;
     try {
-      check_law(wrong);
+      check_parameters(wrong);
     } catch (Error const& error) {
       said = error.what();
     }
@@ -469,7 +469,7 @@ TEST(Laws, ThoseOfUsersAreCheckedByTheirParameters) {
 
 TEST(Laws, ParameterErrorsAreOneReadableLine) {
   try {
-    check_law(Morse{.depth = 1, .r0 = -1, .a = 1});
+    check_parameters(Morse{.depth = 1, .r0 = -1, .a = 1});
     FAIL();
   } catch (Error const& error) {
     EXPECT_STREQ(error.what(), "morse: r0 = -1 must be positive");
@@ -862,11 +862,11 @@ TYPED_TEST(ExternalLawIn, Values) {
 
   static_assert(depends_on_velocity<Drag>() && !depends_on_velocity<Tether>());
   g[D - 1] = nan_value;
-  EXPECT_THROW(check_law(UniformGravity<D>{g}), Error);
-  EXPECT_THROW(check_law(UniformElectricField<D>{g}), Error);
-  EXPECT_THROW(check_law(UniformFlow<D>{g}), Error);
-  EXPECT_THROW(check_law(Drag{-1}), Error);
-  EXPECT_NO_THROW(check_law(Drag{0}));
+  EXPECT_THROW(check_parameters(UniformGravity<D>{g}), Error);
+  EXPECT_THROW(check_parameters(UniformElectricField<D>{g}), Error);
+  EXPECT_THROW(check_parameters(UniformFlow<D>{g}), Error);
+  EXPECT_THROW(check_parameters(Drag{-1}), Error);
+  EXPECT_NO_THROW(check_parameters(Drag{0}));
 }
 
 }  // namespace

@@ -95,8 +95,8 @@ std::vector<Class> classes_among(LawInfo const& law, int dimension) {
   return found;
 }
 
-LawParameters parameters_of(LawInfo const& law) {
-  LawParameters values;
+ParameterValues parameters_of(LawInfo const& law) {
+  ParameterValues values;
   for (auto const& parameter : law.parameters)
     values.push_back({std::string(parameter.name), parameter.vector            ? std::vector{0.7, 0.6, 0.9}
                                                    : parameter.name == "range" ? std::vector{20.0}

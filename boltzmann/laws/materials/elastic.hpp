@@ -57,6 +57,25 @@ struct Elastic {
   double yield_stress = unlimited;      ///< of a rod under tension
   double tensile_strength = unlimited;  ///< the largest principal tension that it bears
 
+  static constexpr MaterialText text{.name = "elastic", .doc = "strength, on any material"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        ParameterOf{&Elastic::shear_modulus,
+                    {"shear_modulus", material_dimensions::pressure, "stress by strain, in shear", positive}},
+        ParameterOf{&Elastic::yield_stress,
+                    {.name = "yield_stress",
+                     .dimension = material_dimensions::pressure,
+                     .doc = "the tension at which a rod begins to flow",
+                     .range = positive,
+                     .unlimited = true}},
+        ParameterOf{&Elastic::tensile_strength,
+                    {.name = "tensile_strength",
+                     .dimension = material_dimensions::pressure,
+                     .doc = "the tension at which it breaks",
+                     .range = positive,
+                     .unlimited = true}}};
+  }
+
   /// Pressure and temperature of the equation of state, tension times 1 - d; the sound speed of compression waves,
   /// sqrt(c^2 + 4G / 3 rho).
   template <class P>
@@ -106,12 +125,7 @@ struct Elastic {
   double specific_heat() const requires requires(EquationOfState const& m) { m.specific_heat(); }
   { return material.specific_heat(); }
 
-  void check() const {
-    if constexpr (requires { material.check(); }) material.check();
-    check_parameter("elastic", "shear_modulus", shear_modulus, positive);
-    if (yield_stress != unlimited) check_parameter("elastic", "yield_stress", yield_stress, positive);
-    if (tensile_strength != unlimited) check_parameter("elastic", "tensile_strength", tensile_strength, positive);
-  }
+  void check() const { check_parameters(material); }
 
  private:
   template <class P>

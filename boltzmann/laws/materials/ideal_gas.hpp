@@ -11,17 +11,19 @@ struct IdealGas {
   double gamma;   ///< ratio of the specific heats: (f + 2) / f for f degrees of freedom
   double cv = 1;  ///< specific heat at constant volume, energy / (mass temperature)
 
+  static constexpr MaterialText text{
+      .name = "ideal-gas", .doc = "the ideal gas", .formula = "P = (gamma - 1) rho e, T = e / specific_heat"};
+  static constexpr auto parameters() {
+    return std::tuple{ParameterOf{&IdealGas::gamma, gamma_parameter},
+                      ParameterOf{&IdealGas::cv, specific_heat_parameter}};
+  }
+
   template <class P>
   State state(P const& p) const {
     double const push = (gamma - 1) * p.specific_energy;                    // P / rho
     return {p.density * push, p.specific_energy / cv, sqrt(gamma * push)};  // NaN, and refused, for a negative energy
   }
   double specific_heat() const { return cv; }
-
-  void check() const {
-    check_parameter("ideal-gas", "gamma - 1", gamma - 1, positive);
-    check_parameter("ideal-gas", "cv", cv, positive);
-  }
 };
 
 }  // namespace boltzmann

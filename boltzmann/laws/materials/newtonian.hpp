@@ -20,6 +20,18 @@ struct Newtonian {
   double bulk_viscosity = 0;
   double conductivity = 0;
 
+  static constexpr MaterialText text{.name = "newtonian", .doc = "viscosity and conduction, on any material"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        ParameterOf{&Newtonian::shear_viscosity,
+                    {"shear_viscosity", material_dimensions::viscosity, "against shear", not_negative, "0"}},
+        ParameterOf{&Newtonian::bulk_viscosity,
+                    {"bulk_viscosity", material_dimensions::viscosity, "against compression", not_negative, "0"}},
+        ParameterOf{&Newtonian::conductivity,
+                    {"conductivity", material_dimensions::heat_conductivity,
+                     "of heat; needs a material with a temperature", not_negative, "0"}}};
+  }
+
   template <class P>
   State state(P const& p) const {
     return material.state(p);
@@ -64,10 +76,7 @@ struct Newtonian {
   { return material.specific_heat(); }
 
   void check() const {
-    if constexpr (requires { material.check(); }) material.check();
-    check_parameter("newtonian", "shear_viscosity", shear_viscosity, not_negative);
-    check_parameter("newtonian", "bulk_viscosity", bulk_viscosity, not_negative);
-    check_parameter("newtonian", "conductivity", conductivity, not_negative);
+    check_parameters(material);
     if (!has_specific_heat && conductivity > 0)
       throw Error("newtonian: a conductivity needs a material with a temperature and a specific_heat()");
   }

@@ -22,6 +22,11 @@ struct PressurePoint {
 /// temperature. Copies share the numbers.
 class PressureTable {
  public:
+  static constexpr MaterialText text{
+      .name = "table",
+      .doc = "pressures that are known at some densities; a smooth curve goes through them",
+      .formula = "P(rho) through points = [[density, pressure], ...], or those of a text file: file = \"iron.txt\""};
+
   /// At least two points, of rising positive density. Error if they are not, or not finite.
   explicit PressureTable(std::span<PressurePoint const> points);
   /// The points of a text file: a density and a pressure in every line, in the simulation's units; empty lines and what

@@ -13,6 +13,18 @@ struct StiffenedGas {
   double stiffness;  ///< a pressure, P_infinity
   double cv = 1;     ///< specific heat at constant volume, energy / (mass temperature)
 
+  static constexpr MaterialText text{
+      .name = "stiffened-gas",
+      .doc = "liquids and solids under strong shocks, with heat",
+      .formula = "P = (gamma - 1) rho e - gamma stiffness, e = specific_heat T + stiffness / rho"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        ParameterOf{&StiffenedGas::gamma, gamma_parameter},
+        ParameterOf{&StiffenedGas::stiffness,
+                    {"stiffness", material_dimensions::pressure, "a pressure; 0: the ideal gas", not_negative}},
+        ParameterOf{&StiffenedGas::cv, specific_heat_parameter}};
+  }
+
   template <class P>
   State state(P const& p) const {
     double const thermal = p.specific_energy - stiffness / p.density;  // (P + stiffness) / ((gamma - 1) rho)
@@ -22,12 +34,6 @@ struct StiffenedGas {
   /// The specific energy at which that density has that pressure: for initial states.
   double energy_at(double density, double pressure) const {
     return (pressure + gamma * stiffness) / ((gamma - 1) * density);
-  }
-
-  void check() const {
-    check_parameter("stiffened-gas", "gamma - 1", gamma - 1, positive);
-    check_parameter("stiffened-gas", "stiffness", stiffness, not_negative);
-    check_parameter("stiffened-gas", "cv", cv, positive);
   }
 };
 

@@ -14,6 +14,24 @@ struct Tait {
   double gamma = 7;                ///< 7 for water; 1: pressure linear in the density
   double background_pressure = 0;  ///< added everywhere
 
+  static constexpr MaterialText text{
+      .name = "tait",
+      .doc = "a liquid that is hard to compress",
+      .formula =
+          "P = B [(rho / reference_density)^gamma - 1] + background_pressure, B = reference_density sound_speed^2 "
+          "/ gamma"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        ParameterOf{
+            &Tait::reference_density,
+            {"reference_density", material_dimensions::density, "where the pressure is the background", positive}},
+        ParameterOf{&Tait::sound_speed, {"sound_speed", dimensions::velocity, "at the reference density", positive}},
+        ParameterOf{&Tait::gamma,
+                    {"gamma", dimensions::none, "7 for water; 1: pressure linear in the density", positive, "7"}},
+        ParameterOf{&Tait::background_pressure,
+                    {"background_pressure", material_dimensions::pressure, "added everywhere", any_number, "0"}}};
+  }
+
   double stiffness() const { return reference_density * square(sound_speed) / gamma; }  ///< B
 
   template <class P>
@@ -26,13 +44,6 @@ struct Tait {
     double const x = density / reference_density, b = stiffness();
     double const growth = gamma == 1 ? std::log(x) : std::expm1((gamma - 1) * std::log(x)) / (gamma - 1);
     return (b * growth + (b - background_pressure) * (1 - x) / x) / reference_density;
-  }
-
-  void check() const {
-    check_parameter("tait", "reference_density", reference_density, positive);
-    check_parameter("tait", "sound_speed", sound_speed, positive);
-    check_parameter("tait", "gamma", gamma, positive);
-    check_parameter("tait", "background_pressure", background_pressure, any_number);
   }
 };
 

@@ -18,6 +18,24 @@ struct VanDerWaals {
   double k_over_m;  ///< Boltzmann's constant / mass of a molecule
   double degrees_of_freedom;
 
+  static constexpr MaterialText text{
+      .name = "van-der-waals",
+      .doc = "gas and liquid in one equation",
+      .formula = "P = rho k T / (1 - b rho) - a rho^2, e = (f/2) k T - a rho; k = k_over_m, f = degrees_of_freedom"};
+  static constexpr auto parameters() {
+    return std::tuple{
+        ParameterOf{&VanDerWaals::a,
+                    {"a", material_dimensions::pressure_by_density2,
+                     "attraction: pressure by the square of the density", not_negative}},
+        ParameterOf{&VanDerWaals::b,
+                    {"b", material_dimensions::volume_by_mass, "volume that molecules take, by mass", not_negative}},
+        ParameterOf{
+            &VanDerWaals::k_over_m,
+            {"k_over_m", dimensions::specific_heat, "Boltzmann's constant by the mass of a molecule", positive}},
+        ParameterOf{&VanDerWaals::degrees_of_freedom,
+                    {"degrees_of_freedom", dimensions::none, "f, of a molecule", positive}}};
+  }
+
   template <class P>
   State state(P const& p) const {
     double const free = 1 - b * p.density;                                                // part of the volume
@@ -32,13 +50,6 @@ struct VanDerWaals {
   double specific_heat() const { return degrees_of_freedom / 2 * k_over_m; }
   /// The specific energy at that density and temperature: for initial states.
   double energy_at(double density, double temperature) const { return specific_heat() * temperature - a * density; }
-
-  void check() const {
-    check_parameter("van-der-waals", "a", a, not_negative);
-    check_parameter("van-der-waals", "b", b, not_negative);
-    check_parameter("van-der-waals", "k_over_m", k_over_m, positive);
-    check_parameter("van-der-waals", "degrees_of_freedom", degrees_of_freedom, positive);
-  }
 };
 
 }  // namespace boltzmann

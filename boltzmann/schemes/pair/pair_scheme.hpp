@@ -136,7 +136,7 @@ class PairScheme final : public Scheme {
                     std::vector<std::uint32_t> const* only);
   template <class Law>
   static LawPointer keep(Law const& law) {
-    check_law(law);
+    check_parameters(law);
     return std::make_shared<Law>(law);
   }
 

@@ -30,7 +30,7 @@ struct ForceOn {
     }
   }
 
-  void check() const { check_law(law); }
+  void check() const { check_parameters(law); }
 };
 
 }  // namespace boltzmann

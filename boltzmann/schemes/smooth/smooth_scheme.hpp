@@ -57,7 +57,7 @@ class SmoothScheme final : public Scheme {
   void material(Ensemble<P>& ensemble, M const& material) {
     static_assert(std::is_base_of_v<Smooth<P::dimension>, P>, "a smooth particle is of a class derived from Smooth");
     static_assert(Material<M, P>, "a material has a function State state(auto const& p) const; see laws/material.hpp");
-    if constexpr (requires { material.check(); }) material.check();
+    check_parameters(material);
     add_material(ensemble, material_kernels<P>(material), std::make_shared<M>(material));
   }
 
@@ -65,7 +65,7 @@ class SmoothScheme final : public Scheme {
   template <class P, class Law>
   void external(Ensemble<P>& ensemble, Law const& law) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
-    check_law(law);
+    check_parameters(law);
     add_external(ensemble, external_kernels<P, ForceOn<Law>>(), std::make_shared<ForceOn<Law>>(ForceOn<Law>{law}));
   }
 

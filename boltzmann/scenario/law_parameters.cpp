@@ -1,0 +1,90 @@
+// Parameters of laws and materials: read from a section, and told to users.
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/scenario/law_parameters.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+
+namespace boltzmann {
+namespace {
+
+bool has_default(Parameter const& parameter, bool reduced_base) {
+  bool const there =
+      parameter.default_in == DefaultIn::all || (parameter.default_in == DefaultIn::reduced) == reduced_base;
+  return parameter.unlimited || (!parameter.default_text.empty() && there);
+}
+
+std::string example_of(Parameter const& parameter, bool is_vector, int space, bool reduced_base) {
+  if (is_vector) return space == 3 ? "[0, 0, -1]" : "[0, -1]";
+  auto const units = example_units(parameter.dimension.in(space));
+  std::string const number = parameter.range.contains(1) ? "1" : "1.4";
+  return reduced_base || units.empty() ? number : fmt::format("\"{} {}\"", number, units[0]);
+}
+
+Option option_of(Parameter const& parameter) {
+  auto const [dimension, by_space] = parameter.dimension;
+  OptionKind kind = parameter.vector ? option::vector(dimension) : option::number(dimension, parameter.range);
+  kind.by_space = by_space;
+  Option option{std::string(parameter.name), kind, std::string(parameter.doc), "", "", [](void*) -> OptionPlace {
+                  return std::monostate{};
+                }};
+  if (parameter.unlimited)
+    option.otherwise = "no limit";
+  else if (parameter.default_text.empty())
+    option.needed = "1";
+  else
+    option.otherwise =
+        fmt::format("`{}`{}", parameter.default_text,
+                    parameter.default_in == DefaultIn::all       ? ""
+                    : parameter.default_in == DefaultIn::reduced ? " in the base `\"reduced\"`, else needed"
+                                                                 : ", but needed in the base `\"reduced\"`");
+  return option;
+}
+
+}  // namespace
+
+std::vector<double> const& value_of(ParameterValues const& values, std::string_view name) {
+  for (auto const& [key, value] : values)
+    if (key == name) return value;
+  throw Error(fmt::format("the parameter '{}' is missing", name));
+}
+
+OptionTable options_of(std::vector<Parameter> const& parameters) {
+  OptionTable all;
+  for (auto const& parameter : parameters) all.add(option_of(parameter));
+  return all;
+}
+
+std::optional<ParameterValues> read_parameters(Section& section, std::string_view owner,
+                                               std::vector<Parameter> const& parameters, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  auto const& base = reading.context.base;
+  int const space = reading.dimension;
+  ParameterValues values;
+  for (auto const& parameter : parameters) {
+    std::string const name(parameter.name);
+    bool const is_vector = parameter.vector && (!parameter.axial || space == 3);
+    Dimension const dimension = parameter.dimension.in(space);
+    Item const* item = section.find(name);
+    if (!item && !has_default(parameter, base.is_reduced())) {
+      reading.mistake(section.place(),
+                      fmt::format("{} needs '{}', {}; add e.g. {} = {}", owner, name, parameter.doc, name,
+                                  example_of(parameter, is_vector, space == 0 ? 3 : space, base.is_reduced())));
+    } else if (!item) {
+      values.push_back({name,
+                        {parameter.unlimited ? std::numeric_limits<double>::infinity()
+                                             : in_base(parameter.default_text, dimension, base)}});
+    } else if (space == 0 && (is_vector || parameter.dimension.by_space != 0)) {
+      continue;  // what it may be is not known
+    } else if (is_vector || (parameter.vector && item->is(Item::Kind::array))) {
+      if (auto const value = read_vector(*item, name, is_vector ? space : 1, dimension, reading.context))
+        values.push_back({name, *value});
+    } else if (auto const value = read_quantity(*item, name, dimension, reading.context, parameter.range)) {
+      values.push_back({name, {*value}});
+    }
+  }
+  if (reading.context.mistakes.count() != before) return std::nullopt;
+  return values;
+}
+
+}  // namespace boltzmann

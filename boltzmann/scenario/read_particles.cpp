@@ -1,0 +1,78 @@
+// Reads which particles of an ensemble are meant: their numbers, all, those at the edge, those where a formula says so.
+#include <boltzmann/loaders/fields.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
+#include <boltzmann/scenario/field_values.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace boltzmann {
+
+std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles) {
+  std::vector<std::uint32_t> all(particles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+namespace {
+
+std::optional<std::vector<std::uint32_t>> particles_where(Item const& where, AnyEnsemble const& ensemble,
+                                                          Reading& reading) {
+  FormulaNames names(ensemble.fields(), ensemble.dimension());
+  auto const formula = read_formula(where, "where", names, {}, reading);
+  if (!formula) return std::nullopt;
+  std::vector<std::uint32_t> which;
+  for (std::size_t i = 0; i < ensemble.size(); ++i)
+    if (names.evaluate(*formula, ensemble.row(i)) != 0) which.push_back(static_cast<std::uint32_t>(i));
+  return which;
+}
+
+std::optional<std::vector<std::uint32_t>> numbered_particles(Item const& item, AnyEnsemble const* ensemble,
+                                                             Reading& reading) {
+  std::vector<std::uint32_t> which;
+  for (auto const& element : item.elements) {
+    auto const i = read_integer(element, "particles", 0, 4'000'000'000, reading.context);
+    if (!i) return std::nullopt;
+    if (ensemble && static_cast<std::size_t>(*i) >= ensemble->size()) {
+      reading.mistake(element.place,
+                      fmt::format("particles: there is no particle {}; '{}' has {}, numbered from 0 to {}", *i,
+                                  ensemble->name(), ensemble->size(), ensemble->size() - 1));
+      return std::nullopt;
+    }
+    which.push_back(static_cast<std::uint32_t>(*i));
+  }
+  return which;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
+                                                         Reading& reading) {
+  Item const* margin_item = section.find("margin");
+  auto const margin = section.quantity("margin", dimensions::length, not_negative);
+  Item const* item = section.find("particles");
+  if (Item const* where = section.find("where")) {
+    if (item) reading.mistake(where->place, "where: 'particles' says which, too; leave one out");
+    return item || !ensemble ? std::nullopt : particles_where(*where, *ensemble, reading);
+  }
+  if (!item) return std::nullopt;
+  bool const edge = item->is(Item::Kind::text) && item->text == "edge";
+  if (margin_item && !edge) reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");
+  if (item->is(Item::Kind::array)) return numbered_particles(*item, ensemble, reading);
+  if (!item->is(Item::Kind::text)) {
+    reading.mistake(item->place,
+                    fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}", found(*item)));
+    return std::nullopt;
+  }
+  if (!read_word(*item, "particles", {"all", "edge"}, reading.context)) return std::nullopt;
+  if (edge && !margin_item)
+    reading.mistake(item->place,
+                    "particles = \"edge\" needs a 'margin': those nearer than it to a face of the block "
+                    "that encloses all, e.g. margin = \"1.5 angstrom\"");
+  if (!ensemble || (edge && !margin)) return std::nullopt;
+  return edge ? edge_particles(*ensemble, *margin) : all_indices(*ensemble);
+}
+
+}  // namespace boltzmann
