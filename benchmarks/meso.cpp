@@ -34,23 +34,23 @@ double peak() {
   return 0;
 }
 
-/// Another flow, and how long it has worked.
-class Timed final : public Flow {
+/// Another dissipation, and how long it has worked.
+class Timed final : public Dissipation {
  public:
-  explicit Timed(Flow& flow) : flow_(flow) {}
-  std::vector<AnyEnsemble*> ensembles() const override { return flow_.ensembles(); }
-  void check() override { flow_.check(); }
+  explicit Timed(Dissipation& dpd) : dpd_(dpd) {}
+  std::vector<AnyEnsemble*> ensembles() const override { return dpd_.ensembles(); }
+  void check() override { dpd_.check(); }
   void advance(StepContext const& context) override {
-    flow_.threads(threads());
+    dpd_.threads(threads());
     auto const since = std::chrono::steady_clock::now();
-    flow_.advance(context);
+    dpd_.advance(context);
     spent += seconds(since);
   }
 
   double spent = 0;
 
  private:
-  Flow& flow_;
+  Dissipation& dpd_;
 };
 
 struct Speed {
@@ -67,8 +67,9 @@ double kinetic_temperature(Ensemble<P> const& ensemble, double k) {
 
 /// So many steps, a quarter as many first.
 template <class P>
-Speed measure(PairScheme& scheme, Ensemble<P>& ensemble, Flow& flow, double dt, double k, int threads, unsigned steps) {
-  Timed timed(flow);
+Speed measure(PairScheme& scheme, Ensemble<P>& ensemble, Dissipation& dpd, double dt, double k, int threads,
+              unsigned steps) {
+  Timed timed(dpd);
   Simulation simulation(scheme, dt);
   simulation.add(timed);
   simulation.integrate(ensemble, Method::leap_frog);
@@ -97,24 +98,24 @@ struct Crystal {
   Ensemble<Meso<2>> beads{"pvdf"};
   std::array<double, 3> length;
   PairScheme scheme;
-  DissipativeFlow flow;
+  PairDissipation dpd;
 
   explicit Crystal(LatticeBlock const& block)
       : length(repeat_lengths(block, 2)),
         scheme(Box(Vector{0.0, 0.0}, Vector{length[0], length[1]}, Boundary::periodic), range),
-        flow(scheme, k) {
+        dpd(scheme, k) {
     block_load(beads, block, true);
     for (auto& p : beads) p.mass = mass;
     maxwellian_load(beads, 2 * temperature, k, 1, {.remove_drift = true});  // half of it goes into the bonds
     internal_energy_load(beads, StateLaw(capacity), temperature, k, 1);
     scheme.internal(beads, rydberg);
-    flow.state(beads, StateLaw(capacity));
-    Dissipation d;
+    dpd.state(beads, StateLaw(capacity));
+    DissipationLaw d;
     d.friction = friction;
     d.range = range;
     d.exponent = 2;
     d.projected = false;
-    flow.internal(beads, d);
+    dpd.internal(beads, d);
   }
 };
 
@@ -127,14 +128,14 @@ LatticeBlock block_of(std::size_t particles) {
 
 /// The crystal by one method, with one thread and with two.
 Speed crystal(std::string const& what, std::size_t particles, unsigned steps,
-              std::function<void(DissipativeFlow&)> const& set) {
+              std::function<void(PairDissipation&)> const& set) {
   Speed speed[2];
   std::size_t size = 0;
   for (int const threads : {1, 2}) {
     Crystal crystal(block_of(particles));
-    set(crystal.flow);
+    set(crystal.dpd);
     size = crystal.beads.size();
-    speed[threads - 1] = measure(crystal.scheme, crystal.beads, crystal.flow, dt, k, threads, steps);
+    speed[threads - 1] = measure(crystal.scheme, crystal.beads, crystal.dpd, dt, k, threads, steps);
   }
   print(size, what, speed[0], speed[1]);
   return speed[0];
@@ -159,7 +160,7 @@ Speed by_hand(std::size_t particles, unsigned steps) {
   double const rate = static_cast<double>(energy.size()) * steps / seconds(since);
   double sum = 0;
   for (double const u : v) sum += mass * u * u;
-  std::printf("%8zu  %-28s %6.2f million particle steps/s\n", energy.size(), "order-free by hand", rate * 1e-6);
+  std::printf("%8zu  %-28s %6.2f million particle steps/s\n", energy.size(), "simultaneous by hand", rate * 1e-6);
   return {rate, 0, sum / (2 * k * static_cast<double>(energy.size()))};
 }
 
@@ -177,20 +178,20 @@ void fluid(std::size_t edge, unsigned steps) {
     maxwellian_load(beads, 1, 1, 1, {.remove_drift = true});
     PairScheme scheme(Box(Vector{0.0, 0.0, 0.0}, Vector{length, length, length}, Boundary::periodic), 1);
     scheme.internal(beads, Soft{.repulsion = 25, .range = 1});
-    DissipativeFlow flow(scheme, 1);
-    Dissipation d;
+    PairDissipation dpd(scheme, 1);
+    DissipationLaw d;
     d.convention = Convention::fixed_temperature;
     d.friction = 4.5;
     d.temperature = 1;
     d.range = 1;
-    flow.internal(beads, d);
+    dpd.internal(beads, d);
     Simulation settle(scheme, 0.01);
-    settle.add(flow);
+    settle.add(dpd);
     settle.integrate(beads, Method::leap_frog);
     settle.run(30);
-    speed[threads - 1] = measure(scheme, beads, flow, 0.04, 1, threads, steps);
+    speed[threads - 1] = measure(scheme, beads, dpd, 0.04, 1, threads, steps);
   }
-  print(size, "DPD fluid 3D, order-free", speed[0], speed[1]);
+  print(size, "DPD fluid 3D, simultaneous", speed[0], speed[1]);
 }
 
 }  // namespace
@@ -203,21 +204,21 @@ int main(int argc, char** argv) try {
   for (std::size_t const size : sizes) {
     // About a second of a core each.
     auto const steps = static_cast<unsigned>(std::max(4.0, 4e6 / static_cast<double>(size)));
-    Speed const ours = crystal("order-free", size, steps, [](auto&) {});
+    Speed const ours = crystal("simultaneous", size, steps, [](auto&) {});
     if (size > 300000) {
       double const bytes = peak();
       std::printf("          peak memory %.2f GB, %.0f bytes a particle\n", bytes * 1e-9,
                   bytes / static_cast<double>(size));
       continue;
     }
-    crystal("order-free with corrector", size, steps, [](auto& flow) { flow.corrector(true); });
-    crystal("pair-splitting", size, steps, [](auto& flow) { flow.method(FlowMethod::pair_splitting); });
-    crystal("pair-splitting, metropolis", size, steps, [](auto& flow) {
-      flow.method(FlowMethod::pair_splitting);
-      flow.metropolis(true);
+    crystal("simultaneous with corrector", size, steps, [](auto& dpd) { dpd.corrector(true); });
+    crystal("shardlow", size, steps, [](auto& dpd) { dpd.method(DissipationMethod::shardlow); });
+    crystal("shardlow, metropolis", size, steps, [](auto& dpd) {
+      dpd.method(DissipationMethod::shardlow);
+      dpd.metropolis(true);
     });
     Speed const theirs = by_hand(size, steps);
-    std::printf("          order-free: %.1f times as fast as by hand (%.1f K and, by hand, %.1f K at the end)\n",
+    std::printf("          simultaneous: %.1f times as fast as by hand (%.1f K and, by hand, %.1f K at the end)\n",
                 ours.rate / theirs.rate, ours.temperature, theirs.temperature);
   }
   fluid(30, 20);

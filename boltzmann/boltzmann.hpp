@@ -13,8 +13,8 @@
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
-#include <boltzmann/flows/dissipative_flow.hpp>
-#include <boltzmann/flows/langevin_flow.hpp>
+#include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
@@ -45,7 +45,7 @@
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/newton.hpp>

@@ -8,10 +8,10 @@ int main(int argc, char** argv) try {
   Base const base(kilometer, amu, second);
   double const k = base(constants::boltzmann), g = base(constants::standard_gravity), temperature = 288;
 
-  Box const box(Vector{0.0, 0.0}, Vector{20.0, 60.0}, {Boundary::periodic, Boundary::bounded});
+  Box const box(Vector{0.0, 0.0}, Vector{20.0, 60.0}, {Boundary::periodic, Boundary::reflecting});
   Ensemble<Newton<2>> air("air", 4000);
   set_field(air, "mass", base(28.97 * amu));
-  gravity_load(air, box, temperature, g, k, 1);
+  barometric_load(air, box, temperature, g, k, 1);
   maxwellian_load(air, temperature, k, 1);
   air.appearance.diameter = 0.2;
 

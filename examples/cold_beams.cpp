@@ -1,7 +1,7 @@
 // Two cold beams through each other: how fast their waves grow depends on k v0 / wp, and above 1 they don't.
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 
 #include <algorithm>
 #include <cmath>

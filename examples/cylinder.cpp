@@ -8,7 +8,7 @@ int main(int argc, char** argv) try {
   double const L = 4, R = 1, circulation = 50;
   int const rows = 6, columns = 20;
 
-  Ensemble<Euler<2>> tracers("tracers", rows * columns);
+  Ensemble<Tracer<2>> tracers("tracers", rows * columns);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
       tracers[i * columns + j].position = {-2.8 * L + 2 * L * j / columns, -0.5 * L + L * (i + 0.05) / (rows - 0.9)};

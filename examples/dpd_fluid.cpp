@@ -17,12 +17,12 @@ int main(int argc, char** argv) try {
   PairScheme scheme(box, 1);
   scheme.skin(0.35);  // they are fast for their size
   scheme.internal(fluid, Soft{25, 1});
-  DissipativeFlow flow(scheme, 1);
-  flow.internal(fluid, {.convention = Convention::fixed_temperature, .friction = 4.5, .temperature = 1, .range = 1});
-  flow.corrector(true);
+  PairDissipation dpd(scheme, 1);
+  dpd.internal(fluid, {.convention = Convention::fixed_temperature, .friction = 4.5, .temperature = 1, .range = 1});
+  dpd.corrector(true);
 
   Simulation simulation(scheme, step);
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.integrate(fluid, Method::leap_frog);
 
   // Means from the end of the mixing on; displacements over twenty units of time.

@@ -21,20 +21,20 @@ int main(int argc, char** argv) try {
   auto const length = repeat_lengths(block, 2);
   PairScheme crystal(Box(Vector{0.0, 0.0}, Vector{length[0], length[1]}, Boundary::periodic), cutoff);
   crystal.internal(molecules, Rydberg{base(1.612e-20 * joule), base(5.07 * angstrom), 7.90, 0.185});
-  DissipativeFlow flow(crystal, k);
-  flow.state(molecules, inside);
-  flow.internal(molecules, {.convention = Convention::constant_friction,
-                            .friction = base(15e-14 * kilogram / second),
-                            .range = cutoff,
-                            .exponent = 2,
-                            .projected = false});
+  PairDissipation dpd(crystal, k);
+  dpd.state(molecules, inside);
+  dpd.internal(molecules, {.convention = Convention::constant_friction,
+                           .friction = base(15e-14 * kilogram / second),
+                           .range = cutoff,
+                           .exponent = 2,
+                           .projected = false});
 
   Simulation simulation(crystal, base(5 * femtosecond));
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.integrate(molecules, Method::leap_frog);
-  auto const bath = std::make_shared<LangevinFlow>(300, base(2 / picosecond), k);
+  auto const bath = std::make_shared<LangevinBath>(300, base(2 / picosecond), k);
   bath->on(molecules);
-  simulation.prepare(bath, 600);
+  simulation.equilibrate(bath, 600);
 
   std::vector<double> motion, harmonic, arithmetic;
   simulation.observe(20, [&](Simulation const& s) {

@@ -25,25 +25,25 @@ Point shock(Base const& base, std::string const& folder, double piston) {
   internal_energy_load(polymer, inside, 300, k, 1);
 
   auto const length = repeat_lengths(block, 2);
-  Box box(Vector{0.0, 0.0}, Vector{length[0] + 300, length[1]}, {Boundary::bounded, Boundary::periodic});
+  Box box(Vector{0.0, 0.0}, Vector{length[0] + 300, length[1]}, {Boundary::reflecting, Boundary::periodic});
   box.wall(0, Box::End::low, {.velocity = {piston, 0, 0}});
   box.open_end(0, Box::End::high);
   PairScheme crystal(box, cutoff);
   crystal.internal(polymer, Rydberg{base(1.612e-20 * joule), base(5.07 * angstrom), 7.90, 0.185});
-  DissipativeFlow flow(crystal, k);
-  flow.state(polymer, inside);
-  flow.internal(polymer, {.convention = Convention::constant_friction,
-                          .friction = base(15e-14 * kilogram / second),  // tenfold, so that the wave is thin
-                          .range = cutoff,
-                          .exponent = 2,
-                          .projected = false});
+  PairDissipation dpd(crystal, k);
+  dpd.state(polymer, inside);
+  dpd.internal(polymer, {.convention = Convention::constant_friction,
+                         .friction = base(15e-14 * kilogram / second),  // tenfold, so that the wave is thin
+                         .range = cutoff,
+                         .exponent = 2,
+                         .projected = false});
 
   Simulation simulation(crystal, base(2 * femtosecond));
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.integrate(polymer, Method::leap_frog);
-  auto const bath = std::make_shared<LangevinFlow>(300, base(5 / picosecond), k);
+  auto const bath = std::make_shared<LangevinBath>(300, base(5 / picosecond), k);
   bath->on(polymer);
-  simulation.prepare(bath, 500);
+  simulation.equilibrate(bath, 500);
 
   // Until the front has gone through nine tenths of the crystal, at a first guess of its velocity.
   std::vector<AnyEnsemble const*> const matter{&polymer};

@@ -1,7 +1,7 @@
 // Landau damping: a wave in a plasma without collisions dies out. Its frequency and damping are measured and printed.
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 
 #include <cmath>
 #include <cstdio>

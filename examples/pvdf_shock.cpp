@@ -21,25 +21,25 @@ void shock(std::string const& folder, bool coupled) {
   internal_energy_load(polymer, inside, 300, k, 1);
 
   auto const length = repeat_lengths(block, 2);
-  Box box(Vector{0.0, 0.0}, Vector{length[0] + 300, length[1]}, {Boundary::bounded, Boundary::periodic});
+  Box box(Vector{0.0, 0.0}, Vector{length[0] + 300, length[1]}, {Boundary::reflecting, Boundary::periodic});
   box.wall(0, Box::End::low, {.velocity = {base(3000 * meter / second), 0, 0}});
   box.open_end(0, Box::End::high);
   PairScheme crystal(box, cutoff);
   crystal.internal(polymer, Rydberg{base(1.612e-20 * joule), base(5.07 * angstrom), 7.90, 0.185});
-  DissipativeFlow flow(crystal, k);
-  flow.state(polymer, inside);
-  flow.internal(polymer, {.convention = Convention::constant_friction,
-                          .friction = coupled ? base(1.5e-14 * kilogram / second) : 0,
-                          .range = cutoff,
-                          .exponent = 2,
-                          .projected = false});
+  PairDissipation dpd(crystal, k);
+  dpd.state(polymer, inside);
+  dpd.internal(polymer, {.convention = Convention::constant_friction,
+                         .friction = coupled ? base(1.5e-14 * kilogram / second) : 0,
+                         .range = cutoff,
+                         .exponent = 2,
+                         .projected = false});
 
   Simulation simulation(crystal, base(2 * femtosecond));
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.integrate(polymer, Method::leap_frog);
-  auto const bath = std::make_shared<LangevinFlow>(300, base(5 / picosecond), k);
+  auto const bath = std::make_shared<LangevinBath>(300, base(5 / picosecond), k);
   bath->on(polymer);
-  simulation.prepare(bath, 1000);  // Langevin's 2 ps to 300 K
+  simulation.equilibrate(bath, 1000);  // Langevin's 2 ps to 300 K
 
   Recording recording(simulation, base, folder, true);
   std::vector<AnyEnsemble const*> const matter{&polymer};

@@ -20,25 +20,25 @@ int main(int argc, char** argv) try {
 
   auto const length = repeat_lengths(block, 3);
   Box box(Vector{0.0, 0.0, 0.0}, Vector{length[0] + 100, length[1], length[2]},
-          {Boundary::bounded, Boundary::periodic, Boundary::periodic});
+          {Boundary::reflecting, Boundary::periodic, Boundary::periodic});
   box.wall(0, Box::End::low, {.velocity = {base(2000 * meter / second), 0, 0}});
   box.open_end(0, Box::End::high);
   PairScheme crystal(box, cutoff);
   crystal.internal(polymer, Rydberg{base(1.612e-20 * joule), base(5.07 * angstrom), 7.90, 0.185});
-  DissipativeFlow flow(crystal, k);
-  flow.state(polymer, inside);
-  flow.internal(polymer, {.convention = Convention::constant_friction,
-                          .friction = base(15e-14 * kilogram / second),
-                          .range = cutoff,
-                          .exponent = 2,
-                          .projected = false});
+  PairDissipation dpd(crystal, k);
+  dpd.state(polymer, inside);
+  dpd.internal(polymer, {.convention = Convention::constant_friction,
+                         .friction = base(15e-14 * kilogram / second),
+                         .range = cutoff,
+                         .exponent = 2,
+                         .projected = false});
 
   Simulation simulation(crystal, base(2 * femtosecond));
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.integrate(polymer, Method::leap_frog);
-  auto const bath = std::make_shared<LangevinFlow>(300, base(5 / picosecond), k);
+  auto const bath = std::make_shared<LangevinBath>(300, base(5 / picosecond), k);
   bath->on(polymer);
-  simulation.prepare(bath, 300);
+  simulation.equilibrate(bath, 300);
 
   std::vector<AnyEnsemble const*> const matter{&polymer};
   Recording recording(simulation, base, argc > 1 ? argv[1] : "results/pvdf-shock-3d-cpp", true);

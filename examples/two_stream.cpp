@@ -1,7 +1,7 @@
 // Two streams of electrons through each other and through ions (section 6.4 of the 1990 thesis): three vortices in
 // phase space.
 #include <boltzmann/boltzmann.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 
 using namespace boltzmann;
 
@@ -21,7 +21,7 @@ int main(int argc, char** argv) try {
   set_field(ions, "charge", in_one * charge);
   set_field(ions, "mass", in_one * base(constants::proton_mass));
 
-  ripple_load(right, box, wave_of_mode(box, 0, 3), 0.2, 5);
+  sinusoidal_load(right, box, wave_of_mode(box, 0, 3), 0.2, 5);
   random_load(left, box, 5);
   random_load(ions, box, 5);
   // A particle of ten masses moves like one electron at ten times the temperature.

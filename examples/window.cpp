@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   for (auto& atom : heavy) atom.mass = 4, atom.velocity = {0.0, -1.0};
   light.appearance.diameter = heavy.appearance.diameter = 1;
 
-  PairScheme gas(Box(Vector{0.0, 0.0}, Vector{26.0, 26.0}, Boundary::bounded), 2.5);
+  PairScheme gas(Box(Vector{0.0, 0.0}, Vector{26.0, 26.0}, Boundary::reflecting), 2.5);
   for (auto* ensemble : {&light, &heavy}) gas.internal(*ensemble, LennardJones{1, 1});
   gas.between(light, heavy, LennardJones{1, 1});
 

@@ -69,7 +69,7 @@ Words<Boundary> const& boundary_words() {
   static Words<Boundary> const all{
       "boundary",
       {{Boundary::open, "open", "particles leave freely"},
-       {Boundary::bounded, "bounded", "elastic walls"},
+       {Boundary::reflecting, "reflecting", "elastic walls"},
        {Boundary::periodic, "periodic", "what leaves on one side enters on the other"},
        {Boundary::mirror, "mirror", "beyond each wall everything has an image: the walls of smooth particles"}}};
   return all;
@@ -92,7 +92,7 @@ Box::Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, s
     if (boundaries[a] != Boundary::open) all_open_ = false;
     bool const mirror = boundaries[a] == Boundary::mirror;
     if (mirror) any_wall_ = true;
-    if (mirror || boundaries[a] == Boundary::bounded) walled_[a] = {true, true};
+    if (mirror || boundaries[a] == Boundary::reflecting) walled_[a] = {true, true};
   }
 }
 
@@ -111,8 +111,8 @@ double Box::volume() const {
 void Box::check_has_walls(int axis) const {
   if (axis < 0 || axis >= dimension_)
     throw Error(fmt::format("wall: a box of {} dimensions has no axis number {}", dimension_, axis));
-  if (boundaries_[axis] != Boundary::mirror && boundaries_[axis] != Boundary::bounded)
-    throw Error(fmt::format("wall: axis {} is {}; only bounded and mirror axes have walls", axis_name[axis],
+  if (boundaries_[axis] != Boundary::mirror && boundaries_[axis] != Boundary::reflecting)
+    throw Error(fmt::format("wall: axis {} is {}; only reflecting and mirror axes have walls", axis_name[axis],
                             to_string(boundaries_[axis])));
 }
 
@@ -132,10 +132,10 @@ void Box::wall(int axis, End end, Wall const& wall) {
   if (std::isinf(wall.temperature))
     throw Error(fmt::format("wall: the temperature of the {} wall of axis {} is not finite: {}", word(end),
                             axis_name[axis], wall.temperature));
-  if (boundaries_[axis] == Boundary::bounded) {
+  if (boundaries_[axis] == Boundary::reflecting) {
     auto const refused = [&](char const* what) {
       return Error(
-          fmt::format("wall: the {} wall of axis {} {}: on a bounded axis walls slip and are insulated; what "
+          fmt::format("wall: the {} wall of axis {} {}: on a reflecting axis walls slip and are insulated; what "
                       "drags or heats is the wall of a mirror axis",
                       word(end), axis_name[axis], what));
     };

@@ -17,17 +17,17 @@ class AnyEnsemble;
 
 /// What happens at the two ends of an axis.
 enum class Boundary {
-  open,      ///< particles leave freely
-  bounded,   ///< elastic reflection
-  periodic,  ///< what leaves on one side enters on the other
-  mirror,    ///< beyond its walls every particle has an image (see Wall)
+  open,        ///< particles leave freely
+  reflecting,  ///< elastic reflection
+  periodic,    ///< what leaves on one side enters on the other
+  mirror,      ///< beyond its walls every particle has an image (see Wall)
 };
 
 Words<Boundary> const& boundary_words();
 std::string to_string(Boundary boundary);
 
 /// A wall at one end of an axis. On a mirror axis: what the image beyond it of a particle with velocity v and
-/// temperature T has. On a bounded axis: what a particle has after it was reflected; there walls slip and are
+/// temperature T has. On a reflecting axis: what a particle has after it was reflected; there walls slip and are
 /// insulated, so that only the velocity along the normal counts (a piston, or a momentum mirror).
 struct Wall {
   /// The image's velocity: 2 u - v (u that of the wall) along the wall's normal, and along the wall itself v if
@@ -78,18 +78,18 @@ class Box {
   /// Length, area or volume of the box (as its walls stand now).
   double volume() const;
 
-  /// Whether there is a wall at this end: at both ends of a mirror or bounded axis, unless one was opened.
+  /// Whether there is a wall at this end: at both ends of a mirror or reflecting axis, unless one was opened.
   bool walled(int axis, End end) const { return walled_[axis][static_cast<int>(end)]; }
   /// Whether some wall has images behind it (that of a mirror axis).
   bool any_wall() const { return any_wall_; }
   /// The wall at this end. Error if there is none.
   Wall const& wall(int axis, End end) const;
   /// Puts this wall there (and closes the end again, if it was open); until then it slips, rests and is insulated.
-  /// Error if the axis is neither mirror nor bounded, or the wall's velocity or temperature is infinite (or its
-  /// velocity no number), or a wall of a bounded axis does not slip, has a temperature or moves along itself.
+  /// Error if the axis is neither mirror nor reflecting, or the wall's velocity or temperature is infinite (or its
+  /// velocity no number), or a wall of a reflecting axis does not slip, has a temperature or moves along itself.
   void wall(int axis, End end, Wall const& wall);
   /// Takes the wall away: particles leave freely at this end, and have no images beyond it. Error if the axis is
-  /// neither mirror nor bounded, or no wall would be left.
+  /// neither mirror nor reflecting, or no wall would be left.
   void open_end(int axis, End end);
   /// Whether some wall moves along its normal.
   bool walls_move() const { return walls_move_; }
@@ -115,7 +115,7 @@ class Box {
   }
   std::vector<Region> const& regions() const { return regions_; }
 
-  /// Throws Error for the first particle that is not finite, is outside a bounded axis, beyond a wall, or on the wrong
+  /// Throws Error for the first particle that is not finite, is outside a reflecting axis, beyond a wall, or on the wrong
   /// side of a region.
   void check(AnyEnsemble const& particles) const;
 
@@ -124,11 +124,11 @@ class Box {
   /// Puts every particle into the box along periodic axes, however far outside it is: the start of a run.
   void wrap(AnyEnsemble& particles) const;
 
-  /// Brings every particle that has left back: periodic axes wrap, bounded axes and regions reflect position and
-  /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a bounded
+  /// Brings every particle that has left back: periodic axes wrap, reflecting axes and regions reflect position and
+  /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a reflecting
   /// axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves away from
   /// it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does not bring it
-  /// back, or is not finite. Returns the work that moving walls of bounded axes have done on the particles (zero for
+  /// back, or is not finite. Returns the work that moving walls of reflecting axes have done on the particles (zero for
   /// classes without mass), the same bits for any number of threads.
   double apply(AnyEnsemble& particles, int threads = 1) const;
 

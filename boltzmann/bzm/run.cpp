@@ -105,7 +105,7 @@ int check(std::string const& name, Overrides const& overrides) {
     particles += ensemble->size();
     bytes += ensemble->size() * (ensemble->stride() + ensemble->influence_size()) * sizeof(double);
   }
-  for (auto const* flow : scenario->simulation->flows()) bytes += flow->bytes();
+  for (auto const* dissipation : scenario->simulation->dissipations()) bytes += dissipation->bytes();
   std::string each;
   if (scenario->sweep) {
     check_sweep(text, overrides, *scenario->sweep);

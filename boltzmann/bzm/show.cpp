@@ -3,8 +3,8 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/flows/flow_options.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -76,7 +76,7 @@ constexpr Section sections[] = {{"scenarios", scenarios},
                                 {"laws", of<scenario_laws>},
                                 {"materials", of<material_catalogue>},
                                 {"integrators", of<method_words>},
-                                {"flows", of<flow_kinds>},
+                                {"dissipations", of<dissipation_kinds>},
                                 {"loaders", of<load_kinds>},
                                 {"tables", of<scenario_tables>},
                                 {"diagnoses", of<diagnosis_kinds>},
@@ -105,12 +105,11 @@ void show_scenario(std::string const& name) {
     bool const near = dynamic_cast<P3MScheme const*>(scenario->mesh) != nullptr;
     fmt::print("  mesh        {} cells{}\n", join(cells, " x "), near ? ", and near pairs (P3M)" : "");
   }
-  for (auto const& flow : scenario->flows) {
+  for (auto const& dissipation : scenario->dissipations) {
     std::vector<std::string> names;
-    for (auto const* ensemble : flow->ensembles()) names.push_back(ensemble->name());
-    auto const* pairs = dynamic_cast<DissipativeFlow const*>(flow.get());
-    fmt::print("  flow        {} on {}\n", pairs ? "dissipative, " + to_string(pairs->method()) : "langevin",
-               join(names));
+    for (auto const* ensemble : dissipation->ensembles()) names.push_back(ensemble->name());
+    auto const* pairs = dynamic_cast<PairDissipation const*>(dissipation.get());
+    fmt::print("  dissipation {} on {}\n", pairs ? "dpd, " + to_string(pairs->method()) : "langevin", join(names));
   }
   if (scenario->smooth) fmt::print("  smooth      the weight is {}\n", to_string(scenario->smooth->shape()));
   fmt::print("\nbzm run {}\n", name);
@@ -146,12 +145,22 @@ void show_class(ParticleClass const& one) {
     fmt::print("    {:<18} {}\n", quantity.name, name_of(quantity.dimension));
 }
 
+/// " in kg/m^3 or g/cm^3": in which units a quantity may be written.
+std::string in_units(Option const& option) {
+  using enum OptionKind::Form;
+  auto const& kind = option.kind;
+  if ((kind.form != number && kind.form != numbers && kind.form != vector) || !kind.dimension || kind.counted_in != 1)
+    return "";
+  auto const units = example_units(*kind.dimension * pow(dimensions::length, 3 * kind.by_space));
+  return units.empty() ? "" : ", in " + join(units, " or ");
+}
+
 void show_options(OptionTable const& options, void* plain = nullptr) {
   std::size_t width = 0;
   for (auto const& option : options) width = std::max(width, option.key.size());
   for (auto const& option : options) {
     std::string const value = option.otherwise.empty() ? toml_value(option, plain) : option.otherwise;
-    std::string const line = fmt::format("{}: {}{}", option.doc, allowed(option),
+    std::string const line = fmt::format("{}: {}{}{}", option.doc, allowed(option), in_units(option),
                                          !option.needed.empty() ? " (needed)"
                                          : value.empty()        ? ""
                                                                 : " [" + value + "]");
@@ -191,17 +200,17 @@ void show_material(MaterialInfo const& material) {
   fmt::print("  in C++: #include <{}>, {}\n", material.header, material.type);
 }
 
-void show_flow(FlowKind const& kind) {
-  fmt::print("flow {}: {}\n\n  {}\n\n", kind.name, kind.doc, kind.equation);
+void show_dissipation(DissipationKind const& kind) {
+  fmt::print("dissipation {}: {}\n\n  {}\n\n", kind.name, kind.doc, kind.equation);
   DissipationOptions pairs;
   BathOptions bath;
-  bool const dissipative = &kind.options == &dissipation_options();
-  show_options(kind.options, dissipative ? static_cast<void*>(&pairs) : &bath);
-  if (!dissipative) return;
+  bool const of_pairs = &kind.options == &dissipation_options();
+  show_options(kind.options, of_pairs ? static_cast<void*>(&pairs) : &bath);
+  if (!of_pairs) return;
   fmt::print("\n  conventions\n");
   for (auto const& word : convention_words()) fmt::print("    {:<18} {}\n", word.name, word.doc);
   fmt::print("\n  methods\n");
-  for (auto const& word : flow_method_words()) fmt::print("    {:<18} {}\n", word.name, word.doc);
+  for (auto const& word : dissipation_method_words()) fmt::print("    {:<18} {}\n", word.name, word.doc);
 }
 
 void show_diagnosis(DiagnosisKind const& kind) {
@@ -302,8 +311,8 @@ int show(std::string const& name) {
   if (auto const* one = find_class(name)) next(), show_class(*one);
   if (auto const* law = find_law(name)) next(), show_law(*law);
   if (auto const* material = find_material(name)) next(), show_material(*material);
-  for (auto const& kind : flow_kinds())
-    if (kind.name == name) next(), show_flow(kind);
+  for (auto const& kind : dissipation_kinds())
+    if (kind.name == name) next(), show_dissipation(kind);
   for (auto const& table : scenario_tables())
     if (table.name == name) next(), show_table(table);
   for (auto const& kind : load_kinds())

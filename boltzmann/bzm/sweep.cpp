@@ -224,8 +224,8 @@ void warn(Simulation& simulation, std::string const& name, std::vector<std::stri
       fmt::print(stderr, "{}: {}\n", name, line);
     }
   };
-  for (auto* scheme : simulation.schemes()) tell(scheme->advice(simulation.step_size()));
-  for (auto* flow : simulation.flows()) tell(flow->advice(simulation.step_size()));
+  for (auto* scheme : simulation.schemes()) tell(scheme->warnings(simulation.step_size()));
+  for (auto* dissipation : simulation.dissipations()) tell(dissipation->warnings(simulation.step_size()));
 }
 
 /// Does one run, or the rest of it.
@@ -325,7 +325,7 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
 
 /// Whether these are the same state, from which nothing random leads on.
 bool same_without_chance(ScenarioSimulation const& one, ScenarioSimulation const& other) {
-  if (!one.simulation->flows().empty() || one.simulation->prepares()) return false;
+  if (!one.simulation->dissipations().empty() || one.simulation->equilibrates()) return false;
   auto const& a = one.scheme->ensembles();
   auto const& b = other.scheme->ensembles();
   for (std::size_t e = 0; e < a.size(); ++e)

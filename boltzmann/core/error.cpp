@@ -1,5 +1,6 @@
 // The nearest allowed word, for messages that help.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/renamed_words.hpp>
 #include <boltzmann/core/words.hpp>
 
 #include <algorithm>
@@ -43,6 +44,9 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
 }
 
 std::string did_you_mean(std::string_view word, std::span<std::string const> candidates) {
+  for (auto const& [before, now] : renamed_words)
+    if (word == before && std::find(candidates.begin(), candidates.end(), now) != candidates.end())
+      return "; it is '" + std::string(now) + "' now";
   std::string const best = nearest(word, candidates);
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }

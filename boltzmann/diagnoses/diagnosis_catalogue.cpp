@@ -411,9 +411,9 @@ class GroupDiagnosis : public Diagnosis {
   std::vector<std::vector<std::uint32_t>> groups_;
 };
 
-class Drag final : public GroupDiagnosis {
+class MeanVelocity final : public GroupDiagnosis {
  public:
-  explicit Drag(DiagnosisParameters const& parameters) : GroupDiagnosis(parameters) {}
+  explicit MeanVelocity(DiagnosisParameters const& parameters) : GroupDiagnosis(parameters) {}
   std::vector<Column> columns_of_group(std::size_t) const override {
     return along_axes("mean velocity", dimension(), dimensions::velocity);
   }
@@ -601,7 +601,7 @@ std::vector<Entry> const& table() {
                 {"near"},
                 {"far"}})},
          make_shock},
-        {{"drag", "mean velocity of a group of particles: its change is the drag", told(group)}, make<Drag>},
+        {{"mean-velocity", "of a group of particles: its change is the drag", told(group)}, make<MeanVelocity>},
         {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", told(group)},
          make<VelocityDiffusion>},
         {{"diffusion",

@@ -76,7 +76,7 @@ Canvas draw_phase_space(std::vector<Canvas::Cloud> clouds, Axis x, Axis y, std::
     cloud.size = std::clamp(fitting_point(total) * 1.6F, 1.6F, 9.0F);
     cloud.colour = with_alpha(cloud.colour, total > 300 ? 0.75 : 1);
   }
-  for (auto& cloud : in_turns(std::move(clouds))) canvas.cloud(std::move(cloud));
+  for (auto& cloud : interleaved(std::move(clouds))) canvas.cloud(std::move(cloud));
   return canvas;
 }
 

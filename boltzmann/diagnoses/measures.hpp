@@ -1,7 +1,7 @@
 // Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
 //
 // Every function is a compensated sum in the order of the particles, so that results do not depend on threads. What a
-// class does not have does not count: an ensemble without mass or velocity (Euler particles, vortices) adds nothing to
+// class does not have does not count: an ensemble without mass or velocity (Tracer particles, vortices) adds nothing to
 // mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0.
 #pragma once
 
@@ -46,7 +46,7 @@ struct Velocities {
 };
 /// Whether velocities_of() can give them.
 bool has_velocities(AnyEnsemble const& ensemble);
-/// The field "velocity", or the influence in a class without one (Euler); a view. Error if the class has neither.
+/// The field "velocity", or the influence in a class without one (Tracer); a view. Error if the class has neither.
 Velocities velocities_of(AnyEnsemble const& ensemble);
 
 // ---- The system as a whole ----

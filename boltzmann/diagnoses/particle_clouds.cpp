@@ -572,7 +572,7 @@ ParticleClouds particle_clouds(std::span<CloudSource const> sources, CloudOption
   return CloudMaker(sources, options).make();
 }
 
-std::vector<Canvas::Cloud> in_turns(std::vector<Canvas::Cloud> clouds) {
+std::vector<Canvas::Cloud> interleaved(std::vector<Canvas::Cloud> clouds) {
   constexpr std::size_t turns = 16;
   std::size_t const filled = static_cast<std::size_t>(
       std::count_if(clouds.begin(), clouds.end(), [](Canvas::Cloud const& c) { return c.count() > 0; }));

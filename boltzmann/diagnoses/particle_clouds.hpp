@@ -81,6 +81,6 @@ struct ParticleClouds {
 ParticleClouds particle_clouds(std::span<CloudSource const> sources, CloudOptions const& options);
 
 /// Of several clouds with many particles, parts turn by turn, so that none hides another.
-std::vector<Canvas::Cloud> in_turns(std::vector<Canvas::Cloud> clouds);
+std::vector<Canvas::Cloud> interleaved(std::vector<Canvas::Cloud> clouds);
 
 }  // namespace boltzmann

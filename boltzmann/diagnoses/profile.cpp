@@ -22,7 +22,7 @@ int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
 
 // ---- Sums ----
 
-void MatterSum::add(Body const& body, int dimension) {
+void MomentSums::add(Body const& body, int dimension) {
   double const m = body.mass;
   number_ += 1;
   mass_ += m;
@@ -44,7 +44,7 @@ void MatterSum::add(Body const& body, int dimension) {
     for (double& sum : row) sum += virial != nullptr ? *virial++ : unknown;
 }
 
-MatterState MatterSum::matter(int dimension, double boltzmann_constant) const {
+MatterState MomentSums::matter(int dimension, double boltzmann_constant) const {
   MatterState matter;
   matter.number = number();
   matter.volume = volume_;
@@ -70,7 +70,7 @@ MatterState MatterSum::matter(int dimension, double boltzmann_constant) const {
   return matter;
 }
 
-std::vector<double> MatterSum::state() const {
+std::vector<double> MomentSums::state() const {
   std::vector<double> state{number_, mass_, volume_};
   state.insert(state.end(), mean_.begin(), mean_.end());
   for (auto const* tensor : {&squares_, &virial_})
@@ -79,7 +79,7 @@ std::vector<double> MatterSum::state() const {
   return state;
 }
 
-void MatterSum::restore(std::span<double const> state) {
+void MomentSums::restore(std::span<double const> state) {
   if (state.size() != state_size) throw Error("the checkpoint does not fit this diagnosis: its sums are others");
   double const* from = state.data();
   number_ = *from++;
@@ -97,8 +97,8 @@ void MatterSum::restore(std::span<double const> state) {
 
 // ---- Particles ----
 
-Bodies::Bodies(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
-               std::vector<std::string> const& chosen) {
+MassiveParticles::MassiveParticles(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
+                                   std::vector<std::string> const& chosen) {
   for (std::size_t e = 0; e < ensembles.size(); ++e) {
     AnyEnsemble const& ensemble = *ensembles[e];
     bool const wanted = chosen.empty() || std::find(chosen.begin(), chosen.end(), ensemble.name()) != chosen.end();
@@ -122,7 +122,7 @@ Bodies::Bodies(std::span<AnyEnsemble const* const> ensembles, Measures const* me
   }
 }
 
-MatterSum::Body Bodies::body(Source const& source, std::size_t i) {
+MomentSums::Body MassiveParticles::body(Source const& source, std::size_t i) {
   double const* row = source.ensemble->row(i);
   double const mass = row[source.mass];
   return {mass,
@@ -142,10 +142,10 @@ double cross_section(Box const& box, int axis) {
   return area;
 }
 
-Extent extent(Bodies const& bodies, Box const& box, int axis) {
+Extent extent(MassiveParticles const& bodies, Box const& box, int axis) {
   Extent extent{box.low(axis), box.high(axis)};
   if (box.boundary(axis) == Boundary::open)
-    bodies.for_each([&](double const* position, MatterSum::Body const&) {
+    bodies.for_each([&](double const* position, MomentSums::Body const&) {
       double const x = position[axis];
       if (!std::isfinite(x)) return;
       extent.low = std::min(extent.low, x);
@@ -167,17 +167,17 @@ double volume_between(Box const& box, int axis, double low, double high) {
 
 }  // namespace
 
-MatterState matter_between(Bodies const& bodies, Box const& box, int axis, double low, double high,
+MatterState matter_between(MassiveParticles const& bodies, Box const& box, int axis, double low, double high,
                            double boltzmann_constant) {
-  MatterSum sum;
+  MomentSums sum;
   sum.add_volume(volume_between(box, axis, low, high));
-  bodies.for_each([&](double const* position, MatterSum::Body const& body) {
+  bodies.for_each([&](double const* position, MomentSums::Body const& body) {
     if (position[axis] >= low && position[axis] < high) sum.add(body, box.dimension());
   });
   return sum.matter(box.dimension(), boltzmann_constant);
 }
 
-Profile profile(Bodies const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
+Profile profile(MassiveParticles const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
                 double boltzmann_constant) {
   int const dimension = box.dimension();
   if (axis < 0 || axis >= dimension)
@@ -187,8 +187,8 @@ Profile profile(Bodies const& bodies, Box const& box, int axis, double low, doub
   if (!(low < high) || !std::isfinite(high - low))
     throw Error(fmt::format("a profile goes from a lower to a higher place, not from {} to {}", low, high));
   double const width = (high - low) / static_cast<double>(count);
-  std::vector<MatterSum> sums(count);
-  bodies.for_each([&](double const* position, MatterSum::Body const& body) {
+  std::vector<MomentSums> sums(count);
+  bodies.for_each([&](double const* position, MomentSums::Body const& body) {
     double const x = position[axis];
     if (!(x >= low && x <= high)) return;
     auto const bin = static_cast<std::size_t>((x - low) / width);  // a particle at the high end is in the last one

@@ -30,7 +30,7 @@ struct MatterState {
 };
 
 /// Sums over particles that become a MatterState: one pass, exact for any mean velocity (Welford's).
-class MatterSum {
+class MomentSums {
  public:
   struct Body {
     double mass;
@@ -58,14 +58,14 @@ class MatterSum {
   double internal_ = 0, potential_ = 0, with_temperature_ = 0, inverse_temperature_ = 0;
 };
 
-/// The particles of several ensembles as MatterSum wants them. Ensembles without mass or velocity are passed over. It
+/// The particles of several ensembles as MomentSums wants them. Ensembles without mass or velocity are passed over. It
 /// looks at rows and measures, which must outlive it.
-class Bodies {
+class MassiveParticles {
  public:
   /// `measures` may be null: then energies and pressures are unknown. `chosen` names the ensembles that count; empty:
   /// all.
-  Bodies(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
-         std::vector<std::string> const& chosen = {});
+  MassiveParticles(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
+                   std::vector<std::string> const& chosen = {});
 
   struct Source {
     AnyEnsemble const* ensemble;
@@ -74,7 +74,7 @@ class Bodies {
     double const* virial;
   };
   std::vector<Source> const& sources() const { return sources_; }
-  static MatterSum::Body body(Source const& source, std::size_t i);
+  static MomentSums::Body body(Source const& source, std::size_t i);
   /// Calls f(position, body) for every particle.
   template <class Function>
   void for_each(Function const& f) const {
@@ -94,10 +94,10 @@ double cross_section(Box const& box, int axis);
 struct Extent {
   double low, high;
 };
-Extent extent(Bodies const& bodies, Box const& box, int axis);
+Extent extent(MassiveParticles const& bodies, Box const& box, int axis);
 
 /// What is between two places along an axis.
-MatterState matter_between(Bodies const& bodies, Box const& box, int axis, double low, double high,
+MatterState matter_between(MassiveParticles const& bodies, Box const& box, int axis, double low, double high,
                            double boltzmann_constant);
 
 /// Equal bins along an axis.
@@ -112,7 +112,7 @@ struct Profile {
 
 /// `count` bins from `low` to `high`. Of a bin that reaches beyond the box (where the axis is not open) only what is
 /// inside counts as its volume. Error if there is no such axis, no bin, or low is not below high.
-Profile profile(Bodies const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
+Profile profile(MassiveParticles const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
                 double boltzmann_constant);
 
 /// What a profile has: "number", "density", "velocity.x", "kinetic-temperature", "kinetic-temperature.x",

@@ -144,12 +144,12 @@ std::vector<Column> Shock::columns() const {
   return columns;
 }
 
-void Shock::begin(Box const& box, Bodies const& bodies, double boltzmann_constant) {
+void Shock::begin(Box const& box, MassiveParticles const& bodies, double boltzmann_constant) {
   int const axis = options_.axis;
   check_shock_axis(box, axis);
-  MatterSum sum;
+  MomentSums sum;
   std::vector<double> position, mass;
-  bodies.for_each([&](double const* x, MatterSum::Body const& body) {
+  bodies.for_each([&](double const* x, MomentSums::Body const& body) {
     sum.add(body, dimension_);
     position.push_back(x[axis]);
     mass.push_back(body.mass);
@@ -187,12 +187,12 @@ void Shock::begin(Box const& box, Bodies const& bodies, double boltzmann_constan
 }
 
 void Shock::check(std::span<AnyEnsemble const* const> ensembles, Box const& box, double boltzmann_constant) const {
-  Shock(*this).begin(box, Bodies(ensembles, nullptr, options_.ensembles), boltzmann_constant);
+  Shock(*this).begin(box, MassiveParticles(ensembles, nullptr, options_.ensembles), boltzmann_constant);
 }
 
 double Shock::near() const { return options_.near > 0 ? options_.near : std::min(2 * margin_, options_.far / 2); }
 
-void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
+void Shock::look(Sample const& sample, MassiveParticles const& bodies, double& front) {
   int const axis = options_.axis;
   Box const& box = sample.box;
   std::size_t number = 0;
@@ -238,10 +238,10 @@ void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
   double const deep = std::min(options_.far, run - margin_);
   if (deep - near() < std::min(margin_, options_.far - near())) return;
   line_.add(sample.time, front);
-  auto const add = [&](MatterSum& sum, double from, double to) {
+  auto const add = [&](MomentSums& sum, double from, double to) {
     auto const [a, b] = std::minmax(from, to);
     sum.add_volume((b - a) * cross_section(box, axis));
-    bodies.for_each([&, a = a, b = b](double const* x, MatterSum::Body const& body) {
+    bodies.for_each([&, a = a, b = b](double const* x, MomentSums::Body const& body) {
       if (x[axis] >= a && x[axis] < b) sum.add(body, dimension_);
     });
   };
@@ -250,7 +250,7 @@ void Shock::look(Sample const& sample, Bodies const& bodies, double& front) {
 }
 
 void Shock::measure(Sample const& sample, std::vector<double>& values) {
-  Bodies const bodies(sample.ensembles, sample.measures, options_.ensembles);
+  MassiveParticles const bodies(sample.ensembles, sample.measures, options_.ensembles);
   if (!begun_) begin(sample.box, bodies, sample.boltzmann_constant);
   double front = unknown;
   look(sample, bodies, front);
@@ -284,7 +284,7 @@ void Shock::restore(std::span<double const> state) {
   constexpr std::size_t own = 5;
   begun_ = !state.empty();
   if (!begun_) return;
-  if (state.size() != own + LineSums::state_size + 2 * MatterSum::state_size)
+  if (state.size() != own + LineSums::state_size + 2 * MomentSums::state_size)
     throw Error("the checkpoint does not fit this diagnosis: a shock remembers other sums");
   end_ = state[0] == 0 ? Box::End::low : Box::End::high;
   first_velocity_ = state[1];
@@ -292,8 +292,8 @@ void Shock::restore(std::span<double const> state) {
   margin_ = state[3];
   ended_ = state[4] != 0;
   line_.restore(state.subspan(own, LineSums::state_size));
-  behind_.restore(state.subspan(own + LineSums::state_size, MatterSum::state_size));
-  ahead_.restore(state.subspan(own + LineSums::state_size + MatterSum::state_size));
+  behind_.restore(state.subspan(own + LineSums::state_size, MomentSums::state_size));
+  ahead_.restore(state.subspan(own + LineSums::state_size + MomentSums::state_size));
 }
 
 }  // namespace boltzmann

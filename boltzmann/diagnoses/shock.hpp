@@ -90,8 +90,8 @@ class Shock final : public Diagnosis {
   std::size_t looks() const { return line_.count(); }
 
  private:
-  void begin(Box const& box, Bodies const& bodies, double boltzmann_constant);
-  void look(Sample const& sample, Bodies const& bodies, double& front);
+  void begin(Box const& box, MassiveParticles const& bodies, double boltzmann_constant);
+  void look(Sample const& sample, MassiveParticles const& bodies, double& front);
   double near() const;
 
   ShockOptions options_;
@@ -102,7 +102,7 @@ class Shock final : public Diagnosis {
   double first_velocity_ = 0, first_density_ = 0, margin_ = 0;
   bool ended_ = false;  // the front has come near the far end: what is reflected is no longer this shock
   LineSums line_;
-  MatterSum behind_, ahead_;
+  MomentSums behind_, ahead_;
 };
 
 }  // namespace boltzmann

@@ -129,10 +129,10 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
   if (sample.ensembles.size() != ensembles_)
     throw Error("a slab diagnosis was made for other ensembles than the simulation has");
   // Each by its number in the simulation; what carries no momentum has no members.
-  Bodies const bodies(sample.ensembles, nullptr);
+  MassiveParticles const bodies(sample.ensembles, nullptr);
   std::vector<double> position, mass;
   for (auto const& slab : members_) {
-    MatterSum sum;
+    MomentSums sum;
     position.clear();
     mass.clear();
     for (auto const& source : bodies.sources()) {
@@ -142,7 +142,7 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
         if (i >= source.ensemble->size())
           throw Error(fmt::format("a slab has particle {} of '{}', which has {} now", i, source.ensemble->name(),
                                   source.ensemble->size()));
-        auto const body = Bodies::body(source, i);
+        auto const body = MassiveParticles::body(source, i);
         sum.add(body, dimension_);
         position.push_back(source.ensemble->row(i)[options_.axis]);
         mass.push_back(body.mass);

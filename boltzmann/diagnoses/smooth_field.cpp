@@ -107,7 +107,7 @@ SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothin
   origins_ = sorted(origins_);
 }
 
-// The images whose weight reaches into the box; along open and bounded axes a particle is where it is.
+// The images whose weight reaches into the box; along open and reflecting axes a particle is where it is.
 void SmoothField::add_images(double const* position, double mass, double range, std::uint32_t particle) {
   struct Image {
     double at;

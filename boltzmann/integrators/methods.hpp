@@ -429,9 +429,9 @@ std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
 extern template std::unique_ptr<Integrator> method_of<Newton<1>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Newton<2>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Newton<3>>(AnyEnsemble&, Method);
-extern template std::unique_ptr<Integrator> method_of<Euler<1>>(AnyEnsemble&, Method);
-extern template std::unique_ptr<Integrator> method_of<Euler<2>>(AnyEnsemble&, Method);
-extern template std::unique_ptr<Integrator> method_of<Euler<3>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Tracer<1>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Tracer<2>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Tracer<3>>(AnyEnsemble&, Method);
 
 }  // namespace detail
 

@@ -55,7 +55,7 @@ struct UniformElectricField {
   }
 };
 
-/// A flow that carries every fluid particle (Euler and its descendants) with the same velocity.
+/// A flow that carries every fluid particle (Tracer and its descendants) with the same velocity.
 template <int D>
 struct UniformFlow {
   static constexpr bool uniform = true;
@@ -64,7 +64,7 @@ struct UniformFlow {
   static constexpr LawText text{.name = "uniform-flow",
                                 .doc = "a flow that carries every fluid particle with the same velocity",
                                 .formula = "velocity",
-                                .target = "Euler",
+                                .target = "Tracer",
                                 .source = "",
                                 .has_energy = false};
   static constexpr auto parameters() {

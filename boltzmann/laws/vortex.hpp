@@ -13,7 +13,7 @@ namespace boltzmann {
 ///   3D: -1/(4 pi) r x omega / s^3, s^2 = r^2 + core^2. Where p's influence is a VortexInfluence (Inviscid, Viscous),
 ///       also what the flow does to p's vorticity (Eq 3.14):
 ///       (omega_p . grad) v = 1/(4 pi) [omega_q x omega_p / s^3 - 3 (r . omega_p) omega_q x r / s^5].
-/// A positive vortex (3D: along +z) turns counterclockwise. Test particles (Euler) carry no vorticity: use
+/// A positive vortex (3D: along +z) turns counterclockwise. Test particles (Tracer) carry no vorticity: use
 /// one_way(BiotSavart{}) between them and vortices. There is no energy.
 struct BiotSavart {
   static constexpr LawText text{
@@ -22,7 +22,7 @@ struct BiotSavart {
       .formula =
           "velocity Gamma k x r/(2 pi max(r, core)^2) in 2D, -r x omega/(4 pi (r^2 + core^2)^(3/2)) in 3D, "
           "which also stretches the vorticity of Inviscid and Viscous",
-      .target = "Euler",
+      .target = "Tracer",
       .source = "Vortex",
       .least_dimension = 2,
       .has_energy = false};

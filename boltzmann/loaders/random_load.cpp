@@ -226,8 +226,8 @@ void oscillating_load(AnyEnsemble& ensemble, double temperature, double omega, d
   }
 }
 
-void gravity_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
-                  std::uint64_t seed) {
+void barometric_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
+                     std::uint64_t seed) {
   check_dimension(ensemble, box, "gravity load");
   check_heat("gravity load", temperature, boltzmann_constant);
   if (temperature == 0)

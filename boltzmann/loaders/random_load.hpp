@@ -52,7 +52,7 @@ void oscillating_load(AnyEnsemble& ensemble, double temperature, double omega, d
 /// with the height h above the box's low edge and ends at the high one; uniform along the other axes. Drawn by
 /// inversion of the truncated distribution; g = 0 is uniform, a negative g points up. Regions as in random_load. Error
 /// if the class has no mass or the temperature is not positive.
-void gravity_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
-                  std::uint64_t seed);
+void barometric_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
+                     std::uint64_t seed);
 
 }  // namespace boltzmann

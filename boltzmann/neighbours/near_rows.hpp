@@ -199,7 +199,7 @@ template <int W>
   for (std::size_t k = begin; k < end; ++k) {
     if (k + ahead < end) __builtin_prefetch(task.ensemble + task.order[k + ahead] * task.stride);
     double const* from = task.ensemble + task.order[k] * task.stride;
-    double* to = task.mirror + 4 * k;
+    double* to = task.copy + 4 * k;
     Four const reference = load_pack<4>(task.reference + 4 * k);
     Four row = load_pack<4>(from);
     Four const turns = ((row - reference) * inverse + to_integer) - to_integer;
@@ -229,7 +229,7 @@ template <int W>
   std::size_t const stride = task.block_stride, mapped = task.mapped_blocks, last = task.last_block;
   std::size_t const first_mapped = task.first_block, end_mapped = mapped < last ? mapped : last;
   std::size_t const first_copied = task.first_block > mapped ? task.first_block : mapped;
-  double* const rows = task.mirror + task.first_block * stride;
+  double* const rows = task.copy + task.first_block * stride;
   double* const images = rows + 4 * task.first;
   double const *const sign = task.sign, *const shift = task.shift;
   std::uint32_t const *const source = task.source, *const turns = task.turns;

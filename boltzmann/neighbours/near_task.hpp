@@ -15,7 +15,7 @@ inline constexpr std::size_t list_padding = 8;
 /// What kernels may read behind the last candidate.
 inline constexpr std::size_t candidate_padding = 16;
 
-/// Positions are compared as whole numbers of steps, so many in the reach of a mirror, modulo 2^32: differences are
+/// Positions are compared as whole numbers of steps, so many in the reach of a sorted copy, modulo 2^32: differences are
 /// exact, however far from the origin, and where two that are 4096 reaches apart look near, the pair kernel's cut-off
 /// knows better.
 inline constexpr double steps_of_reach = 1 << 20;
@@ -41,7 +41,7 @@ struct NearTask {
   std::uint32_t sentinel = 0;    ///< the item that pads
 };
 
-/// How lists and candidates name a row of a mirror: where it starts in an array of blocks.
+/// How lists and candidates name a row of a sorted copy: where it starts in an array of blocks.
 [[gnu::always_inline]] inline std::uint32_t item_of_row(std::size_t row) { return static_cast<std::uint32_t>(4 * row); }
 [[gnu::always_inline]] inline std::size_t row_of_item(std::uint32_t item) { return item / 4; }
 
@@ -72,12 +72,12 @@ struct NearRows {
 /// target that is not done.
 using NearKernel = std::size_t (*)(NearTask const& task, std::size_t begin, std::size_t end, NearRows& out);
 
-/// A mirror's rows brought up to date. Each block of 4 doubles of the rows has an array of its own.
+/// A sorted copy's rows brought up to date. Each block of 4 doubles of the rows has an array of its own.
 struct RefreshTask {
   double const* ensemble = nullptr;      ///< rows in the user's order
   std::uint32_t const* order = nullptr;  ///< which of them each mirrored row is
   std::size_t stride = 0;                ///< doubles of a row
-  double* mirror = nullptr;
+  double* copy = nullptr;
   std::size_t block_stride = 0;       ///< from one block of a mirrored row to the next
   double const* reference = nullptr;  ///< rows of 4
   int dimension = 0;
@@ -94,7 +94,7 @@ using RefreshKernel = Refreshed (*)(RefreshTask const& task, std::size_t begin, 
 /// `first` + g becomes sign * x + shift of row source[g], both from row turns[g] of tables that have so many blocks a
 /// row; the others are copied.
 struct ImageTask {
-  double* mirror = nullptr;
+  double* copy = nullptr;
   std::size_t block_stride = 0, first_block = 0, last_block = 0, mapped_blocks = 0, first = 0;
   std::uint32_t const* source = nullptr;
   std::uint32_t const* turns = nullptr;

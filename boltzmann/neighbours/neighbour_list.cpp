@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t rows_per_task = 1024;
 constexpr std::size_t first_guess = 48;  // entries a row
 
-NearTask task_of(Mirror const& target, Mirror const& source, double cutoff, double skin) {
+NearTask task_of(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin) {
   NearTask task = source.near_task();
   task.reference = target.references();
   task.reference_steps = target.reference_steps();
@@ -57,7 +57,7 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
 
 }  // namespace
 
-void NeighbourList::build(Mirror const& target, Mirror const& source, double cutoff, double skin, int threads) {
+void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads) {
   cutoff_ = cutoff;
   skin_ = skin;
   std::size_t const rows = target.owned();
@@ -88,7 +88,7 @@ void NeighbourList::build(Mirror const& target, Mirror const& source, double cut
   entries_ = entries;
 }
 
-void NeighbourList::rebuild(Mirror const& target, Mirror const& source, std::span<std::uint32_t const> rows) {
+void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows) {
   rebuilt_.assign(rows.begin(), rows.end());
   NearTask const task = task_of(target, source, cutoff_, skin_);
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];

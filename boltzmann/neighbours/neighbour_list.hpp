@@ -1,7 +1,7 @@
 // Neighbour lists: for each particle, all that are near, in a fixed order.
 #pragma once
 
-#include <boltzmann/neighbours/mirror.hpp>
+#include <boltzmann/neighbours/sorted_copy.hpp>
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-/// The full list: for every owned row of a target mirror the rows of a source mirror, owned and ghosts, that were
+/// The full list: for every owned row of a target sorted copy the rows of a source sorted copy, owned and ghosts, that were
 /// within cutoff + skin of it, by the references of both; not itself. An entry is item_of_row() of a source row. A row
 /// begins with those within cutoff + skin / 4, then come rings to cutoff + 2 skin / 4, ... (ascending; `list_rings` in
 /// all): while nothing has moved further than half a ring's share of the skin, what lies behind that ring can't be
@@ -20,9 +20,9 @@ namespace boltzmann {
 class NeighbourList {
  public:
   /// Finds everybody's neighbours.
-  void build(Mirror const& target, Mirror const& source, double cutoff, double skin, int threads);
-  /// Finds those of the given target rows anew, after references have been changed (Mirror::move).
-  void rebuild(Mirror const& target, Mirror const& source, std::span<std::uint32_t const> rows);
+  void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads);
+  /// Finds those of the given target rows anew, after references have been changed (SortedCopy::move).
+  void rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows);
 
   std::size_t size() const { return row_.size(); }
   /// Where each row starts.

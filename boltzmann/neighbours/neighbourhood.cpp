@@ -38,16 +38,16 @@ std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double 
     if (&lists_[n].target->ensemble() == &target && &lists_[n].source->ensemble() == &source &&
         lists_[n].cutoff == cutoff)
       return n;
-  lists_.push_back({&mirror(target), &mirror(source), cutoff, {}});
+  lists_.push_back({&copy(target), &copy(source), cutoff, {}});
   stale_ = true;
   return lists_.size() - 1;
 }
 
-Mirror& Neighbourhood::mirror(AnyEnsemble& ensemble, std::size_t extra_blocks) {
-  for (auto& mirror : mirrors_)
-    if (&mirror.ensemble() == &ensemble) return mirror;
+SortedCopy& Neighbourhood::copy(AnyEnsemble& ensemble, std::size_t extra_blocks) {
+  for (auto& copy : copies_)
+    if (&copy.ensemble() == &ensemble) return copy;
   stale_ = true;
-  return mirrors_.emplace_back(ensemble, *box_, extra_blocks);
+  return copies_.emplace_back(ensemble, *box_, extra_blocks);
 }
 
 void Neighbourhood::cutoff(std::size_t list, double length) {
@@ -88,8 +88,7 @@ double Neighbourhood::rows_around_one() const {
 void Neighbourhood::build(int threads) {
   if (auto line = skin_refused(longest_cutoff(), skin()); !line.empty()) throw Error(line);
   double const reach = longest_cutoff() + skin();
-  for (auto& mirror : mirrors_)
-    mirror.build(reach, worth_threads(mirror.ensemble().size(), particles_worth_threads, threads));
+  for (auto& copy : copies_) copy.build(reach, worth_threads(copy.ensemble().size(), particles_worth_threads, threads));
   find_neighbours(threads);
 }
 
@@ -108,20 +107,20 @@ void Neighbourhood::move(std::vector<Moved> const& moved) {
   // Whose lists name a moved particle, or ought to: those near its reference, before and after.
   auto const look_around = [&] {
     for (std::size_t n = 0; n < lists_.size(); ++n)
-      for (auto const& [mirror, rows] : moved)
-        if (mirror == lists_[n].source)
+      for (auto const& [copy, rows] : moved)
+        if (copy == lists_[n].source)
           for (auto const row : rows)
-            lists_[n].target->owned_near(mirror->references() + 4 * std::size_t{row}, lists_[n].cutoff + skin(),
+            lists_[n].target->owned_near(copy->references() + 4 * std::size_t{row}, lists_[n].cutoff + skin(),
                                          affected[n]);
   };
   look_around();
-  for (auto const& [mirror, rows] : moved) mirror->move(rows);
+  for (auto const& [copy, rows] : moved) copy->move(rows);
   look_around();
   for (std::size_t n = 0; n < lists_.size(); ++n) {
     List& list = lists_[n];
     auto& rows = affected[n];
-    for (auto const& [mirror, own] : moved)
-      if (mirror == list.target) rows.insert(rows.end(), own.begin(), own.end());
+    for (auto const& [copy, own] : moved)
+      if (copy == list.target) rows.insert(rows.end(), own.begin(), own.end());
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     list.list.rebuild(*list.target, *list.source, rows);
@@ -134,8 +133,8 @@ void Neighbourhood::move(std::vector<Moved> const& moved) {
 bool Neighbourhood::move_beyond(double square, std::size_t most) {
   std::vector<Moved> moved;
   std::size_t count = 0;
-  for (auto& mirror : mirrors_) {
-    moved.push_back({&mirror, mirror.beyond(square, most + 1 - count)});
+  for (auto& copy : copies_) {
+    moved.push_back({&copy, copy.beyond(square, most + 1 - count)});
     count += moved.back().rows.size();
     if (count > most) return false;
   }
@@ -148,10 +147,10 @@ bool Neighbourhood::move_beyond(double square, std::size_t most) {
 bool Neighbourhood::lists_hold() {
   double largest2 = 0, all = 0;
   std::size_t moved_before = 0;
-  for (auto const& mirror : mirrors_) {
-    largest2 = std::max(largest2, mirror.largest2());
-    all += static_cast<double>(mirror.owned());
-    moved_before += mirror.moved().size();
+  for (auto const& copy : copies_) {
+    largest2 = std::max(largest2, copy.largest2());
+    all += static_cast<double>(copy.owned());
+    moved_before += copy.moved().size();
   }
   // Everybody pays for particles that have moved: some, until a build is cheaper.
   bool const may_move = moved_before < most_moved && found_again_ < all;
@@ -176,12 +175,12 @@ bool Neighbourhood::lists_hold() {
 
 void Neighbourhood::refresh(int threads) {
   if (lists_.empty()) return;
-  for (auto& mirror : mirrors_)
-    if (mirror.owned() != mirror.ensemble().size()) stale_ = true;
+  for (auto& copy : copies_)
+    if (copy.owned() != copy.ensemble().size()) stale_ = true;
   auto const follow = [&] {
     bool changed = false;
-    for (auto& mirror : mirrors_)
-      if (mirror.refresh(worth_threads(mirror.owned(), particles_worth_threads, threads))) changed = true;
+    for (auto& copy : copies_)
+      if (copy.refresh(worth_threads(copy.owned(), particles_worth_threads, threads))) changed = true;
     return changed;
   };
   if (!stale_ && (!follow() || lists_hold())) return;
@@ -190,21 +189,21 @@ void Neighbourhood::refresh(int threads) {
 }
 
 // Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found
-// anew; then of each mirror the edges of the box and the references at its build, and the particles that were moved
+// anew; then of each sorted copy the edges of the box and the references at its build, and the particles that were moved
 // since: number and reference of each.
 std::vector<double> Neighbourhood::state() const {
   bool decided = true;
-  for (auto const& mirror : mirrors_) decided = decided && mirror.is_current();
+  for (auto const& copy : copies_) decided = decided && copy.is_current();
   std::vector<double> state{stale_ ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_};
-  for (auto const& mirror : mirrors_) {
-    auto const& edges = mirror.built_edges();
+  for (auto const& copy : copies_) {
+    auto const& edges = copy.built_edges();
     state.insert(state.end(), edges.begin(), edges.end());
-    auto const built = mirror.built_references();
+    auto const built = copy.built_references();
     state.insert(state.end(), built.begin(), built.end());
-    state.push_back(static_cast<double>(mirror.moved().size()));
-    for (auto const row : mirror.moved()) {
-      state.push_back(mirror.order()[row]);
-      double const* reference = mirror.references() + 4 * std::size_t{row};
+    state.push_back(static_cast<double>(copy.moved().size()));
+    for (auto const row : copy.moved()) {
+      state.push_back(copy.order()[row]);
+      double const* reference = copy.references() + 4 * std::size_t{row};
       state.insert(state.end(), reference, reference + 3);
     }
   }
@@ -224,33 +223,33 @@ void Neighbourhood::restore(std::span<double const> state, int threads) {
   stale_ = head[0] != 0;
   if (stale_ || lists_.empty()) return;
   double const reach = longest_cutoff() + skin();
-  for (auto& mirror : mirrors_) {
-    Mirror::Edges edges;
+  for (auto& copy : copies_) {
+    SortedCopy::Edges edges;
     std::ranges::copy(next(edges.size()), edges.begin());
-    mirror.build(reach, next(mirror.ensemble().size() * box_->dimension()), edges);
-    std::vector<std::uint32_t> row_of(mirror.owned()), rows;
-    for (std::uint32_t k = 0; k < mirror.owned(); ++k) row_of[mirror.order()[k]] = k;
+    copy.build(reach, next(copy.ensemble().size() * box_->dimension()), edges);
+    std::vector<std::uint32_t> row_of(copy.owned()), rows;
+    for (std::uint32_t k = 0; k < copy.owned(); ++k) row_of[copy.order()[k]] = k;
     std::vector<double> references;
     for (auto count = static_cast<std::size_t>(next(1)[0]); count > 0; --count) {
       auto const moved = next(4);
       if (!(moved[0] >= 0 && moved[0] < static_cast<double>(row_of.size())))
         throw Error(fmt::format("the checkpoint's neighbour lists name particle {} of '{}', which has {}", moved[0],
-                                mirror.ensemble().name(), row_of.size()));
+                                copy.ensemble().name(), row_of.size()));
       rows.push_back(row_of[static_cast<std::size_t>(moved[0])]);
       references.insert(references.end(), moved.begin() + 1, moved.end());
     }
-    mirror.move(rows, references);
+    copy.move(rows, references);
   }
   find_neighbours(threads);
   if (head[1] != 0)
-    for (auto& mirror : mirrors_) mirror.refresh(1);
+    for (auto& copy : copies_) copy.refresh(1);
   ring_ = static_cast<int>(head[2]);
   found_again_ = head[3];
 }
 
 std::size_t Neighbourhood::bytes() const {
   std::size_t bytes = 0;
-  for (auto const& mirror : mirrors_) bytes += mirror.bytes();
+  for (auto const& copy : copies_) bytes += copy.bytes();
   for (auto const& list : lists_) bytes += list.list.bytes();
   return bytes;
 }

@@ -1,8 +1,8 @@
-// Neighbourhood: mirrors of ensembles and the neighbour lists between them, kept up to date while particles move.
+// Neighbourhood: sorted copies of ensembles and the neighbour lists between them, kept up to date while particles move.
 #pragma once
 
-#include <boltzmann/neighbours/mirror.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/neighbours/sorted_copy.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ constexpr int worth_threads(std::size_t work, std::size_t least, int threads) { 
 /// Why lists of this cut-off can't have so long a skin, in one line; empty if they can.
 std::string skin_refused(double cutoff, double skin);
 
-/// One mirror for each ensemble, and lists between them, each with a cut-off of its own. Lists reach cutoff + skin;
+/// One sorted copy for each ensemble, and lists between them, each with a cut-off of its own. Lists reach cutoff + skin;
 /// they are built anew when particles have moved too far for that, and around a few particles that are ahead of all
 /// others (knock-on atoms) neighbours are found anew alone.
 class Neighbourhood {
@@ -38,8 +38,8 @@ class Neighbourhood {
   /// A list of the neighbours of every particle of `target` among those of `source`; returns its number, that of an
   /// equal list if there is one. Error if the cut-off is not a positive length.
   std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff);
-  /// The mirror of an ensemble, made when it is first asked for, with so many extra blocks (see Mirror).
-  Mirror& mirror(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
+  /// The sorted copy of an ensemble, made when it is first asked for, with so many extra blocks (see SortedCopy).
+  SortedCopy& copy(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
   /// Changes the cut-off of a list: all lists are built anew at the next refresh.
   void cutoff(std::size_t list, double length);
   double cutoff(std::size_t list) const { return lists_[list].cutoff; }
@@ -55,8 +55,8 @@ class Neighbourhood {
 
   bool empty() const { return lists_.empty(); }
   NeighbourList const& list(std::size_t list) const { return lists_[list].list; }
-  Mirror const& target(std::size_t list) const { return *lists_[list].target; }
-  Mirror const& source(std::size_t list) const { return *lists_[list].source; }
+  SortedCopy const& target(std::size_t list) const { return *lists_[list].target; }
+  SortedCopy const& source(std::size_t list) const { return *lists_[list].source; }
   /// How far lists are to be read: the argument of NeighbourList::lengths().
   int ring() const { return ring_; }
 
@@ -72,12 +72,12 @@ class Neighbourhood {
 
  private:
   struct List {
-    Mirror *target, *source;
+    SortedCopy *target, *source;
     double cutoff;
     NeighbourList list;
   };
-  struct Moved {  // rows of a mirror that need new references
-    Mirror* mirror;
+  struct Moved {  // rows of a sorted copy that need new references
+    SortedCopy* copy;
     std::vector<std::uint32_t> rows;
   };
 
@@ -96,7 +96,7 @@ class Neighbourhood {
   int ring_ = 0;
   double found_again_ = 0;  // rows found anew since the lists were built
   std::size_t builds_ = 0, moves_ = 0;
-  std::deque<Mirror> mirrors_;
+  std::deque<SortedCopy> copies_;
   std::deque<List> lists_;
 };
 

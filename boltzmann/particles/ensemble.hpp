@@ -39,7 +39,7 @@ class AnyEnsemble {
   std::size_t doubles() const { return doubles_; }  ///< doubles of the class in a row (the rest is padding)
 
   /// What the schemes have summed up for particle i: `influence_size()` doubles (a force for Newton, a velocity for
-  /// Euler).
+  /// Tracer).
   double* influence(std::size_t i) { return influence_.data() + i * influence_size_; }
   double const* influence(std::size_t i) const { return influence_.data() + i * influence_size_; }
   std::size_t influence_size() const { return influence_size_; }

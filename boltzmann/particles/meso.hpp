@@ -7,7 +7,7 @@
 namespace boltzmann {
 
 /// A molecule, or a lump of matter, as one particle: its internal energy is that of the degrees of freedom that are not
-/// followed. A DissipativeFlow exchanges it with the motion; a StateLaw says which temperature it stands for.
+/// followed. A PairDissipation exchanges it with the motion; a StateLaw says which temperature it stands for.
 template <int D, class Real = double>
 struct Meso : Newton<D, Real> {
   static constexpr char const* class_name = "Meso";

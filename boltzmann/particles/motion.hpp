@@ -1,8 +1,8 @@
 // Which class of the hierarchy says how a particle moves: what is compiled for that one serves all that derive from it.
 #pragma once
 
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/tracer.hpp>
 
 #include <type_traits>
 
@@ -39,10 +39,10 @@ consteval bool moves_as() {
     return false;
 }
 
-/// Newton or Euler, if P moves as they do; else P itself.
+/// Newton or Tracer, if P moves as they do; else P itself.
 template <class P>
 using MovesAs = std::conditional_t<moves_as<Newton<P::dimension>, P>(), Newton<P::dimension>,
-                                   std::conditional_t<moves_as<Euler<P::dimension>, P>(), Euler<P::dimension>, P>>;
+                                   std::conditional_t<moves_as<Tracer<P::dimension>, P>(), Tracer<P::dimension>, P>>;
 
 }  // namespace detail
 }  // namespace boltzmann

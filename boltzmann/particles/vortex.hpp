@@ -1,7 +1,7 @@
 // Vortex, Inviscid, Viscous: elements of vorticity that carry each other along (section 3.7).
 #pragma once
 
-#include <boltzmann/particles/euler.hpp>
+#include <boltzmann/particles/tracer.hpp>
 
 namespace boltzmann {
 
@@ -15,7 +15,7 @@ struct VortexInfluence {
 /// An element of vorticity: in 2D one component out of the plane (the circulation), in 3D the vector vorticity times
 /// volume. `core` is the radius inside which its velocity field is regularised.
 template <int D, class Real = double>
-struct Vortex : Euler<D, Real> {
+struct Vortex : Tracer<D, Real> {
   static_assert(D == 2 || D == 3, "a vortex lives in 2D or 3D: there is no vorticity in 1D");
   static constexpr char const* class_name = "Vortex";
 
@@ -24,7 +24,7 @@ struct Vortex : Euler<D, Real> {
 
   template <class Self>
   static FieldTable<Self> fields() {
-    return Euler<D, Real>::template fields<Self>()
+    return Tracer<D, Real>::template fields<Self>()
         .add(&Vortex::vorticity, "vorticity",
              D == 2 ? dimensions::circulation : dimensions::length * dimensions::circulation,
              D == 2 ? "circulation" : "vorticity times volume")

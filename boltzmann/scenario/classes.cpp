@@ -13,7 +13,7 @@ std::vector<ParticleClass> const& particle_classes() {
   static std::vector<ParticleClass> const all = [] {
     std::vector<ParticleClass> classes;
     for (auto const& family :
-         {detail::newton_classes(), detail::laplace_classes(), detail::flow_classes(), detail::smooth_classes()})
+         {detail::newton_classes(), detail::laplace_classes(), detail::tracer_classes(), detail::smooth_classes()})
       classes.insert(classes.end(), family.begin(), family.end());
     return classes;
   }();

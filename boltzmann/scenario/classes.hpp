@@ -47,7 +47,7 @@ namespace detail {
 // One per source file, so that they compile side by side.
 std::vector<ParticleClass> newton_classes();
 std::vector<ParticleClass> laplace_classes();
-std::vector<ParticleClass> flow_classes();
+std::vector<ParticleClass> tracer_classes();
 std::vector<ParticleClass> smooth_classes();
 }  // namespace detail
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/loaders/lattice.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/reading.hpp>

@@ -3,7 +3,7 @@
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/field_values.hpp>
 #include <boltzmann/scenario/frozen.hpp>

@@ -90,7 +90,7 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   double own_count = 0;  // from what is loaded
   if (*name == "block") own_count = read_block();
   if (*name == "fill") own_count = read_fill();
-  if (*name == "ripple") wave_ = wave_of(options_, section_, reading_);
+  if (*name == "sinusoidal") wave_ = wave_of(options_, section_, reading_);
   if (*name == "positions") own_count = read_positions();
   if (*name == "file") own_count = read_file();
   section_.finish();
@@ -125,13 +125,13 @@ void Loader::load(AnyEnsemble& particles) {
     random_load(particles, *reading_.box, seed, options_.minimum_distance);
   } else if (kind == "quiet") {
     quiet_load(particles, *reading_.box);
-  } else if (kind == "ripple" && options_.quiet) {
+  } else if (kind == "sinusoidal" && options_.quiet) {
     quiet_load(particles, *reading_.box, wave_, options_.amplitude);
-  } else if (kind == "ripple") {
-    ripple_load(particles, *reading_.box, wave_, options_.amplitude, seed);
-  } else if (kind == "gravity") {
-    gravity_load(particles, *reading_.box, options_.temperature, options_.acceleration, reading_.boltzmann_constant(),
-                 seed);
+  } else if (kind == "sinusoidal") {
+    sinusoidal_load(particles, *reading_.box, wave_, options_.amplitude, seed);
+  } else if (kind == "barometric") {
+    barometric_load(particles, *reading_.box, options_.temperature, options_.acceleration,
+                    reading_.boltzmann_constant(), seed);
   } else if (kind == "positions" || kind == "fill") {
     for (std::size_t i = 0; i < count_; ++i)
       std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),

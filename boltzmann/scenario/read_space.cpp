@@ -79,15 +79,16 @@ void read_wall(Item const& table, Reading& reading) {
   if (!axis || reading.context.mistakes.count() != before || !reading.box) return;
   int const a = (*axis)[0] - 'x';
   Boundary const boundary = reading.box->boundary(a);
-  if (boundary != Boundary::mirror && boundary != Boundary::bounded)
+  if (boundary != Boundary::mirror && boundary != Boundary::reflecting)
     return reading.mistake(axis_item->place, fmt::format("axis: {} is {}; walls stand at the ends of axes whose "
-                                                         "boundary is \"mirror\" or \"bounded\"",
+                                                         "boundary is \"mirror\" or \"reflecting\"",
                                                          *axis, to_string(boundary)));
-  if (boundary == Boundary::bounded) {
+  if (boundary == Boundary::reflecting) {
     auto const refuse = [&](char const* key, char const* what) {
-      reading.mistake(section.place(key), fmt::format("{}: {} is bounded, where walls {}; what drags or heats is the "
-                                                      "wall of an axis whose boundary is \"mirror\"",
-                                                      key, *axis, what));
+      reading.mistake(section.place(key),
+                      fmt::format("{}: {} is reflecting, where walls {}; what drags or heats is the "
+                                  "wall of an axis whose boundary is \"mirror\"",
+                                  key, *axis, what));
     };
     if (!wall.slips) refuse("slips", "always slip");
     if (section.has("temperature")) refuse("temperature", "are insulated");

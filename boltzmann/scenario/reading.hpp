@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
-#include <boltzmann/flows/flow.hpp>
+#include <boltzmann/dissipation/dissipation.hpp>
 #include <boltzmann/laws/state_law.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -71,8 +71,8 @@ struct Recorded {
 };
 
 /// What brings the particles to a temperature before the run.
-struct ReadPreparation {
-  std::shared_ptr<Flow> flow;  ///< null: nothing does
+struct ReadEquilibration {
+  std::shared_ptr<Dissipation> bath;  ///< null: nothing does
   std::uint64_t steps = 0;
 };
 
@@ -87,7 +87,7 @@ struct Reading {
   ReadMesh mesh;
   ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
-  ReadPreparation preparation = {};
+  ReadEquilibration equilibration = {};
   std::vector<Place> diagnosis_places = {};  ///< of each in the result
   bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
@@ -158,9 +158,9 @@ void add_rezoners(Reading const& reading);
 /// calculated, with one mistake for all that ask.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);
 void read_influences(Section& document, Reading& reading);
-/// Reads [[flows]], friction and noise, and [prepare]; lets the simulation have them.
-void read_flows(Section& document, Reading& reading);
-void add_flows(Reading const& reading);
+/// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
+void read_dissipations(Section& document, Reading& reading);
+void add_dissipations(Reading const& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.
 void read_output(Section& document, Item& resolved, Reading& reading);

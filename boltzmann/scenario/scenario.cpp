@@ -38,7 +38,7 @@ void build(Item& document, Reading& reading) {
   load_rezone(reading);
   read_influences(top, reading);
   settle_run(document, reading);
-  read_flows(top, reading);
+  read_dissipations(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
   read_stop(reading);
@@ -56,7 +56,7 @@ void build(Item& document, Reading& reading) {
   if (!result.simulation) return;
   for (auto& ensemble : reading.ensembles)
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
-  add_flows(reading);
+  add_dissipations(reading);
   add_rezoners(reading);
   try {
     result.simulation->check();

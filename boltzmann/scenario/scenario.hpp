@@ -5,7 +5,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
-#include <boltzmann/flows/flow.hpp>
+#include <boltzmann/dissipation/dissipation.hpp>
 #include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/sweep.hpp>
@@ -50,10 +50,10 @@ struct ScenarioSimulation {
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
   std::unique_ptr<Scheme> scheme;
-  PairScheme* pairs = nullptr;               ///< the scheme itself, or what acts beside its mesh; null with [smooth]
-  MeshScheme* mesh = nullptr;                ///< the scheme itself, if the scenario has a [mesh]
-  SmoothScheme* smooth = nullptr;            ///< the scheme itself, if the scenario has a [smooth]
-  std::vector<std::unique_ptr<Flow>> flows;  ///< friction and noise
+  PairScheme* pairs = nullptr;     ///< the scheme itself, or what acts beside its mesh; null with [smooth]
+  MeshScheme* mesh = nullptr;      ///< the scheme itself, if the scenario has a [mesh]
+  SmoothScheme* smooth = nullptr;  ///< the scheme itself, if the scenario has a [smooth]
+  std::vector<std::unique_ptr<Dissipation>> dissipations;  ///< friction and noise
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;

@@ -2,7 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
-#include <boltzmann/flows/flow_options.hpp>
+#include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -234,9 +234,9 @@ std::string influences() {
 }  // namespace
 
 std::string scenario_schema() {
-  std::vector<KindOf> diagnoses, flows;
+  std::vector<KindOf> diagnoses, dissipations;
   for (auto const& kind : diagnosis_kinds()) diagnoses.push_back({kind.name, kind.doc, &kind.options});
-  for (auto const& kind : flow_kinds()) flows.push_back({kind.name, kind.doc, &kind.options});
+  for (auto const& kind : dissipation_kinds()) dissipations.push_back({kind.name, kind.doc, &kind.options});
   auto const closed = [](std::string_view name, Members more = {}) {
     auto const& of = table_named(name);
     auto properties = properties_of(*of.options, of.plain);
@@ -259,10 +259,10 @@ std::string scenario_schema() {
       {"smooth", closed("smooth", {{"rezone", one_or_tables(closed("smooth.rezone"))}})},
       {"ensembles", ensembles()},
       {"influences", influences()},
-      {"flows", tables(kinds("kind", flows,
-                             {{"on", something("an ensemble, for the pairs within it")},
-                              {"between", something("two ensembles, for the pairs of one of each")}}))},
-      {"prepare", closed("prepare")},
+      {"dissipation", tables(kinds("kind", dissipations,
+                                   {{"on", something("an ensemble, for the pairs within it")},
+                                    {"between", something("two ensembles, for the pairs of one of each")}}))},
+      {"equilibrate", closed("equilibrate")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"output", closed("output", {{"pictures", of_pictures({{"file", object({{"type", quoted_text("string")}})}})}})},
       {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},

@@ -1,7 +1,7 @@
 // What the tables of a scenario say, but those whose room has its own.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/colour.hpp>
-#include <boltzmann/flows/flow_options.hpp>
+#include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
@@ -47,7 +47,7 @@ OptionTable make_box_options() {
   for (auto const& word : boundary_words())
     kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   all.add_said("boundary", "a word, or a list with one for each axis", kinds, "`\"open\"`");
-  all.add_said("walls", "tables, `[[box.walls]]`", "of [mirror and bounded axes](#boxwalls)", "none");
+  all.add_said("walls", "tables, `[[box.walls]]`", "of [mirror and reflecting axes](#boxwalls)", "none");
   all.add_said("regions", "tables, `[[box.regions]]`",
                "blocks inside the space with elastic faces: `low`, `high`, `side = \"keep-out\"` or `\"keep-in\"`",
                "none");
@@ -175,7 +175,7 @@ OptionTable make_wall_options() {
   return all;
 }
 
-OptionTable make_preparation_options() {
+OptionTable make_equilibration_options() {
   OptionTable all = bath_options();
   all.add_said("time", "a time, zero or more", "how long");
   all.add_said("on", ensemble_or_list, "who is prepared", "all that leap-frog moves");
@@ -209,8 +209,8 @@ OptionTable const& wall_options() {
   static OptionTable const all = make_wall_options();
   return all;
 }
-OptionTable const& preparation_options() {
-  static OptionTable const all = make_preparation_options();
+OptionTable const& equilibration_options() {
+  static OptionTable const all = make_equilibration_options();
   return all;
 }
 
@@ -224,7 +224,7 @@ std::vector<ScenarioTable> const& scenario_tables() {
   static EnsembleOptions ensemble;
   static std::vector<ScenarioTable> const all = {
       {"box", "[box]", "the space", &box_options(), nullptr},
-      {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of bounded ones",
+      {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of reflecting ones",
        &wall_options(), &wall},
       {"run", "[run]", "how long, in which steps", &run_options(), &run},
       {"mesh", "[mesh]", "charges or masses influence each other through a field on a mesh", &mesh_options(), &mesh},
@@ -234,7 +234,7 @@ std::vector<ScenarioTable> const& scenario_tables() {
       {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
       {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
       {"output", "[output]", "what is written, and how often", &output_options(), nullptr},
-      {"prepare", "[prepare]", "a heat bath before the run begins", &preparation_options(), &bath}};
+      {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath}};
   return all;
 }
 

@@ -43,8 +43,8 @@ struct EnsembleOptions {
 };
 OptionTable const& ensemble_options();
 
-/// [prepare]: a heat bath for a while.
-OptionTable const& preparation_options();
+/// [equilibrate]: a heat bath for a while.
+OptionTable const& equilibration_options();
 
 /// [box], [[influences]] and [output], which are read by code of their own; beside these keys, influences have
 /// parameters.
@@ -59,7 +59,7 @@ struct ScenarioTable {
   OptionTable const* options;
   void* plain;  ///< an object as it is without keys; null: none of the keys is a plain member
 };
-/// Those that have a table of options, in the order of the guide; those of several kinds (flows, pictures, diagnoses)
+/// Those that have a table of options, in the order of the guide; those of several kinds (dissipation, pictures, diagnoses)
 /// have one for each kind and are not here.
 std::vector<ScenarioTable> const& scenario_tables();
 

@@ -5,9 +5,9 @@
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/fused_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
 #include <boltzmann/schemes/rotation.hpp>
-#include <boltzmann/schemes/whole_steps.hpp>
 
 #include <array>
 #include <memory>
@@ -57,14 +57,14 @@ class Scheme {
   virtual void add_influences(double time) = 0;
   /// One call that does all of calculate(), for systems so small that the way there costs as much as the work. It holds
   /// until an ensemble, a law or the box changes; `call` is null if there is none.
-  struct Shortcut {
+  struct SmallSystem {
     void (*call)(void const* data) = nullptr;
     void const* data = nullptr;
   };
-  virtual Shortcut shortcut() { return {}; }
+  virtual SmallSystem small_system() { return {}; }
   /// A loop that advances these ensembles, all that there are, from their rows as they stand by leap-frog steps of size
   /// dt; null if there is none for them. It holds until an ensemble, a law or the box changes.
-  virtual std::unique_ptr<WholeSteps> whole_steps(std::vector<Mover> const& /*movers*/, double /*dt*/) {
+  virtual std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& /*movers*/, double /*dt*/) {
     return nullptr;
   }
   /// Fields of the particles that are not their own but found by this scheme (the density of smooth particles), for the
@@ -98,7 +98,7 @@ class Scheme {
   /// Memory that the scheme itself holds (not the ensembles), in bytes.
   virtual std::size_t bytes() const { return 0; }
   /// What one should know before a run with such steps: resolution, noise; warnings begin with "warning: ".
-  virtual std::vector<std::string> advice(double /*step_size*/) { return {}; }
+  virtual std::vector<std::string> warnings(double /*step_size*/) { return {}; }
   /// One line about the work done, for the end of a run.
   virtual std::string report() const { return ""; }
 

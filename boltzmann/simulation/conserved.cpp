@@ -1,6 +1,6 @@
 // Totals at both ends of a run, and the table that compares them.
 #include <boltzmann/diagnoses/measures.hpp>
-#include <boltzmann/flows/langevin_flow.hpp>
+#include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
@@ -60,11 +60,11 @@ Conserved conserved(Simulation const& simulation) {
     total.dimension = scheme->box().dimension();
     total.isolated = total.isolated && scheme->box().regions().empty();
     for (int a = 0; a < total.dimension; ++a)
-      total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::bounded &&
+      total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::reflecting &&
                        scheme->box().boundary(a) != Boundary::mirror;
   }
-  for (auto const* flow : simulation.flows())
-    total.isolated = total.isolated && dynamic_cast<LangevinFlow const*>(flow) == nullptr;
+  for (auto const* dissipation : simulation.dissipations())
+    total.isolated = total.isolated && dynamic_cast<LangevinBath const*>(dissipation) == nullptr;
   for (auto const* ensemble : ensembles) {
     if (!carries_momentum(*ensemble)) {
       massive = false;

@@ -61,7 +61,8 @@ OptionTable make_members() {
   all.add_of<Picture>(
       "range", [](Picture& p) -> OptionPlace { return &p.smoothing.range; }, number(dimensions::length, positive),
       "how far they are spread", "each particle's own, or one that fits");
-  all.add("cells", &Picture::cells, whole(1, 100'000), "bins at most, or cells along the longest side of the picture");
+  all.add("cells", &Picture::cells, whole(1, 100'000), "cells along the longest side of the picture");
+  all.add("bins", &Picture::bins, whole(1, 100'000), "bins");
   all.add_of<Picture>("curve", curves_of, tables(),
                       "`{ frequency = wp, speed = c }` draws omega^2 = wp^2 + c^2 k^2; or a list of them", "none");
   all.add_of<Picture>(
@@ -88,9 +89,8 @@ std::vector<Drawing> make_drawings() {
   std::vector<OptionKey> const seen{{"trace"}, {"most"}, {"region"}};
   std::vector<OptionKey> const slices{{"slice"}, {"at"}};
   OptionKey const field{"y", "`\"density\"`, or a quantity of the particles", "`\"density\"`"};
-  OptionKey const bins{"cells", "bins", "as many as fit", "", whole(1, 100'000)};
-  std::vector<OptionKey> const smoothing{
-      {"weight"}, {"range"}, {"cells", "cells along the longest side of the picture", "`300`", "", whole(2, 4000)}};
+  OptionKey const bins{"bins", "how many", "as many as fit"};
+  std::vector<OptionKey> const smoothing{{"weight"}, {"range"}, {"cells", "", "`300`", "", whole(2, 4000)}};
   using Keys = std::vector<OptionKey>;
   auto const all = [](std::initializer_list<Keys> parts) {
     Keys keys;
@@ -129,8 +129,7 @@ std::vector<Drawing> make_drawings() {
               "with commas: `number`, `density`, `velocity.x`, `kinetic-temperature`, `kinetic-temperature.x`, "
               "`internal-temperature`, `pressure.xx`, `internal-energy`, `potential-energy`, `specific-energy`",
               "`\"density\"`"},
-             {"cells", "bins at most; fewer, so that each has 50 particles in the mean", "`300`", "",
-              whole(1, 100'000)}},
+             {"bins", "at most; fewer, so that each has 50 particles in the mean", "`300`"}},
             axis_ends,
             {{"logarithmic"}}}),
        draw_profiles, check_profiles, dimension_of_profile},

@@ -47,12 +47,11 @@ Canvas draw_profiles(Scene& scene) {
   int const D = scene.box().dimension(), a = profile_axis(scene.picture, D);
   Measures const measures = scene.context.simulation.measure();
   double const k = scene.context.base.is_reduced() ? 1 : scene.context.base(constants::boltzmann);
-  Bodies const bodies(scene.ensembles, &measures);
+  MassiveParticles const bodies(scene.ensembles, &measures);
   std::size_t number = 0;
   for (auto const& source : bodies.sources()) number += source.ensemble->size();
   if (number == 0) return scene.too_few("a profile needs particles with a mass and a velocity");
-  auto const bins =
-      std::clamp<std::size_t>(number / 50, 1, static_cast<std::size_t>(scene.picture.cells.value_or(300)));
+  auto const bins = std::clamp<std::size_t>(number / 50, 1, static_cast<std::size_t>(scene.picture.bins.value_or(300)));
   auto const [low, high] = extent(bodies, scene.box(), a);
   Profile const found = profile(bodies, scene.box(), a, low, high, bins, k);
 

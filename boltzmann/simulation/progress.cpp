@@ -134,8 +134,8 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
     for (auto const& advice : lines)
       if (advice.starts_with("warning") ? options.warnings : !options.quiet) fmt::print(stderr, "{}\n", advice);
   };
-  for (auto* scheme : simulation.schemes()) print_advice(scheme->advice(simulation.step_size()));
-  for (auto* flow : simulation.flows()) print_advice(flow->advice(simulation.step_size()));
+  for (auto* scheme : simulation.schemes()) print_advice(scheme->warnings(simulation.step_size()));
+  for (auto* dissipation : simulation.dissipations()) print_advice(dissipation->warnings(simulation.step_size()));
   // The observer stays with the simulation, without effect once the line is gone.
   auto line = std::make_shared<std::unique_ptr<ProgressLine>>();
   if (!options.quiet) {

@@ -12,7 +12,7 @@ namespace boltzmann {
 struct ProgressOptions {
   bool quiet = false;        ///< no progress line
   std::int64_t planned = 0;  ///< the step number that counts as 100 %; 0: where this run ends
-  bool warnings = true;      ///< false: the caller tells those of schemes and flows
+  bool warnings = true;      ///< false: the caller tells those of schemes and dissipations
   /// Does the steps, in place of Simulation::run: a window, where somebody may pause, go back, or go on.
   std::function<void(std::uint64_t steps)> drive = {};
   /// Wall time in seconds that is left for the run and its files: it ends early, after a whole step, where another step
@@ -32,7 +32,7 @@ struct RunReport {
   std::string condition;       ///< of Recording::stop_when, if it has ended the run; else empty
 };
 
-/// Says what schemes and flows advise (Scheme::advice, Flow::advice; if quiet, their warnings only), and runs with a
+/// Says what schemes and dissipations advise (Scheme::warnings, Dissipation::warnings; if quiet, their warnings only), and runs with a
 /// progress line, both on standard error: on a terminal one that is rewritten five times a second, elsewhere one line
 /// for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
 RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});

@@ -682,8 +682,8 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
   }
   for (auto const* scheme : simulation.schemes())
     if (auto const line = scheme->report(); !line.empty()) fmt::print("  scheme   {}\n", line);
-  for (auto const* flow : simulation.flows())
-    if (auto const line = flow->report(); !line.empty()) fmt::print("  flow     {}\n", line);
+  for (auto const* dissipation : simulation.dissipations())
+    if (auto const line = dissipation->report(); !line.empty()) fmt::print("  dissipation {}\n", line);
   for (auto const* adaptation : simulation.adaptations())
     if (auto const line = adaptation->report(recording.base()); !line.empty()) fmt::print("  changes  {}\n", line);
   if (!report.condition.empty())

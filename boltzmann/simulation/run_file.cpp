@@ -33,7 +33,7 @@ std::string box_text(Box const& box) {
     auto const axis = static_cast<std::size_t>(a);
     low[axis] = box.low(a), high[axis] = box.high(a);
     kinds.push_back(to_string(box.boundary(a)));
-    if (box.boundary(a) != Boundary::mirror && box.boundary(a) != Boundary::bounded) continue;
+    if (box.boundary(a) != Boundary::mirror && box.boundary(a) != Boundary::reflecting) continue;
     for (auto const end : {Box::End::low, Box::End::high}) {
       walls += fmt::format("\n[[box.walls]]\naxis = {}\nend = \"{}\"\n", a, end == Box::End::low ? "low" : "high");
       if (!box.walled(a, end)) {

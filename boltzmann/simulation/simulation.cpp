@@ -11,8 +11,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr double far_above = 4;                   // the longest step that makes sense
-constexpr std::uint32_t first_preparation = 128;  // its number as a flow
+constexpr double max_courant = 4;                   // the longest step that makes sense
+constexpr std::uint32_t first_equilibration = 128;  // its number as a dissipation
 
 /// Takes off the velocity of the centre of mass, and returns it.
 std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
@@ -49,9 +49,9 @@ void Simulation::add(Scheme& scheme) {
   checked_ = false;
 }
 
-void Simulation::add(Flow& flow) {
-  flow.number(static_cast<std::uint32_t>(flows_.size()));
-  flows_.push_back(&flow);
+void Simulation::add(Dissipation& dissipation) {
+  dissipation.number(static_cast<std::uint32_t>(dissipations_.size()));
+  dissipations_.push_back(&dissipation);
   checked_ = false;
 }
 
@@ -100,9 +100,9 @@ std::vector<Adaptation const*> Simulation::adaptations() const {
   return all;
 }
 
-void Simulation::prepare(std::shared_ptr<Flow> flow, std::uint64_t steps) {
-  flow->number(first_preparation + static_cast<std::uint32_t>(preparations_.size()));
-  preparations_.push_back({std::move(flow), steps});
+void Simulation::equilibrate(std::shared_ptr<Dissipation> dissipation, std::uint64_t steps) {
+  dissipation->number(first_equilibration + static_cast<std::uint32_t>(equilibrations_.size()));
+  equilibrations_.push_back({std::move(dissipation), steps});
   checked_ = false;
 }
 
@@ -117,7 +117,7 @@ void Simulation::step_size(double size) {
 
 void Simulation::threads(int count) {
   for (auto* scheme : schemes_) scheme->threads(count);
-  for (auto* flow : flows_) flow->threads(count);
+  for (auto* dissipation : dissipations_) dissipation->threads(count);
   for (auto& part : parts_) part.integrator->threads(count < 1 ? default_threads() : count);
 }
 
@@ -129,7 +129,7 @@ Method Simulation::method(AnyEnsemble const& ensemble) const {
 
 void Simulation::check() {
   if (checked_) return;
-  shortcut_ = {};
+  small_system_ = {};
   ensembles_.clear();
   move_walls(time());
   for (auto* scheme : schemes_)
@@ -166,13 +166,13 @@ void Simulation::check() {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
   take_lengths();
-  check_flows();
+  check_dissipations();
   if (reversible && !changes_.empty())
     throw Error("the reversible leap-frog can't take back what an adaptation does between steps; use leap-frog");
   if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
   for (auto* scheme : schemes_) {
     double const longest = scheme->longest_step();
-    if (std::abs(step_size_) > far_above * longest)
+    if (std::abs(step_size_) > max_courant * longest)
       throw Error(
           fmt::format("the step {} is far above the longest that makes sense, {} (sound and diffusion "
                       "must not outrun it)",
@@ -194,11 +194,11 @@ void Simulation::check() {
   checked_ = true;
 }
 
-void Simulation::check_flows() {
-  std::vector<Flow*> all = flows_;
-  for (auto const& preparation : preparations_) all.push_back(preparation.flow.get());
-  for (auto* flow : all) {
-    for (auto* ensemble : flow->ensembles()) {
+void Simulation::check_dissipations() {
+  std::vector<Dissipation*> all = dissipations_;
+  for (auto const& equilibration : equilibrations_) all.push_back(equilibration.dissipation.get());
+  for (auto* dissipation : all) {
+    for (auto* ensemble : dissipation->ensembles()) {
       auto const part =
           std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
       if (part == parts_.end())
@@ -210,7 +210,7 @@ void Simulation::check_flows() {
                     "', which needs leap-frog for all its particles then, not " +
                     (all ? to_string(part->integrator->method()) : "some that are frozen"));
     }
-    flow->check();
+    dissipation->check();
   }
 }
 
@@ -253,8 +253,8 @@ void Simulation::move_walls(double time) {
 
 void Simulation::calculate(double time) {
   move_walls(time);
-  if (shortcut_.call) {
-    shortcut_.call(shortcut_.data);
+  if (small_system_.call) {
+    small_system_.call(small_system_.data);
     return;
   }
   if (schemes_.size() == 1) {
@@ -265,7 +265,7 @@ void Simulation::calculate(double time) {
   for (auto* scheme : schemes_) scheme->add_influences(time);
 }
 
-void Simulation::advance(double dt, std::vector<Flow*> const& flows) {
+void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double const start = time();
   double passed = 0;
@@ -283,19 +283,19 @@ void Simulation::advance(double dt, std::vector<Flow*> const& flows) {
       for (auto const* scheme : schemes_) work_ += scheme->box().apply(*part.ensemble, scheme->threads());
     }
   }
-  if (!flows.empty() && !fresh_) calculate(start + passed * dt), fresh_ = true;
-  for (auto* flow : flows) flow->advance(context);
+  if (!dissipations.empty() && !fresh_) calculate(start + passed * dt), fresh_ = true;
+  for (auto* dissipation : dissipations) dissipation->advance(context);
   for (auto const& part : parts_) check_moves(part);
   for (auto const* scheme : schemes_)
-    if (std::abs(dt) > far_above * scheme->sound_step())
+    if (std::abs(dt) > max_courant * scheme->sound_step())
       throw PhysicsFailure(
           fmt::format("sound has become so fast that the step {} is far above the longest that makes "
                       "sense, {}",
                       told_time(std::abs(dt)), told_time(scheme->sound_step())));
 }
 
-std::unique_ptr<WholeSteps> Simulation::whole_steps(double dt) {
-  if (schemes_.size() != 1 || !changes_.empty() || !flows_.empty()) return nullptr;
+std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
+  if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty()) return nullptr;
   std::vector<Mover> movers;
   for (auto const& part : parts_) {
     Method const method = part.integrator->method();
@@ -303,7 +303,7 @@ std::unique_ptr<WholeSteps> Simulation::whole_steps(double dt) {
       return nullptr;
     movers.push_back({part.ensemble, method == Method::leap_frog});
   }
-  return schemes_.front()->whole_steps(movers, dt);
+  return schemes_.front()->fused_steps(movers, dt);
 }
 
 void Simulation::check_moves(Part const& part) const {
@@ -356,9 +356,9 @@ void Simulation::speak_in(Base const& base) {
   for (auto* scheme : schemes_) scheme->speak_in(base);
 }
 
-void Simulation::complete() const {
+void Simulation::update_derived_fields() const {
   for (auto* scheme : schemes_) scheme->complete(time());
-  for (auto* flow : flows_) flow->complete();
+  for (auto* dissipation : dissipations_) dissipation->update_derived_fields();
 }
 
 /// Of all rows, whatever their meaning.
@@ -391,7 +391,7 @@ void Simulation::take_particles() {
       scheme->box().wrap(*ensemble);
     }
   fresh_ = kept_ = false;
-  shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
+  small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   take_lengths();
 }
 
@@ -404,7 +404,7 @@ void Simulation::adapt_now() {
   bool completed = false;
   for (auto const& change : changes_) {
     if (step_ % change.every != 0) continue;
-    if (!completed) complete();
+    if (!completed) update_derived_fields();
     auto const before = checksum(true);
     auto const sizes_before = sizes();
     try {
@@ -432,31 +432,31 @@ bool Simulation::observation_due() const {
 
 void Simulation::observe_now() const {
   if (!observation_due()) return;
-  complete();
+  update_derived_fields();
   for (auto const& observation : observations_)
     if (observation.due(step_)) observation.observer(*this);
 }
 
 void Simulation::prepare_now() {
-  if (preparations_.empty()) return;
-  auto const preparations = std::move(preparations_);
-  preparations_.clear();
+  if (equilibrations_.empty()) return;
+  auto const equilibrations = std::move(equilibrations_);
+  equilibrations_.clear();
   for (auto* scheme : schemes_) scheme->box().hold_walls(true);
-  for (auto const& [flow, steps] : preparations) {
-    flow->threads(schemes_.front()->threads());
+  for (auto const& [dissipation, steps] : equilibrations) {
+    dissipation->threads(schemes_.front()->threads());
     std::vector<std::array<double, 3>> drifts;
-    for (auto* ensemble : flow->ensembles()) drifts.push_back(come_to_rest(*ensemble));
-    // A stop waits until the end: nothing could go on with half a preparation.
+    for (auto* ensemble : dissipation->ensembles()) drifts.push_back(come_to_rest(*ensemble));
+    // A stop waits until the end: nothing could go on with half an equilibration.
     for (std::uint64_t n = 0; n < steps; ++n) {
       try {
-        advance(step_size_, {flow.get()});
+        advance(step_size_, {dissipation.get()});
       } catch (PhysicsFailure const& failure) {
-        throw PhysicsFailure(fmt::format("step {} of the preparation: {}", n + 1, failure.what()));
+        throw PhysicsFailure(fmt::format("step {} of the equilibration: {}", n + 1, failure.what()));
       }
       ++step_;  // noise of its own for each
     }
     step_ = base_step_;
-    for (std::size_t e = 0; auto* ensemble : flow->ensembles()) {
+    for (std::size_t e = 0; auto* ensemble : dissipation->ensembles()) {
       come_to_rest(*ensemble);
       set_moving(*ensemble, drifts[e++]);
     }
@@ -474,7 +474,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   check();
   if (direction < 0 && !changes_.empty())
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
-  if (direction < 0 && !flows_.empty()) throw Error("a run with friction and noise can't go backwards");
+  if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
   if (!observed_) {
     prepare_now();  // also for no steps: what is stored of them is where another run goes on
     observed_ = true;
@@ -487,15 +487,15 @@ void Simulation::run(std::uint64_t steps, int direction) {
     bool& running;
     ~Ended() { running = false; }
   } const ended{running_};
-  shortcut_ = schemes_.size() == 1 ? schemes_.front()->shortcut() : Scheme::Shortcut{};
+  small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
-  std::unique_ptr<WholeSteps> const whole = steps > 0 ? whole_steps(dt) : nullptr;
+  std::unique_ptr<FusedSteps> const whole = steps > 0 ? fused_steps(dt) : nullptr;
   for (std::uint64_t n = 0; n < steps && !stopped() && !pause_; ++n) {
     try {
       if (whole)
         whole->step(time());
       else
-        advance(dt, flows_);
+        advance(dt, dissipations_);
     } catch (PhysicsFailure const& failure) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }
@@ -508,7 +508,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     for (auto const& observer : progress_) observer(*this);
   }
   if (whole) whole->store();
-  complete();
+  update_derived_fields();
   kept_ = fresh_ && keeps_influences_;
   if (kept_) kept_checksum_ = checksum();
 }
@@ -530,9 +530,9 @@ Measures Simulation::measure() const {
     }
   }
   total.work = work_;
-  for (auto const* flow : flows_) {
-    total.internal += flow->internal_energy();
-    total.heat += flow->heat();
+  for (auto const* dissipation : dissipations_) {
+    total.internal += dissipation->internal_energy();
+    total.heat += dissipation->heat();
   }
   return total;
 }
@@ -545,7 +545,7 @@ std::vector<double> Simulation::state() const {
     state.insert(state.end(), part.begin(), part.end());
   };
   for (auto const* scheme : schemes_) add(scheme->state());
-  for (auto const* flow : flows_) add(flow->state());
+  for (auto const* dissipation : dissipations_) add(dissipation->state());
   if (keeps_influences_) {
     bool const fresh = fresh_ && (running_ || (kept_ && checksum() == kept_checksum_));
     state.push_back(fresh ? 1 : 0);
@@ -579,7 +579,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     return state.subspan(at - count, count);
   };
   for (auto* scheme : schemes_) scheme->restore(next());
-  for (auto* flow : flows_) flow->restore(next());
+  for (auto* dissipation : dissipations_) dissipation->restore(next());
   if (keeps_influences_ && at >= state.size()) throw misfit();
   kept_ = keeps_influences_ && state[at++] != 0;
   if (kept_)
@@ -591,7 +591,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     }
   for (auto const& change : changes_) change.adaptation->restore(next());
   take_lengths();
-  complete();
+  update_derived_fields();
   kept_checksum_ = checksum();
   fresh_ = false;
   observed_ = true;

@@ -1,7 +1,7 @@
 // Simulation: the loop. Schemes calculate influences, integrators advance particles, observers look at finished steps.
 #pragma once
 
-#include <boltzmann/flows/flow.hpp>
+#include <boltzmann/dissipation/dissipation.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
@@ -23,9 +23,9 @@ class Simulation {
 
   /// A further scheme that adds its influences (its ensembles may be the same or others).
   void add(Scheme& scheme);
-  /// A flow that acts after every step, for the time of the step (it must outlive the simulation). Its ensembles are
-  /// advanced by leap-frog. A run with flows can't go backwards.
-  void add(Flow& flow);
+  /// A dissipation that acts after every step, for the time of the step (it must outlive the simulation). Its ensembles are
+  /// advanced by leap-frog. A run with dissipations can't go backwards.
+  void add(Dissipation& dissipation);
 
   /// How an ensemble is advanced. Every ensemble needs one method.
   template <class P>
@@ -40,7 +40,7 @@ class Simulation {
   /// The same at the steps for which due(step) is true.
   void observe_when(std::function<bool(std::int64_t step)> due, std::function<void(Simulation const&)> observer);
   /// Calls the observer after every step, for its number and time only: whatever it costs to bring particles up to date
-  /// (see WholeSteps) is not spent.
+  /// (see FusedSteps) is not spent.
   void observe_progress(std::function<void(Simulation const&)> observer);
 
   /// Lets something change particles, or their number, after every step whose number is a multiple of `every`, before
@@ -54,10 +54,10 @@ class Simulation {
   /// In the order in which they are called.
   std::vector<Adaptation const*> adaptations() const;
 
-  /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this flow in
+  /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this dissipation in
   /// place of the simulation's own, on velocities relative to the common one of each ensemble: a body is brought to a
   /// temperature. Nobody observes these steps, they are not counted, and moving walls stand still.
-  void prepare(std::shared_ptr<Flow> flow, std::uint64_t steps);
+  void equilibrate(std::shared_ptr<Dissipation> dissipation, std::uint64_t steps);
 
   /// Makes ready and refuses what can't run: an ensemble without integrator, particles where they can't be, influences
   /// that are not finite (two particles at one place). Error with one line. run() calls it once.
@@ -86,11 +86,11 @@ class Simulation {
   void threads(int count);
 
   std::vector<Scheme*> const& schemes() const { return schemes_; }
-  std::vector<Flow*> const& flows() const { return flows_; }
-  bool prepares() const { return !preparations_.empty(); }
+  std::vector<Dissipation*> const& dissipations() const { return dissipations_; }
+  bool equilibrates() const { return !equilibrations_.empty(); }
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   Method method(AnyEnsemble const& ensemble) const;
-  /// Energies and virial of the present state, over all schemes and flows.
+  /// Energies and virial of the present state, over all schemes and dissipations.
   Measures measure() const;
 
   /// What, besides the particles, determines the bits of the next step.
@@ -116,13 +116,13 @@ class Simulation {
     std::unique_ptr<Adaptation> adaptation;
   };
 
-  struct Preparation {
-    std::shared_ptr<Flow> flow;
+  struct Equilibration {
+    std::shared_ptr<Dissipation> dissipation;
     std::uint64_t steps;
   };
 
-  void advance(double dt, std::vector<Flow*> const& flows);
-  std::unique_ptr<WholeSteps> whole_steps(double dt);
+  void advance(double dt, std::vector<Dissipation*> const& dissipations);
+  std::unique_ptr<FusedSteps> fused_steps(double dt);
   bool observation_due() const;
   void run(std::uint64_t steps, int direction);
   void calculate(double time);
@@ -134,25 +134,25 @@ class Simulation {
   void observe_now() const;
   void adapt_now();
   void take_particles();
-  void check_flows();
+  void check_dissipations();
   void prepare_now();
   void take_lengths();
-  void complete() const;
+  void update_derived_fields() const;
   std::uint64_t checksum(bool with_influences = false) const;
   void adopt(Scheme& scheme);
   void make_reversible(FixedPoint const& grid);
   FixedPoint choose_grid() const;
 
   std::vector<Scheme*> schemes_;
-  std::vector<Flow*> flows_;
+  std::vector<Dissipation*> dissipations_;
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Part> parts_;
   std::vector<Observation> observations_;
   std::vector<Change> changes_;
-  std::vector<Preparation> preparations_;
+  std::vector<Equilibration> equilibrations_;
   std::vector<std::function<void(Simulation const&)>> progress_;
   FixedPoint grid_;
-  Scheme::Shortcut shortcut_;
+  Scheme::SmallSystem small_system_;
   double step_size_;
   std::int64_t step_ = 0, base_step_ = 0;
   double base_time_ = 0, work_ = 0;

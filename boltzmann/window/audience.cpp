@@ -76,8 +76,9 @@ struct Audience::State {
   std::map<std::uint64_t, Browser> browsers;
   std::deque<Said> said;
   std::atomic<bool> calls{false}, ready{false};
-  std::uint64_t crowd = 0;                   // changes with the number of browsers
-  std::uint64_t stirrings = 0, noticed = 0;  // what has happened, and how much of it when it was last attended to
+  std::uint64_t crowd = 0;  // changes with the number of browsers
+  std::uint64_t event_count = 0,
+                handled_count = 0;  // what has happened, and how much of it when it was last attended to
   Show* show = nullptr;
   std::unique_ptr<WebServer> server;
   // The same for its own thread: from the moment on at which it is known here, and until that thread has ended.
@@ -104,7 +105,7 @@ struct Audience::State {
   }
 
   void stir() {
-    ++stirrings;
+    ++event_count;
     stirred.notify_all();
   }
 
@@ -286,12 +287,12 @@ bool Audience::watched() const {
   return false;
 }
 
-bool Audience::attend() {
+bool Audience::handle_requests() {
   std::deque<Said> said;
   {
     std::scoped_lock const lock(state_->mutex);
     said.swap(state_->said);
-    state_->noticed = state_->stirrings;
+    state_->handled_count = state_->event_count;
     state_->calls.store(false, std::memory_order_relaxed);
     for (auto const& each : said)
       if (Browser* browser = state_->find(each.browser); browser && !each.request.is_null()) --browser->requests;
@@ -305,7 +306,7 @@ bool Audience::attend() {
   return !said.empty();
 }
 
-bool Audience::present() {
+bool Audience::send_updates() {
   Show* const show = state_->show;
   if (!show) return false;
   std::uint64_t const scene = show->scene(), notice = show->notice();
@@ -396,7 +397,7 @@ bool Audience::present() {
 void Audience::wait(double seconds) {
   std::unique_lock lock(state_->mutex);
   state_->stirred.wait_for(lock, std::chrono::duration<double>(seconds),
-                           [&] { return state_->stirrings != state_->noticed; });
+                           [&] { return state_->event_count != state_->handled_count; });
 }
 
 }  // namespace boltzmann

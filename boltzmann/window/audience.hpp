@@ -45,10 +45,10 @@ class Audience {
   bool watched() const;
 
   /// Answers what has been said. Returns whether there was anything.
-  bool attend();
+  bool handle_requests();
   /// Sends what is new to all that are ready. Returns whether anything was sent.
-  bool present();
-  /// Waits until something has happened since the last attend(), but not longer than this.
+  bool send_updates();
+  /// Waits until something has happened since the last handle_requests(), but not longer than this.
   void wait(double seconds);
 
  private:

@@ -20,8 +20,8 @@ ChoiceShow::~ChoiceShow() { audience_.close(); }
 void ChoiceShow::wait() {
   audience_.open(*this);
   while (!quit_ && !chosen()) {
-    audience_.attend();
-    audience_.present();
+    audience_.handle_requests();
+    audience_.send_updates();
     audience_.wait(1);
   }
 }

@@ -24,14 +24,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double frames_per_second = 61;   // so that 60 come, whenever steps end
 constexpr double share_of_time = 0.035;    // that drawing may take from a run at full speed
-constexpr double shortest_show = 10;       // seconds that a run takes at least, unless told otherwise
+constexpr double min_run_seconds = 10;     // seconds that a run takes at least, unless told otherwise
 constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept for REWD
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-enum class Wish { pause, play, rewind };
+enum class Command { pause, play, rewind };
 
 }  // namespace
 
@@ -53,7 +53,7 @@ struct LiveRun::State {
   bool here = true;     // the LiveRun still is
   bool inside = false;  // within run() or rewind() of the simulation
   bool begun = false;   // one of them has been called
-  Wish wish = Wish::pause;
+  Command command = Command::pause;
   bool quit = false;
   std::optional<std::int64_t> goal, bound_for;  // where STEP goes, and where the present run() goes for it
   std::int64_t first = 0, target = 0, planned = 0;
@@ -67,10 +67,10 @@ struct LiveRun::State {
   ShownTable table;
 
   // The pace.
-  std::int64_t judged = std::numeric_limits<std::int64_t>::min();  // the step that `due` is about
+  std::int64_t decided_step = std::numeric_limits<std::int64_t>::min();  // the step that `due` is about
   bool due = false;
-  std::int64_t since_frame = 0;                  // steps
-  std::int64_t unlooked = 0, between_looks = 1;  // steps without a look at the clock
+  std::int64_t since_frame = 0;                                  // steps
+  std::int64_t steps_since_clock = 0, steps_between_clocks = 1;  // steps without a look at the clock
   Clock::time_point next_frame{}, next_affordable{}, begun_frame{}, last_look{};
   // The speed.
   Clock::time_point counted_since{};
@@ -84,8 +84,8 @@ struct LiveRun::State {
   // Called after every step, often more than once; what it says of a step holds until the next one.
   bool look(std::int64_t step) {
     if (!here || !inside) return false;
-    if (step == judged) return due;
-    judged = step;
+    if (step == decided_step) return due;
+    decided_step = step;
     due = decide(step);
     if (due) begun_frame = Clock::now();
     return due;
@@ -98,13 +98,13 @@ struct LiveRun::State {
     if (paced()) return since_frame >= steps_per_frame;
     if (!audience.ready()) return false;
     // The clock is read some thousand times a second, not after every step.
-    if (++unlooked < between_looks) return false;
+    if (++steps_since_clock < steps_between_clocks) return false;
     auto const now = Clock::now();
     double const took = seconds_between(last_look, now);
-    between_looks =
-        took > 1e-3 ? std::max<std::int64_t>(between_looks / 2, 1) : std::min<std::int64_t>(2 * between_looks, 1 << 20);
+    steps_between_clocks = took > 1e-3 ? std::max<std::int64_t>(steps_between_clocks / 2, 1)
+                                       : std::min<std::int64_t>(2 * steps_between_clocks, 1 << 20);
     last_look = now;
-    unlooked = 0;
+    steps_since_clock = 0;
     return now >= next_frame;
   }
 
@@ -113,10 +113,10 @@ struct LiveRun::State {
     keep_start();
     ++scene;
     count();
-    audience.attend();
+    audience.handle_requests();
     if (paced())
       keep_pace();
-    else if (audience.present())
+    else if (audience.send_updates())
       // Steps don't end when a frame is due: what one comes late, the next one comes early.
       next_frame = std::max({afford(), next_frame + period(), begun_frame + period() / 2});
     if (turned()) simulation.pause();
@@ -130,13 +130,13 @@ struct LiveRun::State {
   void keep_pace() {
     bool const late = begun_frame > next_frame + period();
     if (!late || begun_frame >= next_affordable)
-      if (audience.present()) afford();
+      if (audience.send_updates()) afford();
     if (since_frame < steps_per_frame) return;
     since_frame = 0;
     for (auto now = Clock::now(); now < next_frame && !turned() && !simulation.stopped(); now = Clock::now()) {
       audience.wait(std::min(seconds_between(now, next_frame), 0.1));
-      audience.attend();
-      audience.present();
+      audience.handle_requests();
+      audience.send_updates();
     }
     next_frame = std::max(next_frame, Clock::now() - period()) + period();
   }
@@ -153,8 +153,8 @@ struct LiveRun::State {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / frames_per_second));
   }
 
-  Wish doing = Wish::pause;  // what the present run() of the simulation does
-  bool turned() const { return quit || wish != doing || goal != bound_for || new_step_size.has_value(); }
+  Command doing = Command::pause;  // what the present run() of the simulation does
+  bool turned() const { return quit || command != doing || goal != bound_for || new_step_size.has_value(); }
 
   void count() {
     auto const now = Clock::now();
@@ -175,7 +175,7 @@ struct LiveRun::State {
   }
 
   std::string no_rewind() const {
-    if (!simulation.flows().empty()) return "friction and noise can't be run backwards";
+    if (!simulation.dissipations().empty()) return "friction and noise can't be run backwards";
     if (!simulation.adaptations().empty()) return "particles come and go between steps, which can't be run backwards";
     return "";
   }
@@ -219,35 +219,35 @@ struct LiveRun::State {
     ++notice;
   }
 
-  void want(Wish what) {
-    if (wish != what) ++notice;
-    wish = what;
+  void want(Command what) {
+    if (command != what) ++notice;
+    command = what;
   }
 
   // Runs the simulation until something else is wanted, or the end of this is reached.
-  void go(Wish what, std::uint64_t steps) {
-    doing = wish;
+  void go(Command what, std::uint64_t steps) {
+    doing = command;
     bound_for = goal;
     begun = true;
     counted_since = last_look = next_frame = Clock::now();
     counted_from = simulation.step();
-    judged = std::numeric_limits<std::int64_t>::min();
+    decided_step = std::numeric_limits<std::int64_t>::min();
     since_frame = 0;
     inside = true;
     struct Outside {
       bool& inside;
       ~Outside() { inside = false; }
     } const outside{inside};
-    if (what == Wish::rewind)
+    if (what == Command::rewind)
       simulation.rewind(steps);
     else
       simulation.run(steps);
     if (goal == simulation.step()) goal.reset();
-    if (recording && recording->ended_step() == simulation.step() && what == Wish::play && !told_of_end) {
+    if (recording && recording->ended_step() == simulation.step() && what == Command::play && !told_of_end) {
       told_of_end = true;
       target = simulation.step();
       goal.reset();
-      want(Wish::pause);
+      want(Command::pause);
       tell("the run has ended: " + recording->ended_by());
     }
     ++scene;
@@ -265,20 +265,20 @@ struct LiveRun::State {
     std::int64_t const step = simulation.step();
     if (goal) {
       missed = nullptr;
-      go(*goal < step ? Wish::rewind : Wish::play, static_cast<std::uint64_t>(std::abs(*goal - step)));
+      go(*goal < step ? Command::rewind : Command::play, static_cast<std::uint64_t>(std::abs(*goal - step)));
       arrive();
       return;
     }
-    if (wish == Wish::play) {
+    if (command == Command::play) {
       missed = nullptr;
       if (step >= target) target = step + std::max<std::int64_t>(planned, 1);
-      go(Wish::play, static_cast<std::uint64_t>(target - step));
-      if (simulation.step() >= target && wish == Wish::play) want(Wish::pause);
+      go(Command::play, static_cast<std::uint64_t>(target - step));
+      if (simulation.step() >= target && command == Command::play) want(Command::pause);
       return;
     }
-    if (step > first) go(Wish::rewind, static_cast<std::uint64_t>(step - first));
+    if (step > first) go(Command::rewind, static_cast<std::uint64_t>(step - first));
     arrive();
-    if (simulation.step() <= first && wish == Wish::rewind) want(Wish::pause);
+    if (simulation.step() <= first && command == Command::rewind) want(Command::pause);
   }
 
   void arrive() {
@@ -288,8 +288,8 @@ struct LiveRun::State {
   std::string state_word() const {
     if (quit) return "ended";
     if (failure) return "failed";
-    if (wish == Wish::play) return "playing";
-    if (wish == Wish::rewind) return "rewinding";
+    if (command == Command::play) return "playing";
+    if (command == Command::rewind) return "rewinding";
     return simulation.step() >= target && simulation.step() > first ? "done" : "paused";
   }
 
@@ -354,21 +354,21 @@ void LiveRun::run(std::uint64_t steps) {
       : state.options.play
           ? 0
           : std::max<std::int64_t>(
-                1, static_cast<std::int64_t>(static_cast<double>(steps) / (shortest_show * frames_per_second)));
-  if (state.options.play) state.wish = Wish::play;
+                1, static_cast<std::int64_t>(static_cast<double>(steps) / (min_run_seconds * frames_per_second)));
+  if (state.options.play) state.command = Command::play;
   state.audience.open(*this);
   while (!state.over()) {
-    state.audience.attend();
+    state.audience.handle_requests();
     if (state.over()) break;
-    bool const busy = !state.failure && (state.wish != Wish::pause || state.goal || state.new_step_size);
+    bool const busy = !state.failure && (state.command != Command::pause || state.goal || state.new_step_size);
     if (!busy) {
-      state.audience.present();
+      state.audience.send_updates();
       bool const finished = state.failure || state.simulation.step() >= state.target;
       if (state.options.play && finished && state.audience.viewers() == 0) break;
       state.audience.wait(0.1);
       continue;
     }
-    if (state.new_step_size && state.wish == Wish::pause && !state.goal) {
+    if (state.new_step_size && state.command == Command::pause && !state.goal) {
       state.simulation.step_size(*state.new_step_size);
       state.new_step_size.reset();
       ++state.notice;
@@ -379,18 +379,18 @@ void LiveRun::run(std::uint64_t steps) {
     } catch (PhysicsFailure const& failure) {
       state.failure = std::current_exception();
       state.tell(failure.what());
-      state.wish = Wish::pause;
+      state.command = Command::pause;
       state.goal.reset();
       ++state.scene;
     } catch (Error const& error) {
       state.tell(error.what());
-      state.wish = Wish::pause;
+      state.command = Command::pause;
       state.goal.reset();
     }
   }
   state.quit = true;
   ++state.notice;
-  state.audience.present();
+  state.audience.send_updates();
   // Whoever quits before the first step finds the start of the run in its folder, ready to be resumed.
   if (state.recording && !state.begun && !state.failure) state.simulation.run(0);
   if (state.failure) std::rethrow_exception(state.failure);
@@ -416,7 +416,7 @@ json LiveRun::hello() const {
 
 json LiveRun::status() const {
   State const& state = *state_;
-  bool const moving = state.wish != Wish::pause || state.goal;
+  bool const moving = state.command != Command::pause || state.goal;
   return {{"state", state.state_word()},
           {"step", state.simulation.step()},
           {"time", state.stage.quantity(state.simulation.time(), dimensions::time)},
@@ -444,7 +444,7 @@ json LiveRun::perform(json const& request) {
   }
   if (what == "stop") {
     state.goal.reset();
-    state.want(Wish::pause);
+    state.want(Command::pause);
     return json::object();
   }
   bool const moves = what == "play" || what == "step" || what == "rewind";
@@ -458,12 +458,12 @@ json LiveRun::perform(json const& request) {
   if (moves && !state.message.empty()) state.tell("");
   if (what == "play") {
     state.goal.reset();
-    state.want(Wish::play);
+    state.want(Command::play);
   } else if (what == "rewind") {
     state.goal.reset();
-    state.want(Wish::rewind);
+    state.want(Command::rewind);
   } else if (what == "step") {
-    state.want(Wish::pause);
+    state.want(Command::pause);
     // Pressed faster than steps are done, they add up; the other way they begin anew.
     std::int64_t const now = state.simulation.step();
     bool const again = state.goal && (*state.goal > now) == (count > 0);

@@ -18,8 +18,8 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double fastest = 240;                          // frames per second
-constexpr auto between_looks = std::chrono::seconds(1);  // at the file, which may grow
+constexpr double fastest = 240;                                 // frames per second
+constexpr auto steps_between_clocks = std::chrono::seconds(1);  // at the file, which may grow
 
 Clock::duration seconds(double number) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(number));
@@ -120,13 +120,13 @@ void Replay::take(std::unique_ptr<TrajectoryReader> reader) {
 bool Replay::run() {
   Interrupt const interrupt(stage_.simulation());
   audience_.open(*this);
-  auto next_frame = Clock::now(), next_look = Clock::now() + between_looks;
+  auto next_frame = Clock::now(), next_look = Clock::now() + steps_between_clocks;
   while (!quit_ && !interrupt.seen()) {
-    audience_.attend();
+    audience_.handle_requests();
     auto const now = Clock::now();
     if (now >= next_look) {
       look_for_more();
-      next_look = now + between_looks;
+      next_look = now + steps_between_clocks;
     }
     if (direction_ != 0 && now >= next_frame) {
       std::int64_t const wanted = frame_ + direction_;
@@ -144,13 +144,13 @@ bool Replay::run() {
         next_frame = std::max(next_frame + seconds(1 / frames_per_second_), now);
       }
     }
-    audience_.present();
+    audience_.send_updates();
     double const idle = direction_ == 0 ? 0.1 : std::chrono::duration<double>(next_frame - Clock::now()).count();
     if (idle > 0) audience_.wait(std::min(idle, 0.1));
     if (direction_ == 0) next_frame = Clock::now();
   }
   ++notice_;
-  audience_.present();
+  audience_.send_updates();
   return interrupt.seen();
 }
 

@@ -1,6 +1,6 @@
 // The web server, on Boost.Beast: the one place that knows of sockets.
 //
-// Everything happens on one thread. Who connects is a Visitor: it has asked for nothing yet, or is being answered; one
+// Everything happens on one thread. Who connects is a Connection: it has asked for nothing yet, or is being answered; one
 // request a connection. Who opens a socket becomes a Browser. Each keeps a clock of its own and is closed when it runs
 // out, so that nothing that the other side does or leaves undone can hold anything for long.
 #define BOOST_ASIO_DISABLE_FENCED_BLOCK  // one thread has nobody to keep in step with
@@ -57,8 +57,8 @@ constexpr std::size_t frame_bytes = 1U << 18U;
 // Read at a time.
 constexpr std::size_t piece_bytes = 1U << 14U;
 // A closed connection may finish reading what it was told for so long, and may still say so much.
-constexpr double farewell_seconds = 1;
-constexpr std::size_t farewell_bytes = 1U << 18U;
+constexpr double close_timeout = 1;
+constexpr std::size_t close_bytes = 1U << 18U;
 // At the end of the server, all browsers together.
 constexpr double end_seconds = 0.1;
 
@@ -238,7 +238,7 @@ std::string response_head(int status, std::string_view type, std::size_t bytes, 
 constexpr char const* plain_text = "text/plain; charset=utf-8";
 
 /// Tells a connection that there is no room, and closes it, at once.
-void turn_away(Socket& socket) {
+void reject(Socket& socket) {
   std::string const text = "Too many connections.\n";
   std::string const answer = response_head(503, plain_text, text.size()) + text;
   error_code ignored;
@@ -285,7 +285,7 @@ std::size_t WebMessage::bytes() const {
 
 namespace {
 
-class Visitor;
+class Connection;
 class Browser;
 
 /// What belongs together in one server: its place, its visitors, its browsers.
@@ -298,7 +298,7 @@ struct Server {
   Timer pause{context};     // before the next accept, where the last one failed
   Timer patience{context};  // with the last browsers, at the end
   bool ending = false;
-  std::list<std::shared_ptr<Visitor>> visitors;  // in the order in which they came
+  std::list<std::shared_ptr<Connection>> visitors;  // in the order in which they came
   std::unordered_map<std::uint64_t, std::shared_ptr<Browser>> browsers;
   std::uint64_t last_browser = 0;
   std::uint16_t port = 0;
@@ -307,16 +307,16 @@ struct Server {
   void listen(std::uint16_t wanted);
   void accept();
   void welcome(Socket socket);
-  void forget(Visitor const* visitor);
+  void forget(Connection const* visitor);
   void forget(std::uint64_t browser);
   bool room_for_browser();
   void end();
 };
 
 /// A connection and its one request, until it is answered.
-class Visitor : public std::enable_shared_from_this<Visitor> {
+class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Visitor(Server& state, Socket socket)
+  Connection(Server& state, Socket socket)
       : state_(state),
         socket_(std::move(socket)),
         timer_(state.context),
@@ -337,7 +337,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
   /// Makes room for another.
   void evict() {
     if (closed_) return;
-    if (!answered_) turn_away(socket_);
+    if (!answered_) reject(socket_);
     close();
   }
 
@@ -416,7 +416,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     asio::async_write(socket_, buffers, go_on, [self = shared_from_this()](error_code error, std::size_t) {
       if (self->closed_) return;
       if (error) return self->close();
-      self->close_after(farewell_seconds);
+      self->close_after(close_timeout);
       error_code ignored;
       self->socket_.shutdown(Socket::shutdown_send, ignored);
       self->heard_.clear();
@@ -429,7 +429,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     socket_.async_read_some(asio::buffer(scrap_), [self = shared_from_this()](error_code error, std::size_t bytes) {
       if (self->closed_) return;
       self->farewell_ += bytes;
-      if (error || self->farewell_ > farewell_bytes) return self->close();
+      if (error || self->farewell_ > close_bytes) return self->close();
       self->wait_for_end();
     });
   }
@@ -490,7 +490,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
       // The message that is on its way ends in the middle: a socket may be closed between two frames.
       queue_.resize(writing_ ? 1 : 0);
       given_up_ = true;
-      return leave(websocket::close_code::policy_error, "too slow: what was sent is not being read", farewell_seconds);
+      return leave(websocket::close_code::policy_error, "too slow: what was sent is not being read", close_timeout);
     }
     waiting_ += bytes;
     queue_.push_back(std::move(message));
@@ -532,7 +532,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
     try {
       event();
     } catch (std::exception const&) {
-      leave(websocket::close_code::internal_error, "internal error", farewell_seconds);
+      leave(websocket::close_code::internal_error, "internal error", close_timeout);
     }
   }
 
@@ -572,7 +572,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   }
 
   void pass_on() {
-    if (!stream_->got_text()) return leave(websocket::close_code::unknown_data, "text only", farewell_seconds);
+    if (!stream_->got_text()) return leave(websocket::close_code::unknown_data, "text only", close_timeout);
     auto const data = incoming_.data();
     tell([&] {
       if (state_.events.said) state_.events.said(id_, {static_cast<char const*>(data.data()), data.size()});
@@ -627,7 +627,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
     closing_ = true;
     queue_.clear();
     alive_ = Clock::now();
-    grace_ = std::min(grace_, farewell_seconds);
+    grace_ = std::min(grace_, close_timeout);
     stream_->async_close(reason_, [self = shared_from_this()](error_code) { self->finish(); });
   }
 
@@ -679,7 +679,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   bool finished_ = false;
 };
 
-void Visitor::open_socket(Request const& request) {
+void Connection::open_socket(Request const& request) {
   if (!websocket::is_upgrade(request)) {
     if (request.count(http::field::upgrade) > 0) return answer(400, "This is no way to open a socket.");
     return answer(426, "There is a socket here.");
@@ -744,17 +744,17 @@ void Server::welcome(Socket socket) {
       visitors.size() + browsers.size() >= limits.connections) {
     auto const oldest = std::find_if(visitors.begin(), visitors.end(), is_stranger);
     if (oldest == visitors.end() || Clock::now() - (*oldest)->since() < clock_time(limits.handshake_seconds / 10)) {
-      return turn_away(socket);
+      return reject(socket);
     }
     auto const leaver = *oldest;
     leaver->evict();
   }
-  auto const visitor = std::make_shared<Visitor>(*this, std::move(socket));
+  auto const visitor = std::make_shared<Connection>(*this, std::move(socket));
   visitors.push_back(visitor);
   visitor->begin();
 }
 
-void Server::forget(Visitor const* visitor) {
+void Server::forget(Connection const* visitor) {
   visitors.remove_if([&](auto const& other) { return other.get() == visitor; });
 }
 
@@ -774,7 +774,7 @@ bool Server::room_for_browser() {
   }
   if (staying < std::max<std::size_t>(limits.connections / 4 * 3, 1)) return true;
   if (Clock::now() - quietest->spoke() < clock_time(limits.handshake_seconds)) return false;
-  quietest->leave(websocket::close_code::try_again_later, "another page has taken this place", farewell_seconds);
+  quietest->leave(websocket::close_code::try_again_later, "another page has taken this place", close_timeout);
   return true;
 }
 

@@ -3,8 +3,8 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/ensemble.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <tests/message.hpp>
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ template <int D>
 void reflects() {
   std::mt19937_64 random(test_seed(10 + D));
   for (int trial = 0; trial < 300; ++trial) {
-    Box const box = random_box<D>(random, Boundary::bounded);
+    Box const box = random_box<D>(random, Boundary::reflecting);
     for (int a = 0; a < D; ++a)
       for (double const x : interesting(box, a, random)) {
         Ensemble<Newton<D>> e("e", 1);
@@ -122,14 +122,14 @@ void reflects() {
       }
   }
 }
-TEST(Bounded, ReflectsElastically) {
+TEST(Reflecting, ReflectsElastically) {
   reflects<1>();
   reflects<2>();
   reflects<3>();
 }
 
-TEST(Bounded, CornersTurnEveryComponent) {
-  Box const box(Vector{0., 0., 0.}, Vector{1., 2., 4.}, Boundary::bounded);
+TEST(Reflecting, CornersTurnEveryComponent) {
+  Box const box(Vector{0., 0., 0.}, Vector{1., 2., 4.}, Boundary::reflecting);
   Ensemble<Newton<3>> e("e", 1);
   e[0].position = {-0.25, 2.5, 4.125};
   e[0].velocity = {-1, 2, 3};
@@ -140,7 +140,7 @@ TEST(Bounded, CornersTurnEveryComponent) {
 
 TEST(Boundaries, EachAxisHasItsOwn) {
   Box const box(Vector{0., 0., 0.}, Vector{1., 1., 1.},
-                std::array<Boundary, 3>{Boundary::periodic, Boundary::bounded, Boundary::open});
+                std::array<Boundary, 3>{Boundary::periodic, Boundary::reflecting, Boundary::open});
   EXPECT_TRUE(box.any_periodic());
   EXPECT_FALSE(box.all_open());
   Ensemble<Newton<3>> e("e", 1);
@@ -152,10 +152,10 @@ TEST(Boundaries, EachAxisHasItsOwn) {
 }
 
 TEST(Boundaries, ParticlesWithoutVelocityAreMovedAlone) {
-  for (Boundary const boundary : {Boundary::periodic, Boundary::bounded}) {
+  for (Boundary const boundary : {Boundary::periodic, Boundary::reflecting}) {
     Box box(Vector{0., 0.}, Vector{8., 8.}, boundary);
     box.install(Vector{2., 2.}, Vector{4., 6.}, Region::Side::keep_out);
-    Ensemble<Euler<2>> tracers("tracers", 3);
+    Ensemble<Tracer<2>> tracers("tracers", 3);
     tracers[0].position = {-0.5, 7};
     tracers[1].position = {3.75, 4};  // a quarter inside the region: out through the nearest face
     tracers[2].position = {1, 1};
@@ -179,7 +179,7 @@ struct Drop : Particle<2, Real> {
 };
 
 TEST(Boundaries, AVelocityOfAnotherSizeIsLeftAlone) {
-  Box const box(Vector{0., 0.}, Vector{1., 1.}, Boundary::bounded);
+  Box const box(Vector{0., 0.}, Vector{1., 1.}, Boundary::reflecting);
   Ensemble<Drop<double>> drops("drops", 1);
   drops[0].position = {-0.25, 1.25};
   drops[0].velocity = 2;
@@ -192,7 +192,7 @@ TEST(Boundaries, AVelocityOfAnotherSizeIsLeftAlone) {
 
 TEST(Boundaries, NobodyNeedsNoBoundary) {
   Ensemble<Newton<2>> none("none");
-  for (Boundary const boundary : {Boundary::open, Boundary::periodic, Boundary::bounded, Boundary::mirror}) {
+  for (Boundary const boundary : {Boundary::open, Boundary::periodic, Boundary::reflecting, Boundary::mirror}) {
     Box const box(Vector{0., 0.}, Vector{1., 1.}, boundary);
     box.apply(none);
     box.check(none);
@@ -201,7 +201,7 @@ TEST(Boundaries, NobodyNeedsNoBoundary) {
 }
 
 TEST(Boundaries, WhoIsFarOutsideHasEscaped) {
-  for (Boundary const boundary : {Boundary::periodic, Boundary::bounded, Boundary::mirror})
+  for (Boundary const boundary : {Boundary::periodic, Boundary::reflecting, Boundary::mirror})
     for (double const y : {2.5, 1e300, -1.25, -infinity, std::nan("")}) {
       Box const box(Vector{-1., 0.}, Vector{1., 1.}, boundary);
       Ensemble<Newton<2>> e("gas", 4);
@@ -285,7 +285,7 @@ TEST(MirrorWalls, AtRestAndSlipperyTheyReflectElastically) {
   mirror.apply(e);
   EXPECT_EQ(e[0].position, (Vector{0.25, 1.5, 3.875}));
   EXPECT_EQ(e[0].velocity, (Vector{1., -2., -3.}));
-  Ensemble<Euler<3>> tracers("tracers", 1);
+  Ensemble<Tracer<3>> tracers("tracers", 1);
   tracers[0].position = {-0.25, 2.5, 4.125};
   mirror.apply(tracers);
   EXPECT_EQ(tracers[0].position, (Vector{0.25, 1.5, 3.875}));
@@ -412,7 +412,7 @@ TEST(MirrorWalls, MoveFromWhereTheyWereAtTheStart) {
 
 TEST(MirrorWalls, MistakesAreNamed) {
   Box box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, {Boundary::mirror, Boundary::open, Boundary::periodic});
-  expect_parts(message<Error>([&] { box.wall(1, Box::End::low, {}); }), {"axis y is open", "bounded and mirror"});
+  expect_parts(message<Error>([&] { box.wall(1, Box::End::low, {}); }), {"axis y is open", "reflecting and mirror"});
   expect_parts(message<Error>([&] { (void)box.wall(2, Box::End::low); }), {"axis z is periodic", "mirror"});
   expect_parts(message<Error>([&] { box.open_end(2, Box::End::high); }), {"axis z is periodic"});
   for (int const axis : {-1, 3})
@@ -439,7 +439,7 @@ void flies(Region::Side side) {
   std::mt19937_64 random(test_seed(20 + D));
   Vector<D> low, high, region_low, region_high;
   for (int a = 0; a < D; ++a) low[a] = -2, high[a] = 2, region_low[a] = -0.7 - 0.1 * a, region_high[a] = 0.9;
-  Box box(low, high, Boundary::bounded);
+  Box box(low, high, Boundary::reflecting);
   box.install(region_low, region_high, side);
   ASSERT_EQ(box.regions().size(), 1u);
   for (int trial = 0; trial < 200; ++trial) {
@@ -470,7 +470,7 @@ TEST(Regions, KeepInAndOutElastically) {
 }
 
 TEST(Regions, ReflectAtTheFaceThatWasCrossed) {
-  Box box(Vector{0., 0.}, Vector{10., 10.}, Boundary::bounded);
+  Box box(Vector{0., 0.}, Vector{10., 10.}, Boundary::reflecting);
   box.install(Vector{4., 4.}, Vector{6., 8.}, Region::Side::keep_out);
   struct Case {
     Vector<2> position, velocity, position_after, velocity_after;
@@ -535,7 +535,7 @@ TEST(Box, RefusesRegionsOfAnotherDimension) {
 }
 
 TEST(Box, ChecksWhereParticlesAre) {
-  Box box(Vector{0., 0.}, Vector{4., 2.}, {Boundary::bounded, Boundary::periodic});
+  Box box(Vector{0., 0.}, Vector{4., 2.}, {Boundary::reflecting, Boundary::periodic});
   box.install(Vector{1., 0.5}, Vector{2., 1.5}, Region::Side::keep_out);
   Ensemble<Newton<2>> e("ions", 3);
   box.check(e);
@@ -572,7 +572,7 @@ TEST(Box, LengthsVolumesAndWords) {
   EXPECT_DOUBLE_EQ(box.volume(), 6);
   EXPECT_EQ(box.length(2), 4);
   EXPECT_EQ(box.dimension(), 3);
-  EXPECT_EQ(to_string(Boundary::open) + to_string(Boundary::bounded) + to_string(Boundary::periodic) +
+  EXPECT_EQ(to_string(Boundary::open) + to_string(Boundary::reflecting) + to_string(Boundary::periodic) +
                 to_string(Boundary::mirror),
             "openboundedperiodicmirror");
 }

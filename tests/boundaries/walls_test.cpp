@@ -1,9 +1,9 @@
-// Walls of bounded axes: pistons, momentum mirrors and open ends, against exact bounces and in two frames of reference.
+// Walls of reflecting axes: pistons, momentum mirrors and open ends, against exact bounces and in two frames of reference.
 #include <boltzmann/boundaries/box.hpp>
-#include <boltzmann/flows/langevin_flow.hpp>
+#include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -66,7 +66,7 @@ void reflects_in_the_frame_of_the_wall() {
     for (End const end : {End::low, End::high})
       for (int trial = 0; trial < 200; ++trial) {
         double const u = number(-1, 1), edge = end == End::low ? 0 : 4;
-        Box box = cube<D>(4, Boundary::bounded);
+        Box box = cube<D>(4, Boundary::reflecting);
         box.wall(axis, end, piston(axis, u));
         EXPECT_TRUE(box.walls_move());
         box.move_walls(1);
@@ -99,16 +99,16 @@ void reflects_in_the_frame_of_the_wall() {
       }
   EXPECT_GT(reflected, D * 80);
 }
-TEST(BoundedWalls, ReflectElasticallyInTheirOwnFrame) {
+TEST(ReflectingWalls, ReflectElasticallyInTheirOwnFrame) {
   reflects_in_the_frame_of_the_wall<1>();
   reflects_in_the_frame_of_the_wall<2>();
   reflects_in_the_frame_of_the_wall<3>();
 }
 
-TEST(BoundedWalls, OvertakeTheSlowAndLeaveTheFastAlone) {
+TEST(ReflectingWalls, OvertakeTheSlowAndLeaveTheFastAlone) {
   for (bool const low : {false, true}) {
     double const s = low ? 1 : -1;  // the way into the box
-    Box box(Vector{-2.}, Vector{2.}, Boundary::bounded);
+    Box box(Vector{-2.}, Vector{2.}, Boundary::reflecting);
     box.wall(0, low ? End::low : End::high, piston(0, s * 1));
     box.move_walls(1);
     double const X = -s * 1;
@@ -133,8 +133,8 @@ TEST(BoundedWalls, OvertakeTheSlowAndLeaveTheFastAlone) {
   }
 }
 
-TEST(BoundedWalls, AtRestReflectAsBoundedAxesAlwaysDid) {
-  Box box(Vector{0., 0., 0.}, Vector{1., 2., 4.}, Boundary::bounded);
+TEST(ReflectingWalls, AtRestReflectAsBoundedAxesAlwaysDid) {
+  Box box(Vector{0., 0., 0.}, Vector{1., 2., 4.}, Boundary::reflecting);
   EXPECT_FALSE(box.any_wall());  // with images
   for (int a = 0; a < 3; ++a)
     for (End const end : {End::low, End::high}) {
@@ -153,8 +153,8 @@ TEST(BoundedWalls, AtRestReflectAsBoundedAxesAlwaysDid) {
   EXPECT_EQ(e[0].velocity, (Vector{1., 2., -3.}));
 }
 
-TEST(BoundedWalls, InACornerEveryWallPushes) {
-  Box box(Vector{0., 0.}, Vector{4., 4.}, Boundary::bounded);
+TEST(ReflectingWalls, InACornerEveryWallPushes) {
+  Box box(Vector{0., 0.}, Vector{4., 4.}, Boundary::reflecting);
   box.wall(0, End::low, piston(0, 0.5));
   box.wall(1, End::high, piston(1, -1));
   box.move_walls(1);
@@ -168,11 +168,11 @@ TEST(BoundedWalls, InACornerEveryWallPushes) {
   EXPECT_EQ(work, 1.25 * 1.25 + 2.5 * 2.5 - 0.25 * 0.25 - 0.5 * 0.5);
 }
 
-TEST(BoundedWalls, MoveParticlesWithoutVelocityOrMass) {
-  Box box(Vector{0., 0.}, Vector{4., 4.}, Boundary::bounded);
+TEST(ReflectingWalls, MoveParticlesWithoutVelocityOrMass) {
+  Box box(Vector{0., 0.}, Vector{4., 4.}, Boundary::reflecting);
   box.wall(0, End::low, piston(0, 0.5));
   box.move_walls(2);
-  Ensemble<Euler<2>> tracers("tracers", 1);
+  Ensemble<Tracer<2>> tracers("tracers", 1);
   tracers[0].position = {0.25, 3};
   EXPECT_EQ(box.apply(tracers), 0);
   EXPECT_EQ(tracers[0].position, (Vector{1.75, 3.}));
@@ -180,9 +180,9 @@ TEST(BoundedWalls, MoveParticlesWithoutVelocityOrMass) {
   EXPECT_EQ(box.apply(none), 0);
 }
 
-TEST(BoundedWalls, WhoIsFarBehindHasEscaped) {
+TEST(ReflectingWalls, WhoIsFarBehindHasEscaped) {
   for (double const x : {-2.5, 6.25, infinity, -infinity, std::nan("")}) {
-    Box box(Vector{0.}, Vector{4.}, Boundary::bounded);
+    Box box(Vector{0.}, Vector{4.}, Boundary::reflecting);
     box.wall(0, End::low, piston(0, 1));
     box.wall(0, End::high, piston(0, -0.5));
     box.move_walls(1);
@@ -198,8 +198,8 @@ TEST(BoundedWalls, WhoIsFarBehindHasEscaped) {
   }
 }
 
-TEST(BoundedWalls, MeetAtLast) {
-  Box box(Vector{0., 0.}, Vector{4., 1.}, {Boundary::bounded, Boundary::periodic});
+TEST(ReflectingWalls, MeetAtLast) {
+  Box box(Vector{0., 0.}, Vector{4., 1.}, {Boundary::reflecting, Boundary::periodic});
   box.wall(0, End::low, piston(0, 1));
   box.wall(0, End::high, piston(0, -1));
   box.move_walls(1.5);
@@ -208,10 +208,10 @@ TEST(BoundedWalls, MeetAtLast) {
   expect_parts(message<PhysicsFailure>([&] { box.move_walls(2); }), {"the walls of axis x have met", "time 2"});
 }
 
-TEST(BoundedWalls, AnOpenEndIsAFreeSurface) {
+TEST(ReflectingWalls, AnOpenEndIsAFreeSurface) {
   for (End const end : {End::low, End::high}) {
     double const s = end == End::low ? -1 : 1;
-    Box box(Vector{-2., 0.}, Vector{2., 2.}, {Boundary::bounded, Boundary::periodic});
+    Box box(Vector{-2., 0.}, Vector{2., 2.}, {Boundary::reflecting, Boundary::periodic});
     box.open_end(0, end);
     End const other = end == End::low ? End::high : End::low;
     EXPECT_FALSE(box.walled(0, end));
@@ -236,12 +236,13 @@ TEST(BoundedWalls, AnOpenEndIsAFreeSurface) {
     }
     e[0].position[0] = s * 77;
     box.wall(0, end, {});
-    expect_parts(message<Error>([&] { box.check(e); }), {"particle 0 of 'spall' is outside the box", "bounded axis"});
+    expect_parts(message<Error>([&] { box.check(e); }),
+                 {"particle 0 of 'spall' is outside the box", "reflecting axis"});
   }
 }
 
-TEST(BoundedWalls, AreHeldWhileABodyIsPrepared) {
-  Box box(Vector{0.}, Vector{4.}, Boundary::bounded);
+TEST(ReflectingWalls, AreHeldWhileABodyIsPrepared) {
+  Box box(Vector{0.}, Vector{4.}, Boundary::reflecting);
   box.wall(0, End::low, piston(0, 1));
   box.move_walls(0);
   box.hold_walls(true);
@@ -275,16 +276,16 @@ TEST(BoundedWalls, AreHeldWhileABodyIsPrepared) {
   EXPECT_EQ(mirror.velocity_image({0, 1, 0}, 1)(0.5), 3.5);
 }
 
-TEST(BoundedWalls, MistakesAreNamed) {
-  Box box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, {Boundary::bounded, Boundary::open, Boundary::periodic});
-  expect_parts(message<Error>([&] { box.wall(1, End::low, {}); }), {"axis y is open", "bounded and mirror axes"});
+TEST(ReflectingWalls, MistakesAreNamed) {
+  Box box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, {Boundary::reflecting, Boundary::open, Boundary::periodic});
+  expect_parts(message<Error>([&] { box.wall(1, End::low, {}); }), {"axis y is open", "reflecting and mirror axes"});
   expect_parts(message<Error>([&] { (void)box.wall(2, End::low); }), {"axis z is periodic"});
   expect_parts(message<Error>([&] { box.open_end(2, End::high); }), {"axis z is periodic"});
   expect_parts(message<Error>([&] { box.wall(3, End::low, {}); }), {"no axis number 3"});
   auto const refused = [&](Wall const& wall) { return message<Error>([&] { box.wall(0, End::low, wall); }); };
   Wall wrong;
   wrong.slips = false;
-  expect_parts(refused(wrong), {"the low wall of axis x does not slip", "bounded", "mirror axis"});
+  expect_parts(refused(wrong), {"the low wall of axis x does not slip", "reflecting", "mirror axis"});
   wrong = {};
   wrong.temperature = 3;
   expect_parts(refused(wrong), {"the low wall of axis x has a temperature", "insulated"});
@@ -307,7 +308,7 @@ TEST(BoundedWalls, MistakesAreNamed) {
 template <int D>
 void bounces_exactly(int axis, End moving, double u) {
   double const L = 2, v0 = 1, dt = 1e-3, sign = moving == End::high ? 1 : -1;
-  Box box = cube<D>(L, Boundary::bounded);
+  Box box = cube<D>(L, Boundary::reflecting);
   box.wall(axis, moving, piston(axis, sign * u));
   double const wall = moving == End::high ? 0 : L;  // the one at rest
   Ensemble<Newton<D>> ball("ball", 1);
@@ -364,7 +365,7 @@ void compresses_adiabatically() {
       p.velocity[a] = random() % 2 ? v : -v;
     }
   }
-  Box box = cube<D>(L, Boundary::bounded);
+  Box box = cube<D>(L, Boundary::reflecting);
   box.wall(0, End::high, piston(0, -u));
   PairScheme scheme(box);
   scheme.external(gas, [](auto const& p) { return p.velocity * 0.0; });
@@ -408,7 +409,7 @@ TEST(Piston, WorkIsTheEnergyGainedForAnyNumberOfThreads) {
         gas[i].velocity[a] = std::normal_distribution()(random);
       }
     }
-    Box box(Vector{0., 0.}, Vector{1., 1.}, Boundary::bounded);
+    Box box(Vector{0., 0.}, Vector{1., 1.}, Boundary::reflecting);
     box.wall(0, End::low, piston(0, 0.3));
     box.wall(1, End::high, piston(1, 0.1));
     box.move_walls(0.25);
@@ -460,7 +461,7 @@ void same_in_both_frames(End end, bool lists) {
     Vector<D> low, high;
     std::array<Boundary, D> kinds;
     for (int a = 0; a < D; ++a) low[a] = 0, high[a] = side, kinds[a] = lists ? Boundary::periodic : Boundary::open;
-    kinds[0] = Boundary::bounded;
+    kinds[0] = Boundary::reflecting;
     double const far = 2 * side;
     (end == End::low ? high : low)[0] = in * far;
     (end == End::low ? low : high)[0] = 0;
@@ -520,7 +521,7 @@ TEST(Piston, EnergyMinusWorkIsConserved) {
     Ensemble<Newton<2>> atoms("atoms", 49);
     load_block(atoms, 7, 0.5, 0);
     for (auto& p : atoms) p.velocity *= 5;  // so that they fly against the walls, moving or not
-    Box box(Vector{0., 0.}, Vector{8., 8.}, Boundary::bounded);
+    Box box(Vector{0., 0.}, Vector{8., 8.}, Boundary::reflecting);
     if (u != 0) {
       box.wall(0, End::low, piston(0, u));
       box.wall(1, End::high, piston(1, -0.5 * u));
@@ -565,7 +566,7 @@ struct Pressed {
     simulation.integrate(atoms, Method::leap_frog);
   }
   static Box box() {
-    Box box(Vector{0., 0.}, Vector{9., 9.}, {Boundary::bounded, Boundary::periodic});
+    Box box(Vector{0., 0.}, Vector{9., 9.}, {Boundary::reflecting, Boundary::periodic});
     box.wall(0, End::low, piston(0, 0.7));
     box.wall(0, End::high, piston(0, -0.2));
     return box;
@@ -591,9 +592,9 @@ TEST(Piston, IsWhereItWasAfterARestart) {
 
 TEST(Piston, WaitsUntilTheBodyIsPrepared) {
   Pressed pressed;
-  auto bath = std::make_shared<LangevinFlow>(0.5, 2.0, 1.0);
+  auto bath = std::make_shared<LangevinBath>(0.5, 2.0, 1.0);
   bath->on(pressed.atoms);
-  pressed.simulation.prepare(bath, 500);
+  pressed.simulation.equilibrate(bath, 500);
   double before = 0;
   bool looked = false;
   pressed.simulation.observe(1000, [&](Simulation const& simulation) {
@@ -616,13 +617,13 @@ TEST(Piston, WaitsUntilTheBodyIsPrepared) {
 
 // ---- what walls without images must not do ------------------------------------------------------------------------
 
-TEST(BoundedWalls, HaveNoImagesAndNeedNoRoomForThem) {
+TEST(ReflectingWalls, HaveNoImagesAndNeedNoRoomForThem) {
   // Lists reach further than the walls are apart, and particles beside them feel each other only.
   Ensemble<Newton<2>> atoms("atoms", 2);
   atoms[0].position = {0.01, 0.5};
   atoms[1].position = {1.21, 0.5};
   for (auto& p : atoms) p.mass = 1, p.velocity = {0, 0};
-  Box box(Vector{0., 0.}, Vector{1.25, 20.}, {Boundary::bounded, Boundary::periodic});
+  Box box(Vector{0., 0.}, Vector{1.25, 20.}, {Boundary::reflecting, Boundary::periodic});
   box.wall(0, End::high, piston(0, 0.25));
   PairScheme scheme(box, 2.5);
   scheme.internal(atoms, LennardJones{1, 1});
@@ -638,13 +639,13 @@ TEST(BoundedWalls, HaveNoImagesAndNeedNoRoomForThem) {
   EXPECT_NEAR(scheme.box().high(0), 1.5, 1e-12);
 }
 
-TEST(BoundedWalls, TheReversibleLeapFrogNeedsThemAtRest) {
+TEST(ReflectingWalls, TheReversibleLeapFrogNeedsThemAtRest) {
   Ensemble<Newton<1>> ball("ball", 1);
   ball[0].mass = 1;
   ball[0].position = {0.5};
   ball[0].velocity = {0.7};
   auto const run = [&](double u) {
-    Box box(Vector{0.}, Vector{1.}, Boundary::bounded);
+    Box box(Vector{0.}, Vector{1.}, Boundary::reflecting);
     box.wall(0, End::low, piston(0, u));
     PairScheme scheme(box);
     scheme.external(ball, [](auto const& p) { return p.velocity * 0.0; });
@@ -658,17 +659,17 @@ TEST(BoundedWalls, TheReversibleLeapFrogNeedsThemAtRest) {
   EXPECT_NEAR(ball[0].position[0], 0.5, 1e-12);
 }
 
-TEST(BoundedWalls, AMeshNeedsThemClosedAndAtRest) {
-  Box moving(Vector{0., 0.}, Vector{1., 1.}, {Boundary::bounded, Boundary::periodic});
+TEST(ReflectingWalls, AMeshNeedsThemClosedAndAtRest) {
+  Box moving(Vector{0., 0.}, Vector{1., 1.}, {Boundary::reflecting, Boundary::periodic});
   moving.wall(0, End::low, piston(0, 1));
   expect_parts(message<Error>([&] { MeshScheme(moving, {8, 8}, coulomb(1)); }), {"mesh: a wall moves"});
-  Box open(Vector{0., 0.}, Vector{1., 1.}, {Boundary::bounded, Boundary::periodic});
+  Box open(Vector{0., 0.}, Vector{1., 1.}, {Boundary::reflecting, Boundary::periodic});
   open.open_end(0, End::high);
   expect_parts(message<Error>([&] {
                  MeshScheme(open, {8, 8}, coulomb(1));
                }),
-               {"mesh: one end of the bounded axis x is open"});
-  Box const closed(Vector{0., 0.}, Vector{1., 1.}, Boundary::bounded);
+               {"mesh: one end of the reflecting axis x is open"});
+  Box const closed(Vector{0., 0.}, Vector{1., 1.}, Boundary::reflecting);
   EXPECT_NO_THROW(MeshScheme(closed, {8, 8}, coulomb(1)));
 }
 

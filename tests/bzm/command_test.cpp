@@ -249,7 +249,7 @@ class = "Coulomb"
 number = 256
 mass = 0.02
 charge = -0.02
-load = { kind = "ripple", mode = 1, amplitude = 0.2, quiet = true }
+load = { kind = "sinusoidal", mode = 1, amplitude = 0.2, quiet = true }
 [[diagnoses]]
 kind = "field-energy"
 [[diagnoses]]
@@ -497,8 +497,8 @@ TEST(Show, RefusesWhatSaysNothingOrTooMuch) {
 TEST(Show, ExplainsAMaterial) {
   Folder folder;
   auto const tait = bzm({"show", "tait"}, folder.string()).out;
-  for (auto const* part : {"equation of state", "reference_density", "kg/m^3", "7 unless told", "shear_viscosity",
-                           "elastic = { ... }", "unlimited unless told", "boltzmann/laws/materials/tait.hpp"})
+  for (auto const* part : {"equation of state", "reference_density", "kg/m^3", "positive [7]", "shear_viscosity",
+                           "elastic = { ... }", "[no limit]", "boltzmann/laws/materials/tait.hpp"})
     EXPECT_TRUE(has(tait, part)) << part << "\n" << tait;
 }
 

@@ -36,7 +36,7 @@ template <int D>
 Box box() {
   Vector<D> low, high;
   std::array<Boundary, D> kinds{};
-  for (int a = 0; a < D; ++a) low[a] = -3, high[a] = 4, kinds[a] = Boundary::bounded;
+  for (int a = 0; a < D; ++a) low[a] = -3, high[a] = 4, kinds[a] = Boundary::reflecting;
   if (D > 1) kinds[D - 1] = Boundary::periodic;
   if (D > 2) kinds[1] = Boundary::open;
   Box box(low, high, kinds);
@@ -207,7 +207,7 @@ TEST(ProgramRun, DoesNotGoOnBehindItsCondition) {
 // Every member of a picture, every kind of wall and region: what is read gives the same text.
 TEST(ProgramRun, TheRunFileComesBackWhole) {
   Folder folder;
-  Box box(Vector{0.0, -1.5}, Vector{4.0, 2.5}, {Boundary::mirror, Boundary::bounded});
+  Box box(Vector{0.0, -1.5}, Vector{4.0, 2.5}, {Boundary::mirror, Boundary::reflecting});
   box.wall(0, Box::End::low, {.slips = false, .velocity = {0.25, -1, 0}, .temperature = 320.5});
   box.open_end(0, Box::End::high);
   box.wall(1, Box::End::low, {.velocity = {0, 0.125, 0}});
@@ -235,7 +235,8 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
                   .projection = {12.5, -80},
                   .most = 99,
                   .region = {{0, 1}, {-2, 2}},
-                  .cells = 33};
+                  .cells = 33,
+                  .bins = 34};
   AnyEnsemble* const ensembles[] = {&beads};
   Picture const plain, pictures[] = {plain, picture};
   for (Base const& units : {base, Base::reduced()}) {

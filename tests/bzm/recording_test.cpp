@@ -58,7 +58,7 @@ TEST(Conserved, TotalsOfTwoAtomsByHand) {
 }
 
 TEST(Conserved, NoAngularMomentumOnPeriodicAxesAndWallsAreNamed) {
-  Pair periodic(Boundary::periodic), walls(Boundary::bounded);
+  Pair periodic(Boundary::periodic), walls(Boundary::reflecting);
   periodic.simulation.check();
   walls.simulation.check();
   EXPECT_FALSE(conserved(periodic.simulation).angular_momentum);
@@ -207,7 +207,7 @@ TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
   });
   try {
     run_with_progress(recording, 10, {.quiet = true});
-    FAIL() << "a velocity that is no number was not noticed";
+    FAIL() << "a velocity that is no number was not handled_count";
   } catch (PhysicsFailure const& failure) {
     std::string const line = failure.what();
     EXPECT_NE(line.find("step 5: particle 1 of 'atoms'"), std::string::npos) << line;

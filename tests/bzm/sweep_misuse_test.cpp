@@ -20,7 +20,7 @@ time = "1 ps"
 [box]
 low = [0, 0]
 high = [260, 80]
-boundary = ["bounded", "periodic"]
+boundary = ["reflecting", "periodic"]
 [[box.walls]]
 axis = "x"
 end = "low"
@@ -46,14 +46,14 @@ on = "polymer"
 repulsion = 2000
 range = 6
 cutoff = 6
-[[flows]]
-kind = "dissipative"
+[[dissipation]]
+kind = "dpd"
 on = "polymer"
 convention = "constant-friction"
 friction = "1.5e-14 kg/s"
 range = 15
 projected = false
-[prepare]
+[equilibrate]
 temperature = "300 K"
 rate = "5 1/ps"
 time = "0.04 ps"
@@ -74,7 +74,7 @@ seeds = 2
 labels = ["coupled", "uncoupled"]
 table = ["energy", "slab kinetic temperature"]
 [sweep.vary]
-"flows.0.friction" = ["1.5e-14 kg/s", 0]
+"dissipation.0.friction" = ["1.5e-14 kg/s", 0]
 [[sweep.pictures]]
 y = "energy"
 fit = "line"
@@ -192,10 +192,11 @@ TEST_F(SweepMisuse, TablesOfOtherRunsAreNamed) {
 std::string with_sweep(std::string const& rest) { return body + "[sweep]\n" + rest; }
 
 TEST(SweepMistakes, KeysVaryOnce) {
-  auto const lines = mistakes_of(
-      with_sweep("[sweep.vary]\n\"flows.0.friction\" = [1, 2]\nrun.step = [1, 2]\nflows.0.friction = [3, 4]\n"));
+  auto const lines = mistakes_of(with_sweep(
+      "[sweep.vary]\n\"dissipation.0.friction\" = [1, 2]\nrun.step = [1, 2]\ndissipation.0.friction = [3, 4]\n"));
   ASSERT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
-  EXPECT_NE(lines[0].find("flows.0.friction: it varies twice (the first time in line "), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("dissipation.0.friction: it varies twice (the first time in line "), std::string::npos)
+      << lines[0];
 }
 
 TEST(SweepMistakes, PicturesHaveANameBeforeItsEnding) {
@@ -207,7 +208,8 @@ TEST(SweepMistakes, PicturesHaveANameBeforeItsEnding) {
 
 TEST(SweepMistakes, ZeroHasTheUnitOfTheOthers) {
   auto const numbers = [](std::string const& values) {
-    auto const scenario = parse_scenario(with_sweep("vary = { \"flows.0.friction\" = " + values + " }\n"), "test.toml");
+    auto const scenario =
+        parse_scenario(with_sweep("vary = { \"dissipation.0.friction\" = " + values + " }\n"), "test.toml");
     return scenario->sweep->vary[0].numbers;
   };
   auto const two = numbers("[0, \"1 amu/ps\", \"3 amu/ps\"]");

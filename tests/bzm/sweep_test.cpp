@@ -217,7 +217,7 @@ TEST_F(Sweep, GoesOnWhereOneRunFails) {
   EXPECT_EQ(again.status, 3);
   EXPECT_NE(again.err.find("run 4 of 9 (step 1 ns, seed 5) failed: "), std::string::npos) << again.err;
   EXPECT_NE(again.out.find("9 done before"), std::string::npos) << again.out;
-  // Taken away, it is tried again.
+  // DissipatingPair away, it is tried again.
   fs::remove_all(folder / "all/04-step-1-ns-seed-5");
   auto const third = run({"resume", "all"});
   EXPECT_EQ(third.status, 3);

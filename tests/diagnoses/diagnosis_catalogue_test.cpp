@@ -52,7 +52,7 @@ class Diagnoses : public testing::Test {
   }
 
   Ensemble<Newton<2>> atoms_{"atoms", 2};
-  Ensemble<Euler<2>> fluid_{"fluid", 1};
+  Ensemble<Tracer<2>> fluid_{"fluid", 1};
   PairScheme scheme_;
   Measures measures_;
 };
@@ -116,17 +116,17 @@ TEST_F(Diagnoses, UnknownEnergiesAreNaNAndTheColumnsStay) {
 }
 
 TEST_F(Diagnoses, Groups) {
-  EXPECT_EQ(look("drag", parameters()), (Values{{"atoms mean velocity x", 1.5},
-                                                {"atoms mean velocity y", -0.5},
-                                                {"fluid mean velocity x", 0},
-                                                {"fluid mean velocity y", 7}}));
+  EXPECT_EQ(look("mean-velocity", parameters()), (Values{{"atoms mean velocity x", 1.5},
+                                                         {"atoms mean velocity y", -0.5},
+                                                         {"fluid mean velocity x", 0},
+                                                         {"fluid mean velocity y", 7}}));
   EXPECT_EQ(look("velocity-diffusion", parameters()),
             (Values{{"atoms velocity spread", 2.25 + 0.25}, {"fluid velocity spread", 0}}));
   auto with = parameters();
   with.ensembles = {"atoms"};
   with.particles = {1};
   with.label = "beam";
-  EXPECT_EQ(look("drag", with), (Values{{"beam mean velocity x", 0}, {"beam mean velocity y", -1}}));
+  EXPECT_EQ(look("mean-velocity", with), (Values{{"beam mean velocity x", 0}, {"beam mean velocity y", -1}}));
   with.quantity = "speed";
   EXPECT_EQ(look("extremes", with),
             (Values{{"beam speed minimum", 1}, {"beam speed maximum", 1}, {"beam speed mean", 1}}));
@@ -141,22 +141,23 @@ TEST_F(Diagnoses, SimilarParticlesAreChosenAtTheFirstLookAndRemembered) {
   with.ensembles = {"atoms"};
   with.similar_velocity = {3, 0, 0};
   with.tolerance = 0.1;
-  auto const drag = make_diagnosis("drag", with);
-  EXPECT_TRUE(drag->state().empty());
-  EXPECT_EQ(look(*drag).at("atoms mean velocity x"), 3);
+  auto const mean_velocity = make_diagnosis("mean-velocity", with);
+  EXPECT_TRUE(mean_velocity->state().empty());
+  EXPECT_EQ(look(*mean_velocity).at("atoms mean velocity x"), 3);
   atoms_[0].velocity = {1, 0.5};  // slowed down, and now far from the first velocity
   atoms_[1].velocity = {3, 0};
-  EXPECT_EQ(look(*drag).at("atoms mean velocity x"), 1);
-  EXPECT_EQ(drag->state(), (std::vector<double>{1, 0}));
-  auto const restored = make_diagnosis("drag", with);
-  restored->restore(drag->state());
+  EXPECT_EQ(look(*mean_velocity).at("atoms mean velocity x"), 1);
+  EXPECT_EQ(mean_velocity->state(), (std::vector<double>{1, 0}));
+  auto const restored = make_diagnosis("mean-velocity", with);
+  restored->restore(mean_velocity->state());
   EXPECT_EQ(look(*restored).at("atoms mean velocity y"), 0.5);
   restored->restore({});
   EXPECT_EQ(look(*restored).at("atoms mean velocity x"), 3);
   double const wrong[] = {2, 0};
   EXPECT_THROW(restored->restore(wrong), Error);
   with.similar_velocity = {50, 0, 0};
-  EXPECT_EQ(message([&] { look("drag", with); }), "no particle of atoms starts within 0.1 of the velocity (50, 0)");
+  EXPECT_EQ(message([&] { look("mean-velocity", with); }),
+            "no particle of atoms starts within 0.1 of the velocity (50, 0)");
 }
 
 TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
@@ -186,7 +187,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
       "did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
-  EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("mean-velocity", with); }),
             "there is no ensemble 'atom'; there are atoms, fluid; did you mean 'atoms'?");
   EXPECT_EQ(message([&] { make_diagnosis("number", with); }),
             "there is no ensemble 'atom'; there are atoms, fluid; did you mean 'atoms'?");
@@ -194,21 +195,21 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
             "diagnosis pressure has no option ensembles; it has none");
   with.ensembles = {"fluid"};
   EXPECT_EQ(message([&] { make_diagnosis("temperature", with); }),
-            "ensemble 'fluid' of class Euler has no temperature: it needs a mass and a velocity");
+            "ensemble 'fluid' of class Tracer has no temperature: it needs a mass and a velocity");
   with.quantity = "mass";
-  EXPECT_NE(message([&] { make_diagnosis("extremes", with); }).find("'fluid' of class Euler has no quantity 'mass'"),
+  EXPECT_NE(message([&] { make_diagnosis("extremes", with); }).find("'fluid' of class Tracer has no quantity 'mass'"),
             std::string::npos);
   with = parameters();
   with.particles = {0};
-  EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("mean-velocity", with); }),
             "a group of chosen particles belongs to one ensemble; say which of atoms, fluid");
   with.ensembles = {"atoms"};
   with.particles = {2};
-  EXPECT_EQ(message([&] { make_diagnosis("drag", with); }),
+  EXPECT_EQ(message([&] { make_diagnosis("mean-velocity", with); }),
             "ensemble 'atoms' has 2 particles, numbered from 0; there is no particle 2");
   with.particles = {1};
   with.similar_velocity = {0, 0, 0};
-  EXPECT_THROW(make_diagnosis("drag", with), Error);
+  EXPECT_THROW(make_diagnosis("mean-velocity", with), Error);
   with = parameters();
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
@@ -247,7 +248,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
   EXPECT_EQ(names("pressure", space),
             "pressure,pressure xx,pressure xy,pressure xz,pressure yx,pressure yy,pressure yz,pressure zx,pressure zy,"
             "pressure zz,");
-  EXPECT_EQ(names("drag", space), "space mean velocity x,space mean velocity y,space mean velocity z,");
+  EXPECT_EQ(names("mean-velocity", space), "space mean velocity x,space mean velocity y,space mean velocity z,");
   // N = 0: sums are 0, means are NaN, nothing throws.
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1});
   Measures const measures;
@@ -264,8 +265,9 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     std::vector<double> values;
     diagnosis->measure({ensembles, box, &measures, 1, 0, 0}, values);
     EXPECT_EQ(values.size(), diagnosis->columns().size());
-    bool const is_mean = kind.name == "temperature" || kind.name == "drag" || kind.name == "velocity-diffusion" ||
-                         kind.name == "diffusion" || kind.name == "extremes" || kind.name == "entropy";
+    bool const is_mean = kind.name == "temperature" || kind.name == "mean-velocity" ||
+                         kind.name == "velocity-diffusion" || kind.name == "diffusion" || kind.name == "extremes" ||
+                         kind.name == "entropy";
     for (double const value : values) EXPECT_EQ(std::isnan(value), is_mean) << kind.name;
   }
 }

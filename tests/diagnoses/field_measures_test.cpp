@@ -69,7 +69,7 @@ TEST(FieldEnergy, OfAPlaneWave) {
 TEST(FieldEnergy, BetweenConductingWalls) {
   // Uniform rho between plates at zero, a distance L apart: phi = C rho x (L - x)/2, energy C rho^2 L^3/24.
   double const length = 3, rho = 0.7, constant = 2;
-  Fields fields(Box(Vector{0.}, Vector{length}, Boundary::bounded), {300});
+  Fields fields(Box(Vector{0.}, Vector{length}, Boundary::reflecting), {300});
   fill(fields.density, 0, [&](Position const&) { return rho; });
   fill(fields.potential, 0, [&](Position const& x) { return constant * rho * x[0] * (length - x[0]) / 2; });
   double const exact = constant * rho * rho * length * length * length / 24;
@@ -99,7 +99,7 @@ TEST(FieldMode, AmplitudeAndPhaseOfAWave) {
 }
 
 TEST(FieldMode, AxesThatAreNotPeriodicHaveTheMeanOnly) {
-  Fields fields(Box(Vector{0., 0.}, Vector{4., 1.}, {Boundary::periodic, Boundary::bounded}), {8, 10});
+  Fields fields(Box(Vector{0., 0.}, Vector{4., 1.}, {Boundary::periodic, Boundary::reflecting}), {8, 10});
   fill(fields.potential, 0, [&](Position const& x) { return (1 + x[1]) * std::cos(2 * pi * x[0] / 4); });
   MeshQuantity const quantity = mesh_quantity(fields.all(), "potential");
   EXPECT_LT(std::abs(field_mode(quantity, {1, 0, 0}) - 1.5), 1e-14);
@@ -161,7 +161,7 @@ TEST(MeshDiagnoses, ColumnsAndMistakes) {
   parameters.mode.clear();
   EXPECT_EQ(says("field-energy", parameters), "there is no mesh in this simulation");
   EXPECT_EQ(says("wave-spectrum", parameters), "there is no mesh in this simulation");
-  Fields walls(Box(Vector{0.}, Vector{1.}, Boundary::bounded), {8});
+  Fields walls(Box(Vector{0.}, Vector{1.}, Boundary::reflecting), {8});
   parameters.mesh_fields = walls.all();
   EXPECT_NE(says("wave-spectrum", parameters).find("not periodic"), std::string::npos);
   parameters.axis = "y";
@@ -456,7 +456,7 @@ std::string scenario(std::string const& mesh, std::string const& more) {
          "1\n" +
          mesh +
          "[[ensembles]]\nname = \"electrons\"\nclass = \"Coulomb\"\nnumber = 6400\ncharge = 1e-9\n"
-         "load = { kind = \"ripple\", mode = 2, amplitude = 0.1, quiet = true }\n" +
+         "load = { kind = \"sinusoidal\", mode = 2, amplitude = 0.1, quiet = true }\n" +
          more;
 }
 std::string const with_mesh = "[mesh]\nlaw = \"coulomb\"\ncells = 128\nbackground = true\nassignment = \"tsc\"\n";

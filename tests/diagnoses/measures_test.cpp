@@ -169,7 +169,7 @@ TEST(Measures, GroupsShowDragAndDiffusion) {
 }
 
 TEST(Measures, FluidParticlesCarryNoMomentumButAVelocity) {
-  Ensemble<Euler<2>> fluid("fluid", 2);
+  Ensemble<Tracer<2>> fluid("fluid", 2);
   Ensemble<Newton<2>> dust("dust", 1);
   dust[0] = {{{1.0, 0.0}}, 2, {0.0, 3.0}};
   fluid.influence(0)[0] = 4;

@@ -281,7 +281,7 @@ TEST(Turns, MixCloudsWithoutLosingAnybody) {
   for (std::size_t s = 0; s < 2; ++s) sources[s].value = column_of(s == 0 ? a : b, "mass");
   auto made = particle_clouds(sources, {});
   auto const whole = made.clouds;
-  auto const parts = in_turns(std::move(made.clouds));
+  auto const parts = interleaved(std::move(made.clouds));
   EXPECT_EQ(parts.size(), 32U);
   std::vector<std::size_t> found(2);
   std::set<std::uint32_t> numbers;
@@ -298,7 +298,7 @@ TEST(Turns, MixCloudsWithoutLosingAnybody) {
   EXPECT_EQ(found[0], 100U);
   EXPECT_EQ(found[1], 33U);
   EXPECT_EQ(numbers.size(), 100U);
-  EXPECT_EQ(in_turns({whole[0]}).size(), 1U) << "one hides nobody";
+  EXPECT_EQ(interleaved({whole[0]}).size(), 1U) << "one hides nobody";
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/picture.hpp>
 
@@ -25,7 +25,7 @@ using List = std::vector<AnyEnsemble const*>;
 
 /// Three mesoparticles and an atom in a box of 4 x 5: two bins of 2 x 5.
 struct Four {
-  Box box{Vector{0.0, 0.0}, Vector{4.0, 5.0}, Boundary::bounded};
+  Box box{Vector{0.0, 0.0}, Vector{4.0, 5.0}, Boundary::reflecting};
   Ensemble<Meso<2>> lumps{"lumps", 3};
   Ensemble<Newton<2>> atoms{"atoms", 1};
   List all{&lumps, &atoms};
@@ -42,7 +42,9 @@ struct Four {
     measures.virial_per_particle[0][9 + 1] = 4;  // xy of the second
     measures.virial_per_particle[1][4] = -5;     // yy of the atom
   }
-  Profile look(std::size_t bins = 2) const { return profile(Bodies(all, &measures), box, 0, 0, 4, bins, 0.5); }
+  Profile look(std::size_t bins = 2) const {
+    return profile(MassiveParticles(all, &measures), box, 0, 0, 4, bins, 0.5);
+  }
 };
 
 TEST(Profile, ByHand) {
@@ -71,10 +73,10 @@ TEST(Profile, ByHand) {
   EXPECT_EQ(p.values("internal-temperature")[1], 50);
 
   // The same as one window; of one ensemble; without measures.
-  EXPECT_EQ(matter_between(Bodies(four.all, &four.measures), four.box, 0, 0, 2, 0.5).specific_energy,
+  EXPECT_EQ(matter_between(MassiveParticles(four.all, &four.measures), four.box, 0, 0, 2, 0.5).specific_energy,
             m.specific_energy);
-  EXPECT_EQ(matter_between(Bodies(four.all, nullptr, {"atoms"}), four.box, 0, 0, 4, 0.5).mass, 2);
-  auto const blind = matter_between(Bodies(four.all, nullptr), four.box, 0, 0, 2, 0.5);
+  EXPECT_EQ(matter_between(MassiveParticles(four.all, nullptr, {"atoms"}), four.box, 0, 0, 4, 0.5).mass, 2);
+  auto const blind = matter_between(MassiveParticles(four.all, nullptr), four.box, 0, 0, 2, 0.5);
   EXPECT_EQ(blind.kinetic_temperature, m.kinetic_temperature);
   EXPECT_TRUE(std::isnan(blind.pressure[0][0]) && std::isnan(blind.specific_energy));
   EXPECT_EQ(blind.internal_energy, m.internal_energy);
@@ -91,23 +93,23 @@ TEST(Profile, EmptyBinsWallsAndEnds) {
   // A particle at the high end belongs to the last bin; a bin that reaches beyond a wall has less room.
   four.lumps[2].position[0] = 4;
   EXPECT_EQ(four.look().matter[1].number, 1U);
-  auto const beyond = profile(Bodies(four.all, nullptr), four.box, 0, -4, 4.0, 2, 1);
+  auto const beyond = profile(MassiveParticles(four.all, nullptr), four.box, 0, -4, 4.0, 2, 1);
   EXPECT_EQ(beyond.matter[0].number, 0U);
   EXPECT_TRUE(std::isnan(beyond.matter[0].density));
-  EXPECT_EQ(profile(Bodies(four.all, nullptr), four.box, 0, -1, 3.0, 2, 1).matter[0].density, 2.0 / 5);
+  EXPECT_EQ(profile(MassiveParticles(four.all, nullptr), four.box, 0, -1, 3.0, 2, 1).matter[0].density, 2.0 / 5);
   // An internal temperature of zero or less has no harmonic mean.
   four.lumps[0].temperature = -3;
   EXPECT_TRUE(std::isnan(four.look().matter[0].internal_temperature));
   // On an open axis the extent reaches to the outermost particle.
   Box const open(Vector{0.0, 0.0}, Vector{3.0, 5.0});
-  auto const reach = extent(Bodies(four.all, nullptr), open, 0);
+  auto const reach = extent(MassiveParticles(four.all, nullptr), open, 0);
   EXPECT_EQ(reach.low, 0);
   EXPECT_EQ(reach.high, 4);
 }
 
 TEST(Profile, WhatCarriesNoMomentumDoesNotCount) {
-  Box const box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::bounded);
-  Ensemble<Euler<2>> vortices("vortices", 3);
+  Box const box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::reflecting);
+  Ensemble<Tracer<2>> vortices("vortices", 3);
   Ensemble<Smooth<2>> water("water", 2);
   for (auto& p : water) {
     p.mass = 3;
@@ -115,12 +117,12 @@ TEST(Profile, WhatCarriesNoMomentumDoesNotCount) {
     p.temperature = 40;
   }
   List const all{&vortices, &water};
-  auto const m = matter_between(Bodies(all, nullptr), box, 0, 0, 1, 1);
+  auto const m = matter_between(MassiveParticles(all, nullptr), box, 0, 0, 1, 1);
   EXPECT_EQ(m.number, 2U);
   EXPECT_EQ(m.internal_energy, 2);  // per mass
   EXPECT_NEAR(m.internal_temperature, 40, 1e-13);
   List const none{&vortices};
-  EXPECT_EQ(matter_between(Bodies(none, nullptr), box, 0, 0, 1, 1).number, 0U);
+  EXPECT_EQ(matter_between(MassiveParticles(none, nullptr), box, 0, 0, 1, 1).number, 0U);
 }
 
 TEST(Profile, FastGasHasItsTemperatureAndPressure) {
@@ -137,7 +139,7 @@ TEST(Profile, FastGasHasItsTemperatureAndPressure) {
   nothing.per_particle = {std::vector<double>(gas.size(), 0)};
   nothing.virial_per_particle = {std::vector<double>(9 * gas.size(), 0)};
   List const all{&gas};
-  auto const p = profile(Bodies(all, &nothing), box, 0, 0, 2, 2, 1);
+  auto const p = profile(MassiveParticles(all, &nothing), box, 0, 0, 2, 2, 1);
   for (std::size_t b = 0; b < 2; ++b) {
     double const t = b == 0 ? 3 : 12;
     for (int a = 0; a < 3; ++a) {
@@ -160,7 +162,7 @@ TEST(Profile, BinsAddUpToThePressureTensor) {
   scheme.internal(atoms, LennardJones{1, 1}, 2.5);
   Measures const measures = scheme.measure();
   List const all{&atoms};
-  Bodies const bodies(all, &measures);
+  MassiveParticles const bodies(all, &measures);
   Tensor3 const whole = pressure_tensor(atoms, measures, box);
   auto const p = profile(bodies, box, 0, 0, box.high(0), 5, 1);
   double energy = 0;
@@ -186,23 +188,23 @@ TEST(Profile, NamesAndRefusals) {
   EXPECT_NE(message([] { profile_quantity(2, "velocity.z"); }).find("a profile has no quantity 'velocity.z'"),
             std::string::npos);
   Four const four;
-  Bodies const bodies(four.all, nullptr);
+  MassiveParticles const bodies(four.all, nullptr);
   EXPECT_EQ(message([&] { profile(bodies, four.box, 2, 0, 1, 3, 1); }), "a profile along axis 2: the space has 2 axes");
   EXPECT_EQ(message([&] { profile(bodies, four.box, 0, 0, 1, 0, 1); }), "a profile needs at least one bin");
   EXPECT_EQ(message([&] { profile(bodies, four.box, 0, 1, 1, 3, 1); }),
             "a profile goes from a lower to a higher place, not from 1 to 1");
-  MatterSum sum;
+  MomentSums sum;
   EXPECT_EQ(message([&] { sum.restore({}); }), "the checkpoint does not fit this diagnosis: its sums are others");
   EXPECT_TRUE(std::isnan(sum.matter(2, 1).velocity[0]));
 }
 
 TEST(Profile, SumsSurviveACheckpoint) {
   Four const four;
-  MatterSum sum, other;
-  Bodies const bodies(four.all, &four.measures);
-  bodies.for_each([&](double const*, MatterSum::Body const& body) { sum.add(body, 2); });
+  MomentSums sum, other;
+  MassiveParticles const bodies(four.all, &four.measures);
+  bodies.for_each([&](double const*, MomentSums::Body const& body) { sum.add(body, 2); });
   sum.add_volume(3);
-  ASSERT_EQ(sum.state().size(), MatterSum::state_size);
+  ASSERT_EQ(sum.state().size(), MomentSums::state_size);
   other.restore(sum.state());
   EXPECT_EQ(other.state(), sum.state());
   EXPECT_EQ(other.matter(2, 1).pressure, sum.matter(2, 1).pressure);
@@ -211,7 +213,7 @@ TEST(Profile, SumsSurviveACheckpoint) {
 
 TEST(Profile, AsAPicture) {
   // Twice as hot and dense on the right: the curve says so.
-  Box const box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::bounded);
+  Box const box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::reflecting);
   Ensemble<Newton<2>> gas("gas", 3000);
   random_load(gas, box, test_seed(1));
   maxwellian_load(gas, 1, 1, test_seed(2));

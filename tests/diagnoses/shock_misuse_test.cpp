@@ -16,7 +16,7 @@ namespace {
 
 /// A gas of 2000 particles of temperature 1 between two ends, which a wall may run into.
 struct Gas {
-  Box box{Vector{0.0, 0.0}, Vector{100.0, 10.0}, {Boundary::bounded, Boundary::periodic}};
+  Box box{Vector{0.0, 0.0}, Vector{100.0, 10.0}, {Boundary::reflecting, Boundary::periodic}};
   Ensemble<Meso<2>> lumps{"lumps", 2000};
   std::vector<AnyEnsemble*> all{&lumps};
   std::vector<AnyEnsemble const*> available{&lumps};

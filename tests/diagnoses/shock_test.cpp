@@ -7,8 +7,8 @@
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/meso.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -174,7 +174,7 @@ struct Made {
   explicit Made(double sign = 1)
       : sign(sign),
         box(Vector{sign > 0 ? 0 : -length, 0.0}, Vector{sign > 0 ? length : 0, thickness},
-            {Boundary::bounded, Boundary::periodic}),
+            {Boundary::reflecting, Boundary::periodic}),
         lumps("lumps", static_cast<std::size_t>(length * thickness / (spacing * spacing))) {
     box.wall(0, sign > 0 ? Box::End::low : Box::End::high, {.velocity = {sign * up, 0, 0}});
     auto const rows = static_cast<std::size_t>(thickness / spacing);
@@ -307,7 +307,7 @@ TEST(Shock, Refusals) {
   EXPECT_EQ(says({.near = 5, .far = 4}), "behind a shock the window's near end, 5, must be nearer than its far end, 4");
   EXPECT_EQ(says({.margin = -1}), "the distances of a shock's windows must not be negative: margin -1, near 0");
   EXPECT_EQ(message([] { Shock({}, {}); }), "a shock needs particles to run through; the simulation has none");
-  Ensemble<Euler<2>> vortices("vortices", 1);
+  Ensemble<Tracer<2>> vortices("vortices", 1);
   EXPECT_EQ(message([&] { Shock({&vortices}, {}); }),
             "a shock needs particles with a mass and a velocity; no ensemble that was chosen has both");
   Shock across(made.available, {.axis = 1});
@@ -410,7 +410,7 @@ TEST(Shock, InAGasOfHardDiscs) {
   }
   double const us = low;
 
-  Box const box(Vector{0.0, 0.0}, Vector{length, thickness}, {Boundary::bounded, Boundary::periodic});
+  Box const box(Vector{0.0, 0.0}, Vector{length, thickness}, {Boundary::reflecting, Boundary::periodic});
   Ensemble<Newton<2>> gas("gas");
   Filling const even{Lattice::square, 1 / std::sqrt(n0), {0, 0, 0}, {length, thickness, 0}};
   for (auto const& site : filling_sites(even, 2)) gas.add({{{site[0], site[1]}}, 1, {}});
@@ -443,7 +443,7 @@ TEST(Shock, InAGasOfHardDiscs) {
 // ---- In scenarios ----
 
 std::string scenario(std::string const& more) {
-  return "[box]\nlow = [0, 0]\nhigh = [\"60 angstrom\", \"20 angstrom\"]\nboundary = [\"bounded\", \"periodic\"]\n"
+  return "[box]\nlow = [0, 0]\nhigh = [\"60 angstrom\", \"20 angstrom\"]\nboundary = [\"reflecting\", \"periodic\"]\n"
          "[[box.walls]]\naxis = \"x\"\nend = \"low\"\nvelocity = [\"5 angstrom/ps\", 0]\n"
          "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n[run]\nstep = \"1 "
          "fs\"\nsteps = 10\n"

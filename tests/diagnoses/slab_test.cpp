@@ -3,8 +3,8 @@
 #include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/meso.hpp>
+#include <boltzmann/particles/tracer.hpp>
 
 #include <tests/message.hpp>
 #include <tests/seed.hpp>
@@ -31,7 +31,7 @@ std::map<std::string, double> look(Diagnosis& slab, std::vector<AnyEnsemble*> co
 }
 
 TEST(Slab, ByHandAndFollowed) {
-  Box const box(Vector{0.0, 0.0}, Vector{10.0, 4.0}, Boundary::bounded);
+  Box const box(Vector{0.0, 0.0}, Vector{10.0, 4.0}, Boundary::reflecting);
   Ensemble<Newton<2>> atoms("atoms", 2);
   Ensemble<Meso<2>> lumps("lumps", 3);
   std::vector<AnyEnsemble*> const all{&atoms, &lumps};
@@ -79,7 +79,7 @@ TEST(Slab, SqueezedCrystalHasItsDensity) {
   Ensemble<Newton<3>> crystal("crystal");
   block_load(crystal, Lattice::square, 1, {40, 5, 5}, {0.5, 0.5, 0.5}, true);
   Box const box(Vector{0.0, 0.0, 0.0}, Vector{40.0, 5.0, 5.0},
-                {Boundary::bounded, Boundary::periodic, Boundary::periodic});
+                {Boundary::reflecting, Boundary::periodic, Boundary::periodic});
   std::vector<AnyEnsemble*> const all{&crystal};
   for (auto& p : crystal) p.mass = 3;
   Slab slab({&crystal}, {.axis = 0, .count = 4, .label = "window"});
@@ -112,7 +112,7 @@ TEST(Slab, GoesThroughAPeriodicWall) {
 }
 
 TEST(Slab, WhatAWindowCanNotBe) {
-  Box const box(Vector{0.0, 0.0}, Vector{10.0, 4.0}, Boundary::bounded);
+  Box const box(Vector{0.0, 0.0}, Vector{10.0, 4.0}, Boundary::reflecting);
   Ensemble<Newton<2>> atoms("atoms", 1);
   atoms[0].position = {1, 1};
   std::vector<AnyEnsemble*> const all{&atoms};
@@ -130,7 +130,7 @@ TEST(Slab, WhatAWindowCanNotBe) {
   EXPECT_EQ(says({.axis = 2}), "a slab along axis z: the space has 2 axes");
   EXPECT_EQ(says({.axis = 0, .count = 0}), "a slab diagnosis needs at least one slab");
   EXPECT_EQ(message([] { Slab slab({}, {}); }), "a slab needs particles to look at; the simulation has none");
-  Ensemble<Euler<2>> vortices("vortices", 1);
+  Ensemble<Tracer<2>> vortices("vortices", 1);
   EXPECT_EQ(message([&] { Slab slab({&vortices}, {}); }),
             "a slab needs particles with a mass and a velocity; no ensemble that was chosen has both");
   // One particle: no temperature, no width.
@@ -141,7 +141,7 @@ TEST(Slab, WhatAWindowCanNotBe) {
 }
 
 TEST(Slab, IsInTheCatalogue) {
-  Box const box(Vector{0.0, 0.0}, Vector{10.0, 4.0}, Boundary::bounded);
+  Box const box(Vector{0.0, 0.0}, Vector{10.0, 4.0}, Boundary::reflecting);
   Ensemble<Newton<2>> atoms("atoms", 2), others("others", 5);
   atoms[0].position = {1, 1};
   atoms[1].position = {1, 3};

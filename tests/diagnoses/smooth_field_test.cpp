@@ -4,8 +4,8 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/field_waves.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <tests/message.hpp>
 #include <tests/seed.hpp>
 
@@ -233,7 +233,7 @@ TEST(SmoothField, AtomsOfMolecularDynamics) {
 
 TEST(SmoothField, ClassesWithoutMassAndSeveralEnsembles) {
   Box const box = square_box();
-  Ensemble<Euler<2>> points("points", 1), others("others", 1);
+  Ensemble<Tracer<2>> points("points", 1), others("others", 1);
   points[0].position = {0, 3};
   others[0].position = {0.5, 3};
   std::vector<AnyEnsemble const*> const both{&points, &others};

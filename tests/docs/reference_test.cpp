@@ -2,8 +2,8 @@
 // BOLTZMANN_WRITE_REFERENCE=1 writes them instead.
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/flows/flow_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/load_options.hpp>
@@ -146,11 +146,11 @@ std::string loaders() {
   return kinds_and_options("| `load = { kind = ...` | where the particles are | keys |", kinds);
 }
 
-std::string flows() {
+std::string dissipations() {
   DissipationOptions pairs;
   BathOptions bath;
   std::vector<Kind> kinds;
-  for (auto const& kind : flow_kinds())
+  for (auto const& kind : dissipation_kinds())
     kinds.push_back({kind.name, kind.doc, kind.options,
                      &kind.options == &dissipation_options() ? static_cast<void*>(&pairs) : &bath});
   return kinds_and_options("| kind | what it is | keys |", kinds);
@@ -177,7 +177,7 @@ TEST(Reference, TablesOfTheGuideAreThoseOfTheOptions) {
   std::vector<Table> tables{{"scenarios.md", "pictures", pictures()},
                             {"scenarios.md", "diagnoses", diagnoses()},
                             {"scenarios.md", "laws", laws()},
-                            {"scenarios.md", "flows", flows()},
+                            {"scenarios.md", "dissipation", dissipations()},
                             {"scenarios.md", "loaders", loaders()},
                             {"scenarios.md", "classes", classes()},
                             {"scenarios.md", "materials", materials()},

@@ -55,7 +55,7 @@ TEST(Integrators, OrderOnAKeplerOrbit) {
 
 // A fluid particle in the rigid rotation v = z x r returns after 2 pi.
 double rotation_error(Method method, int steps) {
-  Ensemble<Euler<2>> tracer("tracer", 1);
+  Ensemble<Tracer<2>> tracer("tracer", 1);
   tracer[0].position = {1, 0};
   PairScheme scheme(Box(Vector{-2., -2.}, Vector{2., 2.}));
   scheme.external(tracer, [](auto const& p) { return cross(Vector{1.0}, p.position); });
@@ -126,7 +126,7 @@ TEST(Integrators, RandomWalkDiffuses) {
 }
 
 TEST(Integrators, RefuseClassesThatTheyCannotAdvance) {
-  Ensemble<Euler<2>> fluid("fluid", 1);
+  Ensemble<Tracer<2>> fluid("fluid", 1);
   Ensemble<Viscous<2>> viscous("viscous", 1);
   Ensemble<Newton<2>> atoms("atoms", 1);
   EXPECT_THROW(make_integrator(fluid, Method::leap_frog), Error);
@@ -181,7 +181,7 @@ void there_and_back(Boundary boundary, int steps, int threads) {
 TEST(Integrators, ReversibleLeapFrogReturnsToTheLastBit) {
   there_and_back<2>(Boundary::open, 10000, 1);
   there_and_back<2>(Boundary::periodic, 3000, 2);
-  there_and_back<2>(Boundary::bounded, 3000, 1);
+  there_and_back<2>(Boundary::reflecting, 3000, 1);
   there_and_back<3>(Boundary::periodic, 500, 1);
 }
 

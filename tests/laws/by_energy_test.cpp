@@ -222,7 +222,7 @@ double drift(Law const& law, double cutoff, auto const& prepare) {
   block_load(atoms, Lattice::square, 1.3, {5, 5, 5});
   maxwellian_load(atoms, 0.5, 1, test_seed(1));
   prepare(atoms);
-  PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::bounded), cutoff);
+  PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::reflecting), cutoff);
   space.internal(atoms, law);
   Simulation simulation(space, 0.001);
   simulation.integrate(atoms, Method::leap_frog);

@@ -74,17 +74,17 @@ TEST(LawCatalogue, AgreesWithTheTypes) {
 TEST(LawCatalogue, Dimensions) {
   // A formula's energy must be an energy: written here by hand from the formulas.
   using namespace dimensions;
-  EXPECT_EQ(parameter("lennard-jones", "depth").dimension, energy);
-  EXPECT_EQ(parameter("spring", "stiffness").dimension * length * length, energy);
-  EXPECT_EQ(parameter("morse", "a").dimension * length, none);
-  EXPECT_EQ(parameter("rydberg", "a").dimension, none);
-  EXPECT_EQ(parameter("coulomb", "k").dimension * charge * charge / length, energy);
-  EXPECT_EQ(parameter("gravity", "G").dimension * mass * mass / length, energy);
-  EXPECT_EQ(parameter("drag", "friction").dimension * velocity, force);
-  EXPECT_EQ(parameter("uniform-gravity", "acceleration").dimension * mass, force);
-  EXPECT_EQ(parameter("uniform-electric-field", "field").dimension * charge, force);
-  EXPECT_EQ(parameter("uniform-magnetic-field", "field").dimension * velocity * charge, force);
-  EXPECT_EQ(parameter("uniform-flow", "velocity").dimension, velocity);
+  EXPECT_EQ(parameter("lennard-jones", "depth").dimension.in(3), energy);
+  EXPECT_EQ(parameter("spring", "stiffness").dimension.in(3) * length * length, energy);
+  EXPECT_EQ(parameter("morse", "a").dimension.in(3) * length, none);
+  EXPECT_EQ(parameter("rydberg", "a").dimension.in(3), none);
+  EXPECT_EQ(parameter("coulomb", "k").dimension.in(3) * charge * charge / length, energy);
+  EXPECT_EQ(parameter("gravity", "G").dimension.in(3) * mass * mass / length, energy);
+  EXPECT_EQ(parameter("drag", "friction").dimension.in(3) * velocity, force);
+  EXPECT_EQ(parameter("uniform-gravity", "acceleration").dimension.in(3) * mass, force);
+  EXPECT_EQ(parameter("uniform-electric-field", "field").dimension.in(3) * charge, force);
+  EXPECT_EQ(parameter("uniform-magnetic-field", "field").dimension.in(3) * velocity * charge, force);
+  EXPECT_EQ(parameter("uniform-flow", "velocity").dimension.in(3), velocity);
 }
 
 TEST(LawCatalogue, UnknownNamesAreAnErrorThatHelps) {

@@ -699,7 +699,7 @@ TEST(BiotSavart, CoreIn2D) {
   double const gamma = 3, core = 0.5;
   auto const q = vortex2(1, 1, gamma, core);
   auto const speed = [&](double r) {
-    Euler<2> p{};
+    Tracer<2> p{};
     p.position = {1 + r * 0.6, 1 + r * 0.8};
     auto const v = law(p, q);
     EXPECT_NEAR(v[0] * 0.6 + v[1] * 0.8, 0, 1e-15);  // it circles
@@ -711,14 +711,14 @@ TEST(BiotSavart, CoreIn2D) {
   EXPECT_NEAR(speed(0.5), gamma / (2 * pi * 0.5), 1e-14);
   EXPECT_NEAR(speed(2), gamma / (2 * pi * 2), 1e-14);
   // Even a point vortex is finite at its centre.
-  Euler<2> p{};
+  Tracer<2> p{};
   p.position = {1, 1};
   EXPECT_EQ(law(p, vortex2(1, 1, gamma, 0)), (Vector{0.0, 0.0}));
 }
 
 TEST(BiotSavart, StraightVortexIn3DIsOneIn2D) {
   BiotSavart const law;
-  Euler<3> p{};
+  Tracer<3> p{};
   p.position = {0.6, 0.8, 0};
   Vector<3> velocity{};
   double const spacing = 0.02;
@@ -738,8 +738,8 @@ TEST(BiotSavart, RingIn3D) {
     Vector<3> velocity{};
     for (int k = 0; k < elements; ++k) {
       double const phi = 2 * pi * k / elements, weight = gamma * 2 * pi * radius / elements;
-      velocity += law(Euler<3>{}, vortex3({radius * std::cos(phi), radius * std::sin(phi), 0},
-                                          {-weight * std::sin(phi), weight * std::cos(phi), 0}, core));
+      velocity += law(Tracer<3>{}, vortex3({radius * std::cos(phi), radius * std::sin(phi), 0},
+                                           {-weight * std::sin(phi), weight * std::cos(phi), 0}, core));
     }
     EXPECT_NEAR(velocity[2], gamma * radius * radius / (2 * std::pow(radius * radius + core * core, 1.5)), 1e-12);
     EXPECT_NEAR(velocity[0], 0, 1e-13);
@@ -756,7 +756,7 @@ TEST(BiotSavart, StretchingIsTheGradientOfTheVelocityAlongTheVorticity) {
     auto const result = law(p, q);
     static_assert(std::is_same_v<decltype(result), VortexInfluence<double> const>);
     auto const velocity_at = [&](double s) {  // along the vorticity of p
-      Euler<3> e{};
+      Tracer<3> e{};
       e.position = p.position + p.vorticity * s;
       return law(e, q);
     };
@@ -784,8 +784,8 @@ TEST(BiotSavart, PacksAreScalars) {
   expect_packs_are_scalars<Vortex<3>, 2>(law, 0.2, 3);
   expect_packs_are_scalars<Inviscid<3>, 4>(law, 0.2, 3);
   expect_packs_are_scalars<Viscous<3>, 8>(law, 0.2, 3);
-  static_assert(!std::is_invocable_v<BiotSavart, Vortex<2>, Euler<2>>, "a test particle moves nobody");
-  static_assert(std::is_invocable_v<decltype(one_way(BiotSavart{})), Euler<2>, Vortex<2>>);
+  static_assert(!std::is_invocable_v<BiotSavart, Vortex<2>, Tracer<2>>, "a test particle moves nobody");
+  static_assert(std::is_invocable_v<decltype(one_way(BiotSavart{})), Tracer<2>, Vortex<2>>);
   static_assert(symmetry_of<decltype(one_way(BiotSavart{}))>() == Symmetry::one_way);
 }
 
@@ -851,7 +851,7 @@ TYPED_TEST(ExternalLawIn, Values) {
   EXPECT_DOUBLE_EQ(UniformElectricField<D>{g}(electron).energy, -58.8);
 
   auto const flow = UniformFlow<D>{some_vector<D>()};
-  EXPECT_EQ(flow(Euler<D>{}), some_vector<D>());
+  EXPECT_EQ(flow(Tracer<D>{}), some_vector<D>());
   if constexpr (D == 2) {
     EXPECT_EQ(flow(Viscous<2>{}), some_vector<D>());
   }

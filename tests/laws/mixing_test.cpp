@@ -173,7 +173,7 @@ void load(Ensemble<Species<3>>& atoms) {
     atoms[i].position += 0.03 * atoms[i].velocity;
   }
 }
-Box const box(Vector{-1.0, -1.0, -1.0}, Vector{7.5, 7.5, 7.5}, Boundary::bounded);
+Box const box(Vector{-1.0, -1.0, -1.0}, Vector{7.5, 7.5, 7.5}, Boundary::reflecting);
 
 TEST(LennardJonesMixture, OneEnsembleOfTwoSpeciesIsTwoEnsembles) {
   Ensemble<Species<3>> atoms("atoms", 216);

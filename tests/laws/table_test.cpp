@@ -270,7 +270,7 @@ TEST(Table, RunsConserveEnergy) {
   for (std::size_t const fineness : {8, 512}) {
     block_load(atoms, Lattice::square, 1.2, {5, 5, 5});
     maxwellian_load(atoms, 0.5, 1, test_seed(1));
-    PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::bounded), 3);
+    PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::reflecting), 3);
     space.internal(atoms, Table(lennard_jones, 0.6, 3, PerOctave{fineness}));
     Simulation simulation(space, 0.002);
     simulation.integrate(atoms, Method::leap_frog);

@@ -2,8 +2,8 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/lattice.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/tracer.hpp>
 
 #include <gtest/gtest.h>
 
@@ -124,7 +124,7 @@ TEST(Lattice, SitesRunAlongXFirst) {
   EXPECT_DOUBLE_EQ(metal[25].position[1], std::sqrt(3.0) / 2 * 2.551);
   EXPECT_DOUBLE_EQ(metal[50].position[0], 0);
 
-  Ensemble<Euler<3>> fluid("fluid", 4);  // the four sites of one fcc cube
+  Ensemble<Tracer<3>> fluid("fluid", 4);  // the four sites of one fcc cube
   block_load(fluid, Lattice::fcc, std::sqrt(0.5), {1, 1, 1});
   EXPECT_EQ(fluid[0].position, (Vector<3>{0, 0, 0}));
   for (int k = 1; k < 4; ++k) EXPECT_NEAR(norm2(fluid[k].position), 0.5, 1e-15);

@@ -1,7 +1,7 @@
 // Loads for plasmas: ripples against the moments of their density, quiet starts against what noise would give.
 #include <boltzmann/loaders/quiet_start.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <tests/message.hpp>
@@ -69,7 +69,7 @@ void ripples(int axis) {
   EXPECT_NEAR(wave.wave_number, 2 * pi * 3 / 5, 1e-15);
   std::size_t const size = 40000;
   Ensemble<Coulomb<D>> random("random", size), quiet("quiet", size);
-  ripple_load(random, box, wave, amplitude, test_seed(7));
+  sinusoidal_load(random, box, wave, amplitude, test_seed(7));
   quiet_load(quiet, box, wave, amplitude);
   box.check(random);
   box.check(quiet);
@@ -97,10 +97,10 @@ TEST(RippleLoad, DependsOnSeedAndNameAndNothingElse) {
   Box const box = periodic<2>();
   Wave const wave = wave_of_mode(box, 0, 1);
   Ensemble<Coulomb<2>> few("ions", 10), many("ions", 20), other("ions", 10), electrons("electrons", 10);
-  ripple_load(few, box, wave, 0.5, test_seed(1));
-  ripple_load(many, box, wave, 0.5, test_seed(1));
-  ripple_load(other, box, wave, 0.5, test_seed(2));
-  ripple_load(electrons, box, wave, 0.5, test_seed(1));
+  sinusoidal_load(few, box, wave, 0.5, test_seed(1));
+  sinusoidal_load(many, box, wave, 0.5, test_seed(1));
+  sinusoidal_load(other, box, wave, 0.5, test_seed(2));
+  sinusoidal_load(electrons, box, wave, 0.5, test_seed(1));
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(few[i].position, many[i].position);
     EXPECT_NE(few[i].position, other[i].position);
@@ -112,7 +112,7 @@ TEST(RippleLoad, KeepsOutOfRegions) {
   Box box = periodic<1>(0, 10);
   box.install(Region{{2}, {6}, Region::Side::keep_out});
   Ensemble<Coulomb<1>> ions("ions", 2000);
-  ripple_load(ions, box, wave_of_mode(box, 0, 1), 0.9, test_seed(3));
+  sinusoidal_load(ions, box, wave_of_mode(box, 0, 1), 0.9, test_seed(3));
   for (auto const& ion : ions) EXPECT_TRUE(ion.position[0] <= 2 || ion.position[0] >= 6);
   EXPECT_NE(message([&] { quiet_load(ions, box); }).find("regions"), std::string::npos);
 }
@@ -241,8 +241,8 @@ TEST(PlasmaLoads, FewParticlesAndMistakes) {
   EXPECT_EQ(one[0].position[1], 1.5);
   EXPECT_EQ(message([&] { quiet_load(two, box, wave, 1.5); }),
             "quiet load: the amplitude 1.5 would make the density negative; it is between -1 and 1");
-  EXPECT_NE(message([&] { ripple_load(two, box, {2, 1, 0}, 0.5, 1); }).find("no axis 2"), std::string::npos);
-  EXPECT_NE(message([&] { ripple_load(two, box, {0, NAN, 0}, 0.5, 1); }).find("finite"), std::string::npos);
+  EXPECT_NE(message([&] { sinusoidal_load(two, box, {2, 1, 0}, 0.5, 1); }).find("no axis 2"), std::string::npos);
+  EXPECT_NE(message([&] { sinusoidal_load(two, box, {0, NAN, 0}, 0.5, 1); }).find("finite"), std::string::npos);
   EXPECT_NE(message([&] { wave_of_mode(box, -1, 1); }).find("no axis -1"), std::string::npos);
   EXPECT_NE(message([&] { velocity_ripple(two, box, wave, 1, 2); }).find("no component 2"), std::string::npos);
   EXPECT_NE(message([&] { quiet_load(two, periodic<1>()); }).find("dimensions"), std::string::npos);
@@ -262,10 +262,12 @@ TEST(PlasmaScenarios, LoadRipplesAndQuietStarts) {
     return wave_in(*run.ensembles.front(), run.scheme->box(), axis, mode);
   };
   auto const x = parse_scenario(
-      scenario("{ kind = \"ripple\", mode = 3, amplitude = 0.2, phase = \"30 degree\", quiet = true }"), "test.toml");
+      scenario("{ kind = \"sinusoidal\", mode = 3, amplitude = 0.2, phase = \"30 degree\", quiet = true }"),
+      "test.toml");
   EXPECT_LT(std::abs(mode_of(*x, 0, 3) - expected(0.2, pi / 6)), 1e-6);
   auto const y = parse_scenario(
-      scenario("{ kind = \"ripple\", axis = \"y\", wave_number = 3.141592653589793, amplitude = -0.5 }"), "test.toml");
+      scenario("{ kind = \"sinusoidal\", axis = \"y\", wave_number = 3.141592653589793, amplitude = -0.5 }"),
+      "test.toml");
   EXPECT_LT(std::abs(mode_of(*y, 1, 1) - expected(-0.5, 0)), 4 / std::sqrt(4000));
   auto const quiet =
       parse_scenario(scenario("{ kind = \"quiet\" }",
@@ -293,13 +295,13 @@ TEST(PlasmaScenarios, MistakesHaveOneLine) {
   auto const says = [](std::string const& load, std::string const& more = "") {
     return message([&] { parse_scenario(scenario(load, more), "test.toml"); });
   };
-  EXPECT_NE(says("{ kind = \"ripple\", amplitude = 0.2 }").find("a wave needs 'mode'"), std::string::npos);
-  EXPECT_NE(says("{ kind = \"ripple\", mode = 1, wave_number = 2, amplitude = 0.2 }").find("one of them"),
+  EXPECT_NE(says("{ kind = \"sinusoidal\", amplitude = 0.2 }").find("a wave needs 'mode'"), std::string::npos);
+  EXPECT_NE(says("{ kind = \"sinusoidal\", mode = 1, wave_number = 2, amplitude = 0.2 }").find("one of them"),
             std::string::npos);
-  EXPECT_NE(says("{ kind = \"ripple\", mode = 1, amplitude = 2 }").find("amplitude: 2 is out of range"),
+  EXPECT_NE(says("{ kind = \"sinusoidal\", mode = 1, amplitude = 2 }").find("amplitude: 2 is out of range"),
             std::string::npos);
-  EXPECT_NE(says("{ kind = \"ripple\", mode = 1, axis = \"z\", amplitude = 0.2 }").find("axis"), std::string::npos);
-  EXPECT_NE(says("{ kind = \"ripple\", mode = 1 }").find("amplitude"), std::string::npos);
+  EXPECT_NE(says("{ kind = \"sinusoidal\", mode = 1, axis = \"z\", amplitude = 0.2 }").find("axis"), std::string::npos);
+  EXPECT_NE(says("{ kind = \"sinusoidal\", mode = 1 }").find("amplitude"), std::string::npos);
   EXPECT_NE(says("{ kind = \"quiet\" }", "quiet = true\n").find("quiet: it belongs to 'temperature'"),
             std::string::npos);
   EXPECT_NE(says("{ kind = \"quiet\" }", "velocity_ripple = 3\n").find("velocity_ripple: a table is needed"),

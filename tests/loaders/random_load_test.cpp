@@ -2,8 +2,8 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/tracer.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
@@ -99,24 +99,24 @@ TEST(Maxwellian, NoneOneAndCold) {
 }
 
 TEST(RandomLoads, RefuseWhatTheClassOrTheNumbersDontAllow) {
-  Ensemble<Euler<2>> fluid("fluid", 3);
+  Ensemble<Tracer<2>> fluid("fluid", 3);
   Ensemble<Newton<2>> atoms("atoms", 3);
   Box const box(Vector<2>{0, 0}, Vector<2>{1, 1});
   try {
     maxwellian_load(fluid, 1, 1, 1);
     FAIL() << "fluid particles have no mass";
   } catch (Error const& error) {
-    EXPECT_NE(std::string(error.what()).find("'fluid' of class Euler has no field 'mass'"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("'fluid' of class Tracer has no field 'mass'"), std::string::npos)
         << error.what();
   }
   EXPECT_THROW(oscillating_load(fluid, 1, 1, 1, 1), Error);
-  EXPECT_THROW(gravity_load(fluid, box, 1, 1, 1, 1), Error);
+  EXPECT_THROW(barometric_load(fluid, box, 1, 1, 1, 1), Error);
   EXPECT_THROW(maxwellian_load(atoms, -1, 1, 1), Error);
   EXPECT_THROW(maxwellian_load(atoms, NAN, 1, 1), Error);
   EXPECT_THROW(maxwellian_load(atoms, 1, 0, 1), Error);
   EXPECT_THROW(oscillating_load(atoms, 1, 0, 1, 1), Error);
-  EXPECT_THROW(gravity_load(atoms, box, 0, 1, 1, 1), Error);
-  EXPECT_THROW(gravity_load(atoms, box, 1, NAN, 1, 1), Error);
+  EXPECT_THROW(barometric_load(atoms, box, 0, 1, 1, 1), Error);
+  EXPECT_THROW(barometric_load(atoms, box, 1, NAN, 1, 1), Error);
   EXPECT_THROW(random_load(atoms, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1}), 1), Error);
   EXPECT_THROW(random_load(atoms, box, 1, -0.1), Error);
   atoms[2].mass = 0;
@@ -149,7 +149,7 @@ TEST(RandomLoads, GiveTheSameBitsForTheSameSeedWhateverTheNumberOfOthers) {
 
 TEST(RandomLoad, IsUniformInTheBox) {
   constexpr std::size_t n = 20000;
-  Ensemble<Euler<3>> fluid("fluid", n);
+  Ensemble<Tracer<3>> fluid("fluid", n);
   Box const box(Vector<3>{-1, 100, 0}, Vector<3>{1, 103, 1e-3}, Boundary::periodic);
   random_load(fluid, box, test_seed(11));
   box.check(fluid);
@@ -167,7 +167,7 @@ TEST(RandomLoad, IsUniformInTheBox) {
 }
 
 TEST(RandomLoad, KeepsTheMinimumDistanceOverPeriodicWalls) {
-  for (auto const boundary : {Boundary::periodic, Boundary::bounded}) {
+  for (auto const boundary : {Boundary::periodic, Boundary::reflecting}) {
     Ensemble<Newton<2>> atoms("atoms", 400);
     Box const box(Vector<2>{0, 0}, Vector<2>{20, 30}, boundary);
     random_load(atoms, box, test_seed(2), 0.8);
@@ -222,7 +222,7 @@ TEST(RandomLoad, RespectsRegions) {
   box.install(Vector<2>{0.2, 0.2}, Vector<2>{0.4, 0.4}, Region::Side::keep_out);
   random_load(atoms, box, test_seed(1));
   EXPECT_NO_THROW(box.check(atoms));
-  gravity_load(atoms, box, 1, 1, 1, test_seed(1));
+  barometric_load(atoms, box, 1, 1, 1, test_seed(1));
   EXPECT_NO_THROW(box.check(atoms));
   box.install(Vector<2>{-1, -1}, Vector<2>{2, 2}, Region::Side::keep_out);
   EXPECT_THROW(random_load(atoms, box, 1), Error);
@@ -266,8 +266,8 @@ TEST(Gravity, HeightsHaveTheTruncatedBarometricDistribution) {
     double const g = heights * k * t / (m * 5);
     Ensemble<Newton<3>> air("air", n);
     for (auto& p : air) p.mass = m;
-    Box const box(Vector<3>{0, -1, 10}, Vector<3>{1, 1, 15}, Boundary::bounded);
-    gravity_load(air, box, t, g, k, test_seed(21));
+    Box const box(Vector<3>{0, -1, 10}, Vector<3>{1, 1, 15}, Boundary::reflecting);
+    barometric_load(air, box, t, g, k, test_seed(21));
     box.check(air);
     auto const z = air.column(air.field("position"), 2);
     auto const distribution = [&](double x) {
@@ -291,7 +291,7 @@ TEST(Gravity, HeavyParticlesLieLower) {
   Ensemble<Newton<1>> air("air", 40000);
   for (std::size_t i = 0; i < air.size(); ++i) air[i].mass = i % 2 == 0 ? 1 : 2;
   Box const box(Vector<1>{0}, Vector<1>{1000});
-  gravity_load(air, box, 1, 1, 1, test_seed(3));
+  barometric_load(air, box, 1, 1, 1, test_seed(3));
   double mean[2] = {0, 0};
   for (std::size_t i = 0; i < air.size(); ++i) mean[i % 2] += air[i].position[0] / 20000;
   double const errors = 5 / std::sqrt(20000.0);  // five, of heights that vary as much as their mean

@@ -2,8 +2,8 @@
 // the rules of walls, and that lists stay right while particles and walls move.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/tensor.hpp>
-#include <boltzmann/neighbours/mirror.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/neighbours/sorted_copy.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <tests/message.hpp>
 #include <tests/seed.hpp>
@@ -231,48 +231,49 @@ std::vector<Ghost> ghosts_of(Ensemble<Gas<D>> const& e, Box const& box, double r
   return ghosts;
 }
 
-double at(Mirror const& mirror, std::size_t k, std::size_t c) {
-  return mirror.block(c / row_block)[row_block * k + c % row_block];
+double at(SortedCopy const& copy, std::size_t k, std::size_t c) {
+  return copy.block(c / row_block)[row_block * k + c % row_block];
 }
 
 template <int D>
-Gas<D> row_of(Mirror const& mirror, std::size_t k) {
+Gas<D> row_of(SortedCopy const& copy, std::size_t k) {
   Gas<D> p;
   std::array<double, sizeof(Gas<D>) / sizeof(double)> numbers;
-  for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c] = at(mirror, k, c);
+  for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c] = at(copy, k, c);
   std::memcpy(static_cast<void*>(&p), numbers.data(), sizeof(p));
   return p;
 }
 
 /// The rows behind the owned ones are exactly these images, in all that they carry.
 template <int D>
-void expect_images(Mirror const& mirror, Ensemble<Gas<D>> const& e, Box const& box, std::vector<Ghost> const& ghosts) {
-  ASSERT_EQ(mirror.owned(), e.size());
-  ASSERT_EQ(mirror.total(), e.size() + ghosts.size());
-  std::vector<Gas<D>> owned(e.size());  // where the mirror has them: periodic axes may have wrapped them since
+void expect_images(SortedCopy const& copy, Ensemble<Gas<D>> const& e, Box const& box,
+                   std::vector<Ghost> const& ghosts) {
+  ASSERT_EQ(copy.owned(), e.size());
+  ASSERT_EQ(copy.total(), e.size() + ghosts.size());
+  std::vector<Gas<D>> owned(e.size());  // where the sorted copy has them: periodic axes may have wrapped them since
   for (std::size_t k = 0; k < e.size(); ++k) {
-    auto const& particle = e[mirror.order()[k]];
-    owned[mirror.order()[k]] = row_of<D>(mirror, k);
+    auto const& particle = e[copy.order()[k]];
+    owned[copy.order()[k]] = row_of<D>(copy, k);
     for (std::size_t c = 0; c < e.doubles(); ++c)
       if (c >= D || !box.periodic(static_cast<int>(c))) {
-        ASSERT_EQ(at(mirror, k, c), e.row(mirror.order()[k])[c]);
+        ASSERT_EQ(at(copy, k, c), e.row(copy.order()[k])[c]);
       } else {
-        double const turns = (at(mirror, k, c) - particle.position[c]) / box.length(static_cast<int>(c));
+        double const turns = (at(copy, k, c) - particle.position[c]) / box.length(static_cast<int>(c));
         ASSERT_NEAR(turns, std::nearbyint(turns), 1e-14);
       }
   }
   std::vector<std::vector<Gas<D>>> expected(e.size());
   for (auto const& ghost : ghosts)
     expected[ghost.particle].push_back(image_of<D>(owned[ghost.particle], ghost.turns, box));
-  for (std::size_t k = mirror.owned() + 1; k <= mirror.total(); ++k) {
-    auto const row = row_of<D>(mirror, k);
+  for (std::size_t k = copy.owned() + 1; k <= copy.total(); ++k) {
+    auto const row = row_of<D>(copy, k);
     auto& images = expected[static_cast<std::size_t>(row.mass)];
     auto const found = std::find_if(images.begin(), images.end(), [&](Gas<D> const& image) {
       double largest = 0;
       for (std::size_t c = 0; c < sizeof(row) / sizeof(double); ++c) {
         double x = 0;
         std::memcpy(&x, reinterpret_cast<char const*>(&image) + c * sizeof(double), sizeof(double));
-        largest = std::max(largest, std::abs(x - at(mirror, k, c)));
+        largest = std::max(largest, std::abs(x - at(copy, k, c)));
       }
       return largest < 1e-13;
     });
@@ -310,36 +311,36 @@ void images_are_right(std::array<Ends, 3> const& ends, std::size_t count, double
     if (ends[a] == Ends::periodic && a == 0) box = make_box<D>(ends, {1.1, 1.9, 1.8}, random);
   Ensemble<Gas<D>> e("gas", count);
   scatter<D>(e, box, random);
-  Mirror mirror(e, box, 2);
-  mirror.components(rules<D>(e, 2));
-  mirror.build(reach);
+  SortedCopy copy(e, box, 2);
+  copy.components(rules<D>(e, 2));
+  copy.build(reach);
   auto const ghosts = ghosts_of<D>(e, box, reach);
-  EXPECT_EQ(mirror.refresh(1), count > 0);
-  ASSERT_NO_FATAL_FAILURE(expect_images<D>(mirror, e, box, ghosts));
-  EXPECT_FALSE(mirror.refresh(2));
-  EXPECT_TRUE(mirror.is_current());
-  EXPECT_LT(mirror.largest2(), 1e-28);
+  EXPECT_EQ(copy.refresh(1), count > 0);
+  ASSERT_NO_FATAL_FAILURE(expect_images<D>(copy, e, box, ghosts));
+  EXPECT_FALSE(copy.refresh(2));
+  EXPECT_TRUE(copy.is_current());
+  EXPECT_LT(copy.largest2(), 1e-28);
 
   // Extra blocks are nowhere until they are filled, and stay so in the sentinel.
-  ASSERT_EQ(mirror.extra_blocks(), 2u);
-  for (std::size_t b = mirror.blocks(); b < mirror.blocks() + 2; ++b)
-    for (std::size_t n = 0; n < 4 * (mirror.total() + 1); ++n) ASSERT_TRUE(std::isnan(mirror.block(b)[n]));
-  std::size_t const extra = 4 * mirror.blocks();
-  for (std::size_t k = 0; k < mirror.owned(); ++k)
+  ASSERT_EQ(copy.extra_blocks(), 2u);
+  for (std::size_t b = copy.blocks(); b < copy.blocks() + 2; ++b)
+    for (std::size_t n = 0; n < 4 * (copy.total() + 1); ++n) ASSERT_TRUE(std::isnan(copy.block(b)[n]));
+  std::size_t const extra = 4 * copy.blocks();
+  for (std::size_t k = 0; k < copy.owned(); ++k)
     for (std::size_t n = 0; n < 4; ++n) {
       // The first block a copy of velocity and temperature, the second of something.
-      auto const& p = e[mirror.order()[k]];
-      mirror.block(mirror.blocks())[4 * k + n] = n == 3 ? p.temperature : n < D ? p.velocity[n] : 0.25;
-      mirror.block(mirror.blocks() + 1)[4 * k + n] = 10 * p.mass + static_cast<double>(n);
+      auto const& p = e[copy.order()[k]];
+      copy.block(copy.blocks())[4 * k + n] = n == 3 ? p.temperature : n < D ? p.velocity[n] : 0.25;
+      copy.block(copy.blocks() + 1)[4 * k + n] = 10 * p.mass + static_cast<double>(n);
     }
-  mirror.refresh_images(mirror.blocks(), mirror.blocks() + 2, 2);
-  for (std::size_t k = mirror.owned() + 1; k <= mirror.total(); ++k) {
-    auto const row = row_of<D>(mirror, k);
-    for (int a = 0; a < D; ++a) ASSERT_EQ(at(mirror, k, extra + a), row.velocity[a]);
-    ASSERT_EQ(at(mirror, k, extra + 3), row.temperature);
-    for (std::size_t n = 0; n < 4; ++n) ASSERT_EQ(at(mirror, k, extra + 4 + n), 10 * row.mass + static_cast<double>(n));
+  copy.refresh_images(copy.blocks(), copy.blocks() + 2, 2);
+  for (std::size_t k = copy.owned() + 1; k <= copy.total(); ++k) {
+    auto const row = row_of<D>(copy, k);
+    for (int a = 0; a < D; ++a) ASSERT_EQ(at(copy, k, extra + a), row.velocity[a]);
+    ASSERT_EQ(at(copy, k, extra + 3), row.temperature);
+    for (std::size_t n = 0; n < 4; ++n) ASSERT_EQ(at(copy, k, extra + 4 + n), 10 * row.mass + static_cast<double>(n));
   }
-  for (std::size_t n = 0; n < 4; ++n) ASSERT_TRUE(std::isnan(at(mirror, mirror.sentinel(), extra + n)));
+  for (std::size_t n = 0; n < 4; ++n) ASSERT_TRUE(std::isnan(at(copy, copy.sentinel(), extra + n)));
 
   // Particles and walls move: the images of the same particles, about the walls as they are now, with the extra blocks
   // as they were.
@@ -350,25 +351,25 @@ void images_are_right(std::array<Ends, 3> const& ends, std::size_t count, double
         e[i].velocity[a] += 0.1;
       }
     box.move_walls(time);
-    EXPECT_EQ(mirror.is_current(), count == 0 && !box.walls_move());
-    EXPECT_EQ(mirror.refresh(2), count > 0 || box.walls_move());
-    ASSERT_NO_FATAL_FAILURE(expect_images<D>(mirror, e, box, ghosts));
-    EXPECT_TRUE(mirror.is_current());
-    for (std::size_t k = mirror.owned() + 1; k <= mirror.total(); ++k)
-      ASSERT_EQ(at(mirror, k, extra + 4), 10 * at(mirror, k, D));
+    EXPECT_EQ(copy.is_current(), count == 0 && !box.walls_move());
+    EXPECT_EQ(copy.refresh(2), count > 0 || box.walls_move());
+    ASSERT_NO_FATAL_FAILURE(expect_images<D>(copy, e, box, ghosts));
+    EXPECT_TRUE(copy.is_current());
+    for (std::size_t k = copy.owned() + 1; k <= copy.total(); ++k)
+      ASSERT_EQ(at(copy, k, extra + 4), 10 * at(copy, k, D));
   }
 
   // From the references and edges of the build, at the state of now: the same rows in the same order.
-  Mirror again(e, box, 2);
+  SortedCopy again(e, box, 2);
   again.components(rules<D>(e, 2));
-  again.build(reach, mirror.built_references(), mirror.built_edges());
+  again.build(reach, copy.built_references(), copy.built_edges());
   again.refresh(1);
-  EXPECT_EQ(again.built_edges(), mirror.built_edges());
-  EXPECT_EQ(again.largest2(), mirror.largest2());
-  ASSERT_EQ(again.total(), mirror.total());
-  EXPECT_TRUE(std::equal(again.order(), again.order() + count, mirror.order()));
+  EXPECT_EQ(again.built_edges(), copy.built_edges());
+  EXPECT_EQ(again.largest2(), copy.largest2());
+  ASSERT_EQ(again.total(), copy.total());
+  EXPECT_TRUE(std::equal(again.order(), again.order() + count, copy.order()));
   for (std::size_t k = 0; k <= again.total(); ++k)
-    for (std::size_t c = 0; c < extra && k != again.sentinel(); ++c) ASSERT_EQ(at(again, k, c), at(mirror, k, c));
+    for (std::size_t c = 0; c < extra && k != again.sentinel(); ++c) ASSERT_EQ(at(again, k, c), at(copy, k, c));
 }
 
 TEST(WallImages, AreThoseOfBruteForce) {
@@ -393,14 +394,14 @@ TEST(WallImages, OneParticleInACornerHasThree) {
   e[0].temperature = 5;
   e[0].heat_flux = {1, 2};
   e[0].stress = {1, 2, 3, 4};
-  Mirror mirror(e, box);
-  mirror.components(rules<2>(e, 0));
-  mirror.build(1);
-  mirror.refresh(1);
-  ASSERT_EQ(mirror.total(), 4u);
+  SortedCopy copy(e, box);
+  copy.components(rules<2>(e, 0));
+  copy.build(1);
+  copy.refresh(1);
+  ASSERT_EQ(copy.total(), 4u);
   int seen = 0;
   for (std::size_t k = 2; k <= 4; ++k) {
-    auto const p = row_of<2>(mirror, k);
+    auto const p = row_of<2>(copy, k);
     if (p.position == Vector{-0.25, 0.5}) {  // its own image: slippery, insulated
       ++seen;
       EXPECT_EQ(p.velocity, (Vector{-1., 3.}));
@@ -424,12 +425,12 @@ TEST(WallImages, OneParticleInACornerHasThree) {
   EXPECT_EQ(seen, 3);
   // On a wall the image is at the same place; and the list has it.
   e[0].position = {0, 2};
-  mirror.build(1);
-  mirror.refresh(1);
-  ASSERT_EQ(mirror.total(), 2u);
-  EXPECT_EQ(row_of<2>(mirror, 2).position, e[0].position);
+  copy.build(1);
+  copy.refresh(1);
+  ASSERT_EQ(copy.total(), 2u);
+  EXPECT_EQ(row_of<2>(copy, 2).position, e[0].position);
   NeighbourList list;
-  list.build(mirror, mirror, 1, 0, 1);
+  list.build(copy, copy, 1, 0, 1);
   ASSERT_EQ(list.lengths(0)[0], 1u);
   EXPECT_EQ(list.rows()[0][0], item_of_row(2));
 }
@@ -441,11 +442,11 @@ TEST(WallImages, WithoutRulesPositionAndVelocityAreKnown) {
   e[0].velocity = {1, -0.0};
   e[0].temperature = 5;
   e[0].heat_flux = {1, 2};
-  Mirror mirror(e, box);
-  mirror.build(1);
-  mirror.refresh(1);
-  ASSERT_EQ(mirror.total(), 2u);
-  auto const p = row_of<2>(mirror, 2);
+  SortedCopy copy(e, box);
+  copy.build(1);
+  copy.refresh(1);
+  ASSERT_EQ(copy.total(), 2u);
+  auto const p = row_of<2>(copy, 2);
   EXPECT_EQ(p.position, (Vector{-0.25, -7.}));
   EXPECT_EQ(p.velocity, (Vector{-1., 0.}));
   EXPECT_TRUE(std::signbit(p.velocity[1])) << "what is the same is so to the last bit";
@@ -456,18 +457,18 @@ TEST(WallImages, WithoutRulesPositionAndVelocityAreKnown) {
 TEST(WallImages, MistakesAreNamed) {
   Box box(Vector{0., 0.}, Vector{2., 3.}, {Boundary::mirror, Boundary::mirror});
   Ensemble<Gas<2>> e("gas", 1);
-  Mirror mirror(e, box, 1);
-  EXPECT_EQ(message([&] { mirror.build(2.5); }),
+  SortedCopy copy(e, box, 1);
+  EXPECT_EQ(message([&] { copy.build(2.5); }),
             "neighbours of 'gas' are found up to a distance of 2.5, the walls of axis x are 2 apart: they must not be "
             "nearer to each other than that");
-  EXPECT_EQ(message([&] { mirror.build(2); }), "no error");
+  EXPECT_EQ(message([&] { copy.build(2); }), "no error");
   box.open_end(0, End::high);
-  EXPECT_EQ(message([&] { mirror.build(2.5); }), "no error");
-  EXPECT_NE(message([&] { mirror.components({}); }).find("rules for 0 numbers of a row, which has 20"),
+  EXPECT_EQ(message([&] { copy.build(2.5); }), "no error");
+  EXPECT_NE(message([&] { copy.components({}); }).find("rules for 0 numbers of a row, which has 20"),
             std::string::npos);
   auto wrong = rules<2>(e, 1);
   wrong[7] = {ImageRule::tensor, 0, 2};
-  EXPECT_NE(message([&] { mirror.components(wrong); }).find("a rule names axis 2, the box has 2"), std::string::npos);
+  EXPECT_NE(message([&] { copy.components(wrong); }).find("a rule names axis 2, the box has 2"), std::string::npos);
 }
 
 // ---- lists --------------------------------------------------------------------------------------------------------
@@ -475,20 +476,20 @@ TEST(WallImages, MistakesAreNamed) {
 /// Every pair of a particle and somebody or his image (its own, too) within the cut-off stands in the list, up to the
 /// ring that the displacement demands. Returns how many pairs there are.
 template <int D>
-std::size_t expect_complete(NeighbourList const& list, Mirror const& mirror, Ensemble<Gas<D>> const& e, Box const& box,
-                            double cutoff, double skin) {
+std::size_t expect_complete(NeighbourList const& list, SortedCopy const& copy, Ensemble<Gas<D>> const& e,
+                            Box const& box, double cutoff, double skin) {
   int ring = 0;
-  while (ring < list_rings && std::sqrt(mirror.largest2()) > 0.5 * skin * (ring + 1) / list_rings) ++ring;
+  while (ring < list_rings && std::sqrt(copy.largest2()) > 0.5 * skin * (ring + 1) / list_rings) ++ring;
   EXPECT_LT(ring, list_rings) << "the list would not hold";
   if (ring == list_rings) return 0;
   std::size_t pairs = 0;
   auto const turns_here = all_turns<D>(box, cutoff);
-  for (std::size_t k = 0; k < mirror.owned(); ++k) {
-    auto const& p = e[mirror.order()[k]];
+  for (std::size_t k = 0; k < copy.owned(); ++k) {
+    auto const& p = e[copy.order()[k]];
     std::vector<double> expected, found;
     for (std::size_t j = 0; j < e.size(); ++j)
       for (auto const& turns : turns_here) {
-        if (j == mirror.order()[k] && turns == Turns{}) continue;
+        if (j == copy.order()[k] && turns == Turns{}) continue;
         double const distance2 = norm2(place_of<D>(e[j].position, turns, box) - p.position);
         if (distance2 < cutoff * cutoff * (1 - 1e-9)) expected.push_back(distance2);
       }
@@ -496,12 +497,12 @@ std::size_t expect_complete(NeighbourList const& list, Mirror const& mirror, Ens
       std::size_t const row = row_of_item(list.rows()[k][n]);
       double distance2 = 0;
       for (int a = 0; a < D; ++a)
-        distance2 += (at(mirror, row, a) - at(mirror, k, a)) * (at(mirror, row, a) - at(mirror, k, a));
+        distance2 += (at(copy, row, a) - at(copy, k, a)) * (at(copy, row, a) - at(copy, k, a));
       if (distance2 < cutoff * cutoff * (1 - 1e-9)) found.push_back(distance2);
     }
     std::sort(expected.begin(), expected.end());
     std::sort(found.begin(), found.end());
-    EXPECT_EQ(found.size(), expected.size()) << "particle " << mirror.order()[k];
+    EXPECT_EQ(found.size(), expected.size()) << "particle " << copy.order()[k];
     for (std::size_t n = 0; n < std::min(found.size(), expected.size()); ++n) EXPECT_NEAR(found[n], expected[n], 1e-12);
     pairs += expected.size();
   }
@@ -516,12 +517,12 @@ void lists_hold(std::array<Ends, 3> const& ends, std::size_t count) {
   Box box = make_box<D>(ends, {1.7, 1.6, 1.5}, random, 0.05);
   Ensemble<Gas<D>> e("gas", count);
   scatter<D>(e, box, random);
-  Mirror mirror(e, box);
-  mirror.build(cutoff + skin);
-  mirror.refresh(1);
+  SortedCopy copy(e, box);
+  copy.build(cutoff + skin);
+  copy.refresh(1);
   NeighbourList list;
-  list.build(mirror, mirror, cutoff, skin, 1);
-  std::size_t pairs = expect_complete<D>(list, mirror, e, box, cutoff, skin);
+  list.build(copy, copy, cutoff, skin, 1);
+  std::size_t pairs = expect_complete<D>(list, copy, e, box, cutoff, skin);
   for (double const time : {0.25, 0.6, 0.3, -0.4}) {
     for (std::size_t i = 0; i < count; ++i)
       for (int a = 0; a < D; ++a) e[i].position[a] += std::uniform_real_distribution(-0.02, 0.02)(random);
@@ -530,24 +531,23 @@ void lists_hold(std::array<Ends, 3> const& ends, std::size_t count) {
     for (int a = 0; a < D; ++a)
       e[knocked].position[a] = std::uniform_real_distribution(box.low(a) + 0.05, box.high(a) - 0.05)(random);
     box.move_walls(time);
-    mirror.refresh(1);
+    copy.refresh(1);
     double const allowed = 0.17;
-    auto const moved = mirror.beyond(allowed * allowed, count);
+    auto const moved = copy.beyond(allowed * allowed, count);
     ASSERT_LE(moved.size(), 2u);
     std::vector<std::uint32_t> affected(moved);
     auto const look_around = [&] {
-      for (auto const row : moved)
-        mirror.owned_near(mirror.references() + 4 * std::size_t{row}, cutoff + skin, affected);
+      for (auto const row : moved) copy.owned_near(copy.references() + 4 * std::size_t{row}, cutoff + skin, affected);
     };
     look_around();
-    mirror.move(moved);
+    copy.move(moved);
     look_around();
     std::sort(affected.begin(), affected.end());
     affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
-    list.rebuild(mirror, mirror, affected);
-    mirror.refresh(1);
-    EXPECT_LE(mirror.largest2(), allowed * allowed * (1 + 1e-9));
-    pairs += expect_complete<D>(list, mirror, e, box, cutoff, skin);
+    list.rebuild(copy, copy, affected);
+    copy.refresh(1);
+    EXPECT_LE(copy.largest2(), allowed * allowed * (1 + 1e-9));
+    pairs += expect_complete<D>(list, copy, e, box, cutoff, skin);
     ASSERT_FALSE(::testing::Test::HasFailure());
   }
   EXPECT_GT(pairs, count);
@@ -571,17 +571,17 @@ TEST(WallLists, AreReadFurtherAsWallsComeCloser) {
   Ensemble<Gas<2>> e("gas", 150);
   scatter<2>(e, box, random);
   for (auto& p : e) p.position *= 0.9;  // so that the walls don't reach them
-  Mirror mirror(e, box);
-  mirror.build(cutoff + skin);
-  mirror.refresh(1);
+  SortedCopy copy(e, box);
+  copy.build(cutoff + skin);
+  copy.refresh(1);
   NeighbourList list;
-  list.build(mirror, mirror, cutoff, skin, 1);
+  list.build(copy, copy, cutoff, skin, 1);
   std::size_t last = 0;
   for (double const moved : {0.0, 0.049, 0.099, 0.149, 0.1999}) {  // one ring more each time
     box.move_walls(moved / std::sqrt(2.0) / u);
-    mirror.refresh(1);
-    EXPECT_NEAR(std::sqrt(mirror.largest2()), moved, 1e-14);
-    std::size_t const pairs = expect_complete<2>(list, mirror, e, box, cutoff, skin);
+    copy.refresh(1);
+    EXPECT_NEAR(std::sqrt(copy.largest2()), moved, 1e-14);
+    std::size_t const pairs = expect_complete<2>(list, copy, e, box, cutoff, skin);
     EXPECT_GT(pairs, last);  // nobody moves, images come
     last = pairs;
   }
@@ -591,27 +591,27 @@ TEST(WallLists, NewImagesOfMovedRowsHaveTheirExtraBlocks) {
   Box box(Vector{0., 0.}, Vector{9., 9.}, {Boundary::mirror, Boundary::periodic});
   Ensemble<Gas<2>> e("gas", 40);
   for (auto& p : e) p.position = {4, 4};  // nobody has an image
-  Mirror mirror(e, box, 1);
-  mirror.components(rules<2>(e, 1));
-  mirror.build(1);
-  mirror.refresh(1);
-  ASSERT_EQ(mirror.total(), 40u);
-  std::size_t const extra = mirror.blocks();
-  for (std::size_t n = 0; n < 160; ++n) mirror.block(extra)[n] = 1 + static_cast<double>(n);
+  SortedCopy copy(e, box, 1);
+  copy.components(rules<2>(e, 1));
+  copy.build(1);
+  copy.refresh(1);
+  ASSERT_EQ(copy.total(), 40u);
+  std::size_t const extra = copy.blocks();
+  for (std::size_t n = 0; n < 160; ++n) copy.block(extra)[n] = 1 + static_cast<double>(n);
   std::vector<std::uint32_t> rows(40);
   for (std::uint32_t k = 0; k < 40; ++k) rows[k] = k;
   for (auto& p : e) p.position = {0.5, 8.75};  // everybody has three: more room is needed
-  mirror.refresh(1);
-  mirror.move(rows);
-  ASSERT_EQ(mirror.total(), 160u);
+  copy.refresh(1);
+  copy.move(rows);
+  ASSERT_EQ(copy.total(), 160u);
   std::array<int, 2> signs{};
   for (std::size_t k = 41; k <= 160; ++k) {
-    std::size_t const source = static_cast<std::size_t>(at(mirror, k, 4 * extra + 3)) / 4 - 1;
+    std::size_t const source = static_cast<std::size_t>(at(copy, k, 4 * extra + 3)) / 4 - 1;
     ASSERT_LT(source, 40u);
-    bool const reflected = at(mirror, k, 0) < 0;
+    bool const reflected = at(copy, k, 0) < 0;
     ++signs[reflected ? 1 : 0];
-    ASSERT_EQ(at(mirror, k, 4 * extra), reflected ? -(1.0 + 4 * source) : 1.0 + 4 * source);
-    ASSERT_EQ(at(mirror, k, 4 * extra + 1), 2.0 + 4 * source);
+    ASSERT_EQ(at(copy, k, 4 * extra), reflected ? -(1.0 + 4 * source) : 1.0 + 4 * source);
+    ASSERT_EQ(at(copy, k, 4 * extra + 1), 2.0 + 4 * source);
   }
   EXPECT_EQ(signs, (std::array{40, 80}));
 }
@@ -627,26 +627,26 @@ TEST(WallLists, TheMotionOfWallsIsDisplacementOfAll) {
   e[0].position = {3.5, 3.75};
   e[1].position = {1, 1};
   e[2].position = {2, 3};
-  Mirror mirror(e, box);
-  mirror.build(1);
-  mirror.refresh(1);
-  EXPECT_EQ(mirror.largest2(), 0);
+  SortedCopy copy(e, box);
+  copy.build(1);
+  copy.refresh(1);
+  EXPECT_EQ(copy.largest2(), 0);
   box.move_walls(0.5);
-  EXPECT_TRUE(mirror.refresh(1));  // nobody has moved, but his image has
+  EXPECT_TRUE(copy.refresh(1));  // nobody has moved, but his image has
   // The corner image of particle 0 has moved by 2 (0.15, 0.2), of which it and its particle take half each.
-  EXPECT_NEAR(std::sqrt(mirror.largest2()), 0.25, 1e-15);
+  EXPECT_NEAR(std::sqrt(copy.largest2()), 0.25, 1e-15);
   e[1].position[0] += 0.5;
-  mirror.refresh(1);
-  EXPECT_NEAR(std::sqrt(mirror.largest2()), 0.75, 1e-15);
-  EXPECT_EQ(mirror.beyond(0.8 * 0.8, 9).size(), 0u);
-  auto const one = mirror.beyond(0.7 * 0.7, 9);
+  copy.refresh(1);
+  EXPECT_NEAR(std::sqrt(copy.largest2()), 0.75, 1e-15);
+  EXPECT_EQ(copy.beyond(0.8 * 0.8, 9).size(), 0u);
+  auto const one = copy.beyond(0.7 * 0.7, 9);
   ASSERT_EQ(one.size(), 1u);
-  EXPECT_EQ(mirror.order()[one[0]], 1u);
-  EXPECT_EQ(mirror.beyond(0.2 * 0.2, 9).size(), 3u);  // walls have moved further: no new reference helps
-  EXPECT_EQ(mirror.beyond(0.2 * 0.2, 2).size(), 2u);
-  mirror.build(1);
-  mirror.refresh(1);
-  EXPECT_EQ(mirror.largest2(), 0);
+  EXPECT_EQ(copy.order()[one[0]], 1u);
+  EXPECT_EQ(copy.beyond(0.2 * 0.2, 9).size(), 3u);  // walls have moved further: no new reference helps
+  EXPECT_EQ(copy.beyond(0.2 * 0.2, 2).size(), 2u);
+  copy.build(1);
+  copy.refresh(1);
+  EXPECT_EQ(copy.largest2(), 0);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Gas {
-  Box box{Vector{-1.0, 0.0}, Vector{9.0, 11.0}, {Boundary::periodic, Boundary::bounded}};
+  Box box{Vector{-1.0, 0.0}, Vector{9.0, 11.0}, {Boundary::periodic, Boundary::reflecting}};
   Ensemble<Newton<2>> few{"few", 40}, many{"many", 900};
   std::mt19937_64 random{test_seed(3)};
 
@@ -58,7 +58,7 @@ struct Gas {
 
 /// The same, as a list has them: those within its cut-off among what is read.
 Pairs listed(Neighbourhood const& hood, std::size_t list, Box const& box) {
-  Mirror const &target = hood.target(list), &source = hood.source(list);
+  SortedCopy const &target = hood.target(list), &source = hood.source(list);
   double const cutoff = hood.cutoff(list);
   Pairs pairs;
   for (std::size_t i = 0; i < target.owned(); ++i)

@@ -1,9 +1,9 @@
-// Cells, lists, connections and mirrors against brute force: random, clustered, equal and far-off points in 1D to 3D.
+// Cells, lists, connections and sorted copies against brute force: random, clustered, equal and far-off points in 1D to 3D.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/neighbours/cells.hpp>
 #include <boltzmann/neighbours/connection.hpp>
-#include <boltzmann/neighbours/mirror.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/neighbours/sorted_copy.hpp>
 #include <boltzmann/particles/newton.hpp>
 
 #include <gtest/gtest.h>
@@ -151,7 +151,7 @@ TEST(Cells, PointsOfOneCellKeepTheirOrder) {
   EXPECT_GT(fullest, 100u);
 }
 
-// ---- mirrors ------------------------------------------------------------------------------------------------------
+// ---- Sorted copies ----
 
 template <int D>
 Box make_box(std::array<double, 3> length, std::array<Boundary, 3> kinds) {
@@ -176,34 +176,34 @@ void scatter(Ensemble<Newton<D>>& e, Box const& box, unsigned seed) {
 constexpr int mass_column(int D) { return D; }
 
 /// Number c of row k.
-double at(Mirror const& mirror, std::size_t k, std::size_t c) {
-  return mirror.rows()[c / row_block * mirror.block_stride() + row_block * k + c % row_block];
+double at(SortedCopy const& copy, std::size_t k, std::size_t c) {
+  return copy.rows()[c / row_block * copy.block_stride() + row_block * k + c % row_block];
 }
-std::size_t numbers(Mirror const& mirror) { return row_block * mirror.blocks(); }
+std::size_t numbers(SortedCopy const& copy) { return row_block * copy.blocks(); }
 
-/// A row of a mirror: which particle, and by how many lengths it is moved.
+/// A row of a sorted copy: which particle, and by how many lengths it is moved.
 using Image = std::array<int, 4>;
 
 template <int D>
-Image image_of(Mirror const& mirror, Box const& box, std::size_t row) {
-  int const particle = static_cast<int>(at(mirror, row, mass_column(D)));
+Image image_of(SortedCopy const& copy, Box const& box, std::size_t row) {
+  int const particle = static_cast<int>(at(copy, row, mass_column(D)));
   Image image{particle, 0, 0, 0};
-  auto const references = mirror.built_references();
+  auto const references = copy.built_references();
   for (int a = 0; a < D; ++a)
     if (box.periodic(a))
-      image[a + 1] = static_cast<int>(std::lround((at(mirror, row, a) - references[particle * D + a]) / box.length(a)));
+      image[a + 1] = static_cast<int>(std::lround((at(copy, row, a) - references[particle * D + a]) / box.length(a)));
   return image;
 }
 
 /// The images, by brute force, of the positions at the last build that are within reach of the box.
 template <int D>
-std::set<Image> expected_ghosts(Mirror const& mirror, Box const& box, double reach) {
+std::set<Image> expected_ghosts(SortedCopy const& copy, Box const& box, double reach) {
   std::set<Image> ghosts;
-  auto const references = mirror.built_references();
+  auto const references = copy.built_references();
   int range[3] = {0, 0, 0};
   for (int a = 0; a < D; ++a)
     if (box.periodic(a)) range[a] = static_cast<int>(reach / box.length(a)) + 2;
-  for (std::size_t i = 0; i < mirror.owned(); ++i)
+  for (std::size_t i = 0; i < copy.owned(); ++i)
     for (int x = -range[0]; x <= range[0]; ++x)
       for (int y = -range[1]; y <= range[1]; ++y)
         for (int z = -range[2]; z <= range[2]; ++z) {
@@ -219,18 +219,18 @@ std::set<Image> expected_ghosts(Mirror const& mirror, Box const& box, double rea
 }
 
 template <int D>
-void expect_rows_are_images(Mirror const& mirror, Ensemble<Newton<D>> const& e, Box const& box, double reach) {
-  ASSERT_EQ(mirror.owned(), e.size());
+void expect_rows_are_images(SortedCopy const& copy, Ensemble<Newton<D>> const& e, Box const& box, double reach) {
+  ASSERT_EQ(copy.owned(), e.size());
   std::vector<char> seen(e.size(), 0);
   std::vector<std::size_t> row_of(e.size());
-  for (std::size_t k = 0; k < mirror.owned(); ++k) {
-    std::uint32_t const i = mirror.order()[k];
+  for (std::size_t k = 0; k < copy.owned(); ++k) {
+    std::uint32_t const i = copy.order()[k];
     ASSERT_LT(i, e.size());
     ASSERT_FALSE(seen[i]) << "a particle stands twice in the order";
     seen[i] = 1;
     row_of[i] = k;
-    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(mirror.rows() + row_block * k) % 32, 0u);
-    auto const row = [&](std::size_t c) { return at(mirror, k, c); };
+    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(copy.rows() + row_block * k) % 32, 0u);
+    auto const row = [&](std::size_t c) { return at(copy, k, c); };
     ASSERT_EQ(row(mass_column(D)), static_cast<double>(i));
     for (int a = 0; a < D; ++a) {
       ASSERT_EQ(row(D + 1 + a), e[i].velocity[a]);
@@ -240,24 +240,24 @@ void expect_rows_are_images(Mirror const& mirror, Ensemble<Newton<D>> const& e, 
       else
         ASSERT_EQ(row(a), e[i].position[a]);
     }
-    ASSERT_EQ(image_of<D>(mirror, box, k), (Image{static_cast<int>(i), 0, 0, 0})) << "it stays where it was built";
+    ASSERT_EQ(image_of<D>(copy, box, k), (Image{static_cast<int>(i), 0, 0, 0})) << "it stays where it was built";
   }
   // The ghosts: exactly those within reach, each the owned row moved by whole lengths, bit by bit.
   std::set<Image> ghosts;
-  for (std::size_t k = mirror.owned() + 1; k <= mirror.total(); ++k) {
-    Image const image = image_of<D>(mirror, box, k);
+  for (std::size_t k = copy.owned() + 1; k <= copy.total(); ++k) {
+    Image const image = image_of<D>(copy, box, k);
     ASSERT_TRUE(ghosts.insert(image).second) << "a ghost stands twice";
-    for (std::size_t c = 0; c < numbers(mirror); ++c) {
-      double const owned = at(mirror, row_of[image[0]], c);
+    for (std::size_t c = 0; c < numbers(copy); ++c) {
+      double const owned = at(copy, row_of[image[0]], c);
       bool const moved = c < D && image[c + 1] != 0;
       // Rounded as a length of its own, not fused with the sum.
       double const volatile shift = moved ? image[c + 1] * box.length(static_cast<int>(c)) : 0;
-      ASSERT_EQ(at(mirror, k, c), moved ? owned + shift : owned);
+      ASSERT_EQ(at(copy, k, c), moved ? owned + shift : owned);
     }
   }
-  ASSERT_EQ(ghosts, (expected_ghosts<D>(mirror, box, reach)));
-  for (std::size_t c = 0; c < numbers(mirror); ++c)
-    ASSERT_TRUE(std::isnan(at(mirror, mirror.sentinel(), c))) << "the sentinel has a position";
+  ASSERT_EQ(ghosts, (expected_ghosts<D>(copy, box, reach)));
+  for (std::size_t c = 0; c < numbers(copy); ++c)
+    ASSERT_TRUE(std::isnan(at(copy, copy.sentinel(), c))) << "the sentinel has a position";
 }
 
 template <int D>
@@ -273,22 +273,22 @@ void mirror_follows(std::array<double, 3> length, std::array<Boundary, 3> kinds,
       e[2].position[a] = box.high(a) + 0.137;
       e[3].position[a] = box.low(a) - 0.137;
     }
-  Mirror mirror(e, box);
-  mirror.build(reach);
-  EXPECT_FALSE(mirror.is_current() && count > 0);
-  EXPECT_EQ(mirror.refresh(1), count > 0);
-  EXPECT_FALSE(mirror.refresh(2)) << "nothing has changed";
-  EXPECT_TRUE(mirror.is_current());
-  EXPECT_LT(mirror.largest2(), 1e-28);
-  ASSERT_NO_FATAL_FAILURE(expect_rows_are_images(mirror, e, box, reach));
-  for (std::size_t k = 0; k < mirror.owned(); ++k)
+  SortedCopy copy(e, box);
+  copy.build(reach);
+  EXPECT_FALSE(copy.is_current() && count > 0);
+  EXPECT_EQ(copy.refresh(1), count > 0);
+  EXPECT_FALSE(copy.refresh(2)) << "nothing has changed";
+  EXPECT_TRUE(copy.is_current());
+  EXPECT_LT(copy.largest2(), 1e-28);
+  ASSERT_NO_FATAL_FAILURE(expect_rows_are_images(copy, e, box, reach));
+  for (std::size_t k = 0; k < copy.owned(); ++k)
     for (int a = 0; a < D; ++a)
       if (box.periodic(a)) {
-        ASSERT_GE(at(mirror, k, a), box.low(a));
-        ASSERT_LE(at(mirror, k, a), box.high(a));
+        ASSERT_GE(at(copy, k, a), box.low(a));
+        ASSERT_LE(at(copy, k, a), box.high(a));
       }
 
-  // Particles move, some over an edge, and are wrapped: the mirror must not see the jump.
+  // Particles move, some over an edge, and are wrapped: the sorted copy must not see the jump.
   std::mt19937_64 random(test_seed(13));
   std::vector<Vector<D>> path(count, Vector<D>{});
   for (int step = 0; step < 5; ++step) {
@@ -302,43 +302,43 @@ void mirror_follows(std::array<double, 3> length, std::array<Boundary, 3> kinds,
           if (e[i].position[a] < box.low(a)) e[i].position[a] += box.length(a);
         }
       }
-    EXPECT_EQ(mirror.is_current(), count == 0);
-    EXPECT_EQ(mirror.refresh(1 + step % 3), count > 0);
-    ASSERT_NO_FATAL_FAILURE(expect_rows_are_images(mirror, e, box, reach));
+    EXPECT_EQ(copy.is_current(), count == 0);
+    EXPECT_EQ(copy.refresh(1 + step % 3), count > 0);
+    ASSERT_NO_FATAL_FAILURE(expect_rows_are_images(copy, e, box, reach));
     std::vector<double> squares{0, 0};
     for (auto const& d : path) squares.push_back(norm2(d));
     std::sort(squares.rbegin(), squares.rend());
-    EXPECT_NEAR(mirror.largest2(), squares[0], 1e-14);
+    EXPECT_NEAR(copy.largest2(), squares[0], 1e-14);
     for (double const limit : {squares[0] * 0.99, squares[count / 2] * 1.01}) {
-      auto const beyond = mirror.beyond(limit, count + 1);
+      auto const beyond = copy.beyond(limit, count + 1);
       auto const expected = std::count_if(squares.begin(), squares.end(), [&](double d) { return d > limit; });
       EXPECT_EQ(static_cast<std::ptrdiff_t>(beyond.size()), expected);
-      for (auto const row : beyond) EXPECT_GT(norm2(path[mirror.order()[row]]), limit * 0.999);
+      for (auto const row : beyond) EXPECT_GT(norm2(path[copy.order()[row]]), limit * 0.999);
       if (expected > 1) {
-        EXPECT_EQ(mirror.beyond(limit, 1).size(), 1u);
+        EXPECT_EQ(copy.beyond(limit, 1).size(), 1u);
       }
     }
   }
 
   // Built again from the reference alone, at another state: the same rows in the same order.
-  Mirror again(e, box);
-  auto const references = mirror.built_references();
+  SortedCopy again(e, box);
+  auto const references = copy.built_references();
   again.build(reach, references);
   again.refresh(1);
-  ASSERT_EQ(again.owned(), mirror.owned());
-  ASSERT_EQ(again.total(), mirror.total());
+  ASSERT_EQ(again.owned(), copy.owned());
+  ASSERT_EQ(again.total(), copy.total());
   EXPECT_EQ(again.built_references(), references);
-  EXPECT_TRUE(std::equal(again.order(), again.order() + again.owned(), mirror.order()));
+  EXPECT_TRUE(std::equal(again.order(), again.order() + again.owned(), copy.order()));
   for (std::size_t k = 0; k <= again.total(); ++k)
     for (std::size_t c = 0; c < numbers(again) && k != again.sentinel(); ++c)
-      ASSERT_EQ(at(again, k, c), at(mirror, k, c));
+      ASSERT_EQ(at(again, k, c), at(copy, k, c));
 }
 
 constexpr std::array<Boundary, 3> all_periodic{Boundary::periodic, Boundary::periodic, Boundary::periodic};
 constexpr std::array<Boundary, 3> mixed{Boundary::periodic, Boundary::open, Boundary::periodic};
-constexpr std::array<Boundary, 3> none_periodic{Boundary::open, Boundary::bounded, Boundary::open};
+constexpr std::array<Boundary, 3> none_periodic{Boundary::open, Boundary::reflecting, Boundary::open};
 
-TEST(Mirror, GhostsAreExactImagesAndFollowTheParticles) {
+TEST(SortedCopy, GhostsAreExactImagesAndFollowTheParticles) {
   for (auto const& kinds : {all_periodic, mixed, none_periodic})
     for (std::size_t const count : {0, 1, 2, 40})
       for (double const reach : {0.3, 1.0, 2.7}) {  // 2.7: further than the box is long, several images
@@ -349,30 +349,30 @@ TEST(Mirror, GhostsAreExactImagesAndFollowTheParticles) {
   mirror_follows<3>({6, 5, 7}, all_periodic, 1.2, 5000);
 }
 
-TEST(Mirror, NeighboursInTheOrderAreNearInSpace) {
+TEST(SortedCopy, NeighboursInTheOrderAreNearInSpace) {
   Box const box = make_box<3>({10, 10, 10}, all_periodic);
   Ensemble<Newton<3>> e("e", 3000);
   scatter(e, box, 1);
-  Mirror mirror(e, box);
-  mirror.build(1.0);
-  mirror.refresh(1);
+  SortedCopy copy(e, box);
+  copy.build(1.0);
+  copy.refresh(1);
   double sorted = 0, given = 0;
   for (std::size_t k = 1; k < 3000; ++k) {
     Vector<3> d;
-    for (int a = 0; a < 3; ++a) d[a] = at(mirror, k, a) - at(mirror, k - 1, a);
+    for (int a = 0; a < 3; ++a) d[a] = at(copy, k, a) - at(copy, k - 1, a);
     sorted += magnitude(d);
     given += magnitude(e[k].position - e[k - 1].position);
   }
   EXPECT_LT(sorted, 0.3 * given);
 }
 
-TEST(Mirror, RefusesPositionsThatAreNotFinite) {
+TEST(SortedCopy, RefusesPositionsThatAreNotFinite) {
   for (double const x : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Box const box = make_box<2>({3, 3, 0}, all_periodic);
     Ensemble<Newton<2>> e("gas", 5);
     scatter(e, box, 1);
-    Mirror mirror(e, box);
-    mirror.build(1.0);
+    SortedCopy copy(e, box);
+    copy.build(1.0);
     e[4].position[1] = x;
     auto const message = [&](auto const& call) -> std::string {
       try {
@@ -382,31 +382,31 @@ TEST(Mirror, RefusesPositionsThatAreNotFinite) {
       }
       return "";
     };
-    EXPECT_NE(message([&] { mirror.refresh(1); }).find("particle 4 of 'gas'"), std::string::npos);
-    EXPECT_NE(message([&] { mirror.build(1.0); }).find("particle 4 of 'gas'"), std::string::npos);
+    EXPECT_NE(message([&] { copy.refresh(1); }).find("particle 4 of 'gas'"), std::string::npos);
+    EXPECT_NE(message([&] { copy.build(1.0); }).find("particle 4 of 'gas'"), std::string::npos);
   }
 }
 
-TEST(Mirror, ImagesThatWouldFillTheMemoryAreRefused) {
+TEST(SortedCopy, ImagesThatWouldFillTheMemoryAreRefused) {
   Ensemble<Newton<3>> gas("gas", 100);
   Box const box = make_box<3>({10, 1e14, 10}, all_periodic);
   scatter(gas, box, 3);
-  Mirror mirror(gas, box);
+  SortedCopy copy(gas, box);
   std::string const told = "neighbours of 'gas' are found up to a distance of ";
   for (double const reach : {80.1, 1e6, 1e16, 1e300})
-    EXPECT_EQ(message([&] { mirror.build(reach); }).find(told), 0U) << reach;
-  EXPECT_EQ(message([&] { mirror.build(80.1); }), told + "80.1; a periodic axis of 10 (x) allows at most 80");
-  mirror.build(79.9);
+    EXPECT_EQ(message([&] { copy.build(reach); }).find(told), 0U) << reach;
+  EXPECT_EQ(message([&] { copy.build(80.1); }), told + "80.1; a periodic axis of 10 (x) allows at most 80");
+  copy.build(79.9);
   Ensemble<Newton<3>> many("many", 400000);
   Box const cube = make_box<3>({10, 10, 10}, all_periodic);
-  Mirror larger(many, cube);
+  SortedCopy larger(many, cube);
   EXPECT_EQ(message([&] { larger.build(79.9); }),
             "ensemble 'many' has 1958272157 particles and images within reach, lists allow 1073741823");
 }
 
 // ---- lists --------------------------------------------------------------------------------------------------------
 
-/// Number of sources (all images) within reach of each target, by brute force and without mirrors; not itself.
+/// Number of sources (all images) within reach of each target, by brute force and without sorted copies; not itself.
 template <int D>
 std::vector<std::size_t> neighbours_of(Ensemble<Newton<D>> const& target, Ensemble<Newton<D>> const& source,
                                        Box const& box, double reach) {
@@ -437,8 +437,8 @@ struct Rows {
   friend bool operator==(Rows const&, Rows const&) = default;
 };
 
-/// The neighbour list between two mirrors, copied out; `skin` is the width of its rings together.
-Rows near_pairs(Mirror const& target, Mirror const& source, double reach, int threads, double skin = 0) {
+/// The neighbour list between two sorted copies, copied out; `skin` is the width of its rings together.
+Rows near_pairs(SortedCopy const& target, SortedCopy const& source, double reach, int threads, double skin = 0) {
   NeighbourList list;
   list.build(target, source, reach - skin, skin, threads);
   Rows rows;
@@ -452,7 +452,7 @@ Rows near_pairs(Mirror const& target, Mirror const& source, double reach, int th
 }
 
 template <int D>
-double distance2(Mirror const& target, std::size_t i, Mirror const& source, std::size_t j) {
+double distance2(SortedCopy const& target, std::size_t i, SortedCopy const& source, std::size_t j) {
   double square = 0;
   for (int a = 0; a < D; ++a) square += (at(source, j, a) - at(target, i, a)) * (at(source, j, a) - at(target, i, a));
   return square;
@@ -469,16 +469,16 @@ void compare_list(std::array<double, 3> length, std::array<Boundary, 3> kinds, d
   scatter(other, box, 22);
   for (auto* ensemble : {&e, &other})
     for (std::size_t i = 0; i < ensemble->size() * 2 / 3; ++i) (*ensemble)[i].position *= cluster;
-  Mirror mirror(e, box), other_mirror(other, box);
-  for (auto* m : {&mirror, &other_mirror}) {
+  SortedCopy copy(e, box), other_copy(other, box);
+  for (auto* m : {&copy, &other_copy}) {
     m->build(reach);
     m->refresh(1);
   }
-  for (Mirror const* from : {&mirror, &other_mirror}) {
+  for (SortedCopy const* from : {&copy, &other_copy}) {
     // The list is right if it has everybody within reach, nobody twice, and nobody much further away.
     double const skin = 0.3 * reach;
-    Rows const list = near_pairs(mirror, *from, reach, 1, skin);
-    auto const expected = neighbours_of(e, from == &mirror ? e : other, box, reach);
+    Rows const list = near_pairs(copy, *from, reach, 1, skin);
+    auto const expected = neighbours_of(e, from == &copy ? e : other, box, reach);
     ASSERT_EQ(list.items.size(), targets);
     for (std::size_t i = 0; i < targets; ++i) {
       auto const& items = list.items[i];
@@ -491,11 +491,11 @@ void compare_list(std::array<double, 3> length, std::array<Boundary, 3> kinds, d
       ASSERT_EQ(rows.size(), static_cast<std::size_t>(count)) << "a neighbour stands twice";
       std::size_t near = 0;
       for (std::uint32_t j = 0; j <= from->total(); ++j) {
-        if (j == from->sentinel() || (from == &mirror && i == j)) {
+        if (j == from->sentinel() || (from == &copy && i == j)) {
           ASSERT_EQ(rows.count(j), 0u);
           continue;
         }
-        double const square = distance2<D>(mirror, i, *from, j);
+        double const square = distance2<D>(copy, i, *from, j);
         if (square < reach * reach) {
           ++near;
           ASSERT_EQ(rows.count(j), 1u);
@@ -503,23 +503,23 @@ void compare_list(std::array<double, 3> length, std::array<Boundary, 3> kinds, d
           ASSERT_EQ(rows.count(j), 0u);
         }
       }
-      ASSERT_EQ(near, expected[mirror.order()[i]]) << "images are missing";
+      ASSERT_EQ(near, expected[copy.order()[i]]) << "images are missing";
       // And no ring lacks what is nearer than its outer radius.
       for (int r = 0; r < list_rings; ++r) {
         double const radius = reach - skin + skin * (r + 1) / list_rings;
         auto const read = static_cast<std::ptrdiff_t>(list.length[static_cast<std::size_t>(r)][i]);
         for (std::ptrdiff_t k = read; k < count; ++k)
-          ASSERT_GE(distance2<D>(mirror, i, *from, row_of_item(items[k])), radius * radius) << "ring " << r;
+          ASSERT_GE(distance2<D>(copy, i, *from, row_of_item(items[k])), radius * radius) << "ring " << r;
       }
     }
-    for (int const threads : {2, 3}) EXPECT_EQ(near_pairs(mirror, *from, reach, threads, skin), list);
+    for (int const threads : {2, 3}) EXPECT_EQ(near_pairs(copy, *from, reach, threads, skin), list);
   }
   // From the references, after everybody has moved: the same list, in the same order.
-  auto const list = near_pairs(mirror, mirror, reach, 1);
-  auto const references = mirror.built_references();
+  auto const list = near_pairs(copy, copy, reach, 1);
+  auto const references = copy.built_references();
   for (auto& p : e) p.position = p.position + 0.01;
-  mirror.refresh(1);
-  Mirror again(e, box);
+  copy.refresh(1);
+  SortedCopy again(e, box);
   again.build(reach, references);
   EXPECT_EQ(near_pairs(again, again, reach, 2), list);
 }
@@ -553,17 +553,17 @@ TEST(NearPairs, FarFromTheOriginRoundingIsWiderThanTheReach) {
     gas[i + 1].position = gas[i].position;
     gas[i + 1].position[0] += gas[i].position[0] > x0 + 5 ? -0.2 : 0.2;
   }
-  Mirror mirror(gas, box);
-  mirror.build(0.4);
-  mirror.refresh(1);
-  Rows const rows = near_pairs(mirror, mirror, 0.4, 1);
+  SortedCopy copy(gas, box);
+  copy.build(0.4);
+  copy.refresh(1);
+  Rows const rows = near_pairs(copy, copy, 0.4, 1);
   for (std::size_t k = 0; k < 100; ++k) {
     ASSERT_GE(rows.length[list_rings - 1][k], 1U);
-    std::size_t const partner = mirror.order()[k] ^ 1U;
+    std::size_t const partner = copy.order()[k] ^ 1U;
     auto const& items = rows.items[k];
     EXPECT_TRUE(std::any_of(items.begin(), items.end(), [&](auto item) {
       std::size_t const row = row_of_item(item);
-      return row != mirror.sentinel() && mirror.order()[mirror.owner(row)] == partner;
+      return row != copy.sentinel() && copy.order()[copy.owner(row)] == partner;
     }));
   }
 }
@@ -573,15 +573,15 @@ TEST(NearPairs, AFarParticleOfAnOpenBoxCostsNoMemory) {
   Ensemble<Newton<3>> e("e", 400);
   scatter(e, box, 5);
   e[17].position = {1e12, -1e12, 1e12};
-  Mirror mirror(e, box);
+  SortedCopy copy(e, box);
   largest_allocation = 0;
-  mirror.build(1.0);
-  mirror.refresh(1);
-  auto const list = near_pairs(mirror, mirror, 1.0, 1);
+  copy.build(1.0);
+  copy.refresh(1);
+  auto const list = near_pairs(copy, copy, 1.0, 1);
   EXPECT_LT(largest_allocation, 200000u);
   auto const expected = neighbours_of(e, e, box, 1.0);
   for (std::size_t k = 0; k < e.size(); ++k) {
-    EXPECT_EQ(list.length[list_rings - 1][k], expected[mirror.order()[k]]);
+    EXPECT_EQ(list.length[list_rings - 1][k], expected[copy.order()[k]]);
   }
   EXPECT_EQ(expected[17], 0u);
 }

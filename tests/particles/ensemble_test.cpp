@@ -4,11 +4,11 @@
 
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/vortex.hpp>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/particles/tethered.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -55,14 +55,14 @@ struct Ion : Coulomb<2, Real> {
 };
 
 template <int D, class Real = double>
-struct Dye : Euler<D, Real> {
+struct Dye : Tracer<D, Real> {
   static constexpr char const* class_name = "Dye";
   Real concentration;
 
   template <class Self>
   static FieldTable<Self> fields() {
-    return Euler<D, Real>::template fields<Self>().add(&Dye::concentration, "concentration", dimensions::none,
-                                                       "how much of it");
+    return Tracer<D, Real>::template fields<Self>().add(&Dye::concentration, "concentration", dimensions::none,
+                                                        "how much of it");
   }
 };
 
@@ -154,8 +154,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(
         all_of<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>, Laplace<2>,
                Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>, Kepler<3>, Tethered<1>,
-               Tethered<2>, Tethered<3>, Euler<1>, Euler<2>, Euler<3>, Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>,
-               Viscous<2>, Viscous<3>, Pendulum<>, Grain<>, Ion<>, Dye<1>, Dye<2>, Dye<3>>()),
+               Tethered<2>, Tethered<3>, Tracer<1>, Tracer<2>, Tracer<3>, Vortex<2>, Vortex<3>, Inviscid<2>,
+               Inviscid<3>, Viscous<2>, Viscous<3>, Pendulum<>, Grain<>, Ion<>, Dye<1>, Dye<2>, Dye<3>>()),
     [](auto const& info) { return info.param.name + std::to_string(info.param.dimension) + "D"; });
 
 /// Every double of row i, the padding too.
@@ -685,7 +685,7 @@ TEST(Inviscid3, StretchingIsTheDerivativeOfTheFlowAlongTheVorticity) {
 TEST(Inviscid3, StretchingOfManyIsTheDerivativeOfTheirFlow) {
   Box const box(Vector{0., 0., 0.}, Vector{2., 2., 2.});
   Ensemble<Inviscid<3>> elements("elements", 45);
-  Ensemble<Euler<3>> probes("probes", 2);
+  Ensemble<Tracer<3>> probes("probes", 2);
   scatter(elements, box, 8);
   PairScheme scheme(box);
   scheme.internal(elements, BiotSavart{});
@@ -696,7 +696,7 @@ TEST(Inviscid3, StretchingOfManyIsTheDerivativeOfTheirFlow) {
     auto const omega = elements[i].vorticity;
     Vector<3> flow[2];
     for (int side = 0; side < 2; ++side) {
-      Euler<3> probe{elements[i].position + omega * (side == 0 ? -h : h)};
+      Tracer<3> probe{elements[i].position + omega * (side == 0 ? -h : h)};
       flow[side] = {0, 0, 0};
       for (std::size_t j = 0; j < elements.size(); ++j)
         if (j != i) flow[side] += BiotSavart{}(probe, elements[j]);

@@ -35,7 +35,7 @@ TEST(Motion, IsThatOfTheClassWhoseEquationsAreInherited) {
   EXPECT_TRUE((std::is_same_v<MovesAs<Tagged<double>>, Newton<2>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Coulomb<3>>, Newton<3>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Meso<1>>, Newton<1>>));
-  EXPECT_TRUE((std::is_same_v<MovesAs<Vortex<2>>, Euler<2>>));
+  EXPECT_TRUE((std::is_same_v<MovesAs<Vortex<2>>, Tracer<2>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Decaying<double>>, Decaying<double>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Viscous<2>>, Viscous<2>>));    // walks at random, too
   EXPECT_TRUE((std::is_same_v<MovesAs<Inviscid<3>>, Inviscid<3>>));  // is stretched

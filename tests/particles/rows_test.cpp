@@ -1,10 +1,10 @@
 // Rows of particles in registers: load_rows and broadcast against plain access to the struct, for every shipped class.
 #include <gtest/gtest.h>
-#include <boltzmann/particles/euler.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/rows.hpp>
 #include <boltzmann/particles/tethered.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <tests/seed.hpp>
 
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
     Classes, RowsOf,
     testing::ValuesIn(row_classes<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>,
                                   Laplace<2>, Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>,
-                                  Kepler<3>, Tethered<1>, Tethered<2>, Tethered<3>, Euler<1>, Euler<2>, Euler<3>,
+                                  Kepler<3>, Tethered<1>, Tethered<2>, Tethered<3>, Tracer<1>, Tracer<2>, Tracer<3>,
                                   Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>()),
     [](auto const& info) { return info.param.name; });
 

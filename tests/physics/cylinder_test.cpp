@@ -74,7 +74,7 @@ TEST(Cylinder, NoFlowThroughTheCylinderAndTheCircleTheoremAlongIt) {
     vortices[k].vorticity = {lines[k].circulation};
   }
   int const count = 72;
-  Ensemble<Euler<2>> rim("rim", count);
+  Ensemble<Tracer<2>> rim("rim", count);
   for (int i = 0; i < count; ++i)
     rim[i].position = {R * std::cos(2 * pi * i / count), R * std::sin(2 * pi * i / count)};
   PairScheme field(Box(Vector{-4., -4.}, Vector{4., 4.}));

@@ -7,7 +7,7 @@
 #include <tests/seed.hpp>
 
 #include <boltzmann/diagnoses/measures.hpp>
-#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double known_pressure = 23.645, known_diffusion = 0.292;
 
-class DpdFluid : public testing::TestWithParam<FlowMethod> {};
+class DpdFluid : public testing::TestWithParam<DissipationMethod> {};
 
 TEST_P(DpdFluid, TemperaturePressureAndDiffusion) {
   double const side = 8, dt = 0.04;
@@ -31,12 +31,12 @@ TEST_P(DpdFluid, TemperaturePressureAndDiffusion) {
   maxwellian_load(fluid, 1, 1, 2, {.remove_drift = true});
   PairScheme scheme(box, 1);
   scheme.internal(fluid, Soft{25, 1});
-  DissipativeFlow flow(scheme, 1);
-  flow.internal(fluid, {.convention = Convention::fixed_temperature, .friction = 4.5, .temperature = 1, .range = 1});
-  flow.method(GetParam());
-  flow.corrector(GetParam() == FlowMethod::order_free);
+  PairDissipation dpd(scheme, 1);
+  dpd.internal(fluid, {.convention = Convention::fixed_temperature, .friction = 4.5, .temperature = 1, .range = 1});
+  dpd.method(GetParam());
+  dpd.corrector(GetParam() == DissipationMethod::simultaneous);
   Simulation simulation(scheme, dt);
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.seed(test_seed(1));
   simulation.integrate(fluid, Method::leap_frog);
   simulation.run(500);
@@ -80,7 +80,8 @@ TEST_P(DpdFluid, TemperaturePressureAndDiffusion) {
   EXPECT_LT(std::hypot(total[0], total[1], total[2]), 1e-10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, DpdFluid, testing::Values(FlowMethod::order_free, FlowMethod::pair_splitting));
+INSTANTIATE_TEST_SUITE_P(Methods, DpdFluid,
+                         testing::Values(DissipationMethod::simultaneous, DissipationMethod::shardlow));
 
 }  // namespace
 }  // namespace boltzmann::dpd_fluid_test

@@ -17,7 +17,7 @@ namespace {
 struct Case {
   Convention convention;
   bool projected, unequal;
-  FlowMethod method;
+  DissipationMethod method;
   bool metropolis;
 
   std::string name() const {
@@ -47,18 +47,18 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
   g.kinetic_temperature(1.1);
   for (auto& p : g.gas) p.internal_energy = heat_capacity * 0.9;
   if (loaded) internal_energy_load(g.gas, StateLaw(heat_capacity), 0.9, 1, test_seed(6));
-  g.flow.state(g.gas, StateLaw(heat_capacity));
-  g.flow.internal(g.gas, {.convention = c.convention,
-                          .friction = c.projected ? 2.0 : 1,  // of one direction of two
-                          .temperature = c.convention == Convention::constant_noise ? 1.0 : 0,
-                          .range = 1.6,
-                          .projected = c.projected});
-  g.flow.method(c.method);
-  g.flow.corrector(c.method == FlowMethod::order_free);
-  g.flow.metropolis(c.metropolis);
+  g.dpd.state(g.gas, StateLaw(heat_capacity));
+  g.dpd.internal(g.gas, {.convention = c.convention,
+                         .friction = c.projected ? 2.0 : 1,  // of one direction of two
+                         .temperature = c.convention == Convention::constant_noise ? 1.0 : 0,
+                         .range = 1.6,
+                         .projected = c.projected});
+  g.dpd.method(c.method);
+  g.dpd.corrector(c.method == DissipationMethod::simultaneous);
+  g.dpd.metropolis(c.metropolis);
   Simulation simulation(g.scheme, dt);
   simulation.seed(test_seed(1));
-  simulation.add(g.flow);
+  simulation.add(g.dpd);
   simulation.integrate(g.gas, Method::leap_frog);
   double const total = g.kinetic_energy() + g.internal_energy();
   // Each particle has k T of motion in two dimensions, and (C + k) T of heat.
@@ -102,18 +102,19 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
 TEST(DpdeEquilibrium, EveryKindOfFlowHasTheSame) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
     for (bool const projected : {false, true})
-      for (auto const method : {FlowMethod::order_free, FlowMethod::pair_splitting})
+      for (auto const method : {DissipationMethod::simultaneous, DissipationMethod::shardlow})
         check_equilibrium({convention, projected, true, method, false}, 1200, 12,
-                          method == FlowMethod::order_free ? 0.01 : 0.02, true, 6, 140);
+                          method == DissipationMethod::simultaneous ? 0.01 : 0.02, true, 6, 140);
 }
 
 TEST(DpdeEquilibrium, MolecularHeatCapacityFromEqualEnergies) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
-    check_equilibrium({convention, false, false, FlowMethod::order_free, false}, 1200, 16, 0.02, false, 32, 140);
+    check_equilibrium({convention, false, false, DissipationMethod::simultaneous, false}, 1200, 16, 0.02, false, 32,
+                      140);
 }
 
 TEST(DpdeEquilibrium, AcceptedOrRefusedStepsMayBeLong) {
-  check_equilibrium({Convention::constant_friction, true, true, FlowMethod::pair_splitting, true}, 1200, 5, 0.1, false,
+  check_equilibrium({Convention::constant_friction, true, true, DissipationMethod::shardlow, true}, 1200, 5, 0.1, false,
                     20, 140);
 }
 
@@ -131,14 +132,14 @@ TEST(DpdeRelaxation, TwoTemperaturesApproachAtTheKnownRate) {
         p.internal_energy = c;
       }
       if (hot > 0) g.kinetic_temperature(hot);
-      g.flow.state(g.gas, StateLaw(c));
-      g.flow.internal(g.gas, {.convention = convention,
-                              .friction = friction,
-                              .temperature = constant_noise ? 1.1 : 0,
-                              .range = range,
-                              .exponent = 2,
-                              .projected = false});
-      g.flow.corrector(true);
+      g.dpd.state(g.gas, StateLaw(c));
+      g.dpd.internal(g.gas, {.convention = convention,
+                             .friction = friction,
+                             .temperature = constant_noise ? 1.1 : 0,
+                             .range = range,
+                             .exponent = 2,
+                             .projected = false});
+      g.dpd.corrector(true);
       double weights = 0, squares = 0;
       for (std::size_t i = 0; i < g.gas.size(); ++i)
         for (std::size_t j = i + 1; j < g.gas.size(); ++j) {
@@ -159,7 +160,7 @@ TEST(DpdeRelaxation, TwoTemperaturesApproachAtTheKnownRate) {
       double const time = 0.004 * mass / (2 * sum * friction), before = g.internal_energy();
       Simulation simulation(g.scheme, time / 2);
       simulation.seed(test_seed(1));
-      simulation.add(g.flow);
+      simulation.add(g.dpd);
       simulation.integrate(g.gas, Method::leap_frog);
       simulation.run(2);
       double const found = (g.internal_energy() - before) / time / rate;
@@ -179,7 +180,7 @@ struct Halves {
   double capacity, n, dt, rate;
   Ensemble<Meso<2>> lattice;
   PairScheme scheme;
-  DissipativeFlow flow;
+  PairDissipation dpd;
   Simulation simulation;
 
   Halves(double capacity, double step, std::size_t ny)
@@ -187,12 +188,12 @@ struct Halves {
         n(static_cast<double>(nx * ny)),
         lattice("lattice", nx * ny),
         scheme(Box(Vector{0.0, 0.0}, Vector{double(nx), double(ny)}, Boundary::periodic), range),
-        flow(scheme, 1),
+        dpd(scheme, 1),
         simulation(scheme, 1) {
     block_load(lattice, {Lattice::square, 1, {nx, ny, 1}, {0.5, 0.5, 0}});
     scheme.load(lattice);
-    flow.state(lattice, StateLaw(capacity));
-    flow.internal(lattice, {.range = range, .exponent = exponent, .conduction = conduction});
+    dpd.state(lattice, StateLaw(capacity));
+    dpd.internal(lattice, {.range = range, .exponent = exponent, .conduction = conduction});
     for (auto& p : lattice) p.internal_energy = capacity * (p.position[0] < nx / 2.0 ? 1 + step : 1 - step);
     double sum = 0, all = 0;  // over the neighbours of a site
     for (int x = -3; x <= 3; ++x)
@@ -205,7 +206,7 @@ struct Halves {
     rate = conduction / capacity * sum;
     dt = 0.02 * capacity / (conduction * all);  // short beside the exchange of a particle with its neighbours
     simulation.step_size(dt);
-    simulation.add(flow);
+    simulation.add(dpd);
     simulation.seed(test_seed(1));
     simulation.integrate(lattice, Method::leap_frog);
   }
@@ -287,13 +288,13 @@ TEST(DpdeEquilibrium, HeatCapacityByATable) {
   MesoparticleGas<2> g(2000, 1.5, 1.6);
   g.kinetic_temperature(1.3);
   for (auto& p : g.gas) p.internal_energy = energy[place(0.95)];
-  g.flow.state(g.gas, law);
-  g.flow.internal(g.gas, {.friction = 1, .range = 1.6});
-  g.flow.method(FlowMethod::pair_splitting);
-  g.flow.metropolis(true);
+  g.dpd.state(g.gas, law);
+  g.dpd.internal(g.gas, {.friction = 1, .range = 1.6});
+  g.dpd.method(DissipationMethod::shardlow);
+  g.dpd.metropolis(true);
   Simulation simulation(g.scheme, 0.04);
   simulation.seed(test_seed(1));
-  simulation.add(g.flow);
+  simulation.add(g.dpd);
   simulation.integrate(g.gas, Method::leap_frog);
   double const total = g.kinetic_energy() / g.size() + g.internal_energy() / g.size();
   double low = 0.5, high = 2;
@@ -342,15 +343,15 @@ TEST(DpdeCrystal, AtThreeHundredKelvin) {
   pvdf::Crystal crystal(nx, ny);
   auto& molecules = crystal.molecules;
   internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, test_seed(3));
-  crystal.flow.internal(molecules, pvdf::dissipation(10));
-  crystal.flow.corrector(true);
+  crystal.dpd.internal(molecules, pvdf::dissipation(10));
+  crystal.dpd.corrector(true);
   Simulation simulation(crystal.scheme, 0.005);
   simulation.seed(test_seed(1));
-  simulation.add(crystal.flow);
+  simulation.add(crystal.dpd);
   simulation.integrate(molecules, Method::leap_frog);
-  auto const bath = std::make_shared<LangevinFlow>(300, 2, pvdf::boltzmann_constant);
+  auto const bath = std::make_shared<LangevinBath>(300, 2, pvdf::boltzmann_constant);
   bath->on(molecules);
-  simulation.prepare(bath, 800);
+  simulation.equilibrate(bath, 800);
   double const n = static_cast<double>(nx * ny);
   std::vector<double> kinetic, internal, pressure;
   for (int sample = 0; sample < 800; ++sample) {
@@ -388,14 +389,14 @@ TEST(DpdeCrystal, EnergyErrorIsOfSecondOrder) {
     pvdf::Crystal crystal(16, 16);
     auto& molecules = crystal.molecules;
     internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, test_seed(3));
-    crystal.flow.internal(molecules, pvdf::dissipation());
+    crystal.dpd.internal(molecules, pvdf::dissipation());
     Simulation simulation(crystal.scheme, dt);
     simulation.seed(test_seed(1));
-    simulation.add(crystal.flow);
+    simulation.add(crystal.dpd);
     simulation.integrate(molecules, Method::leap_frog);
-    auto const bath = std::make_shared<LangevinFlow>(300, 2, pvdf::boltzmann_constant);
+    auto const bath = std::make_shared<LangevinBath>(300, 2, pvdf::boltzmann_constant);
     bath->on(molecules);
-    simulation.prepare(bath, static_cast<std::uint64_t>(std::lround(3 / dt)));
+    simulation.equilibrate(bath, static_cast<std::uint64_t>(std::lround(3 / dt)));
     simulation.run(1);
     auto const before = momentum(molecules);
     // The motion within 0.05 ps changes the error, not its size; over 20 ps it stays bounded.
@@ -429,14 +430,14 @@ TEST(DpdeDeterministic, TemperaturesMeet) {
     auto d = pvdf::dissipation(2);
     d.convention = Convention::deterministic;
     d.temperature = 300;
-    crystal.flow.internal(molecules, d);
+    crystal.dpd.internal(molecules, d);
     Simulation simulation(crystal.scheme, 0.005);
     simulation.seed(test_seed(1));
-    simulation.add(crystal.flow);
+    simulation.add(crystal.dpd);
     simulation.integrate(molecules, Method::leap_frog);
-    auto const bath = std::make_shared<LangevinFlow>(warm, 2, pvdf::boltzmann_constant);
+    auto const bath = std::make_shared<LangevinBath>(warm, 2, pvdf::boltzmann_constant);
     bath->on(molecules);
-    simulation.prepare(bath, 600);
+    simulation.equilibrate(bath, 600);
     simulation.run(1);
     EXPECT_NEAR(temperature(molecules, pvdf::boltzmann_constant, true).total, warm, 5 * warm / std::sqrt(256.0));
     double const start = total_energy(simulation, molecules);

@@ -1,8 +1,8 @@
 // An oracle of dissipative particle dynamics with energy: every pair in turn, or all at once, by plain loops, with
-// noise from outside. It shares nothing with the flows but the names of the conventions.
+// noise from outside. It shares nothing with the dissipations but the names of the conventions.
 #pragma once
 
-#include <boltzmann/flows/dissipation.hpp>
+#include <boltzmann/dissipation/dissipation_law.hpp>
 
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ struct Coefficients {
 
 /// Detailed balance asks for gamma = sigma^2 beta / 2 + (d/d eps_i + d/d eps_j) sigma^2 / 4.
 template <int D>
-Coefficients coefficients(Dissipation const& d, Lump<D> const& i, Lump<D> const& j, double k) {
+Coefficients coefficients(DissipationLaw const& d, Lump<D> const& i, Lump<D> const& j, double k) {
   double const ti = i.temperature(), tj = j.temperature(), beta = (1 / ti + 1 / tj) / (2 * k);
   switch (d.convention) {
     case Convention::fixed_temperature:
@@ -67,7 +67,9 @@ Coefficients coefficients(Dissipation const& d, Lump<D> const& i, Lump<D> const&
   return {0, 0};
 }
 
-inline double weight(Dissipation const& d, double r) { return r < d.range ? std::pow(1 - r / d.range, d.exponent) : 0; }
+inline double weight(DissipationLaw const& d, double r) {
+  return r < d.range ? std::pow(1 - r / d.range, d.exponent) : 0;
+}
 
 /// x_i - x_j by the nearest image in a periodic box of this length (0: open).
 template <int D>
@@ -82,7 +84,7 @@ Triplet<D> apart(Lump<D> const& i, Lump<D> const& j, double length) {
 
 /// What i gains and j loses: -a v + s U, projected on the line of centres or not (then U[0] counts).
 template <int D>
-Triplet<D> impulse(Dissipation const& d, Triplet<D> const& r, Triplet<D> const& v, double a, double s,
+Triplet<D> impulse(DissipationLaw const& d, Triplet<D> const& r, Triplet<D> const& v, double a, double s,
                    Triplet<D> const& u) {
   Triplet<D> dp{};
   if (!d.projected) {
@@ -97,7 +99,7 @@ Triplet<D> impulse(Dissipation const& d, Triplet<D> const& r, Triplet<D> const& 
 /// One pair over dt with its coefficients frozen (Shardlow 2003, for unequal masses):
 /// v' = [(1 - a/2mu) v + (s/mu) U] / (1 + a/2mu). Each takes half of what the motion loses.
 template <int D>
-void pair_step(Dissipation const& d, Lump<D>& i, Lump<D>& j, double k, double dt, Triplet<D> const& u,
+void pair_step(DissipationLaw const& d, Lump<D>& i, Lump<D>& j, double k, double dt, Triplet<D> const& u,
                double length = 0) {
   auto const r = apart<D>(i, j, length);
   double const chi = weight(d, std::sqrt(inner<D>(r, r))), mu = i.mass * j.mass / (i.mass + j.mass);
@@ -115,7 +117,7 @@ void pair_step(Dissipation const& d, Lump<D>& i, Lump<D>& j, double k, double dt
 }
 
 template <int D, class Noise>  // noise(i, j) for i < j
-void splitting_step(Dissipation const& d, std::vector<Lump<D>>& lumps, double k, double dt, Noise const& noise,
+void splitting_step(DissipationLaw const& d, std::vector<Lump<D>>& lumps, double k, double dt, Noise const& noise,
                     double length) {
   for (std::size_t i = 0; i < lumps.size(); ++i)
     for (std::size_t j = i + 1; j < lumps.size(); ++j) pair_step<D>(d, lumps[i], lumps[j], k, dt, noise(i, j), length);
@@ -126,8 +128,8 @@ void splitting_step(Dissipation const& d, std::vector<Lump<D>>& lumps, double k,
 /// one before: eps_i -= sum_j dp_ij.u_ij / 2 + dP_i.(dP_i - dP'_i) / 2m_i, which is what the motion gains in total. If
 /// there was but one (dP' = 0), the two of a pair share what noise adds: + |dp_ij|^2 (1/m_j - 1/m_i) / 4.
 template <int D, class Noise>
-void order_free_step(Dissipation const& d, std::vector<Lump<D>>& lumps, double k, double dt, Noise const& noise,
-                     double length, int tries) {
+void simultaneous_step(DissipationLaw const& d, std::vector<Lump<D>>& lumps, double k, double dt, Noise const& noise,
+                       double length, int tries) {
   std::vector<Triplet<D>> total(lumps.size(), Triplet<D>{}), before;
   std::vector<double> loss;
   for (int t = 0; t < tries; ++t) {

@@ -21,10 +21,10 @@ TEST(DpdeOracle, CoefficientsBalance) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
     for (double const v : {0.3, 1.1, 1.9}) {
       double const k = 0.7, first = 1.3, second = 2.9, mi = 2, mj = 0.7, mu = mi * mj / (mi + mj);
-      Dissipation const d{.convention = convention,
-                          .friction = 1.7,
-                          .temperature = convention == Convention::constant_noise ? 1.4 : 0,
-                          .range = 1};
+      DissipationLaw const d{.convention = convention,
+                             .friction = 1.7,
+                             .temperature = convention == Convention::constant_noise ? 1.4 : 0,
+                             .range = 1};
       auto const at = [&](double speed) {
         oracle::Lump<1> i{{0}, {0}, mi, 4 - mu * speed * speed / 4, first},
             j{{0}, {0}, mj, 6 - mu * speed * speed / 4, second};
@@ -39,7 +39,7 @@ TEST(DpdeOracle, CoefficientsBalance) {
 }
 
 /// The distribution of a pair's relative kinetic energy K for constant heat capacities: K^(D/2 - 1) (E_i - K/2)^(C_i/k)
-/// (E_j - K/2)^(C_j/k), with E = eps + K/2 of each, which a pair flow conserves. In y = sqrt(K), so that 1D is regular.
+/// (E_j - K/2)^(C_j/k), with E = eps + K/2 of each, which the dissipation of a pair conserves. In y = sqrt(K), so that 1D is regular.
 Tabulated stationary(int dimension, double ei, double ej, double ci, double cj) {
   double const end = std::sqrt(2 * std::min(ei, ej));
   return Tabulated(
@@ -53,11 +53,11 @@ Tabulated stationary(int dimension, double ei, double ej, double ci, double cj) 
 
 TEST(DpdeOracle, MeetsTheStationaryDistribution) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction}) {
-    Dissipation const d{.convention = convention,
-                        .friction = 1,
-                        .temperature = convention == Convention::constant_noise ? 1.0 : 0,
-                        .range = 1e9,
-                        .projected = false};
+    DissipationLaw const d{.convention = convention,
+                           .friction = 1,
+                           .temperature = convention == Convention::constant_noise ? 1.0 : 0,
+                           .range = 1e9,
+                           .projected = false};
     std::vector<double> roots;
     for (std::uint64_t sample = 0; sample < 3000; ++sample) {
       oracle::Lump<2> i{{0, 0}, {0, 0}, 1, 5, 4}, j{{1, 0}, {0, 0}, 2, 7, 6};
@@ -71,26 +71,26 @@ TEST(DpdeOracle, MeetsTheStationaryDistribution) {
   }
 }
 
-// ---- The flow against it ----
+// ---- The dissipation against it ----
 
 struct Way {
   char const* name;
-  FlowMethod method;
+  DissipationMethod method;
   bool corrector, metropolis;
 };
-constexpr Way ways[] = {{"order-free", FlowMethod::order_free, false, false},
-                        {"corrected", FlowMethod::order_free, true, false},
-                        {"splitting", FlowMethod::pair_splitting, false, false},
-                        {"metropolis", FlowMethod::pair_splitting, false, true}};
+constexpr Way ways[] = {{"simultaneous", DissipationMethod::simultaneous, false, false},
+                        {"corrected", DissipationMethod::simultaneous, true, false},
+                        {"splitting", DissipationMethod::shardlow, false, false},
+                        {"metropolis", DissipationMethod::shardlow, false, true}};
 
-template <class Flow>
-void choose(Flow& flow, Way const& way) {
-  flow.method(way.method);
-  flow.corrector(way.corrector);
-  flow.metropolis(way.metropolis);
+template <class Dissipation>
+void choose(Dissipation& dpd, Way const& way) {
+  dpd.method(way.method);
+  dpd.corrector(way.corrector);
+  dpd.metropolis(way.metropolis);
 }
 
-Dissipation dissipation(Convention convention, bool projected) {
+DissipationLaw dissipation(Convention convention, bool projected) {
   bool const needs = convention != Convention::constant_friction;
   return {.convention = convention,
           .friction = 1.3,
@@ -120,7 +120,7 @@ TYPED_TEST(DpdePair, KeepsMomentumAndEnergyToRounding) {
       for (bool const projected : {true, false}) {
         if (convention == Convention::deterministic && way.metropolis) continue;
         MesoparticlePairs<D> pairs(50, 0.6, 9, 14, k);
-        choose(pairs.flow, way);
+        choose(pairs.dpd, way);
         pairs.dissipation(dissipation(convention, projected));
         for (std::size_t i = 0; i < 50; ++i) {
           Stream stream(test_seed(5), 0, i, Purpose::user);
@@ -163,7 +163,7 @@ TYPED_TEST(DpdePair, KeepsMomentumAndEnergyToRounding) {
       }
 }
 
-// dp = -a v + s U up to a factor that each method has. Taken apart again, U must be normal: its mean tells the friction
+// dp = -a v + s U up to a factor that each method has. DissipatingPair apart again, U must be normal: its mean tells the friction
 // (at a great velocity), its variance the noise. An error of 1 % in the friction, of 2 % in the noise is found. A step
 // changes an internal energy by (a v^2 - s U v) / 2, about 13 - 3.6 U here: with 42 there is enough for any U < 15.
 TYPED_TEST(DpdePair, FrictionAndNoiseAreTheOracles) {
@@ -176,16 +176,16 @@ TYPED_TEST(DpdePair, FrictionAndNoiseAreTheOracles) {
         if (way.metropolis) continue;
         if (D == 1 && !projected) continue;
         MesoparticlePairs<D> pairs(count, distance, 30, 50, k);
-        choose(pairs.flow, way);
+        choose(pairs.dpd, way);
         auto const d = dissipation(convention, projected);
         pairs.dissipation(d);
         oracle::Lump<D> p{{}, {}, 1.5, 30 * 1.4, 30}, q{{}, {}, 0.6, 50 * 0.9, 50};
         double const mu = p.mass * q.mass / (p.mass + q.mass), chi = std::pow(1 - distance / d.range, d.exponent);
         auto const [friction, noise] = oracle::coefficients<D>(d, p, q, k);
         double const a = friction * chi * chi * dt, s = noise * chi * std::sqrt(dt), y = a / mu;
-        double const factor = way.method == FlowMethod::pair_splitting ? 1 / (1 + y / 2)
-                              : way.corrector                          ? 1 - y / 2
-                                                                       : 1;
+        double const factor = way.method == DissipationMethod::shardlow ? 1 / (1 + y / 2)
+                              : way.corrector                           ? 1 - y / 2
+                                                                        : 1;
         double const speed = 20 * std::sqrt(k / mu);
         for (std::size_t i = 0; i < count; ++i) {
           pairs.first[i].mass = p.mass;
@@ -229,7 +229,7 @@ TYPED_TEST(DpdePair, RelaxesAtItsRateToItsTemperature) {
   double const k = 0.8, distance = 0.5;
   for (auto const& way : ways) {
     MesoparticlePairs<D> pairs(count, distance, 3, 5, k);
-    choose(pairs.flow, way);
+    choose(pairs.dpd, way);
     auto const d = dissipation(Convention::fixed_temperature, true);
     if (way.metropolis) continue;
     pairs.dissipation(d);
@@ -247,7 +247,8 @@ TYPED_TEST(DpdePair, RelaxesAtItsRateToItsTemperature) {
     };
     pairs.advance(100, dt);
     // One pass is first order: (1 - y)^100 with y = 0.01 instead of exp(-1).
-    double const wanted = way.method == FlowMethod::order_free && !way.corrector ? std::pow(0.99, 100) : std::exp(-1.0);
+    double const wanted =
+        way.method == DissipationMethod::simultaneous && !way.corrector ? std::pow(0.99, 100) : std::exp(-1.0);
     EXPECT_NEAR(estimate(moments()).mean / 30, wanted, 0.005) << way.name;
     pairs.advance(500, dt);
     auto v = moments();
@@ -262,7 +263,7 @@ double distance_from_stationary(Way const& way, Convention convention, bool proj
                                 double capacity, std::size_t count = 2500) {
   double const k = 1, ei = 1.3 * capacity, ej = 0.9 * capacity;
   MesoparticlePairs<D> pairs(count, 0.5, capacity, capacity + 1, k);
-  choose(pairs.flow, way);
+  choose(pairs.dpd, way);
   auto d = dissipation(convention, projected);
   if (convention == Convention::constant_noise) d.temperature = 1;
   pairs.dissipation(d);
@@ -284,10 +285,10 @@ TYPED_TEST(DpdePair, SmallStepsMeetTheStationaryDistribution) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
     for (auto const& way : ways)
       for (bool const projected : {true, false})
-        EXPECT_LT(
-            distance_from_stationary<TypeParam::value>(
-                way, convention, projected, way.method == FlowMethod::order_free && !way.corrector ? 0.015 : 0.04, 8),
-            kolmogorov_smirnov_limit)
+        EXPECT_LT(distance_from_stationary<TypeParam::value>(
+                      way, convention, projected,
+                      way.method == DissipationMethod::simultaneous && !way.corrector ? 0.015 : 0.04, 8),
+                  kolmogorov_smirnov_limit)
             << way.name << " " << to_string(convention) << (projected ? " projected" : "");
 }
 
@@ -310,7 +311,7 @@ TYPED_TEST(DpdePair, MetropolisIsExactAtAnyStep) {
 // ---- Several at once ----
 
 // In a row of three each end has one partner: what it gets tells both impulses, and with them all heats.
-TEST(DpdeOrderFree, HeatsOfThreeInARow) {
+TEST(DpdeSimultaneous, HeatsOfThreeInARow) {
   for (bool const corrector : {false, true}) {
     double const k = 0.8, c = 9;
     Ensemble<Meso<1>> row("row", 3);
@@ -325,22 +326,22 @@ TEST(DpdeOrderFree, HeatsOfThreeInARow) {
     }
     PairScheme scheme(Box(Vector{-5.0}, Vector{5.0}), 1.6);
     scheme.load(row);
-    DissipativeFlow flow(scheme, k);
-    flow.state(row, StateLaw(c));
-    Dissipation const d{.friction = 1.3, .range = 1.5};
-    flow.internal(row, d);
-    flow.corrector(corrector);
+    PairDissipation dpd(scheme, k);
+    dpd.state(row, StateLaw(c));
+    DissipationLaw const d{.friction = 1.3, .range = 1.5};
+    dpd.internal(row, d);
+    dpd.corrector(corrector);
     scheme.calculate();
-    flow.check();
+    dpd.check();
     double const dt = 0.2;
-    flow.advance({dt, 1, 1});
+    dpd.advance({dt, 1, 1});
     // The noise is found so that the ends get the impulses which they got: both methods are linear in it.
     std::array<double, 2> u{0, 0};
     auto const noise = [&](std::size_t i, std::size_t) { return oracle::Triplet<1>{i == 0 ? u[0] : u[1]}; };
     auto const ends = [&](std::array<double, 2> const& with) {
       u = with;
       auto end = lumps;
-      oracle::order_free_step<1>(d, end, k, dt, noise, 0, corrector ? 3 : 1);
+      oracle::simultaneous_step<1>(d, end, k, dt, noise, 0, corrector ? 3 : 1);
       return std::array{end[0].velocity[0], end[2].velocity[0]};
     };
     auto const f0 = ends({0, 0}), f1 = ends({1, 0}), f2 = ends({0, 1});
@@ -348,7 +349,7 @@ TEST(DpdeOrderFree, HeatsOfThreeInARow) {
     double const x = row[0].velocity[0] - f0[0], y = row[2].velocity[0] - f0[1], determinant = a * f - b * e;
     u = {(x * f - b * y) / determinant, (a * y - e * x) / determinant};
     EXPECT_LT(std::abs(u[0]) + std::abs(u[1]), 8);
-    oracle::order_free_step<1>(d, lumps, k, dt, noise, 0, corrector ? 3 : 1);
+    oracle::simultaneous_step<1>(d, lumps, k, dt, noise, 0, corrector ? 3 : 1);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(row[i].velocity[0], lumps[i].velocity[0], 1e-13) << i;
       EXPECT_NEAR(row[i].internal_energy, lumps[i].energy, 1e-12) << i << (corrector ? " corrected" : "");
@@ -358,7 +359,7 @@ TEST(DpdeOrderFree, HeatsOfThreeInARow) {
 
 // A cloud so cold inside that there is hardly any noise: everything else, the part of the friction that comes from the
 // noise's change with energy as well, is the oracle's.
-TEST(DpdeOrderFree, ACloudWithoutNoiseIsTheOracles) {
+TEST(DpdeSimultaneous, ACloudWithoutNoiseIsTheOracles) {
   for (bool const projected : {false, true})
     for (bool const corrector : {false, true}) {
       double const k = 0.8, c = 3, cold = 1e-26, length = 4, dt = 0.1;
@@ -376,15 +377,15 @@ TEST(DpdeOrderFree, ACloudWithoutNoiseIsTheOracles) {
       }
       PairScheme scheme(Box(Vector{0.0, 0.0}, Vector{length, length}, Boundary::periodic), 1.6);
       scheme.load(cloud);
-      DissipativeFlow flow(scheme, k);
-      flow.state(cloud, StateLaw(c));
-      Dissipation const d{.friction = 0.3, .range = 1.5, .exponent = 0.7, .projected = projected};
-      flow.internal(cloud, d);
-      flow.corrector(corrector);
+      PairDissipation dpd(scheme, k);
+      dpd.state(cloud, StateLaw(c));
+      DissipationLaw const d{.friction = 0.3, .range = 1.5, .exponent = 0.7, .projected = projected};
+      dpd.internal(cloud, d);
+      dpd.corrector(corrector);
       scheme.calculate();
-      flow.check();
-      flow.advance({dt, 1, 1});
-      oracle::order_free_step<2>(
+      dpd.check();
+      dpd.advance({dt, 1, 1});
+      oracle::simultaneous_step<2>(
           d, lumps, k, dt, [](std::size_t, std::size_t) { return oracle::Triplet<2>{}; }, length, corrector ? 3 : 1);
       double heat = 0;
       for (std::size_t i = 0; i < count; ++i) {

@@ -19,14 +19,14 @@ struct State {
 };
 
 /// Waits (ps; first half as long in a bath, if there is one), then measures as long.
-State equilibrium(pvdf::Crystal& crystal, double dt, double time, std::shared_ptr<Flow> const& bath) {
+State equilibrium(pvdf::Crystal& crystal, double dt, double time, std::shared_ptr<Dissipation> const& bath) {
   auto& molecules = crystal.molecules;
   Simulation simulation(crystal.scheme, dt);
-  simulation.add(crystal.flow);
+  simulation.add(crystal.dpd);
   simulation.seed(test_seed(1));
   simulation.integrate(molecules, Method::leap_frog);
   auto const steps = static_cast<std::uint64_t>(time / dt);
-  if (bath) simulation.prepare(bath, steps / 2);
+  if (bath) simulation.equilibrate(bath, steps / 2);
   simulation.run(steps);
   double const n = static_cast<double>(molecules.size());
   std::vector<double> stress, energy, kinetic, internal;
@@ -48,11 +48,11 @@ State equilibrium(pvdf::Crystal& crystal, double dt, double time, std::shared_pt
 // m/s and u_s = 7063 m/s.
 TEST(Hugoniot, TheKnownPointFromStatesInEquilibrium) {
   double const k = pvdf::boltzmann_constant, compression = 1.395, known = 6.59 * pvdf::newton_per_metre;
-  auto const bath = [&](pvdf::Crystal& crystal, double kelvin) -> std::shared_ptr<Flow> {
-    crystal.flow.internal(crystal.molecules,
-                          pvdf::dissipation(10));  // tenfold friction changes no state in equilibrium
+  auto const bath = [&](pvdf::Crystal& crystal, double kelvin) -> std::shared_ptr<Dissipation> {
+    crystal.dpd.internal(crystal.molecules,
+                         pvdf::dissipation(10));  // tenfold friction changes no state in equilibrium
     internal_energy_load(crystal.molecules, StateLaw(pvdf::heat_capacity), kelvin, k, test_seed(3));
-    auto langevin = std::make_shared<LangevinFlow>(kelvin, 2, k);
+    auto langevin = std::make_shared<LangevinBath>(kelvin, 2, k);
     langevin->on(crystal.molecules);
     return langevin;
   };
@@ -96,22 +96,22 @@ TEST(Hugoniot, ADrivenShockMeetsTheSamePoint) {
   block_load(molecules, {Lattice::triangular, pvdf::spacing, {nx, ny, 1}, {pvdf::spacing / 2, 0, 0}});
   for (auto& p : molecules) p.mass = pvdf::mass;
   Box box(Vector{0.0, 0.0}, Vector{lengths[0] + pvdf::spacing / 2, lengths[1]},
-          {Boundary::bounded, Boundary::periodic});
+          {Boundary::reflecting, Boundary::periodic});
   box.wall(0, Box::End::low, {.velocity = {up, 0, 0}});
   PairScheme scheme(box, pvdf::cutoff);
   scheme.internal(molecules, pvdf::law());
-  DissipativeFlow flow(scheme, k);
-  flow.state(molecules, StateLaw(pvdf::heat_capacity));
-  flow.internal(molecules, pvdf::dissipation(10));
-  flow.corrector(true);
+  PairDissipation dpd(scheme, k);
+  dpd.state(molecules, StateLaw(pvdf::heat_capacity));
+  dpd.internal(molecules, pvdf::dissipation(10));
+  dpd.corrector(true);
   internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, k, test_seed(3));
   Simulation simulation(scheme, dt);
-  simulation.add(flow);
+  simulation.add(dpd);
   simulation.seed(test_seed(1));
   simulation.integrate(molecules, Method::leap_frog);
-  auto const bath = std::make_shared<LangevinFlow>(300, 2, k);
+  auto const bath = std::make_shared<LangevinBath>(300, 2, k);
   bath->on(molecules);
-  simulation.prepare(bath, 800);
+  simulation.equilibrate(bath, 800);
 
   // The front: where the mean velocity of slices has fallen to half.
   auto const front = [&] {

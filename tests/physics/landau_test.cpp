@@ -4,7 +4,7 @@
 #include <tests/physics/waves.hpp>
 
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>

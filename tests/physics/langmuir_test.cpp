@@ -6,7 +6,7 @@
 
 #include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/loaders/ripple_load.hpp>
+#include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/random.hpp>
-#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/meso.hpp>
@@ -21,7 +21,7 @@ struct MesoparticleGas {
       : gas("gas", count),
         scheme(Box(edge(0), edge(std::pow(static_cast<double>(count) / number_density, 1.0 / D)), Boundary::periodic),
                range),
-        flow(scheme, k),
+        dpd(scheme, k),
         k(k) {
     scheme.load(gas);
     scheme.skin(0.3 * range);  // ideal particles are fast
@@ -54,7 +54,7 @@ struct MesoparticleGas {
 
   Ensemble<Meso<D>> gas;
   PairScheme scheme;
-  DissipativeFlow flow;
+  PairDissipation dpd;
   double k;
 
  private:

@@ -1,8 +1,8 @@
-// Many pairs of mesoparticles, each far from all others, that stay where they are: what a flow does to two particles.
+// Many pairs of mesoparticles, each far from all others, that stay where they are: what a dissipation does to two particles.
 #pragma once
 
 #include <boltzmann/core/random.hpp>
-#include <boltzmann/flows/dissipative_flow.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
@@ -19,7 +19,7 @@ struct MesoparticlePairs {
       : first("first", count),
         second("second", count),
         scheme(Box(corner(0), corner(4 * side(count)), Boundary::periodic), 2),
-        flow(scheme, k) {
+        dpd(scheme, k) {
     std::size_t const n = side(count);
     for (std::size_t i = 0; i < count; ++i) {
       Stream stream(test_seed(11), 0, i, Purpose::position);
@@ -33,18 +33,18 @@ struct MesoparticlePairs {
     }
     scheme.load(first);
     scheme.load(second);
-    flow.state(first, StateLaw(first_capacity));
-    flow.state(second, StateLaw(second_capacity));
+    dpd.state(first, StateLaw(first_capacity));
+    dpd.state(second, StateLaw(second_capacity));
   }
-  void dissipation(Dissipation const& dissipation) { flow.between(first, second, dissipation); }
+  void dissipation(DissipationLaw const& dissipation) { dpd.between(first, second, dissipation); }
 
-  /// Steps of the flow alone.
+  /// Steps of the dissipation alone.
   void advance(int steps, double dt, std::uint64_t seed = test_seed(1)) {
     if (step_ == 0) {
       scheme.calculate();
-      flow.check();
+      dpd.check();
     }
-    for (int i = 0; i < steps; ++i) flow.advance({dt, ++step_, seed});
+    for (int i = 0; i < steps; ++i) dpd.advance({dt, ++step_, seed});
   }
 
   Vector<D> relative(std::size_t i) const { return first[i].velocity - second[i].velocity; }
@@ -56,7 +56,7 @@ struct MesoparticlePairs {
 
   Ensemble<Meso<D>> first, second;
   PairScheme scheme;
-  DissipativeFlow flow;
+  PairDissipation dpd;
 
  private:
   static std::size_t side(std::size_t count) {

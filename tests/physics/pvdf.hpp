@@ -1,8 +1,8 @@
 // The source's crystal of mesoparticles: a lattice of PVDF molecules in two dimensions (units: angstrom, ps, amu, K).
 #pragma once
 
-#include <boltzmann/flows/dissipative_flow.hpp>
-#include <boltzmann/flows/langevin_flow.hpp>
+#include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/laws/interaction.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/lattice.hpp>
@@ -32,7 +32,7 @@ inline auto law() {
   });
 }
 
-inline Dissipation dissipation(double times_gamma = 1) {
+inline DissipationLaw dissipation(double times_gamma = 1) {
   return {.convention = Convention::constant_friction,
           .friction = times_gamma * friction,
           .range = cutoff,
@@ -43,11 +43,11 @@ inline Dissipation dissipation(double times_gamma = 1) {
 /// A crystal that fills a periodic box, with the spacing without pressure or another.
 struct Crystal {
   Crystal(std::size_t nx, std::size_t ny, double distance = spacing)
-      : molecules("molecules", nx * ny), scheme(box(nx, ny, distance), cutoff), flow(scheme, boltzmann_constant) {
+      : molecules("molecules", nx * ny), scheme(box(nx, ny, distance), cutoff), dpd(scheme, boltzmann_constant) {
     block_load(molecules, {Lattice::triangular, distance, {nx, ny, 1}});
     for (auto& p : molecules) p.mass = mass;
     scheme.internal(molecules, law());
-    flow.state(molecules, StateLaw(heat_capacity));
+    dpd.state(molecules, StateLaw(heat_capacity));
   }
   static Box box(std::size_t nx, std::size_t ny, double distance) {
     auto const length = repeat_lengths({Lattice::triangular, distance, {nx, ny, 1}}, 2);
@@ -56,7 +56,7 @@ struct Crystal {
 
   Ensemble<Meso<2>> molecules;
   PairScheme scheme;
-  DissipativeFlow flow;
+  PairDissipation dpd;
 };
 
 }  // namespace boltzmann::pvdf

@@ -76,8 +76,8 @@ std::vector<Class> classes_of() {
 std::vector<Class> const& classes() {
   static auto const all =
       classes_of<Newton<1>, Newton<2>, Newton<3>, Kepler<1>, Kepler<2>, Kepler<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>,
-                 Tethered<1>, Tethered<2>, Tethered<3>, Pendulum<1>, Euler<1>, Euler<2>, Euler<3>, Vortex<2>, Vortex<3>,
-                 Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>();
+                 Tethered<1>, Tethered<2>, Tethered<3>, Pendulum<1>, Tracer<1>, Tracer<2>, Tracer<3>, Vortex<2>,
+                 Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>();
   return all;
 }
 std::vector<Class> classes_named(std::string_view name, int dimension) {

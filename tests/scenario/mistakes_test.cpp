@@ -99,7 +99,7 @@ std::string const plasma =
     "class = \"Coulomb\"\n"                                                               // 22
     "number = 64\n"                                                                       // 23
     "charge = -1\n"                                                                       // 24
-    "load = { kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }\n"             // 25
+    "load = { kind = \"sinusoidal\", mode = 1, amplitude = 0.1, quiet = true }\n"         // 25
     "temperature = 0.1\n"                                                                 // 26
     "quiet = true\n"                                                                      // 27
     "velocity_ripple = { axis = \"y\", mode = 1, amplitude = 0.1, component = \"x\" }\n"  // 28
@@ -137,7 +137,7 @@ std::string const plasma =
 /// The plasma with one piece replaced by another.
 std::string plasma_with(std::string const& old, std::string const& now) { return with(old, now, plasma); }
 std::string plasma_load(std::string const& table) {
-  return plasma_with("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }", table);
+  return plasma_with("{ kind = \"sinusoidal\", mode = 1, amplitude = 0.1, quiet = true }", table);
 }
 std::string cells(std::string const& value) { return plasma_with("[8, 8]\nass", value + "\nass"); }
 std::string field_boundary(std::string const& value) { return plasma_with("\"periodic\" # field", value); }
@@ -278,7 +278,7 @@ std::vector<Mistake> const rows{
     {"unknown boundary",
      with("\"periodic\"", "\"periodical\""),
      "10:12",
-     {"unknown boundary 'periodical'", "bounded", "did you mean 'periodic'?"}},
+     {"unknown boundary 'periodical'", "reflecting", "did you mean 'periodic'?"}},
     {"unknown ensemble",
      with("on = \"atoms\"", "on = \"atom\""),
      "27:6",
@@ -373,8 +373,8 @@ std::vector<Mistake> const rows{
      "29:10",
      {"30", "periodic axis x"}},
     {"no cut-off on a periodic axis", with("cutoff = 6\n", ""), "24:1", {"periodic", "cut-off", "20"}},
-    {"outside a bounded box",
-     with("\"periodic\"", "\"bounded\"", with("origin = [2, 2]", "origin = [12, 2]")),
+    {"outside a reflecting box",
+     with("\"periodic\"", "\"reflecting\"", with("origin = [2, 2]", "origin = [12, 2]")),
      "20:8",
      {"particle 3 of 'atoms' is outside the box"}},
     {"inside a region that keeps out",
@@ -559,47 +559,50 @@ std::vector<Mistake> const mesh_rows{
     {"no mesh", plasma_with(mesh_table, ""), "24:8", {"'field-energy' needs a mesh", "no [mesh]"}},
     {"a list of meshes", plasma_with("[mesh]", "[[mesh]]"), "10:1", {"mesh: a table is needed, [mesh]"}},
     {"a mesh among regions",
-     with("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }", "{ kind = \"random\" }",
+     with("{ kind = \"sinusoidal\", mode = 1, amplitude = 0.1, quiet = true }", "{ kind = \"random\" }",
           plasma_with("[run]", "[[box.regions]]\nlow = [1, 1]\nhigh = [2, 2]\nside = \"keep-out\"\n[run]")),
      "17:9",
      {"the box has regions"}},
     // Loads.
-    {"unknown load of a plasma", plasma_load("{ kind = \"riple\" }"), "25:17", {"'riple'", "did you mean 'ripple'?"}},
+    {"unknown load of a plasma",
+     plasma_load("{ kind = \"sinusoid\" }"),
+     "25:17",
+     {"'sinusoid'", "did you mean 'sinusoidal'?"}},
     {"quiet load with a wave", plasma_load("{ kind = \"quiet\", mode = 1 }"), "25:26", {"unknown key 'mode' in load"}},
-    {"ripple without an amplitude", plasma_load("{ kind = \"ripple\", mode = 1 }"), "25:8", {"no 'amplitude'"}},
+    {"ripple without an amplitude", plasma_load("{ kind = \"sinusoidal\", mode = 1 }"), "25:8", {"no 'amplitude'"}},
     {"ripple without a wave",
-     plasma_load("{ kind = \"ripple\", amplitude = 0.1 }"),
+     plasma_load("{ kind = \"sinusoidal\", amplitude = 0.1 }"),
      "25:8",
      {"'mode'", "'wave_number'"}},
     {"ripple with two waves",
-     plasma_load("{ kind = \"ripple\", mode = 1, wave_number = 1, amplitude = 0.1 }"),
+     plasma_load("{ kind = \"sinusoidal\", mode = 1, wave_number = 1, amplitude = 0.1 }"),
      "25:51",
      {"'mode'", "'wave_number'", "one of them"}},
     {"ripple of no period",
-     plasma_load("{ kind = \"ripple\", mode = 0, amplitude = 0.1 }"),
+     plasma_load("{ kind = \"sinusoidal\", mode = 0, amplitude = 0.1 }"),
      "25:34",
      {"mode: 0", "1 or more"}},
     {"ripple of no wave number",
-     plasma_load("{ kind = \"ripple\", wave_number = 0, amplitude = 0.1 }"),
+     plasma_load("{ kind = \"sinusoidal\", wave_number = 0, amplitude = 0.1 }"),
      "25:41",
      {"wave_number: 0", "positive"}},
     {"ripple of half a period",
-     plasma_load("{ kind = \"ripple\", mode = 1.5, amplitude = 0.1 }"),
+     plasma_load("{ kind = \"sinusoidal\", mode = 1.5, amplitude = 0.1 }"),
      "25:34",
      {"mode", "whole number", "1.5"}},
     {"ripple above one",
-     plasma_load("{ kind = \"ripple\", mode = 1, amplitude = 1.5 }"),
+     plasma_load("{ kind = \"sinusoidal\", mode = 1, amplitude = 1.5 }"),
      "25:49",
      {"amplitude: 1.5", "between -1 and 1"}},
     {"ripple along no axis",
-     plasma_load("{ kind = \"ripple\", axis = \"z\", mode = 1, amplitude = 0.1 }"),
+     plasma_load("{ kind = \"sinusoidal\", axis = \"z\", mode = 1, amplitude = 0.1 }"),
      "25:34",
      {"unknown axis 'z'", "x, y"}},
     {"quiet ripple as a number",
-     plasma_load("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = 1 }"),
+     plasma_load("{ kind = \"sinusoidal\", mode = 1, amplitude = 0.1, quiet = 1 }"),
      "25:62",
      {"quiet: true or false"}},
-    {"quiet load without a number", plasma_with("number = 64\n", ""), "24:8", {"load \"ripple\" needs 'number'"}},
+    {"quiet load without a number", plasma_with("number = 64\n", ""), "24:8", {"load \"sinusoidal\" needs 'number'"}},
     {"quiet velocities without a temperature",
      plasma_with("temperature = 0.1\n", ""),
      "26:9",
@@ -694,10 +697,7 @@ std::vector<Mistake> const mesh_rows{
      "52:5",
      {"'density'", "recorded is field.x"}},
     {"curve as a number", plasma_with("{ frequency = 1, speed = 1 }", "1"), "52:9", {"curve: a table is needed", "1"}},
-    {"curve of nothing",
-     plasma_with("{ frequency = 1, speed = 1 }", "{}"),
-     "52:9",
-     {"it may have frequency, speed"}},
+    {"curve of nothing", plasma_with("{ frequency = 1, speed = 1 }", "{}"), "52:9", {"it may have frequency, speed"}},
     {"unknown key of a curve",
      plasma_with("{ frequency = 1, speed = 1 }", "{ frequenzy = 1 }"),
      "52:11",
@@ -730,7 +730,7 @@ TEST(Mistakes, TheGoodPlasmaHasNone) {
 
 TEST(Mistakes, SeveralOfAMeshAreTold) {
   std::string text = with("\"cic\"", "\"cci\"", plasma);    // 14:14
-  text = with("\"ripple\"", "\"rippel\"", text);            // 25:17
+  text = with("\"sinusoidal\"", "\"sinusoid\"", text);      // 25:17
   text = with("mode = [1, 0]", "mode = [\"a\", 0]", text);  // 37:9
   text = with("frequency = 1", "frequenzy = 1", text);      // 52:11
   auto const lines = mistakes_of(text);
@@ -744,7 +744,7 @@ TEST(Mistakes, ParticlesOutsideAnOpenMeshAreTold) {
       with("boundary = \"periodic\"\n", "boundary = \"open\"\n", plasma.substr(0, plasma.find("[[influences]]")));
   text = with("\"periodic\" # field", "\"open\"", text);
   text = with("number = 64\n", "", text);
-  text = with("{ kind = \"ripple\", mode = 1, amplitude = 0.1, quiet = true }",
+  text = with("{ kind = \"sinusoidal\", mode = 1, amplitude = 0.1, quiet = true }",
               "{ kind = \"positions\", positions = [[4, 4], [9, 4]] }", text);
   for (std::string const more : {"", "[[diagnoses]]\nkind = \"field-energy\"\n"}) {
     auto const lines = mistakes_of(text + more);

@@ -113,7 +113,7 @@ TEST(Parameters, KnowWhatTheirReadersAllow) {
   EXPECT_EQ(high.value, "[\"20 angstrom\", 20]");
   EXPECT_EQ(high.comment, "a square # of 2 nm");
   EXPECT_EQ(high.unit, "angstrom");
-  EXPECT_EQ(of("box.boundary").words, (Texts{"open", "bounded", "periodic", "mirror"}));
+  EXPECT_EQ(of("box.boundary").words, (Texts{"open", "reflecting", "periodic", "mirror"}));
   EXPECT_EQ(of("box.boundary").kind, "word");
 
   auto const mass = of("ensembles.Ärgon # 1.mass");

@@ -63,9 +63,9 @@ std::vector<double> diagnosed(ScenarioSimulation& scenario) {
 class EveryShipped : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryShipped, ReadsBackFromItsStoredFormToTheSameBits) {
-  Overrides overrides;  // a short preparation shows as much
-  if (read_scenario(find_scenario(GetParam())).text.find("[prepare]") != std::string::npos)
-    overrides.set = {"prepare.time=0.02"};
+  Overrides overrides;  // a short equilibration shows as much
+  if (read_scenario(find_scenario(GetParam())).text.find("[equilibrate]") != std::string::npos)
+    overrides.set = {"equilibrate.time=0.02"};
   auto const first = shipped(GetParam(), overrides);
   auto const second = parse_scenario(first->resolved, "stored.toml");
   EXPECT_EQ(second->resolved, first->resolved);
@@ -152,7 +152,7 @@ TEST(Scenario, StoredFormKeepsNumbersAndTexts) {
 TEST(Scenario, LoadsInTheBase) {
   auto const scenario = parse_scenario(
       "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n"
-      "[box]\nlow = [0, 0, 0]\nhigh = [\"2 nm\", 20, 20]\nboundary = [\"open\", \"bounded\", \"periodic\"]\n"
+      "[box]\nlow = [0, 0, 0]\nhigh = [\"2 nm\", 20, 20]\nboundary = [\"open\", \"reflecting\", \"periodic\"]\n"
       "[run]\nstep = \"2 fs\"\nsteps = 3\n"
       "[[ensembles]]\nname = \"a\"\nclass = \"Coulomb\"\nmass = [\"63.5 amu\", 2]\ncharge = 1\n"
       "velocity = [[\"1 km/s\", 0, 0], [0, 0, 1]]\nload = { kind = \"positions\", positions = [[1, 1, 1], [\"1 nm\", "
@@ -160,7 +160,7 @@ TEST(Scenario, LoadsInTheBase) {
       "units.toml");
   auto const& box = scenario->scheme->box();
   EXPECT_EQ(box.boundary(0), Boundary::open);
-  EXPECT_EQ(box.boundary(1), Boundary::bounded);
+  EXPECT_EQ(box.boundary(1), Boundary::reflecting);
   EXPECT_EQ(box.boundary(2), Boundary::periodic);
   EXPECT_NEAR(box.high(0), 20, 1e-12);
   EXPECT_NEAR(scenario->simulation->step_size(), 0.002, 1e-15);
@@ -225,7 +225,7 @@ TEST(Scenario, EveryLawOfTheCatalogueCanBeNamed) {
     text += "]\nhigh = [9";
     for (int a = 1; a < dimension; ++a) text += ", 9";
     text += "]\n[run]\nstep = 0.001\nsteps = 1\n[[ensembles]]\nname = \"a\"\nclass = \"" +
-            std::string(law.target == "Euler" && law.kind == LawKind::pair ? law.source : law.target) +
+            std::string(law.target == "Tracer" && law.kind == LawKind::pair ? law.source : law.target) +
             "\"\nload = { kind = \"positions\", positions = [[-1" + rest + "], [1" + rest + "]] }\n" +
             (law.target == "Pendulum" ? "length = 1\nbob_mass = 1\npivot = [0, 0]\n" : "") +
             "[[influences]]\nlaw = \"" + std::string(law.name) + "\"\non = \"a\"\n";

@@ -68,7 +68,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
         start + "[mesh]\nlaw = \"gravity\"\nG = 1\ncells = 8\n" + wrong + ensemble("Kepler")}},
       {"smooth", {start + "[smooth]\n" + wrong + ensemble("Smooth")}},
       {"smooth.rezone", {start + "[[smooth.rezone]]\nevery = 1\n" + wrong + ensemble("Smooth")}},
-      {"prepare", {start + "[prepare]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
+      {"equilibrate", {start + "[equilibrate]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
       {"ensembles",
        {start + atoms + wrong, start + ensemble("Meso") + wrong, start + "[smooth]\n" + ensemble("Smooth") + wrong}},
       {"influences",

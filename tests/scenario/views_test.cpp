@@ -108,6 +108,7 @@ TEST(Views, SayEverythingOfADrawing) {
                                                   {"weight", "\"wendland\""},
                                                   {"range", "6"},
                                                   {"cells", "7"},
+                                                  {"bins", "7"},
                                                   {"azimuth", "10"},
                                                   {"elevation", "\"0.5 rad\""},
                                                   {"most", "5"},
@@ -166,10 +167,10 @@ TEST(Views, AreNamedOnTheCommandLine) {
 
 TEST(Histograms, AreReadAsViewsAndPictures) {
   auto const of_speed =
-      only_view("name = \"Speeds\"\ndrawing = \"histogram\"\nx = \"speed\"\ncells = 20\nlogarithmic = true\n");
+      only_view("name = \"Speeds\"\ndrawing = \"histogram\"\nx = \"speed\"\nbins = 20\nlogarithmic = true\n");
   EXPECT_EQ(of_speed.drawing, "histogram");
   EXPECT_EQ(of_speed.x, "speed");
-  EXPECT_EQ(of_speed.cells, 20);
+  EXPECT_EQ(of_speed.bins, 20);
   EXPECT_TRUE(of_speed.logarithmic);
   auto const picture = parse_scenario(
       plain + "[output]\n[[output.pictures]]\ndrawing = \"histogram\"\nx = \"velocity.x\"\n", "test.toml");
@@ -223,8 +224,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "23:1",
                 {"unknown key 'y'"}},
         Mistake{"histogram without bins",
-                view("name = \"a\"\ndrawing = \"histogram\"\nx = \"speed\"\ncells = 0\n"),
-                "23:9",
+                view("name = \"a\"\ndrawing = \"histogram\"\nx = \"speed\"\nbins = 0\n"),
+                "23:8",
                 {"out of range"}},
         Mistake{"vectors", view("name = \"a\"\nvectors = \"velocty\"\n"), "21:11", {"'velocity'?"}},
         Mistake{"vectors in phase space",

@@ -1,4 +1,4 @@
-// Walls of bounded axes in scenarios: pistons, open ends, and what is refused.
+// Walls of reflecting axes in scenarios: pistons, open ends, and what is refused.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/scenario/scenario.hpp>
@@ -25,7 +25,7 @@ std::string const good =
     "[box]\n"                                                                                                  // 3
     "low = [0, 0]\n"                                                                                           // 4
     "high = [10, 8]\n"                                                                                         // 5
-    "boundary = [\"bounded\", \"periodic\"]\n"                                                                 // 6
+    "boundary = [\"reflecting\", \"periodic\"]\n"                                                              // 6
     "[[box.walls]]\n"                                                                                          // 7
     "axis = \"x\"\n"                                                                                           // 8
     "end = \"low\"\n"                                                                                          // 9
@@ -96,17 +96,17 @@ class WallsMistakes : public testing::TestWithParam<Mistake> {};
 TEST_P(WallsMistakes, AreOneLine) { test::expect_one_line(GetParam()); }
 
 std::vector<Mistake> const rows{
-    {"periodic axis", with("axis = \"x\"", "axis = \"y\""), "8:8", {"y is periodic", "\"mirror\" or \"bounded\""}},
+    {"periodic axis", with("axis = \"x\"", "axis = \"y\""), "8:8", {"y is periodic", "\"mirror\" or \"reflecting\""}},
     {"open axis",
-     with("\"bounded\"", "\"open\"", with("[[box.walls]]\naxis = \"x\"\nend = \"high\"\nopen = true\n", "")),
+     with("\"reflecting\"", "\"open\"", with("[[box.walls]]\naxis = \"x\"\nend = \"high\"\nopen = true\n", "")),
      "8:8",
-     {"x is open", "\"mirror\" or \"bounded\""}},
+     {"x is open", "\"mirror\" or \"reflecting\""}},
     {"rough wall",
      with("velocity = [2, 0]", "slips = false"),
      "10:9",
-     {"slips: x is bounded", "always slip", "mirror"}},
-    {"warm wall", with("velocity = [2, 0]", "temperature = 1"), "10:15", {"temperature: x is bounded", "insulated"}},
-    {"wall along itself", with("[2, 0]", "[2, 1]"), "10:12", {"velocity: x is bounded", "along it only"}},
+     {"slips: x is reflecting", "always slip", "mirror"}},
+    {"warm wall", with("velocity = [2, 0]", "temperature = 1"), "10:15", {"temperature: x is reflecting", "insulated"}},
+    {"wall along itself", with("[2, 0]", "[2, 1]"), "10:12", {"velocity: x is reflecting", "along it only"}},
     {"wall of another dimension", with("[2, 0]", "[2, 0, 0]"), "10:12", {"velocity", "2"}},
     {"no wall left", with("velocity = [2, 0]", "open = true"), "11:1", {"no wall would be left on axis x"}},
     {"velocity of an open end", with("open = true", "open = true\nvelocity = [1, 0]"), "15:12", {"open = true"}},

@@ -112,7 +112,7 @@ void stay_right(Boundary kind) {
 }
 
 TEST(FastParticles, InfluencesStayRight) {
-  for (Boundary const kind : {Boundary::periodic, Boundary::bounded, Boundary::open}) {
+  for (Boundary const kind : {Boundary::periodic, Boundary::reflecting, Boundary::open}) {
     stay_right<1>(kind);
     stay_right<2>(kind);
     stay_right<3>(kind);
@@ -152,7 +152,7 @@ TEST(FastParticles, AResumedRunHasTheSameBits) {
 }
 
 TEST(FastParticles, ABallThroughACrowdOfAnotherEnsemble) {
-  for (Boundary const kind : {Boundary::periodic, Boundary::bounded}) {
+  for (Boundary const kind : {Boundary::periodic, Boundary::reflecting}) {
     Crowd<3> crowd(kind);
     Ensemble<Newton<3>> balls("balls", 2);
     balls[0].position = {0.1, 0.2, 0.3};

@@ -49,7 +49,7 @@ double error_in_open_space(std::size_t cells, int order, PoissonForm form) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::normal_distribution<double> normal;
   double errors = 0, squares = 0;
-  Box const box = box_of(filled<D>(1.0), Boundary::bounded);
+  Box const box = box_of(filled<D>(1.0), Boundary::reflecting);
   Ensemble<Coulomb<D>> source("source", 1), probes("probes", 100);
   double const tiny = 1e-9;  // probes feel the source, and nearly nothing of each other
   MeshScheme mesh(box, cubic<D>(cells), coulomb(1));
@@ -244,7 +244,8 @@ std::vector<std::array<FieldEnds, D>> walls() {
 template <int D>
 Box walled_box(Vector<D> const& edges, std::array<FieldEnds, D> const& ends) {
   std::array<Boundary, D> boundaries;
-  for (std::size_t a = 0; a < D; ++a) boundaries[a] = ends[a].low == periodic ? Boundary::periodic : Boundary::bounded;
+  for (std::size_t a = 0; a < D; ++a)
+    boundaries[a] = ends[a].low == periodic ? Boundary::periodic : Boundary::reflecting;
   return Box(Vector<D>{}, edges, boundaries);
 }
 
@@ -348,7 +349,7 @@ TEST(MeshWalls, OpenBesideAWall) {
   charge[0].position = {0.31, 2.05};
   charge[0].charge = 1.5;
   for (auto const wall : {dirichlet, neumann}) {
-    MeshScheme mesh(Box(Vector{0.0, 0.0}, Vector{4.0, 4.0}, Boundary::bounded), {160, 160}, coulomb(1));
+    MeshScheme mesh(Box(Vector{0.0, 0.0}, Vector{4.0, 4.0}, Boundary::reflecting), {160, 160}, coulomb(1));
     mesh.boundary(0, wall, dirichlet);
     mesh.assignment(3);
     mesh.load(charge);
@@ -460,7 +461,7 @@ TEST(MeshMomentum, ForcesSumToZero) {
 
 // A charge carried slowly past others: what the forces do is what the energy loses.
 TEST(MeshEnergy, IsTheWorkDone) {
-  for (auto const boundary : {Boundary::periodic, Boundary::open, Boundary::bounded}) {
+  for (auto const boundary : {Boundary::periodic, Boundary::open, Boundary::reflecting}) {
     Ensemble<Coulomb<2>> charges("charges", 3);
     charges[0].position = {0.25, 0.4};
     charges[1].position = {0.7, 0.75};
@@ -468,7 +469,7 @@ TEST(MeshEnergy, IsTheWorkDone) {
     MeshScheme mesh(box_of(filled<2>(1.0), boundary), {96, 96}, coulomb(1));
     mesh.background(true);
     mesh.assignment(3);
-    if (boundary == Boundary::bounded) {
+    if (boundary == Boundary::reflecting) {
       mesh.boundary(0, dirichlet, neumann);
       mesh.boundary(1, open);
     }
@@ -592,7 +593,7 @@ void expect_same_bits(int order, Boundary boundary) {
 
 TEST(MeshBits, AreTheSameForAnyThreadsAndOrder) {
   expect_same_bits<1>(2, Boundary::periodic);
-  expect_same_bits<2>(3, Boundary::bounded);
+  expect_same_bits<2>(3, Boundary::reflecting);
   expect_same_bits<3>(2, Boundary::periodic);
   expect_same_bits<3>(5, Boundary::open);
 }
@@ -601,11 +602,12 @@ TEST(MeshBits, AreTheSameForAnyThreadsAndOrder) {
 
 TEST(MeshBoxes, HaveNoMirrors) {
   Box const mirrored(Vector{0.0, 0.0}, Vector{1.0, 1.0}, {Boundary::periodic, Boundary::mirror});
-  EXPECT_TRUE(has(failure([&] {
-                    MeshScheme(mirrored, {8, 8}, coulomb(1));
-                  }),
-                  "mesh: axis y is a mirror: particles on a mesh need a bounded, periodic or open axis there (mirrors "
-                  "are for smooth particles)"));
+  EXPECT_TRUE(
+      has(failure([&] {
+            MeshScheme(mirrored, {8, 8}, coulomb(1));
+          }),
+          "mesh: axis y is a mirror: particles on a mesh need a reflecting, periodic or open axis there (mirrors "
+          "are for smooth particles)"));
 }
 
 // ---- few and none ----

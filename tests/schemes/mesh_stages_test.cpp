@@ -52,7 +52,7 @@ TEST(MeshStages, AnAssignmentThatCounts) {
 TEST(MeshStages, APotentialByRelaxation) {
   Ensemble<Coulomb<1>> charges("charges");
   scatter<1>(charges, 9, Vector{-1.0}, Vector{1.0}, 2);
-  MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::bounded), {24}, coulomb(0.3));
+  MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::reflecting), {24}, coulomb(0.3));
   mesh.boundary(0, FieldBoundary::dirichlet);
   mesh.load(charges);
   mesh.calculate();
@@ -208,7 +208,7 @@ TEST(MeshBackground, Slab) {
     for (int order = 1; order <= 4; ++order) {
       Ensemble<Coulomb<1>> charge("charge", 1);
       charge[0].charge = 3;
-      MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::bounded), {40}, coulomb(0.5));
+      MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::reflecting), {40}, coulomb(0.5));
       mesh.boundary(0, walls, walls == FieldBoundary::neumann ? FieldBoundary::dirichlet : walls);
       mesh.background(true);
       mesh.assignment(order);
@@ -241,7 +241,7 @@ TEST(MeshBackground, OscillatingElectron) {
     electron[0].charge = -1;
     electron[0].mass = 4;
     electron[0].position[0] = 0.6;
-    MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::bounded), {400}, coulomb(0.5));
+    MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::reflecting), {400}, coulomb(0.5));
     mesh.boundary(0, walls);
     mesh.background(true);
     mesh.assignment(3);
@@ -273,7 +273,7 @@ TEST(MeshBackground, OscillatingElectron) {
 // ---- integrators ----
 
 TEST(MeshIntegrators, ReversibleToTheLastBit) {
-  for (auto const boundary : {Boundary::periodic, Boundary::bounded}) {
+  for (auto const boundary : {Boundary::periodic, Boundary::reflecting}) {
     Ensemble<Coulomb<2>> charges("charges");
     scatter<2>(charges, 9000, Vector<2>{}, filled<2>(1.0), 7);
     for (std::size_t i = 0; i < charges.size(); ++i) {
@@ -282,7 +282,7 @@ TEST(MeshIntegrators, ReversibleToTheLastBit) {
       charges[i].velocity = {0.3 * std::sin(static_cast<double>(i)), 0.2 * std::cos(2.0 * static_cast<double>(i))};
     }
     MeshScheme mesh(box_of(filled<2>(1.0), boundary), {16, 16}, coulomb(1));
-    if (boundary == Boundary::bounded) mesh.boundary(0, FieldBoundary::dirichlet, FieldBoundary::neumann);
+    if (boundary == Boundary::reflecting) mesh.boundary(0, FieldBoundary::dirichlet, FieldBoundary::neumann);
     mesh.load(charges);
     mesh.threads(3);
     Simulation simulation(mesh, 0.01);
@@ -308,7 +308,7 @@ TEST(MeshIntegrators, RungeKutta) {
     sheets[0].position[0] = 0.3;
     sheets[0].velocity[0] = 0.2;
     sheets[0].charge = 1;
-    MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::bounded), {10}, coulomb(1));
+    MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::reflecting), {10}, coulomb(1));
     mesh.background(true);
     mesh.assignment(2);
     mesh.load(sheets);
@@ -343,7 +343,7 @@ TEST(MeshMistakes, AreOneLine) {
   walled.install(Vector<2>{0.2, 0.2}, Vector<2>{0.4, 0.4}, Region::Side::keep_out);
   EXPECT_TRUE(has(made(walled, {8, 8}, coulomb(1)), "regions"));
 
-  MeshScheme mesh(Box(Vector<2>{0.0, 0.0}, Vector<2>{1.0, 1.0}, {Boundary::periodic, Boundary::bounded}), {8, 8},
+  MeshScheme mesh(Box(Vector<2>{0.0, 0.0}, Vector<2>{1.0, 1.0}, {Boundary::periodic, Boundary::reflecting}), {8, 8},
                   coulomb(1));
   auto const ends = [&](int axis, FieldBoundary low, FieldBoundary high) {
     return failure([&] { mesh.boundary(axis, low, high); });
@@ -353,7 +353,7 @@ TEST(MeshMistakes, AreOneLine) {
   EXPECT_TRUE(has(ends(-1, open, open), "no axis -1"));
   EXPECT_TRUE(has(ends(0, open, open), "axis x of the box is periodic, so its field must be, too, not open"));
   EXPECT_TRUE(has(ends(0, periodic, neumann), "not neumann"));
-  EXPECT_TRUE(has(ends(1, periodic, periodic), "can't be periodic along axis y, which is bounded"));
+  EXPECT_TRUE(has(ends(1, periodic, periodic), "can't be periodic along axis y, which is reflecting"));
   EXPECT_TRUE(has(ends(1, open, dirichlet), "axis y is open at one end and dirichlet at the other"));
   EXPECT_EQ(ends(1, dirichlet, neumann), "no failure");
   for (int const order : {0, 8, -1})
@@ -421,7 +421,7 @@ struct Advised {
     mesh.background(true);
     mesh.assignment(order);
     mesh.load(electrons);
-    return mesh.advice(dt);
+    return mesh.warnings(dt);
   }
   bool warns(std::string const& word) const {
     auto const all = lines();
@@ -466,13 +466,13 @@ TEST(MeshAdvice, WarnsWhenAndOnlyWhen) {
 TEST(MeshAdvice, Nobody) {
   Ensemble<Coulomb<1>> none("none");
   MeshScheme mesh(box_of(Vector{1.0}, Boundary::periodic), {8}, coulomb(1));
-  EXPECT_TRUE(mesh.advice(0.1).empty());
+  EXPECT_TRUE(mesh.warnings(0.1).empty());
   mesh.load(none);
-  EXPECT_TRUE(mesh.advice(0.1).empty());
+  EXPECT_TRUE(mesh.warnings(0.1).empty());
   Ensemble<Kepler<3>> stars("stars", 8);
   MeshScheme cosmos(box_of(filled<3>(1.0), Boundary::periodic), {2, 2, 2}, gravity(1));
   cosmos.load(stars);
-  auto const lines = cosmos.advice(0.1);
+  auto const lines = cosmos.warnings(0.1);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0], "mesh: particles per cell 1, largest v dt/dx 0");
 }

@@ -138,8 +138,8 @@ void expect_general_path(typename Plasma<D>::Options options, double tolerance =
   std::vector<Mover> movers;
   for (auto* ensemble : whole.all()) movers.push_back({ensemble, ensemble != &whole.fixed});
   whole.simulation->check();
-  ASSERT_NE(whole.mesh->whole_steps(movers, options.dt), nullptr);
-  ASSERT_EQ(general.mesh->whole_steps(movers, options.dt), nullptr);
+  ASSERT_NE(whole.mesh->fused_steps(movers, options.dt), nullptr);
+  ASSERT_EQ(general.mesh->fused_steps(movers, options.dt), nullptr);
   whole.simulation->run(30);
   general.simulation->run(30);
   EXPECT_LT(difference(whole, general), tolerance)
@@ -152,7 +152,7 @@ template <int D>
 void expect_general_paths() {
   using Options = typename Plasma<D>::Options;
   for (int order = 1; order <= 3; ++order)
-    for (auto const boundary : {Boundary::periodic, Boundary::bounded, Boundary::open})
+    for (auto const boundary : {Boundary::periodic, Boundary::reflecting, Boundary::open})
       for (bool const fields : {false, true}) {
         Options options;
         options.order = order;
@@ -162,7 +162,7 @@ void expect_general_paths() {
         options.low = order == 2 ? -7.3 : 0;
         // To the nearest node, a rounding at the middle of a cell is a finite difference in the field.
         expect_general_path<D>(options, order == 1 ? 1e-9 : 1e-10);
-        if (boundary == Boundary::bounded) {
+        if (boundary == Boundary::reflecting) {
           options.walls = fields ? FieldBoundary::dirichlet : FieldBoundary::neumann;
           options.form = PoissonForm::spectral;
           expect_general_path<D>(options, order == 1 ? 1e-9 : 1e-10);
@@ -182,7 +182,7 @@ TEST(MeshSteps, AreOnlyForWhatTheyCan) {
   auto const possible = [&] {
     std::vector<Mover> movers;
     for (auto* ensemble : plasma.all()) movers.push_back({ensemble, true});
-    return plasma.mesh->whole_steps(movers, 0.1) != nullptr;
+    return plasma.mesh->fused_steps(movers, 0.1) != nullptr;
   };
   plasma.simulation->check();
   EXPECT_TRUE(possible());
@@ -212,7 +212,7 @@ TEST(MeshSteps, OneTwoAndNoParticles) {
         (*e)[i].charge = 0.1;
       }
     for (bool const general : {false, true}) {
-      MeshScheme mesh(box_of(filled<2>(1.0), Boundary::bounded), {9, 10}, coulomb(1));
+      MeshScheme mesh(box_of(filled<2>(1.0), Boundary::reflecting), {9, 10}, coulomb(1));
       mesh.boundary(1, FieldBoundary::dirichlet, FieldBoundary::neumann);
       auto& particles = general ? others : some;
       mesh.load(particles);
@@ -292,7 +292,7 @@ TEST(MeshStepsBits, AreTheSameHoweverOneRuns) {
       two.precision = precision;
       two.fields = fields;
       two.count = 10007;
-      two.boundary = fields ? Boundary::bounded : Boundary::periodic;
+      two.boundary = fields ? Boundary::reflecting : Boundary::periodic;
       two.low = -3.7;
       expect_same_bits<2>(two);
       Plasma<3>::Options three;
@@ -352,7 +352,7 @@ TEST(MeshSteps, FieldsThatChangeInTime) {
   for (bool const general : {false, true}) {
     auto& particles = general ? others : some;
     particles[0].position[0] = 0.3, particles[1].position[0] = 0.6;
-    MeshScheme mesh(box_of(Vector{1.0}, Boundary::bounded), {8}, coulomb(1));
+    MeshScheme mesh(box_of(Vector{1.0}, Boundary::reflecting), {8}, coulomb(1));
     mesh.load(particles);
     mesh.external(particles, Waving{3});
     if (general)
@@ -440,7 +440,7 @@ TEST(MeshStepsFailures, NameTheParticle) {
       auto const text = low.run(100);
       EXPECT_TRUE(has(text, "particle 17 of 'ions' has left the mesh along y")) << text;
     }
-    for (auto const boundary : {Boundary::periodic, Boundary::bounded, Boundary::open}) {
+    for (auto const boundary : {Boundary::periodic, Boundary::reflecting, Boundary::open}) {
       Failing fast(boundary, precision);
       fast.ions[22222].velocity = {-30, 110};
       auto const text = fast.run(3);

@@ -80,7 +80,7 @@ void compare_lists_with_oracle(std::array<double, 3> length, Boundary kind, doub
 }
 
 TEST(PairScheme, ListsEqualAllPairs) {
-  for (Boundary const kind : {Boundary::open, Boundary::bounded, Boundary::periodic}) {
+  for (Boundary const kind : {Boundary::open, Boundary::reflecting, Boundary::periodic}) {
     for (std::size_t const count : {0, 1, 2, 3, 9, 150}) {
       compare_lists_with_oracle<1>({10, 0, 0}, kind, 1.7, count);
       compare_lists_with_oracle<2>({10, 7, 0}, kind, 1.7, count);
@@ -95,7 +95,7 @@ TEST(PairScheme, ListsEqualAllPairs) {
 
 TEST(PairScheme, MixedBoundaries) {
   Box const box(Vector{0., 0., 0.}, Vector{5., 6., 4.},
-                std::array<Boundary, 3>{Boundary::periodic, Boundary::bounded, Boundary::open});
+                std::array<Boundary, 3>{Boundary::periodic, Boundary::reflecting, Boundary::open});
   Ensemble<Newton<3>> atoms("atoms", 200);
   scatter(atoms, box, 5);
   PairScheme scheme(box, 1.5);
@@ -338,7 +338,7 @@ TEST(PairScheme, RefusesWhatItCannotDo) {
   for (double const cutoff : {no_cutoff, 1.0}) {
     PairScheme mirrored(Box(Vector{0., 0.}, Vector{4., 3.}, {Boundary::open, Boundary::mirror}), cutoff);
     EXPECT_EQ(message([&] { mirrored.internal(twin, smooth_law); }),
-              "axis y is a mirror: particles that interact by pairs need a bounded, periodic or open axis there "
+              "axis y is a mirror: particles that interact by pairs need a reflecting, periodic or open axis there "
               "(mirrors are for smooth particles)");
   }
   atoms[2].position = {std::nan(""), 0};

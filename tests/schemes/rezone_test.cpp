@@ -338,8 +338,8 @@ TEST(Rezone, ALatticeBecomesTheLatticeOfHalfTheSpacing) {
 }
 
 TEST(Rezone, HalvesStayInside) {
-  // In the corner of a bounded box, on a wall, and at the face of a block that keeps particles out.
-  auto box = space<2>(0, 10, Boundary::bounded);
+  // In the corner of a reflecting box, on a wall, and at the face of a block that keeps particles out.
+  auto box = space<2>(0, 10, Boundary::reflecting);
   box.install(Vector{4.0, 4.0}, Vector{6.0, 6.0}, Region::Side::keep_out);
   std::mt19937_64 random(test_seed(4));
   std::uniform_real_distribution<double> uniform(0, 0.02);

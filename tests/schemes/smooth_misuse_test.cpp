@@ -40,7 +40,7 @@ std::string failure(auto const& call) {
 }
 bool contains(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
 bool advises(SmoothScheme& scheme, std::string const& part) {
-  for (auto const& line : scheme.advice(0.001))
+  for (auto const& line : scheme.warnings(0.001))
     if (contains(line, part)) return true;
   return false;
 }

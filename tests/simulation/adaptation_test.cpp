@@ -203,7 +203,7 @@ TEST(Adaptation, ShorterLengthsCountForTheLongestMove) {
   });
   try {
     gas.simulation.run(10);
-    FAIL() << "nobody noticed";
+    FAIL() << "nobody handled_count";
   } catch (PhysicsFailure const& failure) {
     EXPECT_NE(std::string(failure.what()).find("moved 0.4 in one step, further than the length 0.125"),
               std::string::npos)

@@ -309,8 +309,8 @@ TEST(HistogramPictures, BinsScalesAndRefusals) {
   auto const bins = [](Canvas const& canvas) { return (canvas.curves()[0].x.size() - 2) / 2; };
   // An interquartile range of about 5, thus bins of 10 / 800^{1/3} = 1.08.
   EXPECT_EQ(bins(plane.drawn({.drawing = "histogram", .x = "position.x"})), 10U);
-  EXPECT_EQ(bins(plane.drawn({.drawing = "histogram", .x = "position.x", .cells = 37})), 37U);
-  Canvas const part = plane.drawn({.drawing = "histogram", .x = "position.x", .low = 2, .high = 4, .cells = 4});
+  EXPECT_EQ(bins(plane.drawn({.drawing = "histogram", .x = "position.x", .bins = 37})), 37U);
+  Canvas const part = plane.drawn({.drawing = "histogram", .x = "position.x", .low = 2, .high = 4, .bins = 4});
   EXPECT_EQ(part.x_axis().low, 2);
   EXPECT_EQ(part.x_axis().high, 4);
   double inside = 0;
@@ -332,13 +332,13 @@ TEST(HistogramPictures, BinsScalesAndRefusals) {
   EXPECT_EQ(plane.drawn({.drawing = "histogram", .x = "position.x"}).notes(),
             std::vector<std::string>{"no particle has a position x that is a number"});
   EXPECT_THROW(check({.drawing = "histogram", .x = "charm"}, {&plane.atoms}, {}, {}), Error);
-  EXPECT_THROW(check({.drawing = "histogram", .cells = 0}, {&plane.atoms}, {}, {}), Error);
+  EXPECT_THROW(check({.drawing = "histogram", .bins = 0}, {&plane.atoms}, {}, {}), Error);
   EXPECT_NO_THROW(check({.drawing = "histogram"}, {&plane.atoms}, {}, {}));
   EXPECT_NO_THROW(check({.drawing = "histogram", .x = "kinetic-energy"}, {&plane.atoms}, {}, {}));
 }
 
 template <int D>
-void few_particles() {
+void small_system_particles() {
   for (std::size_t const count : {0, 1, 2})
     for (bool const broken : {false, true})
       for (Boundary const boundary : {Boundary::periodic, Boundary::open}) {
@@ -362,9 +362,9 @@ void few_particles() {
 }
 
 TEST(ParticlePictures, OfNoneOneTwoAndBrokenParticles) {
-  few_particles<1>();
-  few_particles<2>();
-  few_particles<3>();
+  small_system_particles<1>();
+  small_system_particles<2>();
+  small_system_particles<3>();
 }
 
 // ---- Looking changes nothing ----

@@ -76,7 +76,7 @@ TEST(Simulation, SameBitsForAnyThreadCountOfManyParticles) {
     result.push_back(simulation.measure().potential);
     return result;
   };
-  for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic}) {
+  for (Boundary const boundary : {Boundary::open, Boundary::reflecting, Boundary::periodic}) {
     auto const one = run(1, boundary);
     EXPECT_EQ(one, run(2, boundary)) << to_string(boundary);
     EXPECT_EQ(one, run(3, boundary)) << to_string(boundary);
@@ -84,7 +84,7 @@ TEST(Simulation, SameBitsForAnyThreadCountOfManyParticles) {
 }
 
 TEST(Simulation, SameBitsForAnyThreadCount) {
-  for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic}) {
+  for (Boundary const boundary : {Boundary::open, Boundary::reflecting, Boundary::periodic}) {
     same_bits<1>(boundary, Method::leap_frog);
     same_bits<2>(boundary, Method::leap_frog);
     same_bits<3>(boundary, Method::leap_frog);
@@ -114,7 +114,7 @@ void restart(Boundary boundary, Method method, std::uint64_t at) {
 }
 
 TEST(Simulation, RestoredRunEqualsContinuedRun) {
-  for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic})
+  for (Boundary const boundary : {Boundary::open, Boundary::reflecting, Boundary::periodic})
     for (std::uint64_t const at : {0, 1, 37}) {
       restart<1>(boundary, Method::leap_frog, at);
       restart<2>(boundary, Method::leap_frog, at);
@@ -123,7 +123,7 @@ TEST(Simulation, RestoredRunEqualsContinuedRun) {
   restart<2>(Boundary::periodic, Method::rk4, 41);
   restart<2>(Boundary::periodic, Method::rk2, 41);
   restart<2>(Boundary::periodic, Method::euler, 41);
-  restart<2>(Boundary::bounded, Method::reversible_leap_frog, 41);
+  restart<2>(Boundary::reflecting, Method::reversible_leap_frog, 41);
 }
 
 // Where one ensemble feels drag, leap-frog's influences at a step's end are of predicted velocities: those of all
@@ -212,7 +212,7 @@ TEST(Simulation, EnergyDriftOfALiquid) {
 
 TEST(Simulation, ZeroOneAndTwoParticlesRunEverywhere) {
   for (std::size_t const count : {0, 1, 2})
-    for (Boundary const boundary : {Boundary::open, Boundary::bounded, Boundary::periodic})
+    for (Boundary const boundary : {Boundary::open, Boundary::reflecting, Boundary::periodic})
       for (Method const method : {Method::euler, Method::leap_frog, Method::rk2, Method::rk4,
                                   Method::reversible_leap_frog, Method::deactivate}) {
         Ensemble<Newton<2>> atoms("atoms", count);
@@ -230,11 +230,11 @@ TEST(Simulation, ZeroOneAndTwoParticlesRunEverywhere) {
       }
 }
 
-TEST(Simulation, BoundedBoxReflectsElastically) {
+TEST(Simulation, ReflectingBoxReflectsElastically) {
   Ensemble<Newton<1>> ball("ball", 1);
   ball[0].position = {0.9};
   ball[0].velocity = {1};
-  PairScheme scheme(Box(Vector{0.}, Vector{1.}, Boundary::bounded));
+  PairScheme scheme(Box(Vector{0.}, Vector{1.}, Boundary::reflecting));
   scheme.load(ball);
   Simulation simulation(scheme, 0.0625);
   simulation.integrate(ball, Method::leap_frog);
@@ -291,7 +291,7 @@ std::string message_of(Simulation& simulation, std::uint64_t steps = 1) {
 }
 
 TEST(Simulation, FailuresNameStepAndParticle) {
-  Box const box(Vector{0., 0.}, Vector{20., 20.}, Boundary::bounded);
+  Box const box(Vector{0., 0.}, Vector{20., 20.}, Boundary::reflecting);
   auto const make = [&](Ensemble<Newton<2>>& atoms) {
     atoms[0].position = {5, 5};
     atoms[1].position = {9, 5};
@@ -342,7 +342,7 @@ TEST(Simulation, FailuresNameStepAndParticle) {
     EXPECT_NE(text.find("particle 0 of 'atoms' and particle 2 of 'atoms' are at the same place"), std::string::npos)
         << text;
   }
-  {  // outside of a bounded box, not finite, no integrator, a senseless step
+  {  // outside of a reflecting box, not finite, no integrator, a senseless step
     Ensemble<Newton<2>> atoms("atoms", 3);
     make(atoms);
     atoms[1].position = {21, 5};

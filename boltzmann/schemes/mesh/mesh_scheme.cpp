@@ -39,8 +39,8 @@ MeshGrid solver_grid(Box const& box, std::vector<std::size_t> const& cells, std:
 void check_walls(Box const& box) {
   if (box.walls_move()) throw Error("mesh: a wall moves; a mesh, and the ends of its field, stay where they are");
   for (int a = 0; a < box.dimension(); ++a)
-    if (box.boundary(a) == Boundary::bounded && !(box.walled(a, Box::End::low) && box.walled(a, Box::End::high)))
-      throw Error(fmt::format("mesh: one end of the bounded axis {} is open; put a wall there, or open the axis",
+    if (box.boundary(a) == Boundary::reflecting && !(box.walled(a, Box::End::low) && box.walled(a, Box::End::high)))
+      throw Error(fmt::format("mesh: one end of the reflecting axis {} is open; put a wall there, or open the axis",
                               axis_name[a]));
 }
 
@@ -75,7 +75,7 @@ MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const
   for (int a = 0; a < box.dimension(); ++a)
     if (box.boundary(a) == Boundary::mirror)
       throw Error(
-          fmt::format("mesh: axis {} is a mirror: particles on a mesh need a bounded, periodic or open axis there "
+          fmt::format("mesh: axis {} is a mirror: particles on a mesh need a reflecting, periodic or open axis there "
                       "(mirrors are for smooth particles)",
                       axis_name[a]));
   check_walls(box);
@@ -373,7 +373,7 @@ bool MeshScheme::plain() const {
          !green_ && order_ <= highest_step_order;
 }
 
-std::unique_ptr<WholeSteps> MeshScheme::whole_steps(std::vector<Mover> const& movers, double dt) {
+std::unique_ptr<FusedSteps> MeshScheme::fused_steps(std::vector<Mover> const& movers, double dt) {
   if (!plain() || movers.size() != loaded_.size()) return nullptr;
   for (auto const& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded->ensemble;

@@ -118,7 +118,7 @@ class MeshScheme : public Scheme {
   std::vector<AnyEnsemble*> const& ensembles() const override;
   void add_influences(double time) override;
   void calculate(double time = 0) override;
-  std::unique_ptr<WholeSteps> whole_steps(std::vector<Mover> const& movers, double dt) override;
+  std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   Measures measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
@@ -126,7 +126,7 @@ class MeshScheme : public Scheme {
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
   std::string report() const override;
-  std::vector<std::string> advice(double step_size) override;
+  std::vector<std::string> warnings(double step_size) override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

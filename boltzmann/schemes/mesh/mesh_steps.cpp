@@ -41,7 +41,7 @@ StepKernels<Real> step_kernels(int dimension, int order) {
 }  // namespace
 
 template <class Real>
-class MeshSteps final : public WholeSteps {
+class MeshSteps final : public FusedSteps {
  public:
   using Fixed = typename StepTask<Real>::Fixed;
 
@@ -185,9 +185,9 @@ class MeshSteps final : public WholeSteps {
     for (int a = 0; a < dimension_; ++a) {
       task.end[a] = end_[a];
       Boundary const boundary = scheme_.box().boundary(a);
-      task.boundary[a] = boundary == Boundary::periodic  ? StepBoundary::wraps
-                         : boundary == Boundary::bounded ? StepBoundary::reflects
-                                                         : StepBoundary::ends;
+      task.boundary[a] = boundary == Boundary::periodic     ? StepBoundary::wraps
+                         : boundary == Boundary::reflecting ? StepBoundary::reflects
+                                                            : StepBoundary::ends;
       task.per_time[a] = static_cast<Real>(dt_ / part_[a]);
     }
     task.bits = bits_;
@@ -475,7 +475,7 @@ class MeshSteps final : public WholeSteps {
   std::vector<Columns> columns_;
 };
 
-std::unique_ptr<WholeSteps> make_mesh_steps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt) {
+std::unique_ptr<FusedSteps> make_mesh_steps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt) {
   if (scheme.precision() == Precision::single) return std::make_unique<MeshSteps<float>>(scheme, movers, dt);
   return std::make_unique<MeshSteps<double>>(scheme, movers, dt);
 }

@@ -10,6 +10,6 @@ namespace boltzmann {
 
 /// The loop of a mesh scheme whose particles all move as Newton says (or not at all), each ensemble with one mass and
 /// one strength. PhysicsFailure or Error if a particle can't be where it is.
-std::unique_ptr<WholeSteps> make_mesh_steps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt);
+std::unique_ptr<FusedSteps> make_mesh_steps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt);
 
 }  // namespace boltzmann

@@ -275,7 +275,7 @@ std::string P3MScheme::report() const {
   return text;
 }
 
-std::vector<std::string> P3MScheme::advice(double) {
+std::vector<std::string> P3MScheme::warnings(double) {
   P3mParameters const& chosen = parameters();
   std::string cells;
   for (int a = 0; a < box().dimension(); ++a) cells += fmt::format("{}{}", a ? " x " : "", chosen.cells[a]);

@@ -32,7 +32,7 @@ class P3MScheme final : public MeshScheme {
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
   std::string report() const override;
-  std::vector<std::string> advice(double step_size) override;
+  std::vector<std::string> warnings(double step_size) override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

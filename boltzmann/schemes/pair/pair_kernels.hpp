@@ -4,8 +4,8 @@
 
 #include <boltzmann/schemes/pair/over_all.hpp>
 #include <boltzmann/schemes/pair/over_connections.hpp>
-#include <boltzmann/schemes/pair/over_few.hpp>
 #include <boltzmann/schemes/pair/over_list.hpp>
+#include <boltzmann/schemes/pair/over_small.hpp>
 
 #include <type_traits>
 
@@ -41,7 +41,7 @@ constexpr PairKernels near_kernels() {
   kernels.list_measure = detail::over_list<Pass::measure, W, P, Q, Law>;
   kernels.all = detail::over_all<Pass::influence, W, P, Q, Law>;
   kernels.all_measure = detail::over_all<Pass::measure, W, P, Q, Law>;
-  if constexpr (std::is_same_v<P, Q>) kernels.few = detail::over_few<W, P, Law>;
+  if constexpr (std::is_same_v<P, Q>) kernels.few = detail::over_small<W, P, Law>;
   kernels.has_energy = detail::gives_energy<P, Q, Law>;
   return kernels;
 }

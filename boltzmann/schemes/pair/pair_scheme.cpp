@@ -2,7 +2,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/schemes/pair/meeting_speed.hpp>
+#include <boltzmann/schemes/pair/closing_speed.hpp>
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ struct PairScheme::Near {
 
   bool all_pairs() const { return cutoff == no_cutoff; }
 
-  /// Sets the task to where memory is now (ensembles may have been resized, mirrors rebuilt).
+  /// Sets the task to where memory is now (ensembles may have been resized, sorted copies rebuilt).
   void locate(double quantum, Neighbourhood const& neighbourhood) {
     task.influence = target->influence(0);
     if (all_pairs()) {
@@ -45,7 +45,7 @@ struct PairScheme::Near {
       task.source_row_stride = source->stride();
       pairs = task.targets * task.sources;
     } else {
-      Mirror const &targets = neighbourhood.target(list), &sources = neighbourhood.source(list);
+      SortedCopy const &targets = neighbourhood.target(list), &sources = neighbourhood.source(list);
       NeighbourList const& neighbours = neighbourhood.list(list);
       task.target = targets.rows();
       task.source = sources.rows();
@@ -59,7 +59,7 @@ struct PairScheme::Near {
       task.rounding = 1.5 * 4503599627370496.0 * quantum;
       pairs = neighbours.entries();
     }
-    few = all_pairs() && task.same && task.targets <= few_particles ? kernels.few : nullptr;
+    few = all_pairs() && task.same && task.targets <= small_system_particles ? kernels.few : nullptr;
   }
   std::size_t grain() const {
     // Of all pairs, whole blocks of targets: kernels take up to 16 together.
@@ -133,7 +133,7 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
   for (int a = 0; a < box().dimension(); ++a) {
     if (box().boundary(a) == Boundary::mirror)
       throw Error(fmt::format(
-          "axis {} is a mirror: particles that interact by pairs need a bounded, periodic or open axis there "
+          "axis {} is a mirror: particles that interact by pairs need a reflecting, periodic or open axis there "
           "(mirrors are for smooth particles)",
           axis_name[a]));
     if (!box().periodic(a)) continue;
@@ -234,7 +234,7 @@ void PairScheme::calculate(double time, bool overwrite) {
   }
 }
 
-Scheme::Shortcut PairScheme::shortcut() {
+Scheme::SmallSystem PairScheme::small_system() {
   bool const from_outside =
       std::any_of(external_.begin(), external_.end(), [](auto const& external) { return !external->taken; });
   if (near_.size() != 1 || !connected_.empty() || from_outside || ensembles().size() != 1) return {};
@@ -399,7 +399,7 @@ std::size_t PairScheme::bytes() const {
   return bytes;
 }
 
-std::vector<std::string> PairScheme::advice(double step_size) {
+std::vector<std::string> PairScheme::warnings(double step_size) {
   constexpr double most = 0.25;  // of the law's length in one step
   auto const told = [&](double number, Dimension unit) { return spoken_base().text(number, unit, 3); };
   std::vector<std::string> lines;
@@ -409,7 +409,7 @@ std::vector<std::string> PairScheme::advice(double step_size) {
       return &other < &near && other->target == near->source && other->source == near->target;
     });
     if (said) continue;  // the other way round
-    double const speed = std::isfinite(length) ? meeting_speed(box(), *near->target, *near->source) : 0;
+    double const speed = std::isfinite(length) ? closing_speed(box(), *near->target, *near->source) : 0;
     double const move = speed * std::abs(step_size);
     if (!(move > most * length)) continue;
     double const longest = most * length / speed, digit = std::pow(10.0, std::floor(std::log10(longest)) - 1);

@@ -95,7 +95,7 @@ class PairScheme final : public Scheme {
 
   void calculate(double time = 0) override;
   void add_influences(double time) override;
-  Shortcut shortcut() override;
+  SmallSystem small_system() override;
   Measures measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
@@ -109,7 +109,7 @@ class PairScheme final : public Scheme {
   std::size_t bytes() const override;
   /// Warns of steps in which particles that meet move further than a quarter of the length over which the law between
   /// them changes: collisions would not be followed.
-  std::vector<std::string> advice(double step_size) override;
+  std::vector<std::string> warnings(double step_size) override;
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

@@ -15,7 +15,7 @@ struct SmoothScheme::Loaded {
   MaterialKernels kernels;
   std::shared_ptr<void const> material;
   std::size_t first = 0;               // number of its first particle among all
-  std::vector<std::uint32_t> members;  // its rows of the mirror, if it is not alone
+  std::vector<std::uint32_t> members;  // its rows of the sorted copy, if it is not alone
   MaterialTask task;
 };
 

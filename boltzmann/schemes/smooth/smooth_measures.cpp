@@ -32,23 +32,23 @@ bool has_temperature(Box const& box) {
 /// The integral over space of what stress adds to the pressure: viscosity (not the artificial one), strength.
 Tensor<3> SmoothScheme::stress() {
   Tensor<3> total{};
-  Mirror const& mirror = hood_->mirror(*points_);
+  SortedCopy const& copy = hood_->copy(*points_);
   int const D = box().dimension();
-  std::size_t const matter = mirror.blocks() + 1;
+  std::size_t const matter = copy.blocks() + 1;
   std::array<std::array<CompensatedSum, 3>, 3> sums;
   for (auto const& loaded : loaded_) {
     if (!loaded->kernels.needs_gradients) continue;
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset;
-    for (std::size_t k = 0; k < mirror.owned(); ++k) {
-      std::size_t const i = mirror.order()[k] - loaded->first;
-      if (mirror.order()[k] < loaded->first || i >= ensemble.size()) continue;
+    for (std::size_t k = 0; k < copy.owned(); ++k) {
+      std::size_t const i = copy.order()[k] - loaded->first;
+      if (copy.order()[k] < loaded->first || i >= ensemble.size()) continue;
       double const* p = ensemble.row(i);
       double const by_density2 = loaded->task.factor ? loaded->task.factor[k] : 1;
       std::size_t number = 1;  // behind the shear switch
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b, ++number) {
-          double const flux = mirror.block(matter + number / row_block)[row_block * k + number % row_block];
+          double const flux = copy.block(matter + number / row_block)[row_block * k + number % row_block];
           sums[a][b] += p[mass] * p[density] * flux / by_density2;
         }
     }
@@ -160,7 +160,7 @@ double SmoothScheme::sound_step() const {
   return courant_number * smoothing_length(shape_) / (sound_rate_ * (1 + 0.6 * viscosity_.alpha));
 }
 
-std::vector<std::string> SmoothScheme::advice(double step_size) {
+std::vector<std::string> SmoothScheme::warnings(double step_size) {
   double const longest = courant_step(), part = std::abs(step_size) / longest;
   if (!std::isfinite(longest)) return {};
   std::string const line =

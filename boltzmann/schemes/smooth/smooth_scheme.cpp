@@ -236,8 +236,7 @@ void SmoothScheme::prepare() {
     bool const matter = recipe().gradients;
     hood_ = std::make_unique<Neighbourhood>(box());
     members_of_build_ = 0;
-    hood_->mirror(*points_, 1 + (matter ? matter_blocks(dimension) : 0))
-        .components(image_components(dimension, matter));
+    hood_->copy(*points_, 1 + (matter ? matter_blocks(dimension) : 0)).components(image_components(dimension, matter));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
   } else {
@@ -261,28 +260,28 @@ void SmoothScheme::reach(double cutoff) {
 void SmoothScheme::find_members() {
   if (loaded_.size() == 1 || members_of_build_ == hood_->builds()) return;
   members_of_build_ = hood_->builds();
-  Mirror const& mirror = hood_->target(0);
+  SortedCopy const& copy = hood_->target(0);
   for (auto& loaded : loaded_) loaded->members.clear();
-  for (std::uint32_t k = 0; k < mirror.owned(); ++k) {
+  for (std::uint32_t k = 0; k < copy.owned(); ++k) {
     auto const after = std::find_if(loaded_.rbegin(), loaded_.rend(), [&](auto const& loaded) {
-      return loaded->first <= mirror.order()[k] && loaded->ensemble->size() > 0;
+      return loaded->first <= copy.order()[k] && loaded->ensemble->size() > 0;
     });
     (*after)->members.push_back(k);
   }
 }
 
 void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result) {
-  Mirror const& mirror = hood_->target(0);
+  SortedCopy const& copy = hood_->target(0);
   NeighbourList const& list = hood_->list(0);
-  if (sums_.size() < components * mirror.owned()) sums_.resize(components * mirror.owned());
+  if (sums_.size() < components * copy.owned()) sums_.resize(components * copy.owned());
   for (auto& loaded : loaded_) loaded->task.*result = sums_.data();
   PairTask task;
-  task.target = task.source = mirror.rows();
-  task.targets = mirror.owned();
-  task.sources = mirror.total();
+  task.target = task.source = copy.rows();
+  task.targets = copy.owned();
+  task.sources = copy.total();
   task.overwrite = true;
   task.same = true;
-  task.target_block_stride = task.source_block_stride = mirror.block_stride();
+  task.target_block_stride = task.source_block_stride = copy.block_stride();
   task.row = list.rows();
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
@@ -331,8 +330,8 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
 }
 
 /// Where the material of each ensemble finds what it needs.
-void SmoothScheme::set_tasks(Recipe const& recipe, Mirror& mirror) {
-  if (recipe.own_ranges) factors_.resize(mirror.owned());
+void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
+  if (recipe.own_ranges) factors_.resize(copy.owned());
   std::size_t const fluid = place_blocks(box().dimension());
   double const self = for_weight(shape_, [&](auto s) {
     using Shape = decltype(s);
@@ -345,11 +344,11 @@ void SmoothScheme::set_tasks(Recipe const& recipe, Mirror& mirror) {
     task.particles = loaded->ensemble->row(0);
     task.influence = loaded->ensemble->influence(0);
     task.first = static_cast<std::uint32_t>(loaded->first);
-    task.order = mirror.order();
+    task.order = copy.order();
     task.members = loaded_.size() == 1 ? nullptr : loaded->members.data();
-    task.fluid = mirror.block(fluid);
-    task.matter = mirror.extra_blocks() > 1 ? mirror.block(fluid + 1) : nullptr;
-    task.block_stride = mirror.block_stride();
+    task.fluid = copy.block(fluid);
+    task.matter = copy.extra_blocks() > 1 ? copy.block(fluid + 1) : nullptr;
+    task.block_stride = copy.block_stride();
     task.factor = recipe.own_ranges ? factors_.data() : nullptr;
     task.adaptive = variable_.has_value();
     task.self = self;
@@ -372,13 +371,13 @@ void SmoothScheme::find(Until until) {
   prepare();
   hood_->refresh(threads());
   find_members();
-  Mirror& mirror = hood_->mirror(*points_);
+  SortedCopy& copy = hood_->copy(*points_);
   Recipe const recipe = this->recipe();
   SmoothPasses const& passes = *recipe.passes;
-  set_tasks(recipe, mirror);
+  set_tasks(recipe, copy);
   auto const D = static_cast<std::size_t>(box().dimension());
   std::size_t const fluid = place_blocks(box().dimension()), matter = fluid + 1,
-                    end = mirror.blocks() + mirror.extra_blocks();
+                    end = copy.blocks() + copy.extra_blocks();
 
   // Step 2, and the state of step 4. Where forces need no density, it waits until somebody looks.
   if (!recipe.uniform || until == Until::state) {
@@ -388,7 +387,7 @@ void SmoothScheme::find(Until until) {
     run_material(&MaterialKernels::state);
   }
   if (until == Until::state) return;
-  if (!recipe.uniform) mirror.refresh_images(fluid, matter, worth(mirror.owned()));
+  if (!recipe.uniform) copy.refresh_images(fluid, matter, worth(copy.owned()));
 
   // Step 3, and the fluxes of step 4.
   std::vector<std::vector<double>> aside;  // rates that nobody wants
@@ -401,7 +400,7 @@ void SmoothScheme::find(Until until) {
     run_material(&MaterialKernels::fluxes);
   }
   if (until == Until::fluxes) return;
-  if (recipe.gradients) mirror.refresh_images(matter, end, worth(mirror.owned()));
+  if (recipe.gradients) copy.refresh_images(matter, end, worth(copy.owned()));
 
   // Step 5.
   run_pass(recipe.rates, recipe.uniform ? D : D + 2, &MaterialTask::rates);

@@ -95,7 +95,7 @@ class SmoothScheme final : public Scheme {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
-  std::vector<std::string> advice(double step_size) override;
+  std::vector<std::string> warnings(double step_size) override;
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
@@ -122,7 +122,7 @@ class SmoothScheme final : public Scheme {
     PairKernel rates = nullptr;  // of the passes
   };
   Recipe recipe() const;
-  void set_tasks(Recipe const& recipe, Mirror& mirror);
+  void set_tasks(Recipe const& recipe, SortedCopy& copy);
   void find(Until until);
   Tensor<3> stress();
   void prepare();

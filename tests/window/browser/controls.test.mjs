@@ -271,8 +271,8 @@ test("axes of phase space, bins and logarithm of a histogram", async (t) => {
   await page.selectOption("#pane-1-diagnosis", histogram);
   await page.selectOption("#view-x", drawings.histogram ? "velocity.y" : "position.y");
   if (!drawings.histogram) return;
-  await commit(page, "#view-cells", "12");
-  await until(() => page.wire.said.findLast((words) => words.do === "views").views[0].cells === 12, "12 bins");
+  await commit(page, "#view-bins", "12");
+  await until(() => page.wire.said.findLast((words) => words.do === "views").views[0].bins === 12, "12 bins");
   await page.check("#view-logarithmic");
   await canvas(page, ({ y }) => y.logarithmic, "a logarithmic axis");
   await painted(page, 1, 2e-4);
@@ -657,7 +657,7 @@ test("nothing can be pressed that the tests above don't press", async (t) => {
   const pressed = new Set(
     `play step rewind stop quit popup help help-close quit-no quit-yes done add-pane whole csv track follow most step-size
      steps-per-frame steps-slider full-speed save-format save-scale save-dark save-picture record checkpoint theme-light theme-dark theme-system
-     card-follow card-copy card-close view-x view-y view-colour view-size view-vectors view-low view-high view-cells view-logarithmic
+     card-follow card-copy card-close view-x view-y view-colour view-size view-vectors view-low view-high view-cells view-bins view-logarithmic
      view-trace view-slice view-at view-levels view-weight view-range frame replay-speed`.split(/\s+/),
   );
   const unknown = new Set();

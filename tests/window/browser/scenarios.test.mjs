@@ -16,8 +16,8 @@ const names = readdirSync(scenarios)
 for (const name of names)
   test(`${name} is shown and goes on`, async (t) => {
     // What comes before the first step is the same without a window: it is made short.
-    const prepared = /^\[prepare\]/m.test(readFileSync(new URL(`${name}.toml`, scenarios), "utf8"));
-    const run = await bzm(t, ["run", name, "--window", "--out", "run", ...(prepared ? ["--set", "prepare.time=0.1"] : [])]);
+    const prepared = /^\[equilibrate\]/m.test(readFileSync(new URL(`${name}.toml`, scenarios), "utf8"));
+    const run = await bzm(t, ["run", name, "--window", "--out", "run", ...(prepared ? ["--set", "equilibrate.time=0.1"] : [])]);
     const page = await watch(t, chromium, run, { width: 640, height: 480 });
     // Something that shows the particles, or their fields, at any step.
     const state = ["cartesian", "bands", "contours", "map", "mesh", "phase-space", "profile"];

@@ -286,7 +286,8 @@ export class Panel {
         const field = input(id, shown, (value) => this.levels(pane, field, value), { placeholder: "automatic" });
         return line("Levels", field);
       }
-      case "cells": {
+      case "cells":
+      case "bins": {
         const field = input(
           id,
           text,
@@ -296,8 +297,7 @@ export class Panel {
             inputmode: "numeric",
           },
         );
-        const bins: Record<string, string> = { histogram: "Bins", profile: "Bins at most" };
-        return line(bins[pane.drawing] ?? "Cells", field);
+        return line(key === "cells" ? "Cells" : pane.drawing === "profile" ? "Bins at most" : "Bins", field);
       }
       case "logarithmic":
         return check(

@@ -108,6 +108,7 @@ export interface View {
   slice?: string;
   at?: number | null;
   cells?: number | null;
+  bins?: number | null;
   levels?: number | number[] | null;
   weight?: string;
   range?: number | null;

@@ -1,0 +1,24 @@
+// Words that users wrote before and that are others now: whoever meets one in a file of then says so.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace boltzmann {
+
+struct RenamedWord {
+  std::string_view before, now;
+};
+inline constexpr std::array renamed_words{RenamedWord{"flows", "dissipation"},
+                                          RenamedWord{"dissipative", "dpd"},
+                                          RenamedWord{"order-free", "simultaneous"},
+                                          RenamedWord{"pair-splitting", "shardlow"},
+                                          RenamedWord{"prepare", "equilibrate"},
+                                          RenamedWord{"bounded", "reflecting"},
+                                          RenamedWord{"Euler", "Tracer"},
+                                          RenamedWord{"ripple", "sinusoidal"},
+                                          RenamedWord{"gravity", "barometric"},
+                                          RenamedWord{"drag", "mean-velocity"},
+                                          RenamedWord{"cells", "bins"}};
+
+}  // namespace boltzmann

@@ -1,0 +1,60 @@
+// Dissipation: what changes velocities and internal energies between the steps of Newton's motion: friction and noise.
+#pragma once
+
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// One part of a split equation of motion. After every step of the integrators (kick, drift, kick) a simulation lets
+/// its dissipations act for the time of the step, on the particles where they stand; forces, which are functions of positions,
+/// stay what they are.
+class Dissipation {
+ public:
+  Dissipation() = default;
+  virtual ~Dissipation() = default;
+  Dissipation(Dissipation const&) = delete;
+  Dissipation& operator=(Dissipation const&) = delete;
+
+  /// The ensembles that it changes.
+  virtual std::vector<AnyEnsemble*> ensembles() const = 0;
+  /// Refuses what can't run: Error with one line. Called before a run.
+  virtual void check() = 0;
+  /// Advances velocities and internal energies by context.dt. PhysicsFailure, naming the particle, if an internal
+  /// energy would not be positive or something is not finite.
+  virtual void advance(StepContext const& context) = 0;
+  /// Brings what follows from others (temperatures) up to date for observers; it changes nothing that the next step
+  /// depends on.
+  virtual void update_derived_fields() {}
+  /// The sum of the internal energies of its ensembles; zero for dissipations without.
+  virtual double internal_energy() const { return 0; }
+  /// The energy that has come from outside (from a heat bath) since the start of the run.
+  virtual double heat() const { return 0; }
+  /// What one should know before a run with such steps; warnings begin with "warning: ".
+  virtual std::vector<std::string> warnings(double /*step_size*/) { return {}; }
+  /// One line about the work done, for the end of a run.
+  virtual std::string report() const { return ""; }
+  virtual std::size_t bytes() const { return 0; }
+
+  /// What, besides the particles, has to go on after a restart; restore() takes it back. Error if it does not fit.
+  virtual std::vector<double> state() const { return {}; }
+  virtual void restore(std::span<double const>) {}
+
+  void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
+  int threads() const { return threads_; }
+  /// Its place among the dissipations of a simulation, which gives it: two dissipations never share noise.
+  void number(std::uint32_t number) { number_ = number; }
+  std::uint32_t number() const { return number_; }
+
+ private:
+  int threads_ = default_threads();
+  std::uint32_t number_ = 0;
+};
+
+}  // namespace boltzmann

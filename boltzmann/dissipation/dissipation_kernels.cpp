@@ -1,0 +1,322 @@
+// Kernels of the dissipation of pairs.
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/dissipation/dissipation_kernels.hpp>
+#include <boltzmann/dissipation/dissipation_point.hpp>
+#include <boltzmann/dissipation/strength.hpp>
+#include <boltzmann/neighbours/near_task.hpp>
+#include <boltzmann/particles/rows.hpp>
+
+#include <array>
+
+namespace boltzmann {
+namespace detail {
+
+template <int W>
+using Reals = Pack<double, W>;
+
+/// chi = x^exponent, x = 1 - r / range; `x` is zero or more.
+template <int W>
+[[gnu::always_inline]] inline Reals<W> weight_of(Reals<W> x, PairNoise const& noise) {
+  if (noise.twice_exponent < 0) return pow(max(x, Reals<W>(1e-300)), Reals<W>(noise.exponent));
+  Reals<W> chi = (noise.twice_exponent & 1) ? sqrt(x) : Reals<W>(1.0);
+  for (int k = noise.twice_exponent; k > 1; k -= 2) chi *= x;
+  return chi;
+}
+
+/// 1, or -1 where the two particles of a pair would be named in the other order: the sign of noise along axes.
+template <int W>
+[[gnu::always_inline]] inline Reals<W> order_of(Words<W> target, Words<W> source, PairNoise const& noise) {
+  if (!noise.same) return noise.first ? 1.0 : -1.0;
+  Bits<W> const swapped = (Bits<W>)target > (Bits<W>)source;
+  return from_bits<W>(bits_of<W>(Reals<W>(1.0)) | (swapped & sign_bit));
+}
+
+/// `count` normals of a pair of particles of these numbers, whichever is looked at first.
+template <int W, int count>
+[[gnu::always_inline]] inline void draw_normals(Words<W> target, Words<W> source, PairNoise const& noise,
+                                                Reals<W> (&normal)[count + count % 2]) {
+  RandomWords<W> counter;
+  if (noise.same) {
+    auto const swapped = (Bits<W>)target > (Bits<W>)source;
+    counter.word[0] = swapped ? source : target;
+    counter.word[1] = swapped ? target : source;
+  } else {
+    counter.word[0] = noise.first ? target : source;
+    counter.word[1] = noise.first ? source : target;
+  }
+  counter.word[2] = Words<W>{} + noise.step;
+  counter.word[3] = Words<W>{} + noise.tag;
+  auto const words = philox4x32<W>(counter, noise.key);
+  auto const first = normals<W>(words.word[0], words.word[1]);
+  normal[0] = first[0];
+  normal[1] = first[1];
+  if constexpr (count > 2) {
+    auto const second = normals<W>(words.word[2], words.word[3]);
+    normal[2] = second[0];
+    normal[3] = second[1];
+  }
+}
+
+template <int W>
+struct narrow_of {
+  typedef std::uint32_t type __attribute__((vector_size(4 * W), aligned(4), may_alias));
+};
+template <int W>
+using Narrow = typename narrow_of<W>::type;
+
+/// W numbers of 32 bits, each in a lane of 64.
+template <int W>
+[[gnu::always_inline]] inline Words<W> widened(std::uint32_t const* numbers) {
+  return __builtin_convertvector(*reinterpret_cast<Narrow<W> const*>(numbers), Words<W>);
+}
+
+/// What one particle gets from another: momentum, and the energy that both lose; what the first loses besides, and the
+/// second gains.
+template <int W, int D>
+struct Exchange {
+  Vector<D, Reals<W>> momentum;
+  Reals<W> loss, transfer;
+};
+
+/// How two particles stand to each other: from the second to the first, one over the distance, and chi: zero out of
+/// range, and for projected friction at one place, where there is no line of centres.
+template <int W, int D, bool projected>
+struct Separation {
+  Vector<D, Reals<W>> line;
+  Reals<W> inverse, chi;
+
+  [[gnu::always_inline]] Separation(DissipationPoint<D, Reals<W>> const& p, DissipationPoint<D, Reals<W>> const& q,
+                                    PairNoise const& noise)
+      : line(p.position - q.position) {
+    Reals<W> const zero = 0.0, r2 = norm2(line), safe = max(r2, Reals<W>(1e-300));
+    inverse = rsqrt(safe);
+    chi = select(r2 < noise.range2, weight_of<W>(max(1.0 - safe * inverse * noise.inverse_range, zero), noise), zero);
+    if constexpr (projected) chi = select(r2 > zero, chi, zero);
+  }
+};
+
+template <int W, int D, bool projected, bool conducts>
+[[gnu::always_inline]] inline Exchange<W, D> exchange(DissipationPoint<D, Reals<W>> const& p,
+                                                      DissipationPoint<D, Reals<W>> const& q, Reals<W> const* normal,
+                                                      Reals<W> sign, PairNoise const& noise, double asymmetry) {
+  constexpr int directions = projected ? 1 : D;
+  Separation<W, D, projected> const apart(p, q, noise);
+  Reals<W> const chi = apart.chi, chi2 = chi * chi;
+  Vector<D, Reals<W>> const v = p.velocity - q.velocity;
+  Exchange<W, D> result;
+  Reals<W> const inverse_masses = p.inverse_mass + q.inverse_mass;
+  Reals<W> const inverse_temperatures = p.inverse_temperature + q.inverse_temperature;
+  Reals<W> const product = p.inverse_temperature * q.inverse_temperature;
+  auto const strength = [&](Reals<W> square) {
+    return Strength<Reals<W>>(noise, inverse_temperatures, product, p.curvature + q.curvature, inverse_masses, square,
+                              directions);
+  };
+  if constexpr (projected) {
+    Vector<D, Reals<W>> const e = apart.line * apart.inverse;
+    Reals<W> const u = dot(v, e);
+    auto const s = strength(u * u);
+    Reals<W> const push = s.noise * chi * normal[0] - s.friction * chi2 * u;
+    result.momentum = e * push;
+    result.loss = 0.5 * push * u;
+    result.transfer = asymmetry * push * push * (q.inverse_mass - p.inverse_mass);
+  } else {
+    auto const s = strength(norm2(v));
+    Reals<W> const amplitude = s.noise * chi * sign, drag = s.friction * chi2;
+    for (int a = 0; a < D; ++a) result.momentum[a] = amplitude * normal[a] - drag * v[a];
+    result.loss = 0.5 * dot(result.momentum, v);
+    result.transfer = asymmetry * norm2(result.momentum) * (q.inverse_mass - p.inverse_mass);
+  }
+  if constexpr (conducts)
+    result.transfer -= noise.conduction * chi2 * (p.inverse_temperature - q.inverse_temperature) +
+                       noise.conduction_noise * chi * sign * normal[directions];
+  return result;
+}
+
+typedef double Octet __attribute__((vector_size(64)));
+
+/// Four columns of eight numbers as rows of four: rows 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+[[gnu::always_inline]] inline std::array<Octet, 4> rows_of(Reals<8> const (&columns)[4]) {
+  Octet const a = columns[0].native, b = columns[1].native, c = columns[2].native, d = columns[3].native;
+  Octet const ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+  Octet const ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  Octet const cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  Octet const cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  return {__builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15),
+          __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+
+/// Adds W rows of four numbers, given as columns, to where `row(lane)` points.
+template <int W, class RowOf>
+[[gnu::always_inline]] inline void scatter(RowOf row, Reals<W> const (&columns)[4]) {
+  if constexpr (W == 8) {
+    auto const rows = rows_of(columns);
+    for (int k = 0; k < 4; ++k)
+      *reinterpret_cast<Quad*>(row(k)) += __builtin_shufflevector(rows[k], rows[k], 0, 1, 2, 3);
+    for (int k = 0; k < 4; ++k)
+      *reinterpret_cast<Quad*>(row(k + 4)) += __builtin_shufflevector(rows[k], rows[k], 4, 5, 6, 7);
+  } else {
+    for (int lane = 0; lane < W; ++lane)
+      for (int c = 0; c < 4; ++c) row(lane)[c] += columns[c][lane];
+  }
+}
+
+/// Adds the sum of each column over its lanes to four numbers.
+template <int W>
+[[gnu::always_inline]] inline void gather_sums(double* sums, Reals<W> const (&columns)[4]) {
+  if constexpr (W == 8) {
+    auto const rows = rows_of(columns);
+    Octet const all = (rows[0] + rows[1]) + (rows[2] + rows[3]);
+    *reinterpret_cast<Quad*>(sums) +=
+        __builtin_shufflevector(all, all, 0, 1, 2, 3) + __builtin_shufflevector(all, all, 4, 5, 6, 7);
+  } else {
+    for (int c = 0; c < 4; ++c) sums[c] += sum(columns[c]);
+  }
+}
+
+/// Groups of a row whose noise is drawn before it is used, so that the long way from a counter to a normal is gone by
+/// several at a time.
+inline constexpr std::size_t noise_groups = 48;
+
+/// The noise of groups [first, last) of a row.
+template <int W, int count>
+[[gnu::always_inline]] inline double* draw_row(DissipationTask const& task, std::size_t i, std::size_t first,
+                                               std::size_t last, double* out) {
+  Words<W> const self = Words<W>{} + task.number[i];
+  for (std::uint32_t const* group = task.row[i] + 2 * list_padding * first;
+       group < task.row[i] + 2 * list_padding * last; group += 2 * list_padding)
+    for (std::size_t lane = 0; lane < list_padding; lane += W) {
+      Reals<W> normal[count + count % 2];
+      draw_normals<W, count>(self, widened<W>(group + list_padding + lane), task.noise, normal);
+      for (int n = 0; n < count; ++n, out += W) *reinterpret_cast<typename Reals<W>::Native*>(out) = normal[n].native;
+    }
+  return out;
+}
+
+/// What friction and noise do between a row and its groups [first, last).
+template <int W, int D, bool projected, bool conducts>
+[[gnu::always_inline]] inline double const* exchange_row(DissipationTask const& task, std::size_t i, std::size_t first,
+                                                         std::size_t last, double const* noise) {
+  constexpr std::size_t stride = dissipation_point_stride(D), blocks = stride / 4;
+  constexpr int count = (projected ? 1 : D) + (conducts ? 1 : 0);
+  double const* const source = task.source;
+  auto const rows = static_cast<std::uint32_t>(task.end - task.begin), begin = static_cast<std::uint32_t>(task.begin);
+  Reals<W> const zero = 0.0;
+  auto const p = broadcast<DissipationPoint<D>, Reals<W>>(task.target + stride * i);
+  Words<W> const self = Words<W>{} + task.number[i];
+  Vector<D, Reals<W>> momentum;
+  for (int a = 0; a < D; ++a) momentum[a] = zero;
+  Reals<W> loss = zero;
+  for (std::uint32_t const* group = task.row[i] + 2 * list_padding * first;
+       group < task.row[i] + 2 * list_padding * last; group += 2 * list_padding)
+    for (std::uint32_t const* j = group; j < group + list_padding; j += W) {
+      auto const q = load_rows<DissipationPoint<D>, W>([&](int lane) { return source + blocks * j[lane]; });
+      Reals<W> normal[count];
+      for (int n = 0; n < count; ++n, noise += W)
+        normal[n] = *reinterpret_cast<typename Reals<W>::Native const*>(noise);
+      Reals<W> const sign = order_of<W>(self, widened<W>(j + list_padding), task.noise);
+      auto const pair = exchange<W, D, projected, conducts>(p, q, normal, sign, task.noise, task.asymmetry);
+      momentum += pair.momentum;
+      loss += pair.loss + pair.transfer;
+      if (!task.noise.same) continue;
+      Reals<W> columns[4] = {zero, zero, zero, zero};
+      for (int a = 0; a < D; ++a) columns[a] = -pair.momentum[a];
+      columns[D] = pair.loss - pair.transfer;
+      std::uint32_t place[W];
+      for (int lane = 0; lane < W; ++lane) {
+        std::uint32_t const row = j[lane] / 4 - begin;
+        place[lane] = row < rows ? row : rows;
+      }
+      scatter<W>([&](int lane) { return task.sums + 4 * std::size_t{place[lane]}; }, columns);
+    }
+  Reals<W> columns[4] = {zero, zero, zero, zero};
+  for (int a = 0; a < D; ++a) columns[a] = momentum[a];
+  columns[D] = loss;
+  gather_sums<W>(task.sums + 4 * (i - task.begin), columns);
+  return noise;
+}
+
+template <int W, int D, bool projected, bool conducts>
+[[gnu::always_inline]] inline void simultaneous_rows(DissipationTask const& task) {
+  constexpr int count = (projected ? 1 : D) + (conducts ? 1 : 0);
+  alignas(64) double noise[noise_groups * list_padding * count];
+  auto const groups = [&](std::size_t i) { return (task.length[i] + list_padding - 1) / list_padding; };
+  for (std::size_t i = task.begin; i < task.end;) {
+    std::size_t stop = i + 1, all = groups(i);
+    for (std::size_t more; stop < task.end && all + (more = groups(stop)) <= noise_groups; ++stop) all += more;
+    if (all > noise_groups) {  // one long row
+      for (std::size_t first = 0; first < all; first += noise_groups) {
+        std::size_t const last = first + noise_groups < all ? first + noise_groups : all;
+        draw_row<W, count>(task, i, first, last, noise);
+        exchange_row<W, D, projected, conducts>(task, i, first, last, noise);
+      }
+    } else {
+      double* drawn = noise;
+      for (std::size_t k = i; k < stop; ++k) drawn = draw_row<W, count>(task, k, 0, groups(k), drawn);
+      double const* used = noise;
+      for (std::size_t k = i; k < stop; ++k)
+        used = exchange_row<W, D, projected, conducts>(task, k, 0, groups(k), used);
+    }
+    i = stop;
+  }
+}
+
+template <int W, int D, bool projected>
+[[gnu::flatten]] void simultaneous(DissipationTask const& task) {
+  if (task.noise.conduction > 0)
+    simultaneous_rows<W, D, projected, true>(task);
+  else
+    simultaneous_rows<W, D, projected, false>(task);
+}
+
+template <int W, int D, bool projected>
+[[gnu::flatten]] void geometry(GeometryTask const& task) {
+  constexpr std::size_t stride = dissipation_point_stride(D);
+  constexpr int directions = projected ? 1 : D;
+  auto const store = [&](std::size_t column, std::size_t k, Reals<W> x) {
+    *reinterpret_cast<typename Reals<W>::Native*>(task.columns + column * geometry_block + k) = x.native;
+  };
+  for (std::size_t k = 0; k < task.count; k += W) {
+    auto const pair = [&](int lane) { return task.pairs[k + lane < task.count ? k + lane : task.count - 1]; };
+    auto const p = load_rows<DissipationPoint<D>, W>([&](int lane) { return task.first + stride * pair(lane).first; });
+    auto const q = load_rows<DissipationPoint<D>, W>([&](int lane) { return task.second + stride * pair(lane).seen; });
+    Separation<W, D, projected> const apart(p, q, task.noise);
+    store(0, k, apart.chi);
+    if constexpr (projected)
+      for (int a = 0; a < D; ++a) store(1 + a, k, apart.line[a] * apart.inverse);
+    Words<W> first{}, second{};
+    for (int lane = 0; lane < W; ++lane) {
+      first[lane] = task.first_number[pair(lane).first];
+      second[lane] = task.second_number[pair(lane).second];
+    }
+    Reals<W> normal[directions + 1 + (directions + 1) % 2];
+    draw_normals<W, directions + 1>(first, second, task.noise, normal);
+    Reals<W> const sign = order_of<W>(first, second, task.noise);
+    for (int a = 0; a < directions; ++a) store(4 + a, k, projected ? normal[a] : normal[a] * sign);
+    store(4 + directions, k, normal[directions] * sign);
+  }
+}
+
+template <int W, int D, bool projected>
+constexpr DissipationKernels dissipation_kernels_of() {
+  return {simultaneous<W, D, projected>, geometry<W, D, projected>};
+}
+
+template <InstructionSet set>
+struct FlowTable {
+  static constexpr int W = native_width<double>;
+  static constexpr DissipationKernelTable table{
+      {{dissipation_kernels_of<W, 1, false>(), dissipation_kernels_of<W, 1, true>()},
+       {dissipation_kernels_of<W, 2, false>(), dissipation_kernels_of<W, 2, true>()},
+       {dissipation_kernels_of<W, 3, false>(), dissipation_kernels_of<W, 3, true>()}}};
+};
+
+}  // namespace detail
+
+template <>
+DissipationKernelTable const& dissipation_kernels<this_set>() {
+  return detail::FlowTable<this_set>::table;
+}
+
+}  // namespace boltzmann

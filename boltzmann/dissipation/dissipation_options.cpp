@@ -1,0 +1,86 @@
+// The members of friction and noise with their keys.
+#include <boltzmann/dissipation/dissipation_options.hpp>
+
+namespace boltzmann {
+namespace {
+
+using namespace option;
+
+/// Dissipation times temperature: what moves between two particles is kappa (1/Ti - 1/Tj).
+constexpr Dimension conduction = dimensions::energy * dimensions::temperature / dimensions::time;
+
+OptionTable make_dissipation_options() {
+  using D = DissipationOptions;
+  OptionTable all;
+  all.add_of<D>(
+      "convention", [](D& d) -> OptionPlace { return named_value(&d.dissipation.convention, convention_words()); },
+      word(convention_words().names()), "which relation friction and noise obey");
+  all.add_of<D>(
+      "friction", [](D& d) -> OptionPlace { return &d.dissipation.friction; },
+      number(dimensions::friction, not_negative), "gamma; 0: none");
+  all.add_of<D>(
+      "temperature", [](D& d) -> OptionPlace { return &d.dissipation.temperature; },
+      number(dimensions::temperature, positive),
+      "of the heat bath (`\"fixed-temperature\"`), or that of the convention; `\"constant-friction\"` has none",
+      "needed but for `\"constant-friction\"`");
+  all.add_of<D>(
+      "range", [](D& d) -> OptionPlace { return &d.dissipation.range; }, number(dimensions::length, positive),
+      "beyond it nothing acts; at most half of a periodic axis");
+  all.add_of<D>(
+      "exponent", [](D& d) -> OptionPlace { return &d.dissipation.exponent; }, number(dimensions::none, not_negative),
+      "of chi");
+  all.add_of<D>(
+      "projected", [](D& d) -> OptionPlace { return &d.dissipation.projected; }, flag(),
+      "along the line of centres, so that angular momentum is conserved, too; else in all directions");
+  all.add_of<D>(
+      "conduction", [](D& d) -> OptionPlace { return &d.dissipation.conduction; }, number(conduction, not_negative),
+      "kappa of the heat that dissipations between internal energies, kappa chi^2 (1/Ti - 1/Tj)");
+  all.add_of<D>(
+      "method", [](D& d) -> OptionPlace { return named_value(&d.method, dissipation_method_words()); },
+      word(dissipation_method_words().names()),
+      "all pairs act at once, or one after the other (Shardlow), which is right for any friction, and slower");
+  all.add("corrector", &D::corrector, flag(),
+          "simultaneous to second order in friction times step; twice the work, three times where there are internal "
+          "energies");
+  all.add("metropolis", &D::metropolis, flag(),
+          "shardlow accepts or refuses each pair's new velocities, so that the equilibrium is exact");
+  all.at("convention").needed = "\"constant-friction\"";
+  all.at("friction").needed = "\"1e-14 kg/s\"";
+  all.at("range").needed = "\"15 angstrom\"";
+  return all;
+}
+
+OptionTable make_bath_options() {
+  OptionTable all;
+  all.add("temperature", &BathOptions::temperature, number(dimensions::temperature, not_negative), "of the heat bath");
+  all.add("rate", &BathOptions::rate, number(dimensions::frequency, positive),
+          "velocities forget themselves in 1 / rate");
+  all.at("temperature").needed = "\"300 K\"";
+  all.at("rate").needed = "\"5 1/ps\"";
+  return all;
+}
+
+}  // namespace
+
+OptionTable const& dissipation_options() {
+  static OptionTable const all = make_dissipation_options();
+  return all;
+}
+OptionTable const& bath_options() {
+  static OptionTable const all = make_bath_options();
+  return all;
+}
+
+std::vector<DissipationKind> const& dissipation_kinds() {
+  static std::vector<DissipationKind> const all = {
+      {"dpd",
+       "friction, noise and heat between near particles, which keep the total momentum: DPD, and DPDE with internal "
+       "energies",
+       "dp = -friction chi^2 v dt + noise chi dW, chi = (1 - r / range)^exponent, v the relative velocity",
+       dissipation_options()},
+      {"langevin", "a heat bath on each particle", "dv = -rate v dt + (2 rate k temperature / m)^(1/2) dW",
+       bath_options()}};
+  return all;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,64 @@
+// What the dissipation of pairs holds of its ensembles and of the pairs between them. Private to this room.
+#pragma once
+
+#include <boltzmann/dissipation/dissipation_kernels.hpp>
+#include <boltzmann/dissipation/dissipation_point.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// Rows of an ensemble are taken in chunks of so many: what is written for a chunk belongs to it alone.
+inline constexpr std::size_t dissipation_chunk = 8192;
+
+struct PairDissipation::Member {
+  AnyEnsemble* ensemble;
+  int mass, velocity, energy = -1, temperature = -1;  // where these fields are in a row; -1: not there
+  std::optional<StateLaw> law;
+  SortedCopy const* copy = nullptr;
+  bool dissipates = false, at_fixed_temperature = false;
+  AlignedVector<double> points;     // of the rows of the sorted copy
+  AlignedVector<double> predicted;  // the corrector's last try: 4 numbers an owned row (see DissipationTask)
+  std::vector<double> energies;     // pair splitting: of the owned rows
+  std::size_t first_chunk = 0;      // among those of all members
+
+  int dimension() const { return ensemble->dimension(); }
+  std::size_t stride() const { return dissipation_point_stride(dimension()); }
+  std::size_t owned() const { return copy->owned(); }
+  std::size_t chunks() const { return (owned() + dissipation_chunk - 1) / dissipation_chunk; }
+  double* point(std::size_t row) { return points.data() + stride() * row; }
+  // Where numbers stand in a dissipation point.
+  int velocity_at() const { return dimension() + 1; }
+  int inverse_mass_at() const { return dimension(); }
+  bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
+  void take_mean_velocities(int threads);
+  /// Of which particle somebody speaks.
+  std::string who(std::size_t row) const;
+};
+
+struct PairDissipation::Coupling {
+  Member *target, *source;
+  DissipationLaw dissipation;
+  std::size_t list;                                 // its number in the neighbourhood
+  std::uint32_t number;                             // for random streams; the same for both directions
+  bool first;                                       // whether targets are the first of the two ensembles
+  std::size_t builds = ~std::size_t{0}, moves = 0;  // of the neighbourhood, when pairs were taken from its lists
+  std::vector<std::vector<std::uint32_t>> entries;  // of each chunk of targets (see DissipationTask)
+  std::vector<std::uint32_t const*> row;
+  std::array<std::vector<std::uint32_t>, list_rings> length;
+
+  bool same() const { return target == source; }
+  bool vanishes() const { return dissipation.friction == 0 && dissipation.conduction == 0; }
+  /// Brings row, length and entries of a chunk up to date.
+  void take_chunk(std::size_t chunk, NeighbourList const& neighbours);
+  PairNoise noise(StepContext const& context, double boltzmann_constant, std::uint32_t owner) const;
+};
+
+/// In the instruction set in use.
+DissipationKernels const& dissipation_kernels_for(int dimension, bool projected);
+
+}  // namespace boltzmann

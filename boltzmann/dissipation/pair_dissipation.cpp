@@ -1,0 +1,422 @@
+// What friction and noise act on: ensembles, their state laws, and the pairs that neighbour lists give.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/dissipation/members.hpp>
+#include <boltzmann/dissipation/splitting.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace boltzmann {
+namespace {
+
+constexpr double nowhere = 1e150;  // its square is finite
+constexpr double noticeable = 0.01;
+constexpr std::size_t sampled = 1000;
+constexpr char const* axis_name = "xyz";
+
+}  // namespace
+
+std::string PairDissipation::Member::who(std::size_t row) const {
+  return fmt::format("particle {} of '{}'", copy->order()[row], ensemble->name());
+}
+
+DissipationKernels const& dissipation_kernels_for(int dimension, bool projected) {
+  return for_instruction_set([](auto set) -> DissipationKernelTable const& { return dissipation_kernels<set()>(); })
+      .of[dimension - 1][projected ? 1 : 0];
+}
+
+PairDissipation::PairDissipation(PairScheme& scheme, double boltzmann_constant)
+    : scheme_(scheme), boltzmann_constant_(boltzmann_constant), splitting_(std::make_unique<Splitting>()) {
+  if (!(boltzmann_constant > 0) || !std::isfinite(boltzmann_constant))
+    throw Error(fmt::format("Boltzmann's constant is positive, not {}", boltzmann_constant));
+}
+
+PairDissipation::~PairDissipation() = default;
+
+PairDissipation::Member& PairDissipation::member(AnyEnsemble& ensemble) {
+  for (auto& member : members_)
+    if (member->ensemble == &ensemble) return *member;
+  auto const at = [&](char const* name) {
+    Field const* field = ensemble.find_field(name);
+    return field ? field->offset : -1;
+  };
+  auto made = std::make_unique<Member>();
+  made->ensemble = &ensemble;
+  for (char const* name : {"mass", "velocity"})
+    if (at(name) < 0)
+      throw Error(fmt::format("friction can't act on ensemble '{}': class {} has no {}", ensemble.name(),
+                              ensemble.class_name(), name));
+  made->mass = at("mass");
+  made->velocity = at("velocity");
+  made->energy = at("internal_energy");
+  made->temperature = at("temperature");
+  made->copy = &scheme_.neighbourhood().copy(ensemble);
+  scheme_.load(ensemble);
+  members_.push_back(std::move(made));
+  return *members_.back();
+}
+
+void PairDissipation::state(AnyEnsemble& ensemble, StateLaw law) {
+  if (!ensemble.find_field("internal_energy"))
+    throw Error(fmt::format("ensemble '{}' of class {} has no internal energies that a state law could be of",
+                            ensemble.name(), ensemble.class_name()));
+  member(ensemble).law = std::move(law);
+}
+
+void PairDissipation::internal(AnyEnsemble& ensemble, DissipationLaw const& dissipation) {
+  couple(ensemble, ensemble, dissipation);
+}
+
+void PairDissipation::between(AnyEnsemble& a, AnyEnsemble& b, DissipationLaw const& dissipation) {
+  if (&a == &b) return couple(a, a, dissipation);
+  couple(a, b, dissipation);
+}
+
+void PairDissipation::couple(AnyEnsemble& target, AnyEnsemble& source, DissipationLaw const& dissipation) {
+  dissipation.check();
+  Box const& box = scheme_.box();
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (box.boundary(a) == Boundary::mirror)
+      throw Error(fmt::format(
+          "axis {} is a mirror: friction between pairs needs a reflecting, periodic or open axis there", axis_name[a]));
+    if (box.periodic(a) && dissipation.range > 0.5 * box.length(a) * (1 + 1e-12))
+      throw Error(
+          fmt::format("the range {} of friction is longer than half of the periodic axis {}, which allows at most {}: "
+                      "two particles must not meet twice",
+                      dissipation.range, axis_name[a], 0.5 * box.length(a)));
+  }
+  if (couplings_.size() > 200) throw Error("a dissipation has at most 100 kinds of friction");
+  Member &first = member(target), &second = member(source);
+  bool const fixed = dissipation.convention == Convention::fixed_temperature;
+  for (auto* one : {&first, &second}) {
+    if (one->dissipates && one->at_fixed_temperature != fixed)
+      throw Error(
+          fmt::format("friction on ensemble '{}' is at a fixed temperature in one place and with internal "
+                      "energies in another; it can't be both",
+                      one->ensemble->name()));
+    if (!fixed && one->energy < 0)
+      throw Error(fmt::format("convention {} needs internal energies, and ensemble '{}' of class {} has none",
+                              to_string(dissipation.convention), one->ensemble->name(), one->ensemble->class_name()));
+    one->dissipates = true;
+    one->at_fixed_temperature = fixed;
+  }
+  auto const number = static_cast<std::uint32_t>(couplings_.size());
+  auto const add = [&](Member& on, Member& of, bool is_first) {
+    auto coupling = std::make_unique<Coupling>();
+    coupling->target = &on;
+    coupling->source = &of;
+    coupling->dissipation = dissipation;
+    coupling->list = scheme_.neighbourhood().add(*on.ensemble, *of.ensemble, dissipation.range);
+    coupling->number = number;
+    coupling->first = is_first;
+    couplings_.push_back(std::move(coupling));
+  };
+  add(first, second, true);
+  if (&first != &second) add(second, first, false);
+}
+
+std::vector<AnyEnsemble*> PairDissipation::ensembles() const {
+  std::vector<AnyEnsemble*> all;
+  for (auto const& member : members_)
+    if (member->dissipates) all.push_back(member->ensemble);
+  return all;
+}
+
+void PairDissipation::check() {
+  if (metropolis_ && method_ != DissipationMethod::shardlow)
+    throw Error("the Metropolis correction accepts or refuses pairs one by one: it needs the method shardlow");
+  if (corrector_ && method_ != DissipationMethod::simultaneous)
+    throw Error("the corrector belongs to the method simultaneous; shardlow needs none");
+  for (auto const& coupling : couplings_)
+    if (metropolis_ && (coupling->dissipation.convention == Convention::deterministic ||
+                        coupling->dissipation.convention == Convention::fixed_temperature))
+      throw Error(
+          fmt::format("the Metropolis correction is for friction with noise and internal energies, not for "
+                      "convention {}",
+                      to_string(coupling->dissipation.convention)));
+  for (auto const& member : members_) {
+    if (!member->dissipates) continue;
+    AnyEnsemble const& ensemble = *member->ensemble;
+    if (!member->at_fixed_temperature && !member->law)
+      throw Error(fmt::format("ensemble '{}' has internal energies but no state law: say what its heat capacity is",
+                              ensemble.name()));
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      double const* row = ensemble.row(i);
+      if (!(row[member->mass] > 0))
+        throw Error(fmt::format("particle {} of '{}' has the mass {}: friction needs positive masses", i,
+                                ensemble.name(), row[member->mass]));
+      if (member->has_energy() && !(row[member->energy] > 0 && std::isfinite(row[member->energy])))
+        throw Error(fmt::format("particle {} of '{}' has the internal energy {}: it must be positive", i,
+                                ensemble.name(), row[member->energy]));
+    }
+  }
+}
+
+PairNoise PairDissipation::Coupling::noise(StepContext const& context, double k, std::uint32_t owner) const {
+  DissipationLaw const& d = dissipation;
+  PairNoise n;
+  n.convention = d.convention;
+  n.inverse_range = 1 / d.range;
+  n.range2 = d.range * d.range;
+  n.exponent = d.exponent;
+  double const twice = 2 * d.exponent;
+  n.twice_exponent = twice == std::floor(twice) && twice <= 16 ? static_cast<int>(twice) : -1;
+  n.friction = d.friction * context.dt;
+  n.amplitude =
+      std::sqrt(2 * d.friction * k * context.dt * (d.convention == Convention::constant_friction ? 1 : d.temperature));
+  n.temperature = d.temperature;
+  n.boltzmann_constant = k;
+  n.conduction = d.conduction * context.dt;
+  n.conduction_noise = std::sqrt(2 * k * n.conduction);
+  n.same = same();
+  n.first = first;
+  n.step = context.step & 0xffffffffU;
+  n.tag = number | owner << 8U | (context.step >> 32U) << 16U;
+  n.key = PhiloxKey(context.seed);
+  return n;
+}
+
+/// False if lists and sorted copies are not those of the positions of now.
+bool PairDissipation::take_points() {
+  Box const& box = scheme_.box();
+  std::atomic<bool> current = scheme_.neighbourhood().builds() > 0;
+  for (auto& member : members_) {
+    if (!member->dissipates) continue;
+    Member& m = *member;
+    SortedCopy const& copy = *m.copy;
+    int const dimension = m.dimension();
+    std::size_t const owned = copy.owned(), total = copy.total();
+    if (owned != m.ensemble->size()) current = false;
+    if (!current) return false;
+    std::array<double, 3> half{nowhere, nowhere, nowhere};  // further off than that, it has been wrapped
+    for (int a = 0; a < dimension; ++a)
+      if (box.periodic(a)) half[a] = 0.5 * box.length(a);
+    m.points.resize(m.stride() * (total + 1));
+    int const threads = worth_threads(owned, particles_worth_threads / 2, this->threads());
+    StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
+    for_ranges(owned, dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        std::uint32_t const i = copy.order()[k];
+        double const* row = m.ensemble->row(i);
+        double* point = m.point(k);
+        for (int a = 0; a < dimension; ++a) {
+          point[a] = copy.rows()[row_block * k + a];
+          if (point[a] != row[a] && !(std::abs(point[a] - row[a]) > half[a])) current = false;
+        }
+        std::copy_n(row + m.velocity, dimension, point + m.velocity_at());
+        point[m.inverse_mass_at()] = 1 / row[m.mass];
+        double inverse = 1, curvature = 0;
+        if (law) {
+          double const t = law->temperature(row[m.energy]);
+          inverse = 1 / t;
+          curvature = inverse * inverse / law->heat_capacity(t);
+        }
+        double* heat = point + 2 * dimension + 1;
+        heat[0] = inverse;
+        heat[1] = curvature;
+      }
+    });
+    double* sentinel = m.point(owned);
+    std::fill_n(sentinel, m.stride(), 1.0);
+    std::fill_n(sentinel, dimension, nowhere);
+    for_ranges(total - owned, dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = owned + 1 + begin; k < owned + 1 + end; ++k) {
+        double* point = m.point(k);
+        std::copy_n(m.point(copy.owner(k)), m.stride(), point);
+        std::copy_n(copy.rows() + row_block * k, dimension, point);
+      }
+    });
+  }
+  return current;
+}
+
+/// Of the chunk every pair once, in the order of the neighbour lists; with particles of other chunks, other ensembles
+/// and images, from both sides.
+void PairDissipation::Coupling::take_chunk(std::size_t chunk, NeighbourList const& neighbours) {
+  SortedCopy const& of = *source->copy;
+  std::uint32_t const sentinel = item_of_row(of.sentinel());
+  std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, target->owned());
+  std::uint32_t const low = item_of_row(begin);
+  auto& groups = entries[chunk];
+  groups.clear();
+  std::vector<std::size_t> start;
+  for (std::size_t k = begin; k < end; ++k) {
+    start.push_back(groups.size());
+    std::uint32_t const* j = neighbours.rows()[k];
+    std::uint32_t const self = item_of_row(k);
+    std::uint32_t read = 0, taken = 0;
+    auto const take = [&](std::uint32_t entry, std::uint32_t number) {
+      if (taken % list_padding == 0) groups.resize(groups.size() + 2 * list_padding);
+      std::uint32_t* group = groups.data() + groups.size() - 2 * list_padding;
+      group[taken % list_padding] = entry;
+      group[list_padding + taken % list_padding] = number;
+      ++taken;
+    };
+    for (int ring = 0; ring < list_rings; ++ring) {
+      for (std::uint32_t const stop = neighbours.lengths(ring)[k]; read < stop; ++read) {
+        bool const twice = same() && j[read] >= low && j[read] <= self;
+        if (!twice && j[read] != sentinel) take(j[read], of.order()[of.owner(j[read] / 4)]);
+      }
+      length[ring][k] = taken;
+    }
+    while (taken % list_padding != 0) take(sentinel, 0);
+  }
+  for (std::size_t k = begin; k < end; ++k) row[k] = groups.data() + start[k - begin];
+}
+
+void PairDissipation::take_lists() {
+  Neighbourhood const& neighbourhood = scheme_.neighbourhood();
+  for (auto& coupling : couplings_) {
+    Coupling& c = *coupling;
+    Member const& m = *c.target;
+    if (c.builds == neighbourhood.builds() && c.moves == neighbourhood.moves()) continue;
+    NeighbourList const& list = neighbourhood.list(c.list);
+    std::vector<std::size_t> chunks;
+    if (c.builds == neighbourhood.builds() && c.moves + 1 == neighbourhood.moves()) {
+      for (std::uint32_t const row : list.rebuilt()) {  // ascending
+        std::size_t const chunk = row / dissipation_chunk;
+        if (chunks.empty() || chunks.back() != chunk) chunks.push_back(chunk);
+      }
+    } else {
+      c.entries.resize(m.chunks());
+      c.row.resize(m.owned());
+      for (auto& length : c.length) length.resize(m.owned());
+      chunks.resize(m.chunks());
+      std::iota(chunks.begin(), chunks.end(), std::size_t{0});
+    }
+    c.builds = neighbourhood.builds();
+    c.moves = neighbourhood.moves();
+    for_ranges(chunks.size(), 1, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
+               [&](std::size_t first, std::size_t last) {
+                 for (std::size_t n = first; n < last; ++n) c.take_chunk(chunks[n], list);
+               });
+  }
+}
+
+void PairDissipation::advance(StepContext const& context) {
+  if (!(context.dt > 0)) throw Error(fmt::format("friction and noise need a positive step, not {}", context.dt));
+  // Runs that are compared with others may have none at all.
+  if (std::all_of(couplings_.begin(), couplings_.end(), [](auto const& c) { return c->vanishes(); })) return;
+  if (!take_points()) {
+    scheme_.neighbourhood().refresh(threads());
+    take_points();
+  }
+  if (method_ == DissipationMethod::simultaneous)
+    simultaneous(context);
+  else
+    shardlow(context);
+}
+
+void PairDissipation::update_derived_fields() {
+  for (auto const& member : members_) {
+    if (!member->law || member->temperature < 0) continue;
+    for (std::size_t i = 0; i < member->ensemble->size(); ++i) {
+      double* row = member->ensemble->row(i);
+      row[member->temperature] = member->law->temperature(row[member->energy]);
+    }
+  }
+}
+
+double PairDissipation::internal_energy() const {
+  CompensatedSum sum;
+  for (auto const& member : members_)
+    if (member->law)
+      for (std::size_t i = 0; i < member->ensemble->size(); ++i) sum += member->ensemble->row(i)[member->energy];
+  return sum.value();
+}
+
+std::vector<std::string> PairDissipation::warnings(double step_size) {
+  // With the matrix G of friction (dv = -G v dt) an explicit step is too hot by about dt tr(G^2) / 2 tr(G): what noise
+  // and friction bring to second order. Sums over some particles; lines of centres point everywhere.
+  double strongest = 0;
+  Neighbourhood& neighbourhood = scheme_.neighbourhood();
+  neighbourhood.refresh(threads());
+  take_points();
+  for (auto const& member : members_) {
+    Member& m = *member;
+    if (!m.dissipates) continue;
+    double trace = 0, trace_of_square = 0;
+    double const D = m.dimension();
+    std::size_t const count = std::min(m.owned(), sampled);
+    for (std::size_t n = 0; n < count; ++n) {
+      std::size_t const k = n * m.owned() / count;
+      double const* p = m.point(k);
+      double rate = 0, squares = 0;
+      for (auto const& coupling : couplings_) {
+        if (coupling->target != &m) continue;
+        DissipationLaw const& d = coupling->dissipation;
+        NeighbourList const& list = neighbourhood.list(coupling->list);
+        std::uint32_t const* j = list.rows()[k];
+        for (std::uint32_t const* const last = j + list.lengths(list_rings - 1)[k]; j < last; ++j) {
+          double const* q = coupling->source->point(*j / 4);
+          double r2 = 0;
+          for (int a = 0; a < m.dimension(); ++a) r2 += (p[a] - q[a]) * (p[a] - q[a]);
+          double const x = 1 - std::sqrt(r2) / d.range;
+          if (!(x > 0)) continue;
+          double friction = d.friction * std::pow(x, 2 * d.exponent);
+          if (d.convention == Convention::constant_noise)
+            friction *= 0.5 * d.temperature * (p[2 * m.dimension() + 1] + q[2 * m.dimension() + 1]);
+          double const own = friction * p[m.inverse_mass_at()], other = friction * q[m.inverse_mass_at()];
+          rate += d.projected ? own / D : own;
+          squares += own * (d.projected ? (1 - 1 / D) / D * own + other / D : other);
+        }
+      }
+      trace += rate;
+      trace_of_square += rate * rate + squares;
+    }
+    if (trace > 0) strongest = std::max(strongest, trace_of_square / trace * std::abs(step_size));
+  }
+  std::vector<std::string> lines;
+  if (method_ == DissipationMethod::simultaneous && !corrector_ && strongest > 2 * noticeable)
+    lines.push_back(
+        fmt::format("warning: friction times step is {:.3g}: with the method simultaneous kinetic "
+                    "temperatures come out about {:.2g} % too high; take its corrector, shardlow or a step "
+                    "{:.2g} times as long",
+                    strongest, 50 * strongest, 2 * noticeable / strongest));
+  else if (method_ == DissipationMethod::simultaneous && corrector_ && strongest * strongest > 4 * noticeable)
+    lines.push_back(
+        fmt::format("warning: friction times step is {:.3g}: kinetic temperatures come out some {:.2g} "
+                    "% wrong, even with the corrector; take shardlow or a shorter step",
+                    strongest, 25 * strongest * strongest));
+  else if (method_ == DissipationMethod::shardlow && strongest > 1)
+    lines.push_back(
+        fmt::format("warning: friction times step is {:.3g}, above 1: more than a velocity in a step", strongest));
+  return lines;
+}
+
+std::string PairDissipation::report() const {
+  if (!metropolis_ || proposed_ == 0) return "";
+  return fmt::format("{} of {} pair moves refused ({:.2g} %)", refused_, proposed_,
+                     100 * static_cast<double>(refused_) / static_cast<double>(proposed_));
+}
+
+std::size_t PairDissipation::bytes() const {
+  std::size_t bytes = splitting_->bytes();
+  for (auto const& member : members_)
+    bytes += (member->points.capacity() + member->predicted.capacity() + member->energies.capacity()) * sizeof(double);
+  for (auto const& coupling : couplings_) {
+    bytes += coupling->row.capacity() * sizeof(std::uint32_t*);
+    for (auto const& length : coupling->length) bytes += length.capacity() * sizeof(std::uint32_t);
+    for (auto const& entries : coupling->entries) bytes += entries.capacity() * sizeof(std::uint32_t);
+  }
+  return bytes;
+}
+
+std::vector<double> PairDissipation::state() const {
+  return {heat_, static_cast<double>(proposed_), static_cast<double>(refused_)};
+}
+
+void PairDissipation::restore(std::span<double const> state) {
+  if (state.size() != 3) throw Error("the checkpoint's friction and noise do not fit this simulation");
+  heat_ = state[0];
+  proposed_ = static_cast<std::uint64_t>(state[1]);
+  refused_ = static_cast<std::uint64_t>(state[2]);
+}
+
+}  // namespace boltzmann

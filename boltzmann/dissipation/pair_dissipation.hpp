@@ -1,0 +1,90 @@
+// Dissipative pair dissipation: friction, noise and heat conduction between near particles (DPD, DPDE).
+#pragma once
+
+#include <boltzmann/dissipation/dissipation.hpp>
+#include <boltzmann/dissipation/dissipation_law.hpp>
+#include <boltzmann/laws/state_law.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace boltzmann {
+
+/// How the dissipation of all pairs together is made of that of one.
+enum class DissipationMethod {
+  simultaneous,  ///< all pairs act at once on the velocities of the step's end; each particle then gets back as heat what
+                 ///< its motion has lost (energy reinjection)
+  shardlow,      ///< one pair after the other (Shardlow), in an order that depends on neighbour lists alone
+};
+Words<DissipationMethod> const& dissipation_method_words();
+std::string to_string(DissipationMethod method);
+
+/// Total momentum, and total energy where particles have internal energies, are kept to rounding by every method,
+/// whatever the masses. Noise depends on the seed, the step and the numbers of the two particles alone; the same bits
+/// for any number of threads.
+class PairDissipation final : public Dissipation {
+ public:
+  /// Finds pairs by the neighbour lists of this scheme, which must be one of the simulation's. Boltzmann's constant in
+  /// the simulation's base.
+  PairDissipation(PairScheme& scheme, double boltzmann_constant);
+  ~PairDissipation() override;
+
+  /// The state law of an ensemble's internal energies: needed wherever the convention is not fixed_temperature. Error
+  /// if its class has no field "internal_energy".
+  void state(AnyEnsemble& ensemble, StateLaw law);
+  /// Dissipation among the particles of one ensemble. Error if its class has no mass or velocity, a parameter can't be,
+  /// or the range is longer than half of a periodic axis.
+  void internal(AnyEnsemble& ensemble, DissipationLaw const& dissipation);
+  /// And between those of two.
+  void between(AnyEnsemble& a, AnyEnsemble& b, DissipationLaw const& dissipation);
+
+  void method(DissipationMethod method) { method_ = method; }
+  DissipationMethod method() const { return method_; }
+  /// simultaneous: a second pass over the pairs (a third where there are internal energies), with the mean of the
+  /// velocities before and after the one before. Kinetic temperatures, and the shares of the heat where masses differ,
+  /// are then right to second order in friction times step, not to first.
+  void corrector(bool wanted) { corrector_ = wanted; }
+  /// shardlow: every pair's new velocities are accepted or refused (Metropolis), so that each keeps the invariant
+  /// law exactly, and internal energies can't become negative.
+  void metropolis(bool wanted) { metropolis_ = wanted; }
+
+  std::vector<AnyEnsemble*> ensembles() const override;
+  void check() override;
+  void advance(StepContext const& context) override;
+  void update_derived_fields() override;
+  double internal_energy() const override;
+  double heat() const override { return heat_; }
+  std::vector<std::string> warnings(double step_size) override;
+  std::string report() const override;
+  std::size_t bytes() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+ private:
+  struct Member;    // an ensemble with its points
+  struct Coupling;  // a dissipation between two members, with its pairs
+  struct Splitting;
+
+  Member& member(AnyEnsemble& ensemble);
+  void couple(AnyEnsemble& target, AnyEnsemble& source, DissipationLaw const& dissipation);
+  bool take_points();
+  void take_lists();
+  void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& by_bath);
+  void simultaneous(StepContext const& context);
+  void shardlow(StepContext const& context);
+
+  PairScheme& scheme_;
+  double boltzmann_constant_;
+  DissipationMethod method_ = DissipationMethod::simultaneous;
+  bool corrector_ = false, metropolis_ = false;
+  double heat_ = 0;
+  std::uint64_t proposed_ = 0, refused_ = 0;
+  std::vector<std::unique_ptr<Member>> members_;
+  std::vector<std::unique_ptr<Coupling>> couplings_;
+  std::unique_ptr<Splitting> splitting_;
+};
+
+}  // namespace boltzmann

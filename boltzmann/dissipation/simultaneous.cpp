@@ -1,0 +1,126 @@
+// The simultaneous dissipation: all pairs at once, then every particle gets back as heat what its motion has lost.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/dissipation/members.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+
+/// With dp_ij of all pairs from velocities u (those of now, or with the corrector the mean of now and of a try before)
+/// the motion gains sum over i of dP_i.(v_i + dP_i / 2m_i), dP_i = sum over j of dp_ij. It is paid by i and j as
+///   eps_i -= sum over j of dp_ij.u_ij / 2 + dP_i.(dP_i - dP'_i) / 2m_i + |dp_ij|^2 (1/mj - 1/mi) / 4,
+/// dP' being that of the last try (without one, zero). The total is exact whatever the masses; the last term (not with
+/// the corrector) gives both the same share of what noise adds, as Eq 3 of the source asks.
+void PairDissipation::simultaneous(StepContext const& context) {
+  take_lists();
+  int const ring = scheme_.neighbourhood().ring();
+  // function(member, chunk, sums), sums over all couplings of the chunk's particles.
+  auto const each_chunk = [&](double asymmetry, auto const& function) {
+    for (auto& member : members_) {
+      Member& m = *member;
+      if (!m.dissipates) continue;
+      std::vector<std::pair<DissipationTask, DissipationKernels const*>> tasks;
+      for (auto const& coupling : couplings_) {
+        Coupling const& c = *coupling;
+        if (c.target != &m) continue;
+        DissipationTask task;
+        task.target = m.points.data();
+        task.source = c.source->points.data();
+        task.number = m.copy->order();
+        task.row = c.row.data();
+        task.length = c.length[ring].data();
+        task.asymmetry = asymmetry;
+        task.noise = c.noise(context, boltzmann_constant_, number());
+        tasks.emplace_back(task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected));
+      }
+      for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 4, threads()),
+                 [&](std::size_t first, std::size_t last) {
+                   AlignedVector<double> sums;
+                   for (std::size_t chunk = first; chunk < last; ++chunk) {
+                     std::size_t const begin = chunk * dissipation_chunk,
+                                       end = std::min(begin + dissipation_chunk, m.owned());
+                     sums.assign(4 * (end - begin + 1), 0.0);
+                     for (auto [task, kernels] : tasks) {
+                       task.begin = begin;
+                       task.end = end;
+                       task.sums = sums.data();
+                       kernels->simultaneous(task);
+                     }
+                     function(m, chunk, sums.data());
+                   }
+                 });
+    }
+  };
+  // Where particles share the heat the remainder must be small, too: one pass more.
+  bool const shares = std::any_of(members_.begin(), members_.end(), [](auto const& m) { return m->has_energy(); });
+  int const tries = !corrector_ ? 0 : shares ? 2 : 1;
+  for (int n = 0; n < tries; ++n) {
+    for (auto& member : members_)
+      if (member->dissipates) member->predicted.resize(4 * member->owned());
+    each_chunk(0, [](Member& m, std::size_t chunk, double const* sums) {
+      std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
+      std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
+    });
+    for (auto& member : members_)
+      if (member->dissipates)
+        member->take_mean_velocities(worth_threads(member->owned(), particles_worth_threads / 2, threads()));
+  }
+  std::vector<std::vector<double>> paid;  // by the bath, for each chunk
+  for (auto const& member : members_) paid.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
+  each_chunk(corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
+    std::size_t number = 0;
+    while (members_[number].get() != &m) ++number;
+    finish_chunk(m, chunk, sums, paid[number][chunk]);
+  });
+  for (auto const& of_member : paid)
+    for (double const heat : of_member) heat_ += heat;
+}
+
+/// The points' velocities become the means of now and of the last try.
+void PairDissipation::Member::take_mean_velocities(int threads) {
+  int const at = velocity_at();
+  for_ranges(owned(), dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      double const* row = ensemble->row(copy->order()[k]);
+      for (int a = 0; a < dimension(); ++a)
+        point(k)[at + a] = row[velocity + a] + 0.5 * predicted[4 * k + a] * point(k)[inverse_mass_at()];
+    }
+  });
+  for (std::size_t k = owned() + 1; k <= copy->total(); ++k)
+    std::copy_n(point(copy->owner(k)) + at, dimension(), point(k) + at);
+}
+
+/// Gives momenta and energies to the particles of a chunk; what no internal energy pays for the bath does.
+void PairDissipation::finish_chunk(Member& m, std::size_t chunk, double const* sums, double& by_bath) {
+  bool const has_energy = m.has_energy();
+  int const dimension = m.dimension();
+  std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
+  for (std::size_t k = begin; k < end; ++k, sums += 4) {
+    double* row = m.ensemble->row(m.copy->order()[k]);
+    double const inverse_mass = m.point(k)[m.inverse_mass_at()];
+    double const* predicted = corrector_ ? m.predicted.data() + 4 * k : nullptr;
+    double loss = sums[dimension];
+    for (int a = 0; a < dimension; ++a) {
+      loss += 0.5 * inverse_mass * sums[a] * (sums[a] - (predicted ? predicted[a] : 0.0));
+      row[m.velocity + a] += sums[a] * inverse_mass;
+    }
+    if (has_energy) {
+      double const left = row[m.energy] - loss;
+      if (!std::isfinite(left)) throw PhysicsFailure(fmt::format("friction on {} is not finite", m.who(k)));
+      if (!(left > 0))
+        throw PhysicsFailure(
+            fmt::format("the internal energy of {} would become {:.4g} (from {:.4g}): friction and noise take more "
+                        "than there is; take a smaller step, or shardlow with metropolis",
+                        m.who(k), left, row[m.energy]));
+      row[m.energy] = left;
+    } else {
+      if (!std::isfinite(loss)) throw PhysicsFailure(fmt::format("friction on {} is not finite", m.who(k)));
+      by_bath += loss;
+    }
+  }
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,35 @@
+// Which pairs follow which in pair splitting. Private to this room.
+#pragma once
+
+#include <boltzmann/dissipation/members.hpp>
+
+#include <vector>
+
+namespace boltzmann {
+
+/// Chunks of particles are nodes; all pairs between two chunks (or inside one) are an edge. Edges are coloured so that
+/// those of one colour have no chunk in common: they can be done at the same time, and whoever does them, the result is
+/// that of one after the other. Colours follow each other, and so do the pairs of an edge.
+struct PairDissipation::Splitting {
+  struct Part {  // the pairs of one coupling
+    Coupling const* coupling;
+    std::vector<DissipationPair> pairs;
+  };
+  struct Edge {
+    std::size_t from, to;
+    std::vector<Part> parts;
+    double heat = 0;  // that a bath has given, and moves proposed and refused, in the last step
+    std::uint64_t proposed = 0, refused = 0;
+  };
+
+  std::vector<Edge> edges;
+  std::vector<std::vector<std::size_t>> colours;  // numbers of edges
+  std::size_t builds = ~std::size_t{0}, moves = 0;
+
+  /// Takes pairs anew if neighbour lists have changed.
+  void take_pairs(Neighbourhood const& neighbourhood, std::vector<std::unique_ptr<Member>>& members,
+                  std::vector<std::unique_ptr<Coupling>> const& couplings, int threads);
+  std::size_t bytes() const;
+};
+
+}  // namespace boltzmann

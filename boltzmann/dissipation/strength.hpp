@@ -1,0 +1,45 @@
+// Strength: how strong friction and noise are between two particles, for one pair or for a pack of pairs.
+#pragma once
+
+#include <boltzmann/dissipation/dissipation_kernels.hpp>
+
+namespace boltzmann {
+
+/// Friction gamma_ij dt and noise sigma_ij sqrt(dt), without chi: Eq 4 of the source, put right (see Convention). With
+/// internal temperatures Ti, Tj and heat capacities Ci, Cj it is given 1/Ti + 1/Tj, their product 1/(Ti Tj), and the
+/// `curvatures` 1/(Ti^2 Ci) + 1/(Tj^2 Cj), which only constant_friction reads; 1/mi + 1/mj, and the square of the
+/// relative velocity in so many directions, which only the deterministic convention reads.
+template <class Real>
+struct Strength {
+  Real friction, noise;
+
+  [[gnu::always_inline]] Strength(PairNoise const& n, Real inverse_temperatures, Real product, Real curvatures,
+                                  Real inverse_masses, Real square, double directions) {
+    switch (n.convention) {
+      case Convention::fixed_temperature:
+        friction = n.friction;
+        noise = n.amplitude;
+        break;
+      case Convention::constant_friction: {
+        Real const root = rsqrt(0.5 * inverse_temperatures), inverse = root * root;  // of k beta
+        friction = n.friction * (1.0 + 0.25 * n.boltzmann_constant * curvatures * (inverse * inverse));
+        noise = n.amplitude * root;
+        break;
+      }
+      case Convention::constant_noise:
+        friction = (0.5 * n.friction * n.temperature) * inverse_temperatures;
+        noise = n.amplitude;
+        break;
+      case Convention::deterministic: {
+        // The pair's kinetic temperature, so weighted that the exchange is in balance for Maxwell's velocities.
+        Real const outside = square / (inverse_masses * (n.boltzmann_constant * (directions + 2)));
+        Real const inside = 0.5 * inverse_temperatures / product;
+        friction = (n.friction / n.temperature) * (outside - inside);
+        noise = 0.0;
+        break;
+      }
+    }
+  }
+};
+
+}  // namespace boltzmann

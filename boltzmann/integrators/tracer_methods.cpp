@@ -1,0 +1,10 @@
+// The methods for everything that a flow carries along.
+#include <boltzmann/integrators/methods.hpp>
+
+namespace boltzmann::detail {
+
+template std::unique_ptr<Integrator> method_of<Tracer<1>>(AnyEnsemble&, Method);
+template std::unique_ptr<Integrator> method_of<Tracer<2>>(AnyEnsemble&, Method);
+template std::unique_ptr<Integrator> method_of<Tracer<3>>(AnyEnsemble&, Method);
+
+}  // namespace boltzmann::detail

@@ -1,0 +1,37 @@
+// Ripples: particles with a wave in their density or velocity, at random or as a quiet start (appendix A.4 of the 1990
+// thesis).
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <cstdint>
+
+namespace boltzmann {
+
+/// sin(wave_number (x - low) + phase), with x the position on an axis and low that axis' low edge.
+struct Wave {
+  int axis = 0;
+  double wave_number = 0;
+  double phase = 0;
+};
+
+/// The wave with so many periods in the box. Error if the box has no such axis.
+Wave wave_of_mode(Box const& box, int axis, double mode, double phase = 0);
+
+/// Positions at random: with a density proportional to 1 + amplitude sin(...) along the wave's axis, uniform along the
+/// others; regions as in random_load. Error if |amplitude| > 1, or if the box has no such axis.
+void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude, std::uint64_t seed);
+
+/// The same density without noise (quiet start): particle i stands at the quantile (i + 1/2)/N along the axis, and
+/// along the others evenly, in bit-reversed order and that of base 3. Amplitude 0 is a uniform density. Error as above,
+/// and if the box has regions.
+void quiet_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude);
+/// A uniform density without noise, in order along x.
+void quiet_load(AnyEnsemble& ensemble, Box const& box);
+
+/// Adds amplitude sin(...) to a component of the velocity of every particle, at its position. Error if the class has no
+/// such component or the box no such axis.
+void velocity_ripple(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude, int component);
+
+}  // namespace boltzmann

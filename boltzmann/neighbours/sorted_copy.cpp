@@ -1,0 +1,584 @@
+// Sorting, images, and following the particles between two builds.
+#include <boltzmann/neighbours/sorted_copy.hpp>
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/neighbours/neighbour_kernels.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace boltzmann {
+namespace {
+
+constexpr std::size_t together = 256;                     // rows that share a largest displacement
+constexpr std::size_t refresh_grain = 2048;               // a multiple of it
+constexpr std::size_t most_rows = std::size_t{1} << 30U;  // items are 32 bits
+constexpr double most_lengths = 8;                        // of a periodic axis, that images are moved
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+constexpr char const* axis_name = "xyz";
+
+[[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
+  throw PhysicsFailure(
+      fmt::format("particle {} of '{}' is at a position that is not finite", particle, ensemble.name()));
+}
+
+/// x in steps, modulo 2^32.
+std::int32_t in_steps(double x, double reach) {
+  double steps = std::floor(x / reach * steps_of_reach + 0.5);
+  if (std::abs(steps) > 0x1p62) steps = std::fmod(steps, 0x1p32);
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(steps)));
+}
+/// As far away as can be.
+std::int32_t opposite(std::int32_t steps) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps) + (1U << 31U));
+}
+
+}  // namespace
+
+SortedCopy::SortedCopy(AnyEnsemble const& ensemble, Box const& box, std::size_t extra_blocks)
+    : ensemble_(&ensemble), box_(&box), extra_blocks_(extra_blocks), components_(row_block * all_blocks()) {
+  for (auto const& [name, rule] : {std::pair{"position", ImageRule::position}, {"velocity", ImageRule::velocity}}) {
+    Field const* field = ensemble.find_field(name);
+    if (!field || field->components != box.dimension()) continue;  // a class' own, of another meaning
+    for (int a = 0; a < field->components; ++a) components_[field->offset + a] = {rule, a, 0};
+  }
+}
+
+void SortedCopy::components(std::vector<ImageComponent> components) {
+  if (components.size() != row_block * all_blocks())
+    throw Error(fmt::format("images of '{}': there are rules for {} numbers of a row, which has {}", ensemble_->name(),
+                            components.size(), row_block * all_blocks()));
+  for (auto const& component : components)
+    for (int const axis : {component.axis, component.axis2})
+      if (axis < 0 || axis >= box_->dimension())
+        throw Error(fmt::format("images of '{}': a rule names axis {}, the box has {} (from 0)", ensemble_->name(),
+                                axis, box_->dimension()));
+  components_ = std::move(components);
+  if (!reference_map_.empty()) find_image_maps();
+}
+
+void SortedCopy::build(double reach, int threads) {
+  int const dimension = box_->dimension();
+  std::vector<double> references(ensemble_->size() * dimension);
+  for_ranges(ensemble_->size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int a = 0; a < dimension; ++a) {
+        double const x = ensemble_->row(i)[a];
+        if (!std::isfinite(x)) not_finite(*ensemble_, i);
+        references[i * dimension + a] = box_->periodic(a) ? box_->wrapped(x, a) : x;
+      }
+  });
+  build(reach, references, threads);
+}
+
+void SortedCopy::build(double reach, std::span<double const> references, int threads) {
+  build(reach, references, edges(), threads);
+}
+
+void SortedCopy::build(double reach, std::span<double const> references, Edges const& edges, int threads) {
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->boundary(a) == Boundary::mirror && box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) &&
+        reach > edges[3 + a] - edges[a])
+      throw Error(fmt::format(
+          "neighbours of '{}' are found up to a distance of {}, the walls of axis {} are {} apart: they must "
+          "not be nearer to each other than that",
+          ensemble_->name(), reach, axis_name[a], edges[3 + a] - edges[a]));
+  // Told before they are made: they would fill all memory.
+  double images = static_cast<double>(ensemble_->size());
+  for (int a = 0; a < box_->dimension(); ++a) {
+    if (!box_->periodic(a)) continue;
+    if (reach > most_lengths * box_->length(a))
+      throw Error(
+          fmt::format("neighbours of '{}' are found up to a distance of {:.6g}; a periodic axis of {:.6g} ({}) "
+                      "allows at most {:.6g}",
+                      ensemble_->name(), reach, box_->length(a), axis_name[a], most_lengths * box_->length(a)));
+    images *= 1 + 2 * reach / box_->length(a);
+  }
+  if (images >= static_cast<double>(most_rows)) too_many_rows(images);
+  reach_ = reach;
+  built_edges_ = edges;
+  moved_.clear();
+  built_.clear();
+  images_.clear();
+  free_.clear();
+  sort(reach, references, threads);
+  add_ghosts(threads);
+  if (total() >= most_rows) too_many_rows(static_cast<double>(total()));
+  capacity_ = 0;
+  make_room(total() + 1);
+  largest2_.assign(owned() / together + 1, 0.0);
+  sort_all(threads);
+  for (auto& column : moved_position_) column.assign(candidate_padding, 0);
+  moved_item_.assign(candidate_padding, 0);
+  // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
+  for (std::size_t b = 0; b < all_blocks(); ++b)
+    std::fill_n(block(b), row_block * ((b < blocks() ? owned() : total()) + 1), nowhere);
+}
+
+void SortedCopy::too_many_rows(double count) const {
+  throw Error(fmt::format("ensemble '{}' has {:.10g} particles and images within reach, lists allow {}",
+                          ensemble_->name(), count, most_rows - 1));
+}
+
+void SortedCopy::sort(double reach, std::span<double const> references, int threads) {
+  int const dimension = box_->dimension();
+  // Cells that are not all but empty, or their order would be that of distant particles.
+  double const size = static_cast<double>(ensemble_->size() + 1);
+  double volume = 1;
+  for (int a = 0; a < dimension; ++a) volume *= built_edges_[3 + a] - built_edges_[a];
+  double const spacing = std::pow(volume / size, 1.0 / dimension);
+  double const edge = std::max(reach, 2.5 * spacing);
+  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), edge, threads).items();
+  references_.resize(4 * owned());
+  steps_.resize(4 * owned());
+  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (int a = 0; a < 4; ++a) {
+        double const x = a < dimension ? references[order_[k] * dimension + a] : 0;
+        references_[4 * k + a] = x;
+        steps_[4 * k + a] = in_steps(x, reach_);
+      }
+  });
+}
+
+SortedCopy::Edges SortedCopy::edges() const {
+  Edges edges{};
+  for (int a = 0; a < box_->dimension(); ++a) {
+    edges[a] = box_->low(a);
+    edges[3 + a] = box_->high(a);
+  }
+  return edges;
+}
+
+std::array<int, 3> SortedCopy::max_images() const {
+  std::array<int, 3> most{0, 0, 0};
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->periodic(a))
+      most[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
+    else if (box_->boundary(a) == Boundary::mirror)
+      most[a] = 1;
+  return most;
+}
+
+template <class Function>
+void SortedCopy::each_image(double const* x, Function const& function) const {
+  std::array<int, 3> first{0, 0, 0}, last{0, 0, 0};
+  for (int a = 0; a < box_->dimension(); ++a) {
+    double const low = built_edges_[a] + reach_, high = built_edges_[3 + a] - reach_;
+    if (box_->periodic(a)) {
+      if (x[a] <= low || x[a] >= high) last[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
+      first[a] = -last[a];
+    } else if (box_->boundary(a) == Boundary::mirror) {
+      if (box_->walled(a, Box::End::low) && x[a] <= low) first[a] = -1;
+      if (box_->walled(a, Box::End::high) && x[a] >= high) last[a] = 1;
+    }
+  }
+  std::array<int, 3> turns{};
+  std::array<double, 3> at{};
+  auto const along = [&](int a, int n) {
+    turns[a] = n;
+    if (a < box_->dimension()) at[a] = image_of(a, n, x[a]);
+    return n == 0 || (at[a] >= built_edges_[a] - reach_ && at[a] <= built_edges_[3 + a] + reach_);
+  };
+  for (int k = first[2]; k <= last[2]; ++k) {
+    if (!along(2, k)) continue;
+    for (int j = first[1]; j <= last[1]; ++j) {
+      if (!along(1, j)) continue;
+      for (int i = first[0]; i <= last[0]; ++i)
+        if (along(0, i)) function(turns, at);
+    }
+  }
+}
+
+std::uint32_t SortedCopy::code_of(std::array<int, 3> turns) const {
+  int const base = 2 * max_images_ + 1;
+  return static_cast<std::uint32_t>(((turns[2] + max_images_) * base + turns[1] + max_images_) * base + turns[0] +
+                                    max_images_);
+}
+
+/// Images of references, about the walls as they are at the build.
+void SortedCopy::find_reference_maps() {
+  auto const most = max_images();
+  max_images_ = std::max({most[0], most[1], most[2]});
+  reference_map_.assign(std::size_t{3} * (2 * max_images_ + 1), {});
+  for (int a = 0; a < box_->dimension(); ++a)
+    for (int n = -most[a]; n <= most[a]; ++n) {
+      ImageMap& map = reference_map_[a * (2 * max_images_ + 1) + n + max_images_];
+      if (box_->periodic(a))
+        map.shift = n * box_->length(a);
+      else if (n != 0)
+        map = {-1, 2 * built_edges_[n < 0 ? a : 3 + a]};
+    }
+  turns_.clear();  // in the order of code_of()
+  for (int k = -max_images_; k <= max_images_; ++k)
+    for (int j = -max_images_; j <= max_images_; ++j)
+      for (int i = -max_images_; i <= max_images_; ++i) turns_.push_back({i, j, k});
+}
+
+ImageMap SortedCopy::image_map(ImageComponent component, std::array<int, 3> const& turns) const {
+  std::array<int, 3> side{};  // of walls
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (!box_->periodic(a)) side[a] = turns[a];
+  // The sign of a vector's component, or of a tensor's.
+  auto const sign = [&](auto const& changes) {
+    ImageMap map;
+    for (int a = 0; a < box_->dimension(); ++a)
+      if (side[a] != 0 && changes(a, box_->wall(a, side[a] < 0 ? Box::End::low : Box::End::high))) map.sign = -map.sign;
+    return map;
+  };
+  int const c = component.axis, d = component.axis2;
+  switch (component.rule) {
+    case ImageRule::same:
+      return {};
+    case ImageRule::position:
+      if (side[c] != 0) return {-1, 2 * (side[c] < 0 ? box_->low(c) : box_->high(c))};
+      return turns[c] == 0 ? ImageMap{} : ImageMap{1, turns[c] * box_->length(c)};
+    case ImageRule::velocity:
+      return box_->velocity_image(side, c);
+    case ImageRule::temperature:
+      return box_->temperature_image(side);
+    case ImageRule::normal_vector:
+      return sign([&](int a, Wall const&) { return a == c; });
+    case ImageRule::heat_flux:
+      return sign([&](int a, Wall const& wall) { return (a == c) == std::isnan(wall.temperature); });
+    case ImageRule::tensor:
+      return sign([&](int a, Wall const& wall) { return wall.slips && (a == c) != (a == d); });
+  }
+  return {};
+}
+
+/// Images of rows, about the walls as they are now.
+void SortedCopy::find_image_maps() {
+  int const m = max_images_, base = 2 * m + 1;
+  auto const most = max_images();
+  // Behind the last number that changes blocks are copied.
+  mapped_blocks_ = 0;
+  for (std::size_t n = 0; n < components_.size(); ++n) {
+    ImageRule const rule = components_[n].rule;
+    if (rule == ImageRule::position || (box_->any_wall() && rule != ImageRule::same))
+      mapped_blocks_ = n / row_block + 1;
+  }
+  std::size_t const numbers = row_block * mapped_blocks_;
+  image_sign_.resize(static_cast<std::size_t>(base * base * base) * numbers);
+  image_shift_.resize(image_sign_.size());
+  auto const exists = [&](int a, int n) {
+    if (n == 0 || box_->boundary(a) != Boundary::mirror) return true;
+    return box_->walled(a, n < 0 ? Box::End::low : Box::End::high);
+  };
+  for (int k = -most[2]; k <= most[2]; ++k)
+    for (int j = -most[1]; j <= most[1]; ++j)
+      for (int i = -most[0]; i <= most[0]; ++i) {
+        if (!exists(0, i) || !exists(1, j) || !exists(2, k)) continue;
+        std::array<int, 3> const turns{i, j, k};
+        std::size_t const row = code_of(turns) * numbers;
+        for (std::size_t n = 0; n < numbers; ++n) {
+          ImageMap const map = image_map(components_[n], turns);
+          image_sign_[row + n] = map.sign;
+          image_shift_[row + n] = map.shift;
+        }
+      }
+}
+
+double SortedCopy::walls_moved() const {
+  if (!box_->any_wall()) return 0;
+  double square = 0;
+  for (int a = 0; a < box_->dimension(); ++a) {
+    double const d = std::max(std::abs(edges_[a] - built_edges_[a]), std::abs(edges_[3 + a] - built_edges_[3 + a]));
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+
+void SortedCopy::add_ghosts(int threads) {
+  ghost_source_.clear();
+  ghost_turns_.clear();
+  find_reference_maps();
+  edges_ = edges();
+  find_image_maps();
+  if (max_images_ == 0) return;
+  struct Part {
+    std::vector<std::uint32_t> source, turns;
+  };
+  std::vector<Part> parts((owned() + refresh_grain - 1) / refresh_grain);
+  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    Part& part = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
+    for (std::size_t k = begin; k < end; ++k)
+      each_image(references_.data() + 4 * k, [&](std::array<int, 3> turns, std::array<double, 3> const&) {
+        if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) return;
+        part.source.push_back(static_cast<std::uint32_t>(k));
+        part.turns.push_back(code_of(turns));
+      });
+  });
+  for (auto const& part : parts) {
+    ghost_source_.insert(ghost_source_.end(), part.source.begin(), part.source.end());
+    ghost_turns_.insert(ghost_turns_.end(), part.turns.begin(), part.turns.end());
+  }
+}
+
+void SortedCopy::make_room(std::size_t rows) {
+  if (rows <= capacity_) return;
+  std::size_t const spare = 64 + rows / 64, before = block_stride();
+  capacity_ = rows + spare;
+  AlignedVector<double> moved;
+  auto& target = before == 0 ? rows_ : moved;
+  target.resize(all_blocks() * block_stride());
+  if (before == 0) return;
+  for (std::size_t b = 0; b < all_blocks(); ++b)
+    std::copy_n(rows_.data() + b * before, before, moved.data() + b * block_stride());
+  rows_ = std::move(moved);
+}
+
+void SortedCopy::move_ghosts(std::size_t first_block, std::size_t last_block, std::size_t begin, std::size_t end) {
+  ImageTask task;
+  task.copy = rows_.data();
+  task.block_stride = block_stride();
+  task.first_block = first_block;
+  task.last_block = last_block;
+  task.mapped_blocks = mapped_blocks_;
+  task.first = owned() + 1;
+  task.source = ghost_source_.data();
+  task.turns = ghost_turns_.data();
+  task.sign = image_sign_.data();
+  task.shift = image_shift_.data();
+  neighbour_kernels().images(task, begin, end);
+}
+
+void SortedCopy::sort_all(int threads) {
+  int const dimension = box_->dimension();
+  std::vector<double> at(total() * dimension);
+  for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::size_t const source = k < owned() ? k : ghost_source_[k - owned()];
+      auto const& turns = turns_[k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()]];
+      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = image_of(a, turns[a], references_[4 * source + a]);
+    }
+  });
+  cells_ = Cells(dimension, at.data(), dimension, total(), reach_, threads);
+  auto const& items = cells_.items();
+  for (int a = 0; a < 3; ++a) position_[a].resize(total() + candidate_padding);
+  item_.resize(total() + candidate_padding);
+  for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      item_[s] = item_of_row(items[s] < owned() ? items[s] : items[s] + 1);
+      for (int a = 0; a < dimension; ++a) position_[a][s] = in_steps(at[items[s] * dimension + a], reach_);
+    }
+  });
+}
+
+bool SortedCopy::refresh(int threads) {
+  RefreshTask task;
+  task.ensemble = ensemble_->row(0);
+  task.order = order_.data();
+  task.stride = ensemble_->stride();
+  task.copy = rows_.data();
+  task.block_stride = block_stride();
+  task.reference = references_.data();
+  task.dimension = box_->dimension();
+  for (int a = 0; a < box_->dimension(); ++a)
+    if (box_->periodic(a)) {
+      task.period[a] = box_->length(a);
+      task.inverse_period[a] = 1 / box_->length(a);
+    }
+  RefreshKernel const kernel = neighbour_kernels().refresh;
+  std::atomic<bool> changed{false}, finite{true};
+  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += together) {
+      Refreshed const part = kernel(task, first, std::min(first + together, end));
+      largest2_[first / together] = part.largest2;
+      if (part.changed) changed.store(true, std::memory_order_relaxed);
+      if (!part.finite) finite.store(false, std::memory_order_relaxed);
+    }
+  });
+  if (!finite)
+    for (std::size_t k = 0; k < owned(); ++k)
+      for (int a = 0; a < box_->dimension(); ++a)
+        if (!(std::abs(ensemble_->row(order_[k])[a] - references_[4 * k + a]) <=
+              std::sqrt(std::numeric_limits<double>::max())))
+          not_finite(*ensemble_, order_[k]);
+  if (box_->any_wall()) {
+    Edges const now = edges();
+    if (now != edges_) changed = true;
+    edges_ = now;
+    find_image_maps();
+  }
+  refresh_images(0, blocks(), threads);
+  return changed;
+}
+
+void SortedCopy::refresh_images(std::size_t first_block, std::size_t last_block, int threads) {
+  for_ranges(ghost_source_.size(), refresh_grain, threads,
+             [&](std::size_t begin, std::size_t end) { move_ghosts(first_block, last_block, begin, end); });
+}
+
+bool SortedCopy::is_current() const {
+  if (owned() != ensemble_->size() || (box_->any_wall() && edges() != edges_)) return false;
+  for (std::size_t k = 0; k < owned(); ++k)
+    for (int a = 0; a < box_->dimension(); ++a) {
+      double x = ensemble_->row(order_[k])[a];
+      if (box_->periodic(a))
+        x -= box_->length(a) * std::nearbyint((x - references_[4 * k + a]) * (1 / box_->length(a)));
+      if (x != rows_[row_block * k + a]) return false;
+    }
+  return true;
+}
+
+double SortedCopy::largest2() const {
+  double largest = 0;
+  for (double const square : largest2_) largest = std::max(largest, square);
+  // An image moves by twice as much as its wall (by the root of the sum of such squares, if it has several), and one of
+  // a pair is an owned particle.
+  double const moved = walls_moved();
+  return moved == 0 ? largest : (std::sqrt(largest) + moved) * (std::sqrt(largest) + moved);
+}
+
+std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) const {
+  std::vector<std::uint32_t> rows;
+  if (double const moved = walls_moved(); moved > 0) {
+    double const left = std::sqrt(square) - moved;
+    square = left < 0 ? -1 : left * left;
+  }
+  for (std::size_t b = 0; b < largest2_.size(); ++b) {
+    if (largest2_[b] <= square) continue;
+    for (std::size_t k = b * together; k < std::min((b + 1) * together, owned()); ++k) {
+      double moved2 = 0;
+      for (int a = 0; a < box_->dimension(); ++a) {
+        double const d = rows_[row_block * k + a] - references_[4 * k + a];
+        moved2 += d * d;
+      }
+      if (moved2 <= square * (1 - 1e-12)) continue;
+      rows.push_back(static_cast<std::uint32_t>(k));
+      if (rows.size() == most) return rows;
+    }
+  }
+  return rows;
+}
+
+void SortedCopy::move(std::span<std::uint32_t const> rows) {
+  std::vector<double> references(3 * rows.size(), 0.0);
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    for (int a = 0; a < box_->dimension(); ++a) {
+      double const x = rows_[row_block * rows[n] + a];
+      references[3 * n + a] = box_->periodic(a) ? box_->wrapped(x, a) : x;
+    }
+  move(rows, references);
+}
+
+void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double const> references) {
+  int const dimension = box_->dimension();
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    std::uint32_t const k = rows[n];
+    double* const reference = references_.data() + 4 * std::size_t{k};
+    auto const known = std::find(moved_.begin(), moved_.end(), k);
+    auto const m = static_cast<std::size_t>(known - moved_.begin());
+    if (known == moved_.end()) {
+      // Out of the cells, with all images.
+      each_image(reference, [&](std::array<int, 3>, std::array<double, 3> const& at) {
+        std::size_t const cell = cells_.grid().cell_of(at.data());
+        for (std::uint32_t s = cells_.start()[cell]; s < cells_.start()[cell + 1]; ++s) {
+          std::size_t const row = row_of_item(item_[s]);
+          if ((row < owned() ? row : ghost_source_[row - owned() - 1]) == k)
+            position_[0][s] = opposite(in_steps(at[0], reach_));
+        }
+      });
+      moved_.push_back(k);
+      built_.push_back({reference[0], reference[1], reference[2]});
+      images_.emplace_back();
+    }
+    for (auto const& image : images_[m])
+      if (image.row != k) free_.push_back(image.row - static_cast<std::uint32_t>(owned()) - 1);
+    images_[m].clear();
+    for (int a = 0; a < dimension; ++a) {
+      reference[a] = references[3 * n + a];
+      steps_[4 * k + a] = in_steps(reference[a], reach_);
+      double& x = rows_[row_block * k + a];
+      if (box_->periodic(a)) x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
+    }
+    each_image(reference, [&](std::array<int, 3> turns, std::array<double, 3> const& at) {
+      if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) {
+        images_[m].push_back({k, at});
+        return;
+      }
+      if (free_.empty()) {
+        free_.push_back(static_cast<std::uint32_t>(ghost_source_.size()));
+        ghost_source_.push_back(k);
+        ghost_turns_.push_back(0);
+        make_room(total() + 1);
+      }
+      std::uint32_t const g = free_.back();
+      free_.pop_back();
+      ghost_source_[g] = k;
+      ghost_turns_[g] = code_of(turns);
+      images_[m].push_back({static_cast<std::uint32_t>(owned() + 1 + g), at});
+      move_ghosts(0, all_blocks(), g, g + 1);
+    });
+  }
+  for (auto& column : moved_position_) column.clear();
+  moved_item_.clear();
+  for (std::size_t m = 0; m < moved_.size(); ++m)
+    for (auto const& image : images_[m]) {
+      moved_item_.push_back(item_of_row(image.row));
+      for (std::size_t a = 0; a < 3; ++a) moved_position_[a].push_back(in_steps(image.position[a], reach_));
+    }
+  moved_item_.resize(moved_item_.size() + candidate_padding, 0);
+  for (auto& column : moved_position_) column.resize(moved_item_.size(), 0);
+}
+
+void SortedCopy::owned_near(double const* x, double reach, std::vector<std::uint32_t>& rows) const {
+  std::array<std::int32_t, 3> steps{};
+  for (int a = 0; a < box_->dimension(); ++a) steps[a] = in_steps(x[a], reach_);
+  double const furthest = reach / reach_ * steps_of_reach * (1 + 1e-6) + 4;
+  auto const take = [&](auto const& position, std::size_t s, std::uint32_t item) {
+    double square = 0;
+    for (int a = 0; a < box_->dimension(); ++a) {
+      double const d = wrapped_difference(position[a][s], steps[a]);
+      square += d * d;
+    }
+    if (square > furthest * furthest) return;
+    std::size_t const row = row_of_item(item);
+    rows.push_back(row < owned() ? static_cast<std::uint32_t>(row) : ghost_source_[row - owned() - 1]);
+  };
+  cells_.near(x, reach, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) take(position_, s, item_[s]);
+  });
+  for (std::size_t s = 0; s + candidate_padding < moved_item_.size(); ++s) take(moved_position_, s, moved_item_[s]);
+}
+
+std::vector<double> SortedCopy::built_references() const {
+  int const dimension = box_->dimension();
+  std::vector<double> references(owned() * dimension);
+  for (std::size_t k = 0; k < owned(); ++k)
+    for (int a = 0; a < dimension; ++a) references[order_[k] * dimension + a] = references_[4 * k + a];
+  for (std::size_t m = 0; m < moved_.size(); ++m)
+    for (int a = 0; a < dimension; ++a) references[order_[moved_[m]] * dimension + a] = built_[m][a];
+  return references;
+}
+
+NearTask SortedCopy::near_task() const {
+  NearTask task;
+  task.grid = &cells_.grid();
+  task.start = cells_.start().data();
+  task.steps_per_length = steps_of_reach / reach_;
+  for (int a = 0; a < 3; ++a) {
+    task.sorted.position[a] = position_[a].data();
+    task.moved.position[a] = moved_position_[a].data();
+  }
+  task.sorted.item = item_.data();
+  task.moved.item = moved_item_.data();
+  task.moved_count = static_cast<std::uint32_t>(moved_item_.size() - candidate_padding);
+  task.sentinel = item_of_row(sentinel());
+  return task;
+}
+
+std::size_t SortedCopy::bytes() const {
+  auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
+  return of(order_) + of(rows_) + of(references_) + of(steps_) + of(ghost_source_) + of(ghost_turns_) + of(largest2_) +
+         of(cells_.items()) + of(cells_.start()) + of(position_[0]) + of(position_[1]) + of(position_[2]) + of(item_);
+}
+
+}  // namespace boltzmann

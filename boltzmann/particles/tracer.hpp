@@ -1,0 +1,20 @@
+// Tracer: fluid particles, driven by a velocity field (section 3.6).
+#pragma once
+
+#include <boltzmann/particles/particle.hpp>
+
+namespace boltzmann {
+
+/// A fluid particle; its influence is a velocity.
+template <int D, class Real = double>
+struct Tracer : Particle<D, Real> {
+  static constexpr char const* class_name = "Tracer";
+
+  /// Eq 3.8: dr/dt = v, the velocity field at the particle.
+  template <class Self, class I, class Rate>
+  static void equations(Self const&, I const& velocity, Rate const& rate) {
+    rate(&Tracer::position, velocity);
+  }
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,333 @@
+// Reads [[dissipation]], friction and noise, and [equilibrate], which brings particles to a temperature before the run.
+#include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/dissipation/dissipation_options.hpp>
+#include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/scenario/read_options.hpp>
+#include <boltzmann/scenario/reading.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+/// A equilibration longer than this is a slip of the pen.
+constexpr double most_steps = 9e15;
+
+/// Two ensembles (or one, twice) with dissipation of some kind, and where it says so.
+struct DissipatingPair {
+  ReadEnsemble const *a, *b;
+  Place place;
+};
+
+/// What the readers of single tables share.
+struct Dissipations {
+  Reading& reading;
+  PairDissipation* pairs = nullptr;  // all of them together
+  std::optional<Place> first_dpd;
+  DissipationOptions together;  // method, corrector and metropolis: those of the first
+  std::vector<DissipatingPair> dissipations, baths;
+};
+
+/// Whether friction and noise can act on an ensemble; a mistake if not.
+bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view key, Reading& reading) {
+  AnyEnsemble const* particles = ensemble.particles;
+  if (!particles || !ensemble.integrator) return false;
+  auto const refuse = [&](std::string const& why) {
+    reading.mistake(place, fmt::format("{}: friction and noise can't act on '{}': {}", key, ensemble.name, why));
+    return false;
+  };
+  if (!carries_momentum(*particles))
+    return refuse(fmt::format("particles of class {} have no mass and velocity", ensemble.kind->name));
+  if (ensemble.integrator->method() != Method::leap_frog)
+    return refuse(
+        fmt::format("they need integrator = \"leap-frog\", not \"{}\"", to_string(ensemble.integrator->method())));
+  if (!ensemble.integrator->same_for_all())
+    return refuse("some of its particles are frozen; put these into an ensemble of their own");
+  return true;
+}
+
+/// Two dissipations of a kind on the same particles would have the same noise.
+bool taken(std::vector<DissipatingPair>& list, ReadEnsemble const* a, ReadEnsemble const* b, Place const& place,
+           std::string_view what, Reading& reading) {
+  for (auto const& other : list)
+    if ((other.a == a && other.b == b) || (other.a == b && other.b == a)) {
+      reading.mistake(place, fmt::format("there is a {} dissipation {} already, in line {}", what,
+                                         a == b ? fmt::format("of '{}'", a->name)
+                                                : fmt::format("between '{}' and '{}'", a->name, b->name),
+                                         other.place.line));
+      return true;
+    }
+  list.push_back({a, b, place});
+  return false;
+}
+
+/// `on` one ensemble or `between` two; nothing, and a mistake, if there is neither.
+std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& reading) {
+  Item const *on = section.find("on"), *between = section.find("between");
+  if ((on == nullptr) == (between == nullptr)) {
+    reading.mistake(between ? between->place : section.place(),
+                    between ? "between: 'on' says on whom, too; leave one out"
+                            : "[[dissipation]] does not say on whom: add on = \"atoms\" or between = [\"a\", \"b\"]");
+    return {};
+  }
+  if (on) {
+    ReadEnsemble* one = reading.ensemble(*on, "on");
+    return {one, one};
+  }
+  if (!between->is(Item::Kind::array) || between->elements.size() != 2) {
+    reading.mistake(
+        between->place,
+        fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", found(*between),
+                    between->is(Item::Kind::array) ? fmt::format(" of {}", between->elements.size()) : ""));
+    return {};
+  }
+  ReadEnsemble *a = reading.ensemble(between->elements[0], "between"),
+               *b = reading.ensemble(between->elements[1], "between");
+  if (a && a == b) {
+    reading.mistake(between->elements[1].place, fmt::format("between: '{}' twice; within one ensemble write on = "
+                                                            "\"{}\"",
+                                                            a->name, a->name));
+    return {};
+  }
+  return {a, b};
+}
+
+/// method, corrector and metropolis stand in the first of all of kind "dpd".
+void check_method(Section& section, DissipationOptions const& options, Dissipations& all) {
+  Reading& reading = all.reading;
+  if (all.first_dpd) {
+    for (char const* key : {"method", "corrector", "metropolis"})
+      if (section.has(key))
+        reading.mistake(
+            section.place(key),
+            fmt::format("{}: dissipations of kind \"dpd\" act together, in one way for all, which the first of them "
+                        "says (line {})",
+                        key, all.first_dpd->line));
+    return;
+  }
+  bool const splitting = options.method == DissipationMethod::shardlow;
+  if (options.corrector && splitting)
+    reading.mistake(section.place("corrector"), "corrector: it belongs to method = \"simultaneous\"");
+  if (options.metropolis && !splitting)
+    reading.mistake(section.place("metropolis"), "metropolis: it belongs to method = \"shardlow\"");
+}
+
+/// What its convention asks of the temperature and of conduction.
+void check_convention(Section& section, DissipationLaw const& dissipation, Reading& reading) {
+  using enum Convention;
+  std::string const name = to_string(dissipation.convention);
+  if (dissipation.convention != constant_friction)
+    section.need("temperature", reading.context.base.is_reduced() ? "temperature = 1" : "temperature = \"300 K\"");
+  else if (section.has("temperature"))
+    reading.mistake(section.place("temperature"),
+                    fmt::format("temperature: convention \"{}\" uses none but the particles' own; leave it out", name));
+  if (dissipation.convention == fixed_temperature && dissipation.conduction > 0)
+    reading.mistake(section.place("conduction"),
+                    "conduction: with convention \"fixed-temperature\" particles have no temperatures of their own "
+                    "between which heat could flow; another convention has");
+}
+
+/// Whether a temperature belongs to the internal energy of each particle; a mistake if not.
+bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::string_view convention, Reading& reading) {
+  if (!has_internal_energy(*ensemble.kind)) {
+    reading.mistake(place, fmt::format("convention: \"{}\" turns motion into internal energy; particles of class {} "
+                                       "('{}') have none, those of class Meso have, and \"fixed-temperature\" does "
+                                       "without",
+                                       convention, ensemble.kind->name, ensemble.name));
+    return false;
+  }
+  bool const reduced = reading.context.base.is_reduced();
+  if (!ensemble.state) {
+    reading.mistake(place, fmt::format("convention: \"{}\" needs the temperatures of internal energies; give '{}' a "
+                                       "heat_capacity, e.g. heat_capacity = {}",
+                                       convention, ensemble.name, reduced ? "16" : "\"16 kB\""));
+    return false;
+  }
+  AnyEnsemble const& particles = *ensemble.particles;
+  int const energy = particles.field("internal_energy").offset;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (double const own = particles.row(i)[energy]; !(own > 0)) {
+      reading.mistake(ensemble.place,
+                      fmt::format("the internal energy of particle {} of '{}' is {}; it must be positive to have a "
+                                  "temperature: add e.g. internal_energy = {{ temperature = {} }}",
+                                  i, ensemble.name, own, reduced ? "1" : "\"300 K\""));
+      return false;
+    }
+  return true;
+}
+
+void read_pairs(Section& section, Item const& table, Dissipations& all) {
+  Reading& reading = all.reading;
+  std::size_t const before = reading.context.mistakes.count();
+  auto const [a, b] = read_pair(section, reading);
+  DissipationOptions options;
+  read_options(section, dissipation_options(), &options, {.dimension = reading.dimension});
+  DissipationLaw const& dissipation = options.dissipation;
+  if (section.has("convention") && section.item("convention")->text == to_string(dissipation.convention))
+    check_convention(section, dissipation, reading);
+  check_method(section, options, all);
+  section.finish();
+  if (!all.first_dpd) {
+    all.first_dpd = table.place;
+    all.together = options;
+  }
+  if (all.together.metropolis &&
+      (dissipation.convention == Convention::fixed_temperature || dissipation.convention == Convention::deterministic))
+    reading.mistake(section.place("convention"),
+                    fmt::format("convention: 'metropolis' is for friction with noise and internal energies, not for "
+                                "\"{}\"",
+                                to_string(dissipation.convention)));
+  if (reading.result->mesh)
+    return reading.mistake(table.place,
+                           "dissipation acts between near particles, which a scenario with a [mesh] does not "
+                           "look for");
+  if (reading.context.mistakes.count() != before || !a || !b || !reading.result->pairs) return;
+  Place const whom = section.place(section.has("on") ? "on" : "between");
+  char const* key = section.has("on") ? "on" : "between";
+  if (!supports(*a, whom, key, reading) || (a != b && !supports(*b, whom, key, reading))) return;
+  if (taken(all.dissipations, a, b, whom, "dpd", reading)) return;
+  for (int axis = 0; axis < reading.dimension; ++axis)
+    if (double const most = 0.5 * reading.box->length(axis); reading.box->periodic(axis) && dissipation.range > most)
+      return reading.mistake(section.place("range"),
+                             fmt::format("range: {} is longer than half of the periodic axis {}, {}: a particle would "
+                                         "meet another one twice",
+                                         dissipation.range, "xyz"[axis], most));
+  if (dissipation.convention != Convention::fixed_temperature)
+    for (ReadEnsemble const* one : {a, b})
+      if (!has_temperatures(*one, section.place("convention"), section.item("convention")->text, reading)) return;
+  if (!all.pairs)
+    guarded(reading, table.place, [&] {
+      auto pairs = std::make_unique<PairDissipation>(*reading.result->pairs, reading.boltzmann_constant());
+      pairs->method(all.together.method);
+      pairs->corrector(all.together.corrector);
+      pairs->metropolis(all.together.metropolis);
+      all.pairs = pairs.get();
+      reading.result->dissipations.push_back(std::move(pairs));
+    });
+  if (!all.pairs) return;
+  guarded(reading, table.place, [&] {
+    for (ReadEnsemble const* one : {a, b})
+      if (one->state && (one == a || a != b)) all.pairs->state(*one->particles, *one->state);
+    if (a == b)
+      all.pairs->internal(*a->particles, dissipation);
+    else
+      all.pairs->between(*a->particles, *b->particles, dissipation);
+  });
+}
+
+/// A heat bath for every particle, from `temperature` and `rate`.
+std::unique_ptr<LangevinBath> read_bath(Section& section, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  BathOptions bath;
+  read_options(section, bath_options(), &bath, {.dimension = reading.dimension});
+  if (reading.context.mistakes.count() != before || !reading.base_known) return nullptr;
+  return std::make_unique<LangevinBath>(bath.temperature, bath.rate, reading.boltzmann_constant());
+}
+
+void read_langevin(Section& section, Dissipations& all) {
+  Reading& reading = all.reading;
+  std::size_t const before = reading.context.mistakes.count();
+  Item const* on = section.need("on", "on = \"atoms\"");
+  ReadEnsemble const* ensemble = on ? reading.ensemble(*on, "on") : nullptr;
+  auto bath = read_bath(section, reading);
+  section.finish();
+  if (reading.context.mistakes.count() != before || !ensemble || !bath) return;
+  if (!supports(*ensemble, on->place, "on", reading)) return;
+  if (taken(all.baths, ensemble, ensemble, on->place, "langevin", reading)) return;
+  guarded(reading, on->place, [&] {
+    bath->on(*ensemble->particles);
+    reading.result->dissipations.push_back(std::move(bath));
+  });
+}
+
+bool refused_with_smooth(Item const& table, std::string_view what, Reading& reading) {
+  if (!reading.smooth.wanted) return false;
+  reading.mistake(table.place, fmt::format("{}: smooth particles have the viscosity and the conductivity of their "
+                                           "material, and no other friction or noise",
+                                           what));
+  return true;
+}
+
+void read_table(Item const& table, Dissipations& all) {
+  Reading& reading = all.reading;
+  if (refused_with_smooth(table, "[[dissipation]]", reading)) return;
+  Section section(table, "[[dissipation]]", reading.context);
+  Item const* word = section.need("kind", "kind = \"dpd\"");
+  std::vector<std::string> kinds;
+  for (auto const& one : dissipation_kinds()) kinds.push_back(one.name);
+  auto const kind = word ? read_word(*word, "dissipation", kinds, reading.context) : std::nullopt;
+  if (!kind) return;
+  section.rename(fmt::format("[[dissipation]] '{}'", *kind));
+  if (*kind == "dpd")
+    read_pairs(section, table, all);
+  else
+    read_langevin(section, all);
+}
+
+/// Without `on` those that forces move by leap-frog are prepared.
+std::vector<ReadEnsemble const*> to_be_prepared(Item const* on, Reading& reading) {
+  std::vector<ReadEnsemble const*> chosen;
+  if (!on) {
+    for (auto const& ensemble : reading.ensembles)
+      if (ensemble.particles && ensemble.integrator && carries_momentum(*ensemble.particles) &&
+          ensemble.integrator->method() == Method::leap_frog && ensemble.integrator->same_for_all())
+        chosen.push_back(&ensemble);
+    return chosen;
+  }
+  std::vector<Item> const one{*on};
+  if (read_texts(*on, "on", reading.context).empty()) return {};
+  for (Item const& word : on->is(Item::Kind::array) ? on->elements : one)
+    if (ReadEnsemble const* ensemble = reading.ensemble(word, "on"))
+      if (supports(*ensemble, word.place, "on", reading) &&
+          std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
+        chosen.push_back(ensemble);
+  return chosen;
+}
+
+void read_equilibration(Item const& table, Reading& reading) {
+  if (refused_with_smooth(table, "[equilibrate]", reading)) return;
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[equilibrate]", reading.context);
+  Item const* on = section.find("on");
+  auto bath = read_bath(section, reading);
+  auto const time = section.need_quantity(
+      "time", dimensions::time, reading.context.base.is_reduced() ? "time = 10" : "time = \"2 ps\"", not_negative);
+  section.finish();
+  auto const chosen = to_be_prepared(on, reading);
+  if (reading.context.mistakes.count() != before || !bath || !time || !reading.run.step) return;
+  // A time of so many steps, but for rounding, is that many.
+  double const steps = std::ceil(*time / *reading.run.step * (1 - 1e-12));
+  if (steps > most_steps)
+    return reading.mistake(section.place("time"), fmt::format("time: it would need {:.3g} steps", steps));
+  bool const loaded = std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
+                                  [](ReadEnsemble const& ensemble) { return ensemble.particles != nullptr; });
+  if (!loaded) return;
+  if (chosen.empty())
+    return reading.mistake(table.place,
+                           "[equilibrate]: there is no ensemble of particles with mass and velocity whose "
+                           "integrator is \"leap-frog\"");
+  guarded(reading, table.place, [&] {
+    for (ReadEnsemble const* ensemble : chosen) bath->on(*ensemble->particles);
+    reading.equilibration = {std::move(bath), static_cast<std::uint64_t>(steps)};
+  });
+}
+
+}  // namespace
+
+void read_dissipations(Section& document, Reading& reading) {
+  Dissipations all{reading, nullptr, {}, {}, {}, {}};
+  for (Item const* table : find_tables(document, "dissipation")) read_table(*table, all);
+  if (Item const* table = find_table(document, "equilibrate")) read_equilibration(*table, reading);
+}
+
+void add_dissipations(Reading const& reading) {
+  Simulation& simulation = *reading.result->simulation;
+  for (auto const& dissipation : reading.result->dissipations) simulation.add(*dissipation);
+  if (reading.equilibration.bath) simulation.equilibrate(reading.equilibration.bath, reading.equilibration.steps);
+}
+
+}  // namespace boltzmann
