@@ -53,11 +53,11 @@
 #include <boltzmann/particles/species.hpp>
 #include <boltzmann/particles/tethered.hpp>
 #include <boltzmann/particles/vortex.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/window/window.hpp>

@@ -4,9 +4,9 @@
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/standard_streams.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/scenario/scenario.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
-#include <boltzmann/simulation/recording.hpp>
 
 #include <fmt/format.h>
 

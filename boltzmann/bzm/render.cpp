@@ -3,11 +3,11 @@
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/bzm/scenario_recording.hpp>
 #include <boltzmann/bzm/sweep.hpp>
-#include <boltzmann/diagnoses/figure.hpp>
-#include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/pictures/figure.hpp>
+#include <boltzmann/pictures/figure_layout.hpp>
+#include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
-#include <boltzmann/simulation/run_file.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/scenario/scenario.hpp>
-#include <boltzmann/simulation/recording.hpp>
 
 #include <chrono>
 #include <memory>

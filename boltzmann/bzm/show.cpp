@@ -6,6 +6,7 @@
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/load_options.hpp>
@@ -15,7 +16,6 @@
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
 
 #include <fmt/format.h>
 

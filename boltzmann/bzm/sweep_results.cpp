@@ -1,11 +1,11 @@
 // Means over the seeds. A run counts once for its value: its last row, or its mean over the rows since `from`.
 #include <boltzmann/bzm/sweep_results.hpp>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/diagnoses/error_bars.hpp>
-#include <boltzmann/diagnoses/figure.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/pictures/error_bars.hpp>
+#include <boltzmann/pictures/figure.hpp>
 
 #include <fmt/format.h>
 

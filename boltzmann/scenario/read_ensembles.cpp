@@ -1,9 +1,9 @@
 // Reads [[ensembles]]: which particles there are, and in what state.
-#include <boltzmann/diagnoses/colour.hpp>
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
+#include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/field_values.hpp>
 #include <boltzmann/scenario/frozen.hpp>

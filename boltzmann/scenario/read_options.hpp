@@ -2,8 +2,8 @@
 #pragma once
 
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/section.hpp>
-#include <boltzmann/simulation/picture.hpp>
 
 #include <functional>
 #include <optional>

@@ -1,7 +1,7 @@
 // Reads [[output.pictures]] and [[views]]: what is drawn.
+#include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
 
 #include <fmt/format.h>
 

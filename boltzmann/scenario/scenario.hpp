@@ -6,13 +6,13 @@
 #include <boltzmann/core/unit_base.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/dissipation/dissipation.hpp>
+#include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/sweep.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
-#include <boltzmann/simulation/picture.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cstdint>

@@ -4,12 +4,12 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/schema.hpp>
 #include <boltzmann/scenario/tables.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
 
 #include <fmt/format.h>
 

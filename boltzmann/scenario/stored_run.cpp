@@ -1,12 +1,12 @@
 // A program's run is ensembles that know their fields, and a scheme that knows their box.
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/laws/weight.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
+#include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/section.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
-#include <boltzmann/simulation/run_file.hpp>
 
 #include <filesystem>
 #include <utility>

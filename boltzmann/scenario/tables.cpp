@@ -1,8 +1,8 @@
 // What the tables of a scenario say, but those whose room has its own.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/diagnoses/colour.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
 #include <boltzmann/schemes/smooth/smooth_options.hpp>

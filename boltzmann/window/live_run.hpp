@@ -1,7 +1,7 @@
 // Live run: a simulation that goes on while it is looked at; PLAY, STEP, REWD, STOP and QUIT.
 #pragma once
 
-#include <boltzmann/simulation/progress.hpp>
+#include <boltzmann/recording/progress.hpp>
 #include <boltzmann/window/audience.hpp>
 #include <boltzmann/window/stage.hpp>
 

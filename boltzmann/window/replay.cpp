@@ -1,7 +1,7 @@
 // A frame is loaded into the ensembles; then everything is drawn as if the run had just come there.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
-#include <boltzmann/simulation/interrupt.hpp>
+#include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/window/replay.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Show: what a window shows, as its audience sees it: a run that goes on, a stored one, or the gallery of scenarios.
 #pragma once
 
-#include <boltzmann/diagnoses/canvas.hpp>
+#include <boltzmann/pictures/canvas.hpp>
 
 #include <nlohmann/json_fwd.hpp>
 

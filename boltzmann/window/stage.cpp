@@ -3,11 +3,11 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
-#include <boltzmann/diagnoses/figure.hpp>
-#include <boltzmann/diagnoses/projection.hpp>
+#include <boltzmann/pictures/figure.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
+#include <boltzmann/pictures/projection.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/simulation/conserved.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/window/option_json.hpp>
 #include <boltzmann/window/stage.hpp>
 #include <boltzmann/window/wire.hpp>

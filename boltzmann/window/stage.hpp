@@ -2,7 +2,7 @@
 // and the stored one stand on it.
 #pragma once
 
-#include <boltzmann/simulation/picture.hpp>
+#include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/window/show.hpp>
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,7 +1,7 @@
 // One stage, one audience, one run.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/diagnoses/colour.hpp>
-#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/pictures/colour.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/live_run.hpp>
 #include <boltzmann/window/window.hpp>

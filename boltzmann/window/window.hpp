@@ -7,9 +7,9 @@
 // hold the simulation up.
 #pragma once
 
-#include <boltzmann/diagnoses/canvas.hpp>
-#include <boltzmann/simulation/picture.hpp>
-#include <boltzmann/simulation/progress.hpp>
+#include <boltzmann/pictures/canvas.hpp>
+#include <boltzmann/pictures/picture.hpp>
+#include <boltzmann/recording/progress.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <concepts>

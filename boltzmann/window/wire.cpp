@@ -1,6 +1,6 @@
 // From a canvas to the arrays and words of protocol.md.
-#include <boltzmann/diagnoses/figure_layout.hpp>
-#include <boltzmann/diagnoses/projection.hpp>
+#include <boltzmann/pictures/figure_layout.hpp>
+#include <boltzmann/pictures/projection.hpp>
 #include <boltzmann/window/wire.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Wire: canvases as bytes for the page (protocol.md). Single precision, each array once, nothing copied that is large.
 #pragma once
 
-#include <boltzmann/diagnoses/canvas.hpp>
+#include <boltzmann/pictures/canvas.hpp>
 #include <boltzmann/window/web_server.hpp>
 
 #include <nlohmann/json_fwd.hpp>

@@ -13,7 +13,7 @@ constexpr char const* program = R"cpp(
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
+#include <boltzmann/recording/recording.hpp>
 
   using namespace boltzmann;
 

@@ -6,11 +6,11 @@
 
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
+#include <boltzmann/recording/version.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/tables.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
-#include <boltzmann/simulation/version.hpp>
 
 #include <cairo/cairo.h>
 #include <cmath>

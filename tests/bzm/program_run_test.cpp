@@ -4,11 +4,11 @@
 
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
+#include <boltzmann/recording/recording.hpp>
+#include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
-#include <boltzmann/simulation/recording.hpp>
-#include <boltzmann/simulation/run_file.hpp>
 #include <tests/message.hpp>
 
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/scenario/stop_condition.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 
 #include <cstring>
 

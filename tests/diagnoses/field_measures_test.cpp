@@ -7,9 +7,9 @@
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <tests/files/temporary_folder.hpp>
 #include <tests/message.hpp>
 

@@ -1,8 +1,8 @@
 // Means with standard errors, straight lines through points, and drawings of both.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/diagnoses/error_bars.hpp>
-#include <boltzmann/diagnoses/figure_layout.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
+#include <boltzmann/pictures/error_bars.hpp>
+#include <boltzmann/pictures/figure_layout.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>

@@ -6,8 +6,8 @@
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/particles/tracer.hpp>
+#include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/picture.hpp>
 
 #include <tests/message.hpp>
 #include <tests/seed.hpp>

@@ -6,8 +6,8 @@
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/particles/meso.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>

@@ -10,8 +10,8 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/vortex.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
@@ -476,7 +476,7 @@ std::string refusal(std::function<void(DissipationLaw&)> const& change) {
 
 double const nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(DissipativeFlowErrors, Dissipations) {
+TEST(DissipationErrors, Dissipations) {
   EXPECT_EQ(refusal([](auto&) {}), "no error");
   EXPECT_EQ(refusal([](auto& d) { d.friction = -1; }), "dissipation: friction is zero or more, not -1");
   EXPECT_EQ(refusal([](auto& d) { d.friction = nan; }), "dissipation: friction is zero or more, not nan");
@@ -494,7 +494,7 @@ TEST(DissipativeFlowErrors, Dissipations) {
             "dissipation: at a fixed temperature there are no internal energies that could be conducted");
 }
 
-TEST(DissipativeFlowErrors, Names) {
+TEST(DissipationErrors, Names) {
   for (auto const& name : convention_words().names()) EXPECT_EQ(to_string(convention_words().named(name)), name);
   EXPECT_EQ(convention_words().names().size(), 4U);
   for (DissipationMethod const method : {DissipationMethod::simultaneous, DissipationMethod::shardlow})
@@ -506,7 +506,7 @@ TEST(DissipativeFlowErrors, Names) {
             "unknown method of dissipation 'shardlow'; there are simultaneous, shardlow");
 }
 
-TEST(DissipativeFlowErrors, EnsemblesAndBoxes) {
+TEST(DissipationErrors, EnsemblesAndBoxes) {
   Ensemble<Meso<2>> meso("meso", 3);
   Ensemble<Newton<2>> atoms("atoms", 3);
   Ensemble<Inviscid<2>> vortices("vortices", 3);
@@ -558,7 +558,7 @@ TEST(DissipativeFlowErrors, EnsemblesAndBoxes) {
             "a dissipation has at most 100 kinds of friction");
 }
 
-TEST(DissipativeFlowErrors, Methods) {
+TEST(DissipationErrors, Methods) {
   Ensemble<Meso<2>> meso("meso", 3);
   for (auto& p : meso) p.internal_energy = 1;
   PairScheme scheme(cube<2>(4), 1);
@@ -605,7 +605,7 @@ struct Small {
   }
 };
 
-TEST(DissipativeFlowErrors, Simulations) {
+TEST(DissipationErrors, Simulations) {
   for (Method const method :
        {Method::euler, Method::rk2, Method::rk4, Method::deactivate, Method::reversible_leap_frog}) {
     Small small;
@@ -638,7 +638,7 @@ std::string failure_of(auto const& call) {
   return "no failure";
 }
 
-TEST(DissipativeFlowErrors, NegativeInternalEnergiesNameParticleAndStep) {
+TEST(DissipationErrors, NegativeInternalEnergiesNameParticleAndStep) {
   for (bool const corrector : {false, true}) {
     Small small(0.05, 0.4);
     small.dpd.corrector(corrector);
@@ -656,7 +656,7 @@ TEST(DissipativeFlowErrors, NegativeInternalEnergiesNameParticleAndStep) {
   }
 }
 
-TEST(DissipativeFlowErrors, NoNumbers) {
+TEST(DissipationErrors, NoNumbers) {
   for (bool const splitting : {false, true})
     for (bool const fixed : {false, true}) {
       Ensemble<Meso<2>> matter("matter");

@@ -9,12 +9,12 @@
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/recording/recording.hpp>
+#include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
-#include <boltzmann/simulation/run_file.hpp>
 #ifdef BOLTZMANN_WITH_WINDOW
 #include <boltzmann/window/gallery_show.hpp>
 #include <boltzmann/window/live_run.hpp>

@@ -2,8 +2,8 @@
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 
 using namespace boltzmann;
 

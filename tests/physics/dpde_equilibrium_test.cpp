@@ -99,7 +99,7 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
   }
 }
 
-TEST(DpdeEquilibrium, EveryKindOfFlowHasTheSame) {
+TEST(DpdeEquilibrium, EveryKindOfDissipationHasTheSame) {
   for (auto const convention : {Convention::constant_noise, Convention::constant_friction})
     for (bool const projected : {false, true})
       for (auto const method : {DissipationMethod::simultaneous, DissipationMethod::shardlow})

@@ -220,17 +220,17 @@ std::vector<Mistake> const rows{
      {"'water'", "\"leap-frog\", not \"deactivate\""}},
 };
 
-class FlowMistakes : public testing::TestWithParam<Mistake> {};
+class DissipationMistakes : public testing::TestWithParam<Mistake> {};
 
-TEST_P(FlowMistakes, AreToldInOneLine) { test::expect_one_line(GetParam()); }
+TEST_P(DissipationMistakes, AreToldInOneLine) { test::expect_one_line(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Scenario, FlowMistakes, testing::ValuesIn(rows), mistake_name);
+INSTANTIATE_TEST_SUITE_P(Scenario, DissipationMistakes, testing::ValuesIn(rows), mistake_name);
 
-TEST(FlowMistakesInAll, TheScenarioHasNone) { EXPECT_NO_THROW(parse_scenario(good, "test.toml")); }
+TEST(DissipationMistakesInAll, TheScenarioHasNone) { EXPECT_NO_THROW(parse_scenario(good, "test.toml")); }
 
-TEST(FlowMistakesInAll, OfAnyMissingLineAreTold) { test::expect_mistakes_of_what_is_missing(good, 400, 10); }
+TEST(DissipationMistakesInAll, OfAnyMissingLineAreTold) { test::expect_mistakes_of_what_is_missing(good, 400, 10); }
 
-TEST(FlowMistakesInAll, SmoothParticlesAndMeshesHaveNone) {
+TEST(DissipationMistakesInAll, SmoothParticlesAndMeshesHaveNone) {
   std::string const head =
       "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0]\nhigh = [4, 4]\nboundary = \"periodic\"\n[run]\nstep = 0.01\n"
       "steps = 1\n";

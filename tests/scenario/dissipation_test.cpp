@@ -62,7 +62,7 @@ bool same_bits(std::vector<double> const& a, std::vector<double> const& b) {
 
 // ---- Conventions and methods ----
 
-TEST(Flows, DissipativeParticleDynamicsBringsAnIdealGasToItsTemperature) {
+TEST(Dissipation, DissipativeParticleDynamicsBringsAnIdealGasToItsTemperature) {
   std::string const gas = "class = \"Newton\"\nnumber = 1500\nload = { kind = \"random\" }\ntemperature = 2";
   for (std::string const method : {"corrector = true", "method = \"shardlow\""}) {
     auto const run = scenario(text("low = [0, 0, 0]\nhigh = [8, 8, 8]", gas,
@@ -86,7 +86,7 @@ TEST(Flows, DissipativeParticleDynamicsBringsAnIdealGasToItsTemperature) {
   }
 }
 
-TEST(Flows, MotionAndInsideComeToOneTemperature) {
+TEST(Dissipation, MotionAndInsideComeToOneTemperature) {
   // d/2 T + (Cv + k) T of each particle is conserved: 4 + 9 shared by 10 k.
   double const together = (4.0 + 9.0) / 10;
   for (std::string const method : {"corrector = true", "method = \"shardlow\"",
@@ -114,7 +114,7 @@ TEST(Flows, MotionAndInsideComeToOneTemperature) {
     }
 }
 
-TEST(Flows, WithForcesTheEnergyIsConservedAsFarAsTheStepsGo) {
+TEST(Dissipation, WithForcesTheEnergyIsConservedAsFarAsTheStepsGo) {
   std::string const soft = "[[influences]]\nlaw = \"soft\"\non = \"gas\"\nrepulsion = 25\nrange = 1\ncutoff = 1\n";
   for (std::string const method : {"method = \"simultaneous\"", "method = \"shardlow\""}) {
     double drift[2] = {};
@@ -130,7 +130,7 @@ TEST(Flows, WithForcesTheEnergyIsConservedAsFarAsTheStepsGo) {
   }
 }
 
-TEST(Flows, MixturesHaveDissipationsOfTheirOwn) {
+TEST(Dissipation, MixturesHaveDissipationsOfTheirOwn) {
   std::string const second =
       "[[ensembles]]\nname = \"heavy\"\nclass = \"Meso\"\nmass = 5\nnumber = 100\nload = { kind = \"random\" }\n"
       "temperature = 1\nheat_capacity = 9\ninternal_energy = { temperature = 3 }\n";
@@ -155,7 +155,7 @@ TEST(Flows, MixturesHaveDissipationsOfTheirOwn) {
 
 // ---- Reproducibility ----
 
-TEST(Flows, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
+TEST(Dissipation, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
   std::string const rest =
       "[[influences]]\nlaw = \"soft\"\non = \"gas\"\nrepulsion = 25\nrange = 1\ncutoff = 1\n"
       "[equilibrate]\ntemperature = 1\nrate = 2\ntime = 0.4\n";
@@ -184,7 +184,7 @@ TEST(Flows, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
   }
 }
 
-TEST(Flows, SeedsChangeTheNoise) {
+TEST(Dissipation, SeedsChangeTheNoise) {
   std::string const toml = text(square, meso, dpd("convention = \"constant-friction\""));
   auto const one = scenario(toml), other = scenario(toml, {{}, {}, 4, {}});
   EXPECT_NE(one->ensembles[0]->row(7)[5], other->ensembles[0]->row(7)[5]);  // internal energies
@@ -195,7 +195,7 @@ TEST(Flows, SeedsChangeTheNoise) {
 
 // ---- Heat baths ----
 
-TEST(Flows, AHeatBathOnEachParticle) {
+TEST(Dissipation, AHeatBathOnEachParticle) {
   auto const run =
       scenario(text(square, "class = \"Newton\"\nnumber = 20000\nload = { kind = \"random\" }",
                     "[[dissipation]]\nkind = \"langevin\"\non = \"gas\"\ntemperature = 1.5\nrate = 2\n", 0.01));
@@ -206,7 +206,7 @@ TEST(Flows, AHeatBathOnEachParticle) {
   EXPECT_FALSE(end.isolated);
 }
 
-TEST(Flows, APreparationBringsTheParticlesToTheirTemperatureAndKeepsTheirDrift) {
+TEST(Dissipation, AnEquilibrationBringsTheParticlesToTheirTemperatureAndKeepsTheirDrift) {
   std::string const lattice =
       "class = \"Meso\"\nload = { kind = \"block\", lattice = \"square\", spacing = 1, counts = [110, 110] }\n"
       "velocity = [3, 0]\nheat_capacity = 16\ninternal_energy = { temperature = 1 }";
@@ -228,7 +228,7 @@ TEST(Flows, APreparationBringsTheParticlesToTheirTemperatureAndKeepsTheirDrift) 
 
 // ---- State laws ----
 
-TEST(Flows, HeatCapacitiesAsNumberFormulaAndFile) {
+TEST(Dissipation, HeatCapacitiesAsNumberFormulaAndFile) {
   std::string const file = std::filesystem::temp_directory_path() / "boltzmann-dissipation-test-cv.csv";
   std::ofstream(file) << "# T, Cv in k\n10, 4\n1000, 4\n";
   std::string const units =
@@ -259,7 +259,7 @@ TEST(Flows, HeatCapacitiesAsNumberFormulaAndFile) {
   std::filesystem::remove(file);
 }
 
-TEST(Flows, AHeatCapacityThatRises) {
+TEST(Dissipation, AHeatCapacityThatRises) {
   auto const run = scenario(text(square,
                                  "class = \"Meso\"\nnumber = 10\nload = { kind = \"random\" }\ninternal_energy = 6\n"
                                  "heat_capacity = { formula = \"2 + 4*T\", from = 0.001, to = 5 }",
@@ -269,7 +269,7 @@ TEST(Flows, AHeatCapacityThatRises) {
   EXPECT_NEAR(gas.row(3)[gas.field("temperature").offset], (std::sqrt(1 + 12.0) - 1) / 2, 1e-3);
 }
 
-TEST(Flows, MesoparticlesNeedNoHeatCapacityIfNoFlowDoes) {
+TEST(Dissipation, MesoparticlesNeedNoHeatCapacityIfNoFrictionDoes) {
   std::string const plain = "class = \"Meso\"\nnumber = 50\nload = { kind = \"random\" }\ntemperature = 1";
   EXPECT_NO_THROW(scenario(text(square, plain, "")));
   EXPECT_NO_THROW(scenario(text(square, plain, dpd("convention = \"fixed-temperature\"\ntemperature = 1"))));
@@ -277,7 +277,7 @@ TEST(Flows, MesoparticlesNeedNoHeatCapacityIfNoFlowDoes) {
 
 // ---- Energy balance, advice ----
 
-TEST(Flows, WhatAPistonDoesIsPartOfTheEnergyBalance) {
+TEST(Dissipation, WhatAPistonDoesIsPartOfTheEnergyBalance) {
   std::string toml =
       text(square, meso,
            dpd("convention = \"constant-friction\"") + "[equilibrate]\ntemperature = 1\nrate = 2\ntime = 0.5\n", 0.01);
@@ -300,7 +300,7 @@ TEST(Flows, WhatAPistonDoesIsPartOfTheEnergyBalance) {
   EXPECT_NE(conserved_table(start, end, run->base).at(1).find("energy less work "), std::string::npos);
 }
 
-TEST(Flows, EnergyBalanceIsTheFirstColumnLessTheOthers) {
+TEST(Dissipation, EnergyBalanceIsTheFirstColumnLessTheOthers) {
   auto const run = scenario(text(square, "class = \"Newton\"\nnumber = 500\nload = { kind = \"random\" }",
                                  "[[dissipation]]\nkind = \"langevin\"\non = \"gas\"\ntemperature = 1\nrate = 2\n"
                                  "[[diagnoses]]\nkind = \"energy-balance\"\n"));
@@ -316,7 +316,7 @@ TEST(Flows, EnergyBalanceIsTheFirstColumnLessTheOthers) {
   EXPECT_NEAR(values[3], 0, 1e-9 * values[0]);
 }
 
-TEST(Flows, AStepTooCoarseForAShockIsWarnedAbout) {
+TEST(Dissipation, AStepTooCoarseForAShockIsWarnedAbout) {
   auto const shock = [](std::string const& step) {
     return "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n"
            "[box]\nlow = [0, 0]\nhigh = [\"100 angstrom\", \"100 angstrom\"]\nboundary = [\"reflecting\", "

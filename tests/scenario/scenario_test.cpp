@@ -2,11 +2,11 @@
 // right.
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/conserved.hpp>
-#include <boltzmann/simulation/picture.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // [[views]]: diagnoses for the window by field names, read as pictures are, and what is told of mistakes in them.
 #include "mistakes.hpp"
 
+#include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/picture_words.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
 
 #include <gtest/gtest.h>
 

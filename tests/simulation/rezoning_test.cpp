@@ -7,9 +7,9 @@
 #include <boltzmann/laws/materials/ideal_gas.hpp>
 #include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/files/checkpoint.hpp>
-#include <boltzmann/simulation/picture_options.hpp>
+#include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/window/window.hpp>
 
 #include <atomic>

@@ -1,7 +1,7 @@
 // The list of stored runs: what stands below a folder, and nothing else.
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/recording.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/run_list.hpp>
 

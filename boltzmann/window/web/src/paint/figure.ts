@@ -1,5 +1,5 @@
 // What stands around a drawing: frame, ticks, titles, legend, colour bars and notes, laid out as
-// boltzmann/diagnoses/figure.cpp does. All lengths are device pixels.
+// boltzmann/pictures/figure.cpp does. All lengths are device pixels.
 import type { Canvas, ColourBar } from "../protocol";
 import { Pen } from "./text";
 import { css, parse, shown, type Rgba, type Theme } from "./theme";

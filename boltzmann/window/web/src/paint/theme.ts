@@ -1,4 +1,4 @@
-// The colours of a picture on light and on dark paper; those of boltzmann/diagnoses/figure.cpp.
+// The colours of a picture on light and on dark paper; those of boltzmann/pictures/figure.cpp.
 
 export type Rgba = readonly [number, number, number, number];
 

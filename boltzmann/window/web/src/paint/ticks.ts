@@ -1,5 +1,5 @@
 // Ticks: steps of 1, 2, 5 times a power of ten, and labels as short as they can be. As in
-// boltzmann/diagnoses/canvas_ticks.cpp.
+// boltzmann/pictures/canvas_ticks.cpp.
 
 export interface Ticks {
   major: number[];

@@ -1,0 +1,23 @@
+// A page that a canvas is drawn on: a Cairo surface with a size. Private to the figure sources.
+#pragma once
+
+#include <boltzmann/pictures/figure.hpp>
+
+typedef struct _cairo cairo_t;
+
+namespace boltzmann {
+
+/// width and height in device units; `unit` device units are a pixel of a picture of 1200 x 900.
+struct Page {
+  cairo_t* cairo;
+  double width, height, unit;
+  bool dark;
+};
+
+/// Draws the canvas with all that stands around it; a space as it is seen through its projection.
+void draw_page(Canvas const& canvas, Page const& page);
+
+/// Where draw_page() puts the frame, in device units.
+PictureLayout layout_of(Canvas const& canvas, Page const& page);
+
+}  // namespace boltzmann

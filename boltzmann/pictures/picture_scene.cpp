@@ -1,0 +1,261 @@
+// Names to numbers, for pictures; and leaving the simulation as it was.
+#include <boltzmann/pictures/drawing_cartesian.hpp>
+#include <boltzmann/pictures/picture_scene.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann::pictures {
+namespace {
+
+std::vector<AnyEnsemble*> ensembles_of(Simulation const& simulation) {
+  std::vector<AnyEnsemble*> all;
+  for (auto* scheme : simulation.schemes())
+    for (auto* ensemble : scheme->ensembles())
+      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+  return all;
+}
+
+}  // namespace
+
+Scene::Scene(Picture const& what, PictureContext const& where)
+    : picture(what), context(where), ensembles(ensembles_of(where.simulation)) {}
+
+Scene::~Scene() {
+  put_particles_back();
+  for (std::size_t e = 0; e < influences_.size(); ++e)
+    std::copy(influences_[e].begin(), influences_[e].end(), ensembles[e]->influence(0));
+  auto const& schemes = context.simulation.schemes();
+  for (std::size_t s = 0; s < schemes_.size(); ++s) schemes[s]->restore(schemes_[s]);
+}
+
+Box const& Scene::box() const { return context.simulation.schemes().front()->box(); }
+
+int Scene::threads() const {
+  return context.threads > 0 ? context.threads : context.simulation.schemes().front()->threads();
+}
+
+Base::Display Scene::shown_in(Dimension dimension) const { return context.base.display(dimension); }
+
+Axis Scene::axis(std::string label, Dimension dimension) const {
+  auto const [unit, factor] = shown_in(dimension);
+  Axis result{std::move(label), unit};
+  result.factor = factor;
+  return result;
+}
+
+std::string Scene::title(bool with_time) const {
+  if (!with_time) return context.title;
+  std::string text = context.title.empty() ? "" : context.title + ", ";
+  auto const time = context.base.text(context.time, dimensions::time);
+  return text + (time.find(' ') == std::string::npos ? fmt::format("step {}, time {}", context.step, time)
+                                                     : fmt::format("step {} ({})", context.step, time));
+}
+
+Colour Scene::colour(std::size_t ensemble) const {
+  auto const& name = ensembles[ensemble]->appearance.colour;
+  if (!name.empty()) return colour_named(name);
+  return ensemble < picture.palette.size() ? picture.palette[ensemble] : species_colour(static_cast<int>(ensemble));
+}
+
+Colour Scene::track_colour(std::size_t ensemble, std::size_t particle) const {
+  bool const few = ensembles.size() == 1 && ensembles[0]->size() <= 8;
+  return with_alpha(few ? species_colour(static_cast<int>(particle)) : colour(ensemble), 0.7);
+}
+
+ColourMap Scene::fitting_map(Values const& shown) const {
+  bool const negative = std::isfinite(picture.low)
+                            ? picture.low < 0
+                            : std::any_of(shown.begin(), shown.end(), [](double v) { return v < 0; });
+  bool const positive = std::isfinite(picture.high)
+                            ? picture.high > 0
+                            : std::any_of(shown.begin(), shown.end(), [](double v) { return v > 0; });
+  return negative && positive ? ColourMap::diverging : ColourMap::viridis;
+}
+
+Canvas Scene::too_few(std::string const& why) const {
+  Canvas canvas;
+  canvas.title(title(false));
+  canvas.note(why);
+  return canvas;
+}
+
+Measures Scene::potential_energies() {
+  Measures measures = context.simulation.measure();
+  if (measures.per_particle.empty() && !measures.unknown.empty())
+    throw Error("potential energies can't be shown: " + measures.unknown + " gives none");
+  return measures;
+}
+
+std::vector<Values> Scene::values(std::string const& name) {
+  meaning(ensembles, name);
+  need(name);
+  Measures const measures = name == "potential-energy" ? potential_energies() : Measures{};
+  std::vector<Values> all;
+  for (std::size_t e = 0; e < ensembles.size(); ++e) {
+    std::span<double const> potential;
+    if (e < measures.per_particle.size()) potential = measures.per_particle[e];
+    if (has_quantity(*ensembles[e], name))
+      all.push_back(quantity(*ensembles[e], name, potential));
+    else
+      all.emplace_back(ensembles[e]->size(), no_value);
+  }
+  return all;
+}
+
+std::vector<ParticleColumn> Scene::columns(std::string const& name) {
+  meaning(ensembles, name);
+  need(name);
+  Measures const measures = name == "potential-energy" ? potential_energies() : Measures{};
+  std::vector<ParticleColumn> all;
+  for (std::size_t e = 0; e < ensembles.size(); ++e) {
+    std::span<double const> potential;
+    if (e < measures.per_particle.size()) potential = measures.per_particle[e];
+    all.push_back(has_quantity(*ensembles[e], name) ? column_of(*ensembles[e], name, potential) : ParticleColumn{});
+  }
+  return all;
+}
+
+// Classes without a velocity have their influence for it, and an integrator leaves that of an intermediate stage.
+void Scene::need(std::string const& name) {
+  bool const motion = name == "speed" || name.starts_with("velocity");
+  bool const needed = name.starts_with("influence") ||
+                      (motion && std::any_of(ensembles.begin(), ensembles.end(),
+                                             [](AnyEnsemble* e) { return !e->find_field("velocity"); }));
+  if (!needed || fresh_) return;
+  fresh_ = true;
+  keep_influences();
+  for (auto* ensemble : ensembles) ensemble->clear_influence();
+  for (auto* scheme : context.simulation.schemes()) scheme->add_influences(context.time);
+}
+
+void Scene::keep_influences() {
+  if (kept_) return;
+  kept_ = true;
+  for (auto const* ensemble : ensembles) {
+    double const* first = ensemble->influence(0);
+    influences_.emplace_back(first, first + ensemble->size() * ensemble->influence_size());
+  }
+}
+
+void Scene::keep_particles() {
+  keep_influences();
+  for (auto const* scheme : context.simulation.schemes()) schemes_.push_back(scheme->state());
+  for (auto const* ensemble : ensembles) rows_.push_back(copy_rows(*ensemble));
+}
+
+void Scene::put_particles_back() {
+  for (std::size_t e = 0; e < rows_.size(); ++e) restore_rows(rows_[e], *ensembles[e]);
+}
+
+std::vector<std::array<double, 2>> Scene::shown_box(std::array<std::array<double, 2>, 3> const& reach) const {
+  std::vector<std::array<double, 2>> sides;
+  for (int a = 0; a < box().dimension(); ++a) {
+    std::array<double, 2> side{box().low(a), box().high(a)};
+    if (box().boundary(a) == Boundary::open) {
+      double const room = box().length(a) / 2;
+      auto const& [low, high] = reach[static_cast<std::size_t>(a)];
+      side = {std::max(std::min(side[0], low), side[0] - room), std::min(std::max(side[1], high), side[1] + room)};
+    }
+    sides.push_back(side);
+  }
+  return sides;
+}
+
+std::array<std::array<double, 2>, 3> Scene::open_reach() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<std::array<double, 2>, 3> reach;
+  reach.fill({infinity, -infinity});
+  auto const D = static_cast<std::size_t>(box().dimension());
+  bool any = false;
+  for (std::size_t a = 0; a < D; ++a) any = any || box().boundary(static_cast<int>(a)) == Boundary::open;
+  if (!any) return reach;
+  auto const take = [D, &reach](double const* row, bool finite_only) {
+    for (std::size_t a = 0; a < D; ++a) {
+      if (finite_only && !std::isfinite(row[a])) continue;
+      auto& [low, high] = reach[a];
+      low = row[a] < low ? row[a] : low;
+      high = row[a] > high ? row[a] : high;
+    }
+  };
+  for (bool const finite_only : {false, true}) {  // quickly, and once more if somebody is infinitely far
+    reach.fill({infinity, -infinity});
+    for (auto const* ensemble : ensembles)
+      for (std::size_t i = 0; i < ensemble->size(); ++i) take(ensemble->row(i), finite_only);
+    if (std::none_of(reach.begin(), reach.end(), [](auto const& side) {
+          return side[0] <= side[1] && (std::isinf(side[0]) || std::isinf(side[1]));
+        }))
+      break;
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+    if (a >= D || box().boundary(static_cast<int>(a)) != Boundary::open) reach[a] = {infinity, -infinity};
+  return reach;
+}
+
+CloudOptions cloud_options(Scene const& scene) {
+  CloudOptions options;
+  options.low = scene.picture.low;
+  options.high = scene.picture.high;
+  options.most = scene.picture.most;
+  options.region = scene.picture.region;
+  options.threads = scene.threads();
+  options.memory = scene.context.memory;
+  return options;
+}
+
+void note_shown(Canvas& canvas, ParticleClouds const& clouds, bool region) {
+  if (region)
+    canvas.note(fmt::format("{} of {} particles {} in this region", clouds.inside, clouds.particles,
+                            clouds.inside == 1 ? "is" : "are"));
+  if (clouds.stride > 1) canvas.note(fmt::format("1 of {} particles shown", clouds.stride));
+}
+
+void explain_values(Canvas& canvas, Scene const& scene, ParticleClouds const& clouds) {
+  auto const what = meaning(scene.ensembles, scene.picture.colour);
+  auto const shown = scene.shown_in(what.dimension);
+  canvas.colour_bar(what.label, shown.unit, clouds.low, clouds.high, clouds.map, shown.factor);
+  note_without_value(canvas, clouds.without_value);
+}
+
+std::vector<std::string> split(std::string const& text) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    std::size_t const end = std::min(text.find(',', at), text.size());
+    std::size_t first = text.find_first_not_of(' ', at);
+    std::size_t last = text.find_last_not_of(' ', end == 0 ? 0 : end - 1);
+    if (first < end && last != std::string::npos && last >= first)
+      words.push_back(text.substr(first, last - first + 1));
+    at = end + 1;
+  }
+  return words;
+}
+
+Heading heading(std::string const& text) {
+  std::size_t const at = text.rfind(" (");
+  if (at == std::string::npos || text.back() != ')') return {text, ""};
+  return {text.substr(0, at), text.substr(at + 2, text.size() - at - 3)};
+}
+
+bool has_quantity(AnyEnsemble const& ensemble, std::string const& name) {
+  auto const all = quantities(ensemble);
+  return std::any_of(all.begin(), all.end(), [&](auto const& q) { return q.name == name; });
+}
+
+QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name) {
+  for (auto const* ensemble : ensembles)
+    if (has_quantity(*ensemble, name)) return quantity_meaning(*ensemble, name);
+  if (ensembles.empty()) throw Error("there are no particles to draw");
+  return quantity_meaning(*ensembles.front(), name);  // throws, with the allowed names
+}
+
+Values joined(std::vector<Values> const& parts) {
+  Values all;
+  for (auto const& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace boltzmann::pictures

@@ -1,0 +1,51 @@
+// The signal handler: it may only set flags, so the simulation looks at its own after every step.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/recording/interrupt.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+
+namespace boltzmann {
+namespace {
+
+// A handler has no argument of its own, so what it acts on has to be found without one.
+std::atomic<Simulation*> stopped_by_signal{nullptr};
+std::atomic<int> signals_seen{0};
+static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+std::array<int, 3> constexpr signals{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, 3> before;
+
+extern "C" void on_signal(int) {
+  if (signals_seen.fetch_add(1) > 0) _exit(130);
+  if (Simulation* simulation = stopped_by_signal.load()) simulation->stop();
+}
+
+}  // namespace
+
+Interrupt::Interrupt(Simulation& simulation) {
+  Simulation* nobody = nullptr;
+  if (!stopped_by_signal.compare_exchange_strong(nobody, &simulation))
+    throw Error("two simulations can't both be stopped by Ctrl-C: one Interrupt at a time");
+  signals_seen = 0;
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;  // a write to a file goes on
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    sigaction(signals[i], &action, &before[i]);
+    if (signals[i] == SIGHUP && before[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &before[i], nullptr);
+  }
+}
+
+Interrupt::~Interrupt() {
+  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+  stopped_by_signal = nullptr;
+}
+
+bool Interrupt::seen() const { return signals_seen > 0; }
+
+}  // namespace boltzmann

@@ -1,0 +1,197 @@
+// The progress line. The clock is read only as often as the line can change, so that it costs a small system nothing.
+#include <boltzmann/recording/interrupt.hpp>
+#include <boltzmann/recording/progress.hpp>
+#include <boltzmann/recording/run_loop.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace boltzmann {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e8)) return "long";
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 60) return fmt::format("{:.0f} s", std::ceil(seconds));
+  auto const whole = static_cast<long>(seconds);
+  if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
+}
+
+// 1234567 -> "1.23 million"; what a reader takes in at a glance.
+std::string rate_text(double rate) {
+  if (rate >= 1e6) return fmt::format("{:.3g} million", rate / 1e6);
+  if (rate >= 100) return fmt::format("{:.0f}", rate);
+  return fmt::format("{:.3g}", rate);
+}
+
+class ProgressLine {
+ public:
+  ProgressLine(std::int64_t first, std::int64_t last, std::int64_t planned)
+      : first_(first),
+        last_(last),
+        planned_(std::max(planned, last)),
+        terminal_(isatty(STDERR_FILENO) == 1 && !dumb()),
+        next_tenth_(planned_ > 0 ? first * 10 / planned_ + 1 : 11) {}
+
+  /// Looks at the clock if the steps since the last look make that worthwhile.
+  void look(std::int64_t step) {
+    if (step < next_look_ && step != last_) return;
+    double const now = seconds_since(start_);
+    std::int64_t const done = step - first_;
+    if (terminal_) {
+      if (now - shown_ >= 0.2) show(step, now);
+    } else {
+      while (next_tenth_ <= 10 && step * 10 >= next_tenth_ * planned_) {
+        next_tenth_ = step * 10 / planned_ + 1;
+        show(step, now);
+      }
+    }
+    // The next look 50 ms from now, and never more than twice the steps so far ahead.
+    double const rate = now > 0 ? static_cast<double>(done) / now : 1;
+    auto ahead =
+        static_cast<std::int64_t>(std::clamp(rate * 0.05, 1.0, static_cast<double>(std::max<std::int64_t>(done, 1))));
+    next_look_ = step + ahead;
+    if (!terminal_) next_look_ = std::min(next_look_, (next_tenth_ * planned_ + 9) / 10);
+  }
+
+  void clear() const {
+    if (terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);
+  }
+
+ private:
+  static bool dumb() {
+    char const* terminal = std::getenv("TERM");
+    return terminal == nullptr || std::string(terminal) == "dumb";
+  }
+
+  void show(std::int64_t step, double now) {
+    double const rate = static_cast<double>(step - first_) / std::max(now, 1e-9);
+    auto const line =
+        fmt::format("{:3d} %  step {} of {}, {} steps/s, {} left", planned_ > 0 ? 100 * step / planned_ : 100, step,
+                    planned_, rate_text(rate), duration_text(static_cast<double>(last_ - step) / std::max(rate, 1e-9)));
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
+    std::fflush(stderr);
+    shown_ = now;
+  }
+
+  Clock::time_point start_ = Clock::now();
+  std::int64_t first_, last_, planned_, next_look_ = 0;
+  bool terminal_;
+  std::int64_t next_tenth_;
+  double shown_ = 0;
+};
+
+// Whether another few steps, and what is written at the end, fit into the time that is left.
+class TimeLimit {
+ public:
+  TimeLimit(double seconds, std::function<double()> seconds_at_end)
+      : seconds_(seconds), seconds_at_end_(std::move(seconds_at_end)) {}
+
+  /// After a step.
+  bool reached() {
+    if (++steps_ < between_looks_) return false;
+    double const now = seconds_since(start_), took = now - last_look_;
+    steps_ = 0;
+    if (last_look_ > 0) longest_ = std::max(longest_, took);  // not what came before the first step
+    last_look_ = now;
+    // The clock costs what ten pairs cost; it is read after every step unless they are short.
+    between_looks_ =
+        took > 1e-3 ? std::max<std::int64_t>(between_looks_ / 2, 1) : std::min<std::int64_t>(2 * between_looks_, 64);
+    return now + 2 * longest_ + 2 * (seconds_at_end_ ? seconds_at_end_() : 0) >= seconds_;
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double seconds_, last_look_ = 0, longest_ = 0;
+  std::function<double()> seconds_at_end_;
+  std::int64_t steps_ = 0, between_looks_ = 1;
+};
+
+}  // namespace
+
+RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options,
+                   Interrupt const& interrupt, std::function<double()> const& seconds_at_end) {
+  auto const limit = std::make_shared<std::unique_ptr<TimeLimit>>();
+  if (options.seconds > 0) *limit = std::make_unique<TimeLimit>(options.seconds, seconds_at_end);
+  simulation.check();
+  RunReport report;
+  for (auto const* ensemble : simulation.ensembles()) report.particles += static_cast<std::int64_t>(ensemble->size());
+  std::int64_t const first = simulation.step();
+  auto const print_advice = [&](std::vector<std::string> const& lines) {
+    for (auto const& advice : lines)
+      if (advice.starts_with("warning") ? options.warnings : !options.quiet) fmt::print(stderr, "{}\n", advice);
+  };
+  for (auto* scheme : simulation.schemes()) print_advice(scheme->warnings(simulation.step_size()));
+  for (auto* dissipation : simulation.dissipations()) print_advice(dissipation->warnings(simulation.step_size()));
+  // The observer stays with the simulation, without effect once the line is gone.
+  auto line = std::make_shared<std::unique_ptr<ProgressLine>>();
+  if (!options.quiet) {
+    *line = std::make_unique<ProgressLine>(first, first + static_cast<std::int64_t>(steps), options.planned);
+    simulation.observe_progress([line](Simulation const& now) {
+      if (*line) (*line)->look(now.step());
+    });
+  }
+  // Likewise; most runs keep their numbers of particles.
+  auto const counted = std::make_shared<std::optional<double>>();
+  if (!simulation.adaptations().empty()) {
+    counted->emplace(0);
+    simulation.observe_progress([counted](Simulation const& now) {
+      if (!*counted) return;
+      for (auto const* ensemble : now.ensembles()) **counted += static_cast<double>(ensemble->size());
+    });
+  }
+  auto const out_of_time = std::make_shared<bool>(false);
+  if (*limit)
+    simulation.observe_progress([limit, out_of_time, &simulation](Simulation const&) {
+      if (!*limit || *out_of_time || !(*limit)->reached()) return;
+      *out_of_time = true;
+      simulation.pause();
+    });
+  auto const start = Clock::now();
+  auto const end_line = [&] {
+    if (*line) (*line)->clear();
+    line->reset();
+  };
+  try {
+    if (options.drive)
+      options.drive(steps);
+    else
+      simulation.run(steps);
+  } catch (...) {
+    end_line();
+    counted->reset();
+    limit->reset();
+    throw;
+  }
+  end_line();
+  limit->reset();
+  report.seconds = seconds_since(start);
+  report.steps = simulation.step() - first;
+  report.particle_steps = counted->value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
+  counted->reset();
+  report.signalled = interrupt.seen();
+  bool const early = report.steps < static_cast<std::int64_t>(steps);
+  report.interrupted = report.signalled && early;
+  report.out_of_time = *out_of_time && early && !report.interrupted;
+  return report;
+}
+
+RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options) {
+  Interrupt const interrupt(simulation);
+  return run_loop(simulation, steps, options, interrupt);
+}
+
+}  // namespace boltzmann
