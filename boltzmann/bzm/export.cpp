@@ -1,8 +1,8 @@
 // bzm export: the trajectory of a run in a format that another program opens.
 #include <boltzmann/bzm/commands.hpp>
-#include <boltzmann/bzm/sweep.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/trajectory_export.hpp>
+#include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // In place of window.cpp where what the window needs is not installed.
 #include <boltzmann/bzm/commands.hpp>
-#include <boltzmann/bzm/scenario_recording.hpp>
+#include <boltzmann/bzm/run_recording.hpp>
 
 namespace boltzmann::bzm {
 namespace {

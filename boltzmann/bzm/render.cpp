@@ -1,13 +1,13 @@
 // bzm render: pictures and movies of a finished (or running) run, from its trajectory.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
-#include <boltzmann/bzm/scenario_recording.hpp>
-#include <boltzmann/bzm/sweep.hpp>
+#include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/figure_layout.hpp>
 #include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
+#include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>

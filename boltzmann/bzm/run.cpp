@@ -1,9 +1,9 @@
 // bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
 #include <boltzmann/bzm/commands.hpp>
-#include <boltzmann/bzm/scenario_recording.hpp>
-#include <boltzmann/bzm/sweep.hpp>
+#include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
+#include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 
@@ -22,7 +22,25 @@ void refuse_hours_in_window(std::optional<double> const& hours, WindowRun const&
   if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
 }
 
+int status_of(SweepReport const& report, std::string const& folder) {
+  if (report.interrupted || report.out_of_time) {
+    fmt::print(stderr, "bzm resume {} goes on with the sweep\n", folder);
+    return report.interrupted ? 130 : out_of_time_status;
+  }
+  return report.failed > 0 ? 3 : 0;
+}
+
 }  // namespace
+
+int run_recording(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps, std::int64_t planned,
+                  bool quiet, WallTime const& wall, WindowRun const& window) {
+  auto const report = window.open
+                          ? run_in_window(scenario, recording, steps, window, quiet)
+                          : run_with_progress(recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
+                                              {.quiet = quiet, .planned = planned, .seconds = wall.seconds()});
+  if (report.out_of_time) fmt::print(stderr, "bzm resume {} goes on with the run\n", recording.folder());
+  return report.interrupted ? 130 : report.out_of_time ? out_of_time_status : 0;
+}
 
 int run(RunOptions const& options) {
   WallTime const wall(options.hours);
@@ -43,7 +61,8 @@ int run(RunOptions const& options) {
     scenario = load_scenario(text, first);
   }
   if (scenario->sweep)
-    return run_sweep({text, overrides, folder, options.quiet, options.force}, wall, std::move(scenario));
+    return status_of(run_sweep({text, overrides, folder, options.quiet, options.force}, wall, std::move(scenario)),
+                     folder);
   auto const recording = make_recording(*scenario, folder, options.force);
   scenario->simulation->check();
   recording->check();
@@ -64,7 +83,7 @@ int resume(ResumeOptions const& options) {
       throw Error("'" + options.folder +
                   "' holds a sweep, whose runs go to their planned ends; --steps N is for one of "
                   "its folders");
-    return resume_sweep(options.folder, options.threads, options.quiet, wall);
+    return status_of(resume_sweep(options.folder, options.threads, options.quiet, wall), options.folder);
   }
   auto const checkpoint = read_checkpoint(path);
   if (checkpoint.scenario.empty())

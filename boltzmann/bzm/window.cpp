@@ -1,8 +1,8 @@
 // bzm window, and bzm run --window: the gallery, a stored run, a run that goes on, on a page.
 #include <boltzmann/bzm/commands.hpp>
-#include <boltzmann/bzm/scenario_recording.hpp>
-#include <boltzmann/bzm/sweep.hpp>
+#include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
+#include <boltzmann/sweep/run_sweep.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/gallery_show.hpp>
 #include <boltzmann/window/live_run.hpp>

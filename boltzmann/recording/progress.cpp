@@ -21,15 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string duration_text(double seconds) {
-  if (!(seconds < 1e8)) return "long";
-  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
-  if (seconds < 60) return fmt::format("{:.0f} s", std::ceil(seconds));
-  auto const whole = static_cast<long>(seconds);
-  if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
-}
-
 // 1234567 -> "1.23 million"; what a reader takes in at a glance.
 std::string rate_text(double rate) {
   if (rate >= 1e6) return fmt::format("{:.3g} million", rate / 1e6);
@@ -43,7 +34,7 @@ class ProgressLine {
       : first_(first),
         last_(last),
         planned_(std::max(planned, last)),
-        terminal_(isatty(STDERR_FILENO) == 1 && !dumb()),
+        terminal_(rewrites_lines()),
         next_tenth_(planned_ > 0 ? first * 10 / planned_ + 1 : 11) {}
 
   /// Looks at the clock if the steps since the last look make that worthwhile.
@@ -72,11 +63,6 @@ class ProgressLine {
   }
 
  private:
-  static bool dumb() {
-    char const* terminal = std::getenv("TERM");
-    return terminal == nullptr || std::string(terminal) == "dumb";
-  }
-
   void show(std::int64_t step, double now) {
     double const rate = static_cast<double>(step - first_) / std::max(now, 1e-9);
     auto const line =
@@ -121,6 +107,20 @@ class TimeLimit {
 };
 
 }  // namespace
+
+bool rewrites_lines() {
+  char const* terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string(terminal) != "dumb";
+}
+
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e8)) return "long";
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 60) return fmt::format("{:.0f} s", std::ceil(seconds));
+  auto const whole = static_cast<long>(seconds);
+  if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
+}
 
 RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options,
                    Interrupt const& interrupt, std::function<double()> const& seconds_at_end) {

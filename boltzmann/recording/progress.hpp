@@ -37,4 +37,9 @@ struct RunReport {
 /// for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
 RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});
 
+/// "2.3 s", "3 min 05 s", "2 h 07 min".
+std::string duration_text(double seconds);
+/// Whether standard error is a terminal that can rewrite its last line.
+bool rewrites_lines();
+
 }  // namespace boltzmann

@@ -1,11 +1,11 @@
 // Means over the seeds. A run counts once for its value: its last row, or its mean over the rows since `from`.
-#include <boltzmann/bzm/sweep_results.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/error_bars.hpp>
 #include <boltzmann/pictures/figure.hpp>
+#include <boltzmann/sweep/sweep_results.hpp>
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace boltzmann::bzm {
+namespace boltzmann {
 namespace {
 
 using Values = std::vector<double>;
@@ -379,4 +379,4 @@ std::vector<std::string> write_sweep_results(SweepPlan const& plan, std::string 
   return files;
 }
 
-}  // namespace boltzmann::bzm
+}  // namespace boltzmann

@@ -1,25 +1,22 @@
-// The runs of a sweep, one after the other. What is done stands in runs.csv, so that a sweep that was stopped goes on.
-#include <boltzmann/bzm/commands.hpp>
-#include <boltzmann/bzm/scenario_recording.hpp>
-#include <boltzmann/bzm/sweep.hpp>
-#include <boltzmann/bzm/sweep_results.hpp>
+// A sweep from its first run to its tables; runs.csv says which runs are done.
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/scenario/scenario_recording.hpp>
+#include <boltzmann/sweep/run_sweep.hpp>
+#include <boltzmann/sweep/sweep_results.hpp>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
-namespace boltzmann::bzm {
+namespace boltzmann {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,12 +24,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr char const* heading_of_runs = "run,folder,seed,state,reason";
 
-enum class State { waiting, done, failed };
+enum class RunState { waiting, done, failed };
 constexpr char const* state_words[] = {"waiting", "done", "failed"};
 
-struct Run {
+struct SweepRun {
   std::string folder;  // in that of the sweep
-  State state = State::waiting;
+  RunState state = RunState::waiting;
   std::string reason;  // of a failure
 };
 
@@ -51,8 +48,8 @@ std::string short_name(std::string const& text) {
   return name;
 }
 
-std::vector<Run> runs_of(SweepPlan const& plan) {
-  std::vector<Run> runs(plan.runs());
+std::vector<SweepRun> runs_of(SweepPlan const& plan) {
+  std::vector<SweepRun> runs(plan.runs());
   std::size_t const digits = std::max<std::size_t>(2, std::to_string(runs.size()).size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
     runs[r].folder = fmt::format("{:0{}}", r + 1, digits);
@@ -68,7 +65,7 @@ std::string run_name(SweepPlan const& plan, std::size_t run) {
   return fmt::format("run {} of {}{}", run + 1, plan.runs(), name.empty() ? "" : " (" + name + ")");
 }
 
-void write_runs(std::string const& folder, SweepPlan const& plan, std::vector<Run> const& runs) {
+void write_runs(std::string const& folder, SweepPlan const& plan, std::vector<SweepRun> const& runs) {
   std::string text = std::string(heading_of_runs) + "\n";
   for (std::size_t r = 0; r < runs.size(); ++r) {
     std::string reason;
@@ -104,13 +101,13 @@ std::vector<std::vector<std::string>> rows_of_runs(std::string const& folder) {
 }
 
 /// What runs.csv knows of them. A run whose folder has been taken away waits again.
-void read_states(std::string const& folder, std::vector<Run>& runs) {
+void read_states(std::string const& folder, std::vector<SweepRun>& runs) {
   auto const rows = rows_of_runs(folder);
   for (auto& run : runs)
     for (auto const& row : rows) {
       if (row[1] != run.folder || !fs::exists(folder + "/" + run.folder + "/diagnoses.csv")) continue;
-      if (row[3] == "done") run.state = State::done;
-      if (row[3] == "failed") run.state = State::failed, run.reason = row[4];
+      if (row[3] == "done") run.state = RunState::done;
+      if (row[3] == "failed") run.state = RunState::failed, run.reason = row[4];
     }
 }
 
@@ -124,7 +121,7 @@ std::string without_threads(std::string const& text) {
 }
 
 /// Error if what a run's folder holds is not the run that sweep.toml describes.
-void check_scenario(std::string const& folder, Run const& run, std::size_t number, std::string const& stored,
+void check_scenario(std::string const& folder, SweepRun const& run, std::size_t number, std::string const& stored,
                     std::string const& what) {
   Overrides chosen;
   chosen.sweep_run = number;
@@ -136,28 +133,20 @@ void check_scenario(std::string const& folder, Run const& run, std::size_t numbe
 }
 
 /// Runs that are done must not be taken for those of a sweep.toml that has been edited since.
-void check_runs_before(std::string const& folder, std::vector<Run> const& runs) {
+void check_runs_before(std::string const& folder, std::vector<SweepRun> const& runs) {
   auto const edited = fs::last_write_time(folder + "/sweep.toml");
   for (std::size_t r = 0; r < runs.size(); ++r) {
     std::string const path = folder + "/" + runs[r].folder + "/scenario.toml";
-    if (runs[r].state != State::waiting && fs::exists(path) && fs::last_write_time(path) < edited)
+    if (runs[r].state != RunState::waiting && fs::exists(path) && fs::last_write_time(path) < edited)
       check_scenario(folder, runs[r], r, read_text(path), "scenario.toml");
   }
 }
 
-std::string duration_text(double seconds) {
-  if (!(seconds < 1e8)) return "long";
-  auto const whole = static_cast<long>(std::ceil(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
-}
-
 /// One line for all runs: on a terminal it is rewritten five times a second, elsewhere there is one for each run.
-class Progress {
+class SweepProgress {
  public:
-  Progress(SweepPlan const& plan, std::size_t done, bool quiet)
-      : plan_(plan), done_(done), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1 && !dumb()) {}
+  SweepProgress(SweepPlan const& plan, std::size_t done, bool quiet)
+      : plan_(plan), done_(done), quiet_(quiet), terminal_(rewrites_lines()) {}
 
   void begin(std::size_t run) { run_ = run; }
   /// A run from `first` to `last`; the line is drawn while it goes on.
@@ -189,10 +178,6 @@ class Progress {
   }
 
  private:
-  static bool dumb() {
-    char const* terminal = std::getenv("TERM");
-    return terminal == nullptr || std::string(terminal) == "dumb";
-  }
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   /// `part` of the present run has been done since the start.
   std::string all(double part) const {
@@ -229,8 +214,9 @@ void warn(Simulation& simulation, std::string const& name, std::vector<std::stri
 }
 
 /// Does one run, or the rest of it.
-RunReport do_run(std::string const& folder, Run const& run, std::size_t number, std::string const& name,
-                 std::optional<int> threads, WallTime const& wall, Progress& progress, std::vector<std::string>& told) {
+RunReport do_run(std::string const& folder, SweepRun const& run, std::size_t number, std::string const& name,
+                 std::optional<int> threads, WallTime const& wall, SweepProgress& progress,
+                 std::vector<std::string>& told) {
   std::string const place = folder + "/" + run.folder, stored = place + "/checkpoint.h5";
   std::unique_ptr<ScenarioSimulation> scenario;
   std::unique_ptr<Recording> recording;
@@ -262,14 +248,14 @@ std::string one_line(std::string text) {
   return text;
 }
 
-int do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title, std::optional<int> threads,
-            bool quiet, WallTime const& wall) {
+SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title,
+                    std::optional<int> threads, bool quiet, WallTime const& wall) {
   auto runs = runs_of(plan);
   read_states(folder, runs);
   check_runs_before(folder, runs);
   write_runs(folder, plan, runs);
   auto const finished = static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](Run const& run) { return run.state != State::waiting; }));
+      std::count_if(runs.begin(), runs.end(), [](SweepRun const& run) { return run.state != RunState::waiting; }));
   if (!quiet) {
     std::string const each = plan.vary.empty() ? "" : fmt::format("{} values of {}", plan.values, plan.vary[0].path);
     std::string const seeds = plan.seeds > 1 ? fmt::format("{} seeds", plan.seeds) : "";
@@ -278,49 +264,46 @@ int do_runs(std::string const& folder, SweepPlan const& plan, std::string const&
                finished > 0 ? fmt::format("; {} done before", finished) : "");
     std::fflush(stdout);
   }
-  Progress progress(plan, finished, quiet);
+  SweepProgress progress(plan, finished, quiet);
   std::vector<std::string> told;
   std::size_t failed = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    Run& run = runs[r];
-    if (run.state == State::waiting) {
+    SweepRun& run = runs[r];
+    if (run.state == RunState::waiting) {
       progress.begin(r);
       bool stopped = false, out_of_time = false;
       try {
         auto const report = do_run(folder, run, r, run_name(plan, r), threads, wall, progress, told);
         progress.clear();
-        if (!report.interrupted && !report.out_of_time) run.state = State::done;
+        if (!report.interrupted && !report.out_of_time) run.state = RunState::done;
         out_of_time = report.out_of_time;
         stopped = report.signalled && (report.interrupted || r + 1 < runs.size());
       } catch (PhysicsFailure const& failure) {
-        run.state = State::failed;
+        run.state = RunState::failed;
         run.reason = one_line(failure.what());
       } catch (ScenarioErrors const& errors) {  // of this seed alone: all values have been tried
-        run.state = State::failed;
+        run.state = RunState::failed;
         run.reason = one_line(errors.what());
       }
-      if (run.state != State::waiting) progress.end(run.state == State::done);
+      if (run.state != RunState::waiting) progress.end(run.state == RunState::done);
       write_runs(folder, plan, runs);
-      if (stopped || out_of_time) {
-        fmt::print(stderr, "bzm resume {} goes on with the sweep\n", folder);
-        return stopped ? 130 : out_of_time_status;
-      }
+      if (stopped || out_of_time) return {failed, stopped, !stopped};
     }
-    if (run.state == State::failed) {
+    if (run.state == RunState::failed) {
       ++failed;
       fmt::print(stderr, "{} failed: {}\n", run_name(plan, r), run.reason);
     }
   }
   std::vector<std::string> folders;
   folders.reserve(runs.size());
-  for (auto const& run : runs) folders.push_back(run.state == State::done ? folder + "/" + run.folder : "");
+  for (auto const& run : runs) folders.push_back(run.state == RunState::done ? folder + "/" + run.folder : "");
   auto files = write_sweep_results(plan, folder, folders, title, quiet);
   files.insert(files.begin(), {"sweep.toml", "runs.csv"});
   if (!quiet)
     fmt::print("\n  results  {}: {}, {} ... {}\n", folder, join(files), runs.front().folder, runs.back().folder);
   std::fflush(stdout);
   if (failed > 0) fmt::print(stderr, "{} of {} runs failed; the others are in the tables\n", failed, runs.size());
-  return failed > 0 ? 3 : 0;
+  return {failed, false, false};
 }
 
 /// Whether these are the same state, from which nothing random leads on.
@@ -393,7 +376,7 @@ void remove_sweep(std::string const& folder) {
     fs::remove(fs::path(folder) / file, ignored);
 }
 
-int run_sweep(SweepOptions const& options, WallTime const& wall, std::unique_ptr<ScenarioSimulation> scenario) {
+SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::unique_ptr<ScenarioSimulation> scenario) {
   std::string folder = options.folder;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   auto const plan = *scenario->sweep;
@@ -419,7 +402,7 @@ int run_sweep(SweepOptions const& options, WallTime const& wall, std::unique_ptr
   return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall);
 }
 
-int resume_sweep(std::string const& place, std::optional<int> threads, bool quiet, WallTime const& wall) {
+SweepReport resume_sweep(std::string const& place, std::optional<int> threads, bool quiet, WallTime const& wall) {
   std::string folder = place;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   auto const scenario = load_scenario(folder + "/sweep.toml", {{}, {}, {}, threads});
@@ -428,4 +411,4 @@ int resume_sweep(std::string const& place, std::optional<int> threads, bool quie
   return do_runs(folder, *scenario->sweep, title, threads, quiet, wall);
 }
 
-}  // namespace boltzmann::bzm
+}  // namespace boltzmann

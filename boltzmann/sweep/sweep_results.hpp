@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace boltzmann::bzm {
+namespace boltzmann {
 
 /// Writes a file whole or not at all.
 void write_whole(std::string const& path, std::string const& text);
@@ -18,4 +18,4 @@ std::vector<std::string> write_sweep_results(SweepPlan const& plan, std::string 
                                              std::vector<std::string> const& folders, std::string const& title,
                                              bool quiet);
 
-}  // namespace boltzmann::bzm
+}  // namespace boltzmann

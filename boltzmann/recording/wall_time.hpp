@@ -1,0 +1,28 @@
+// Wall time: how long a run may take before a queue ends it.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace boltzmann {
+
+/// A limit that begins with it, but for a reserve for pictures and tables: 1 %, 2 s at least and a minute at most.
+class WallTime {
+ public:
+  explicit WallTime(std::optional<double> hours) {
+    if (hours) seconds_ = 3600 * *hours - std::clamp(36 * *hours, 2.0, 60.0);
+  }
+  /// What is left; 0: there is no limit.
+  double seconds() const {
+    if (!seconds_) return 0;
+    return std::max(*seconds_ - std::chrono::duration<double>(Clock::now() - begun_).count(), 1e-9);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begun_ = Clock::now();
+  std::optional<double> seconds_;
+};
+
+}  // namespace boltzmann
