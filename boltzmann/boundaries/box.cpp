@@ -258,37 +258,79 @@ void Box::wrap(AnyEnsemble& particles) const {
   }
 }
 
-double Box::apply(AnyEnsemble& particles, int threads) const {
-  if (all_open_ && regions_.empty()) return 0;
-  Field const* velocity = particles.find_field("velocity");
-  if (velocity && velocity->components != dimension_) velocity = nullptr;  // a class' own, of another meaning
-  auto const fail = [&](std::size_t i, int a, double x) {
-    if (!std::isfinite(x)) throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles, i)));
+/// The particles of one ensemble that have left are brought back.
+class Box::Reflection {
+ public:
+  Reflection(Box const& box, AnyEnsemble& particles)
+      : box_(box), particles_(particles), low_(box.low_), high_(box.high_) {
+    Field const* velocity = particles.find_field("velocity");
+    if (velocity && velocity->components == box.dimension_)
+      velocity_ = velocity;  // else a class' own, of another meaning
+    Field const* mass = particles.find_field("mass");
+    if (mass && mass->components == 1) mass_ = mass;
+    for (int a = 0; a < box.dimension_; ++a) {
+      if (box.periodic(a)) continue;
+      if (!box.walled(a, End::low)) low_[a] = -infinity;
+      if (!box.walled(a, End::high)) high_[a] = infinity;
+    }
+  }
+
+  /// At the ends of the box; the work that moving walls have done.
+  double at_ends(std::size_t begin, std::size_t end) const {
+    double work = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      double const* x = particles_.row(i);
+      std::array<int, 3> mirrored{};
+      for (int a = 0; a < box_.dimension_; ++a)
+        if (!(x[a] >= low_[a] && x[a] < high_[a]) && box_.boundary(a) != Boundary::open)
+          work += bring_back(i, a, mirrored);
+      if (!box_.any_wall_ || !velocity_ || mirrored == std::array<int, 3>{}) continue;
+      double* v = particles_.row(i) + velocity_->offset;
+      for (int c = 0; c < box_.dimension_; ++c) v[c] = box_.velocity_image(mirrored, c)(v[c]);
+    }
+    return work;
+  }
+
+  void at_region(Region const& region) const {
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      double* x = particles_.row(i);
+      double* v = velocity_ ? x + velocity_->offset : nullptr;
+      if (region.side == Region::Side::keep_in)
+        keep_in(region, i, x, v);
+      else if (strictly_inside(region, box_.dimension_, x))
+        keep_out(region, x, v);
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t i, int a, double x) const {
+    if (!std::isfinite(x))
+      throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles_, i)));
     throw PhysicsFailure(fmt::format(
         "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
-        who(particles, i), axis_name[a], x, low_[a], high_[a]));
-  };
-  Field const* mass = particles.find_field("mass");
-  if (mass && mass->components != 1) mass = nullptr;
-  // The work done on the particle; in the frame of the wall it is an elastic reflection.
-  auto const push_off = [&](std::size_t i, int a, int end) {
-    double const u = wall_velocity(a, end, a);
-    reflect(end == 0 ? low_[a] : high_[a], particles.row(i) + a, nullptr);
-    if (!velocity) return 0.0;
-    double& v = particles.row(i)[velocity->offset + a];
+        who(particles_, i), axis_name[a], x, box_.low_[a], box_.high_[a]));
+  }
+
+  /// The work done on the particle; in the frame of the wall it is an elastic reflection.
+  double push_off(std::size_t i, int a, int end) const {
+    double const u = box_.wall_velocity(a, end, a);
+    reflect(end == 0 ? box_.low_[a] : box_.high_[a], particles_.row(i) + a, nullptr);
+    if (!velocity_) return 0.0;
+    double& v = particles_.row(i)[velocity_->offset + a];
     double const before = v;
     if (u == 0)
       v = -v;
-    else if (((end == 0) != backwards_) ? v < u : v > u)
+    else if (((end == 0) != box_.backwards_) ? v < u : v > u)
       v = 2 * u - v;
-    return u != 0 && mass ? 0.5 * particles.row(i)[mass->offset] * (v - before) * (v + before) : 0;
-  };
-  auto const bring_back = [&](std::size_t i, int a, std::array<int, 3>& mirrored) {
-    double const low = low_[a], high = high_[a], length = high - low;
-    double* x = particles.row(i) + a;
+    return u != 0 && mass_ ? 0.5 * particles_.row(i)[mass_->offset] * (v - before) * (v + before) : 0;
+  }
+
+  double bring_back(std::size_t i, int a, std::array<int, 3>& mirrored) const {
+    double const low = box_.low_[a], high = box_.high_[a], length = high - low;
+    double* x = particles_.row(i) + a;
     double const before = *x;
     double work = 0;
-    if (boundary(a) == Boundary::periodic) {
+    if (box_.boundary(a) == Boundary::periodic) {
       // Within a rounding error of an edge the sum may land on or beyond the other edge: that is `low`.
       if (*x < low) {
         *x += length;
@@ -297,7 +339,7 @@ double Box::apply(AnyEnsemble& particles, int threads) const {
         *x -= length;
         if (*x < low) *x = low;
       }
-    } else if (boundary(a) == Boundary::mirror) {
+    } else if (box_.boundary(a) == Boundary::mirror) {
       if (*x != high) {
         mirrored[a] = *x < low ? -1 : 1;
         *x = 2 * (*x < low ? low : high) - *x;
@@ -307,63 +349,53 @@ double Box::apply(AnyEnsemble& particles, int threads) const {
     }
     if (!(*x >= low && *x <= high)) fail(i, a, before);
     return work;
-  };
-  std::array<double, 3> low = low_, high = high_;
-  for (int a = 0; a < dimension_; ++a) {
-    if (periodic(a)) continue;
-    if (!walled(a, End::low)) low[a] = -infinity;
-    if (!walled(a, End::high)) high[a] = infinity;
   }
-  auto const bring_all_back = [&](std::size_t begin, std::size_t end) {
-    double work = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      double const* x = particles.row(i);
-      std::array<int, 3> mirrored{};
-      for (int a = 0; a < dimension_; ++a)
-        if (!(x[a] >= low[a] && x[a] < high[a]) && boundary(a) != Boundary::open) work += bring_back(i, a, mirrored);
-      if (!any_wall_ || !velocity || mirrored == std::array<int, 3>{}) continue;
-      double* v = particles.row(i) + velocity->offset;
-      for (int c = 0; c < dimension_; ++c) v[c] = velocity_image(mirrored, c)(v[c]);
+
+  void keep_in(Region const& region, std::size_t i, double* x, double* v) const {
+    for (int a = 0; a < box_.dimension_; ++a) {
+      if (x[a] < region.low[a])
+        reflect(region.low[a], x + a, v ? v + a : nullptr);
+      else if (x[a] > region.high[a])
+        reflect(region.high[a], x + a, v ? v + a : nullptr);
+      if (!(x[a] >= region.low[a] && x[a] <= region.high[a])) fail(i, a, x[a]);
     }
-    return work;
-  };
+  }
+
+  /// Through the face that it came in by: the nearest one that it moves away from.
+  void keep_out(Region const& region, double* x, double* v) const {
+    int axis = -1;
+    double wall = 0, depth = 0;
+    for (int a = 0; a < box_.dimension_; ++a)
+      for (double const face : {region.low[a], region.high[a]}) {
+        bool const inward = v == nullptr || (face == region.low[a] ? v[a] > 0 : v[a] < 0);
+        double const distance = std::abs(x[a] - face);
+        if (inward && (axis < 0 || distance < depth)) axis = a, wall = face, depth = distance;
+      }
+    if (axis >= 0) reflect(wall, x + axis, v ? v + axis : nullptr);
+  }
+
+  Box const& box_;
+  AnyEnsemble& particles_;
+  Field const *velocity_ = nullptr, *mass_ = nullptr;
+  std::array<double, 3> low_, high_;  ///< beyond them something happens
+};
+
+double Box::apply(AnyEnsemble& particles, int threads) const {
+  if (all_open_ && regions_.empty()) return 0;
+  Reflection const reflection(*this, particles);
   // Added up by grains, in their order, whichever threads have done them.
   std::vector<double> works(walls_move_ && !held_ ? (particles.size() + grain - 1) / grain : 0);
   for_ranges(particles.size(), grain, particles.size() < worth_threads ? 1 : threads,
              [&](std::size_t begin, std::size_t end) {
                if (works.empty())
-                 bring_all_back(begin, end);
+                 reflection.at_ends(begin, end);
                else
                  for (std::size_t k = begin; k < end; k += grain)
-                   works[k / grain] = bring_all_back(k, std::min(k + grain, end));
+                   works[k / grain] = reflection.at_ends(k, std::min(k + grain, end));
              });
   CompensatedSum work;
   for (double const of_grain : works) work += of_grain;
-  for (auto const& region : regions_)
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      double* x = particles.row(i);
-      double* v = velocity ? x + velocity->offset : nullptr;
-      if (region.side == Region::Side::keep_in) {
-        for (int a = 0; a < dimension_; ++a) {
-          if (x[a] < region.low[a])
-            reflect(region.low[a], x + a, v ? v + a : nullptr);
-          else if (x[a] > region.high[a])
-            reflect(region.high[a], x + a, v ? v + a : nullptr);
-          if (!(x[a] >= region.low[a] && x[a] <= region.high[a])) fail(i, a, x[a]);
-        }
-      } else if (strictly_inside(region, dimension_, x)) {
-        // Out through the face that it came in by: the nearest one that it moves away from.
-        int axis = -1;
-        double wall = 0, depth = 0;
-        for (int a = 0; a < dimension_; ++a)
-          for (double const face : {region.low[a], region.high[a]}) {
-            bool const inward = v == nullptr || (face == region.low[a] ? v[a] > 0 : v[a] < 0);
-            double const distance = std::abs(x[a] - face);
-            if (inward && (axis < 0 || distance < depth)) axis = a, wall = face, depth = distance;
-          }
-        if (axis >= 0) reflect(wall, x + axis, v ? v + axis : nullptr);
-      }
-    }
+  for (auto const& region : regions_) reflection.at_region(region);
   return work.value();
 }
 

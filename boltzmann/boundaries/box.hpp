@@ -140,6 +140,8 @@ class Box {
   void nearest_image(double* d) const;
 
  private:
+  class Reflection;
+
   template <int D>
   static std::array<double, 3> widen(Vector<D> const& a) {
     std::array<double, 3> wide{0, 0, 0};

@@ -4,7 +4,7 @@
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 #include <boltzmann/window/address_file.hpp>
-#include <boltzmann/window/gallery_show.hpp>
+#include <boltzmann/window/gallery_source.hpp>
 #include <boltzmann/window/live_run.hpp>
 #include <boltzmann/window/replay.hpp>
 #include <boltzmann/window/run_list.hpp>
@@ -30,11 +30,11 @@ void add_views(Stage& stage, ScenarioSimulation const& scenario) {
   for (auto const& view : scenario.views) stage.add(view.name, view);
 }
 
-RunReport run_on_stage(ScenarioSimulation const& scenario, Recording& recording, Audience& audience, std::int64_t steps,
+RunReport run_on_stage(ScenarioSimulation const& scenario, Recording& recording, Clients& clients, std::int64_t steps,
                        bool play, bool quiet) {
   Stage stage(*scenario.simulation, scenario.base, title_of(scenario, recording.folder()), recording.folder());
   add_views(stage, scenario);
-  return run_live(stage, audience, &recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
+  return run_live(stage, clients, &recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
                   {play, -1, scenario.name, scenario.description}, quiet);
 }
 
@@ -46,7 +46,7 @@ std::string free_folder(std::string const& name) {
 }
 
 // How it ended, for the gallery.
-std::string run_choice(Gallery const& gallery, GalleryShow::Choice const& choice, Audience& audience) {
+std::string run_choice(Gallery const& gallery, GallerySource::Choice const& choice, Clients& clients) {
   try {
     auto const scenario = gallery.load(choice.name, choice.set);
     std::string const folder = choice.out.empty() ? free_folder(scenario->name) : choice.out;
@@ -54,7 +54,7 @@ std::string run_choice(Gallery const& gallery, GalleryShow::Choice const& choice
     scenario->simulation->check();
     recording->check();
     say(fmt::format("{} -> {}", title_of(*scenario, folder), folder));
-    run_on_stage(*scenario, *recording, audience, scenario->steps, false, false);
+    run_on_stage(*scenario, *recording, clients, scenario->steps, false, false);
     return fmt::format("{} has ended; its results are in {}", title_of(*scenario, folder), folder);
   } catch (std::exception const& error) {
     fmt::print(stderr, "{}\n", error.what());
@@ -64,21 +64,21 @@ std::string run_choice(Gallery const& gallery, GalleryShow::Choice const& choice
 
 int gallery(std::uint16_t port) {
   Gallery const all(".");
-  Audience audience(port, [&](std::string_view path) { return all.picture(path); });
-  Announcement const announcement("gallery", audience.address());
+  Clients clients(port, [&](std::string_view path) { return all.picture(path); });
+  Announcement const announcement("gallery", clients.address());
   std::string message;
   while (true) {
-    GalleryShow show(all, audience, message);
+    GallerySource show(all, clients, message);
     auto const choice = show.run();
     if (!choice) break;
-    message = run_choice(all, *choice, audience);
+    message = run_choice(all, *choice, clients);
   }
-  audience.bye("bzm has ended");
+  clients.bye("bzm has ended");
   return 0;
 }
 
 /// Shows a stored run, and announces it if told; true if a signal ended it.
-bool show_run(std::string const& folder, Audience& audience, bool announced = false) {
+bool show_run(std::string const& folder, Clients& clients, bool announced = false) {
   if (!fs::exists(folder + "/trajectory.h5"))
     throw Error("'" + folder +
                 "' has no trajectory.h5 to show: the run was not asked for one (trajectory = 10 in "
@@ -88,10 +88,10 @@ bool show_run(std::string const& folder, Audience& audience, bool announced = fa
   Stage stage(*scenario->simulation, scenario->base, title_of(*scenario, folder), folder);
   add_views(stage, *scenario);
   stage.take(*recording);
-  Replay show(stage, audience, scenario->name, scenario->description);
+  Replay show(stage, clients, scenario->name, scenario->description);
   stage.add_usual();
   std::optional<Announcement> announcement;
-  if (announced) announcement.emplace("window", audience.address());
+  if (announced) announcement.emplace("window", clients.address());
   return show.run();
 }
 
@@ -108,25 +108,25 @@ int stored_runs(std::string const& folder, std::uint16_t port) {
   bool const single = holds_run(folder);
   if (!single && !list.any())
     throw Error("'" + folder + "' holds no run that could be shown, nor does a folder below it");
-  Audience audience(port, [&](std::string_view path) { return list.picture(path); });
+  Clients clients(port, [&](std::string_view path) { return list.picture(path); });
   bool stopped = false;
   if (single) {
-    stopped = show_run(folder, audience, true);
+    stopped = show_run(folder, clients, true);
   } else {
-    Announcement const announcement("runs", audience.address());
+    Announcement const announcement("runs", clients.address());
     std::string message;
     while (!stopped) {
-      auto const choice = RunListShow(list, audience, folder, message).run();
+      auto const choice = RunListSource(list, clients, folder, message).run();
       if (!choice) break;
       try {
         message.clear();
-        stopped = show_run(*choice, audience);
+        stopped = show_run(*choice, clients);
       } catch (std::exception const& error) {
         message = error.what();
       }
     }
   }
-  audience.bye("bzm has ended");
+  clients.bye("bzm has ended");
   return stopped ? 130 : 0;
 }
 
@@ -138,10 +138,10 @@ int window(WindowCommand const& command) {
 
 RunReport run_in_window(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps,
                         WindowRun const& options, bool quiet) {
-  Audience audience(options.port);
-  Announcement const announcement("window", audience.address());
-  auto const report = run_on_stage(scenario, recording, audience, steps, options.play, quiet);
-  audience.bye("the run has ended");
+  Clients clients(options.port);
+  Announcement const announcement("window", clients.address());
+  auto const report = run_on_stage(scenario, recording, clients, steps, options.play, quiet);
+  clients.bye("the run has ended");
   return report;
 }
 

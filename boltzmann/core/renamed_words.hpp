@@ -19,6 +19,7 @@ inline constexpr std::array renamed_words{RenamedWord{"flows", "dissipation"},
                                           RenamedWord{"ripple", "sinusoidal"},
                                           RenamedWord{"gravity", "barometric"},
                                           RenamedWord{"drag", "mean-velocity"},
-                                          RenamedWord{"cells", "bins"}};
+                                          RenamedWord{"cells", "bins"},
+                                          RenamedWord{"one_way", "by"}};
 
 }  // namespace boltzmann

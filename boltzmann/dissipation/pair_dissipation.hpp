@@ -70,6 +70,10 @@ class PairDissipation final : public Dissipation {
 
   Member& member(AnyEnsemble& ensemble);
   void couple(AnyEnsemble& target, AnyEnsemble& source, DissipationLaw const& dissipation);
+  template <class Function>
+  void for_dissipating(Function const& function);
+  template <class Function>
+  void each_chunk(StepContext const& context, double asymmetry, Function const& function);
   bool take_points();
   void take_lists();
   void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& by_bath);

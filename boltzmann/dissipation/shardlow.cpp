@@ -188,71 +188,80 @@ class PairSteps {
 
 }  // namespace
 
-void PairDissipation::shardlow(StepContext const& context) {
+template <int D, bool projected>
+void PairDissipation::Splitting::run_in(Edge& edge, Part const& part, PairNoise const& noise, bool metropolis,
+                                        StepContext const& context) {
+  Member &first = *part.coupling->target, &second = *part.coupling->source;
+  auto const& kernels = dissipation_kernels_for(D, projected);
+  auto const end = [](Member& m, std::uint32_t row) {
+    double* point = m.point(row);
+    bool const has_energy = m.has_energy();
+    return End{point + m.velocity_at(), point[m.inverse_mass_at()], has_energy ? &m.energies[row] : nullptr,
+               has_energy ? &*m.law : nullptr};
+  };
+  alignas(64) double columns[geometry_columns * geometry_block];
+  PairSteps<D, projected> steps(noise, metropolis, context);
+  for (std::size_t start = 0; start < part.pairs.size(); start += geometry_block) {
+    GeometryTask task;
+    task.first = first.points.data();
+    task.second = second.points.data();
+    task.first_number = first.copy->order();
+    task.second_number = second.copy->order();
+    task.pairs = part.pairs.data() + start;
+    task.count = std::min(geometry_block, part.pairs.size() - start);
+    task.columns = columns;
+    task.noise = noise;
+    kernels.geometry(task);
+    for (std::size_t k = 0; k < task.count; ++k) {
+      DissipationPair const& pair = task.pairs[k];
+      End const i = end(first, pair.first), j = end(second, pair.second);
+      if (!steps.step(columns, k, i, j, first.copy->order()[pair.first], second.copy->order()[pair.second]))
+        throw PhysicsFailure(
+            i.energy ? fmt::format("friction and noise would take more internal energy from {} ({:.4g}) or {} "
+                                   "({:.4g}) than there is; take a smaller step, or metropolis",
+                                   first.who(pair.first), *i.energy, second.who(pair.second), *j.energy)
+                     : fmt::format("friction between {} and {} is not finite", first.who(pair.first),
+                                   second.who(pair.second)));
+    }
+  }
+  edge.heat += steps.heat;
+  edge.proposed += steps.proposed;
+  edge.refused += steps.refused;
+}
+
+void PairDissipation::Splitting::run(Edge& edge, Part const& part, PairNoise const& noise, bool metropolis,
+                                     StepContext const& context) {
+  int const dimension = part.coupling->target->dimension();
+  bool const projected = part.coupling->dissipation.projected;
+  auto const run = dimension == 1   ? projected ? run_in<1, true> : run_in<1, false>
+                     : dimension == 2 ? projected ? run_in<2, true> : run_in<2, false>
+                     : projected ? run_in<3, true>
+                                    : run_in<3, false>;
+  run(edge, part, noise, metropolis, context);
+}
+
+/// Calls function(member, row) for all particles that friction acts on, each member's chunks side by side.
+template <class Function>
+void PairDissipation::for_dissipating(Function const& function) {
   for (auto& member : members_) {
     Member& m = *member;
-    if (!m.dissipates || !m.has_energy()) continue;
-    m.energies.resize(m.owned());
+    if (!m.dissipates) continue;
     for_ranges(m.owned(), dissipation_chunk, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
                [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k)
-                   m.energies[k] = m.ensemble->row(m.copy->order()[k])[m.energy];
+                 for (std::size_t k = begin; k < end; ++k) function(m, k);
                });
   }
+}
+
+void PairDissipation::shardlow(StepContext const& context) {
+  for (auto& member : members_)
+    if (member->dissipates && member->has_energy()) member->energies.resize(member->owned());
+  for_dissipating([](Member& m, std::size_t k) {
+    if (m.has_energy()) m.energies[k] = m.ensemble->row(m.copy->order()[k])[m.energy];
+  });
   Splitting& splitting = *splitting_;
   splitting.take_pairs(scheme_.neighbourhood(), members_, couplings_, threads());
 
-  auto const run_part = [&](Splitting::Edge& edge, Splitting::Part const& part) {
-    Coupling const& c = *part.coupling;
-    Member &first = *c.target, &second = *c.source;
-    PairNoise const noise = c.noise(context, boltzmann_constant_, number());
-    auto const& kernels = dissipation_kernels_for(first.dimension(), c.dissipation.projected);
-    alignas(64) double columns[geometry_columns * geometry_block];
-    auto const end = [](Member& m, std::uint32_t row) {
-      double* point = m.point(row);
-      bool const has_energy = m.has_energy();
-      return End{point + m.velocity_at(), point[m.inverse_mass_at()], has_energy ? &m.energies[row] : nullptr,
-                 has_energy ? &*m.law : nullptr};
-    };
-    auto const run = [&]<int D, bool projected>() {
-      PairSteps<D, projected> steps(noise, metropolis_, context);
-      for (std::size_t start = 0; start < part.pairs.size(); start += geometry_block) {
-        GeometryTask task;
-        task.first = first.points.data();
-        task.second = second.points.data();
-        task.first_number = first.copy->order();
-        task.second_number = second.copy->order();
-        task.pairs = part.pairs.data() + start;
-        task.count = std::min(geometry_block, part.pairs.size() - start);
-        task.columns = columns;
-        task.noise = noise;
-        kernels.geometry(task);
-        for (std::size_t k = 0; k < task.count; ++k) {
-          DissipationPair const& pair = task.pairs[k];
-          End const i = end(first, pair.first), j = end(second, pair.second);
-          if (!steps.step(columns, k, i, j, first.copy->order()[pair.first], second.copy->order()[pair.second]))
-            throw PhysicsFailure(
-                i.energy ? fmt::format("friction and noise would take more internal energy from {} ({:.4g}) or {} "
-                                       "({:.4g}) than there is; take a smaller step, or metropolis",
-                                       first.who(pair.first), *i.energy, second.who(pair.second), *j.energy)
-                         : fmt::format("friction between {} and {} is not finite", first.who(pair.first),
-                                       second.who(pair.second)));
-        }
-      }
-      edge.heat += steps.heat;
-      edge.proposed += steps.proposed;
-      edge.refused += steps.refused;
-    };
-    bool const projected = c.dissipation.projected;
-    switch (first.dimension()) {
-      case 1:
-        return projected ? run.operator()<1, true>() : run.operator()<1, false>();
-      case 2:
-        return projected ? run.operator()<2, true>() : run.operator()<2, false>();
-      default:
-        return projected ? run.operator()<3, true>() : run.operator()<3, false>();
-    }
-  };
   std::size_t particles = 0;
   for (auto const& member : members_) particles += member->dissipates ? member->owned() : 0;
   for (auto const& colour : splitting.colours)
@@ -262,7 +271,9 @@ void PairDissipation::shardlow(StepContext const& context) {
                    Splitting::Edge& edge = splitting.edges[colour[e]];
                    edge.heat = 0;
                    edge.proposed = edge.refused = 0;
-                   for (auto const& part : edge.parts) run_part(edge, part);
+                   for (auto const& part : edge.parts)
+                     splitting.run(edge, part, part.coupling->noise(context, boltzmann_constant_, number()),
+                                   metropolis_, context);
                  }
                });
   for (auto const& edge : splitting.edges) {
@@ -270,18 +281,11 @@ void PairDissipation::shardlow(StepContext const& context) {
     proposed_ += edge.proposed;
     refused_ += edge.refused;
   }
-  for (auto& member : members_) {
-    Member& m = *member;
-    if (!m.dissipates) continue;
-    for_ranges(m.owned(), dissipation_chunk, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k) {
-                   double* row = m.ensemble->row(m.copy->order()[k]);
-                   std::copy_n(m.point(k) + m.velocity_at(), m.dimension(), row + m.velocity);
-                   if (m.has_energy()) row[m.energy] = m.energies[k];
-                 }
-               });
-  }
+  for_dissipating([](Member& m, std::size_t k) {
+    double* row = m.ensemble->row(m.copy->order()[k]);
+    std::copy_n(m.point(k) + m.velocity_at(), m.dimension(), row + m.velocity);
+    if (m.has_energy()) row[m.energy] = m.energies[k];
+  });
 }
 
 }  // namespace boltzmann

@@ -9,6 +9,46 @@
 
 namespace boltzmann {
 
+/// Calls function(member, chunk, sums) with the sums over all pairs of a chunk's particles, side by side.
+template <class Function>
+void PairDissipation::each_chunk(StepContext const& context, double asymmetry, Function const& function) {
+  int const ring = scheme_.neighbourhood().ring();
+  for (auto& member : members_) {
+    Member& m = *member;
+    if (!m.dissipates) continue;
+    std::vector<std::pair<DissipationTask, DissipationKernels const*>> tasks;
+    for (auto const& coupling : couplings_) {
+      Coupling const& c = *coupling;
+      if (c.target != &m) continue;
+      DissipationTask task;
+      task.target = m.points.data();
+      task.source = c.source->points.data();
+      task.number = m.copy->order();
+      task.row = c.row.data();
+      task.length = c.length[ring].data();
+      task.asymmetry = asymmetry;
+      task.noise = c.noise(context, boltzmann_constant_, number());
+      tasks.emplace_back(task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected));
+    }
+    for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 4, threads()),
+               [&](std::size_t first, std::size_t last) {
+                 AlignedVector<double> sums;
+                 for (std::size_t chunk = first; chunk < last; ++chunk) {
+                   std::size_t const begin = chunk * dissipation_chunk,
+                                     end = std::min(begin + dissipation_chunk, m.owned());
+                   sums.assign(4 * (end - begin + 1), 0.0);
+                   for (auto [task, kernels] : tasks) {
+                     task.begin = begin;
+                     task.end = end;
+                     task.sums = sums.data();
+                     kernels->simultaneous(task);
+                   }
+                   function(m, chunk, sums.data());
+                 }
+               });
+  }
+}
+
 /// With dp_ij of all pairs from velocities u (those of now, or with the corrector the mean of now and of a try before)
 /// the motion gains sum over i of dP_i.(v_i + dP_i / 2m_i), dP_i = sum over j of dp_ij. It is paid by i and j as
 ///   eps_i -= sum over j of dp_ij.u_ij / 2 + dP_i.(dP_i - dP'_i) / 2m_i + |dp_ij|^2 (1/mj - 1/mi) / 4,
@@ -16,51 +56,13 @@ namespace boltzmann {
 /// the corrector) gives both the same share of what noise adds, as Eq 3 of the source asks.
 void PairDissipation::simultaneous(StepContext const& context) {
   take_lists();
-  int const ring = scheme_.neighbourhood().ring();
-  // function(member, chunk, sums), sums over all couplings of the chunk's particles.
-  auto const each_chunk = [&](double asymmetry, auto const& function) {
-    for (auto& member : members_) {
-      Member& m = *member;
-      if (!m.dissipates) continue;
-      std::vector<std::pair<DissipationTask, DissipationKernels const*>> tasks;
-      for (auto const& coupling : couplings_) {
-        Coupling const& c = *coupling;
-        if (c.target != &m) continue;
-        DissipationTask task;
-        task.target = m.points.data();
-        task.source = c.source->points.data();
-        task.number = m.copy->order();
-        task.row = c.row.data();
-        task.length = c.length[ring].data();
-        task.asymmetry = asymmetry;
-        task.noise = c.noise(context, boltzmann_constant_, number());
-        tasks.emplace_back(task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected));
-      }
-      for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 4, threads()),
-                 [&](std::size_t first, std::size_t last) {
-                   AlignedVector<double> sums;
-                   for (std::size_t chunk = first; chunk < last; ++chunk) {
-                     std::size_t const begin = chunk * dissipation_chunk,
-                                       end = std::min(begin + dissipation_chunk, m.owned());
-                     sums.assign(4 * (end - begin + 1), 0.0);
-                     for (auto [task, kernels] : tasks) {
-                       task.begin = begin;
-                       task.end = end;
-                       task.sums = sums.data();
-                       kernels->simultaneous(task);
-                     }
-                     function(m, chunk, sums.data());
-                   }
-                 });
-    }
-  };
   // Where particles share the heat the remainder must be small, too: one pass more.
   bool const shares = std::any_of(members_.begin(), members_.end(), [](auto const& m) { return m->has_energy(); });
   int const tries = !corrector_ ? 0 : shares ? 2 : 1;
   for (int n = 0; n < tries; ++n) {
     for (auto& member : members_)
       if (member->dissipates) member->predicted.resize(4 * member->owned());
-    each_chunk(0, [](Member& m, std::size_t chunk, double const* sums) {
+    each_chunk(context, 0, [](Member& m, std::size_t chunk, double const* sums) {
       std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
       std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
     });
@@ -70,7 +72,7 @@ void PairDissipation::simultaneous(StepContext const& context) {
   }
   std::vector<std::vector<double>> paid;  // by the bath, for each chunk
   for (auto const& member : members_) paid.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
-  each_chunk(corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
+  each_chunk(context, corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
     std::size_t number = 0;
     while (members_[number].get() != &m) ++number;
     finish_chunk(m, chunk, sums, paid[number][chunk]);

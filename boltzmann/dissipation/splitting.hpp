@@ -1,4 +1,4 @@
-// Which pairs follow which in pair splitting. Private to this room.
+// Which pairs follow which in Shardlow's splitting. Private to this room.
 #pragma once
 
 #include <boltzmann/dissipation/members.hpp>
@@ -29,7 +29,14 @@ struct PairDissipation::Splitting {
   /// Takes pairs anew if neighbour lists have changed.
   void take_pairs(Neighbourhood const& neighbourhood, std::vector<std::unique_ptr<Member>>& members,
                   std::vector<std::unique_ptr<Coupling>> const& couplings, int threads);
+  /// Friction and noise of a part of an edge, pair after pair. PhysicsFailure if an internal energy would not be
+  /// positive.
+  static void run(Edge& edge, Part const& part, PairNoise const& noise, bool metropolis, StepContext const& context);
   std::size_t bytes() const;
+
+ private:
+  template <int D, bool projected>
+  static void run_in(Edge& edge, Part const& part, PairNoise const& noise, bool metropolis, StepContext const& context);
 };
 
 }  // namespace boltzmann

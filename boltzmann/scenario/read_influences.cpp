@@ -1,11 +1,12 @@
 // Reads [[influences]]: which law acts on whom.
-#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace boltzmann {
 namespace {
@@ -48,128 +49,162 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
   return connections;
 }
 
-void read_influence(Item const& table, Reading& reading) {
-  std::size_t const before = reading.context.mistakes.count();
-  Section section(table, "[[influences]]", reading.context);
-  std::vector<std::string> names;
-  for (auto const& law : scenario_laws()) names.emplace_back(law.name);
-  Item const* law_item = section.need("law", "law = \"lennard-jones\"");
-  auto const name = law_item ? read_word(*law_item, "law", names, reading.context) : std::nullopt;
-  LawInfo const* law = name ? find_law(*name) : nullptr;
-  if (law) section.rename(fmt::format("[[influences]] '{}'", *name));
-  section.allow("law");
-  if (law && reading.smooth.wanted && law->kind == LawKind::pair)
-    return reading.mistake(
-        law_item->place, fmt::format("law '{}' acts between pairs of particles; smooth particles act on each other by "
-                                     "what they are made of, their 'material'",
-                                     *name));
-  bool const external = law && law->kind == LawKind::external;
+/// From one table to an influence in the scheme: which law, on whom, with which parameters.
+class InfluenceReader {
+ public:
+  InfluenceReader(Item const& table, Reading& reading)
+      : reading_(reading),
+        before_(reading.context.mistakes.count()),
+        section_(table, "[[influences]]", reading.context) {}
 
-  // On whom.
-  Item const* on = section.find("on");
-  Item const* between = external ? nullptr : section.find("between");
-  Item const* one_way = external ? nullptr : section.find("one_way");
-  int const given = (on != nullptr) + (between != nullptr) + (one_way != nullptr);
-  ReadEnsemble *a = nullptr, *b = nullptr;
-  if (external ? on == nullptr && !section.has("between") && !section.has("one_way") : given == 0) {
-    reading.mistake(table.place,
-                    external ? fmt::format("law '{}' comes from outside and needs 'on', e.g. on = \"atoms\"", *name)
-                             : "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
-                               "\"b\"] or one_way = [\"on\", \"by\"]");
-  } else if (given > 1) {
-    reading.mistake((between ? between : one_way)->place,
-                    "[[influences]] needs one of 'on', 'between' and 'one_way', not more");
-  } else if (on) {
-    a = b = reading.ensemble(*on, "on");
-  } else if (given == 1) {
-    Item const& pair = between ? *between : *one_way;
-    char const* key = between ? "between" : "one_way";
-    if (!pair.is(Item::Kind::array) || pair.elements.size() != 2) {
-      reading.mistake(pair.place,
-                      fmt::format("{}: the names of two ensembles are needed, {}, not {}{}", key,
-                                  between ? "[\"a\", \"b\"]" : "[\"on\", \"by\"]", found(pair),
-                                  pair.is(Item::Kind::array) ? fmt::format(" of {}", pair.elements.size()) : ""));
-    } else {
-      a = reading.ensemble(pair.elements[0], key);
-      b = reading.ensemble(pair.elements[1], key);
-      if (a && a == b) {
-        reading.mistake(pair.elements[1].place,
-                        fmt::format("{}: '{}' twice; within one ensemble write on = \"{}\"", key, a->name, a->name));
-        a = nullptr;
-      }
-    }
+  void read() {
+    if (!read_law()) return;
+    on_ = section_.find("on");
+    if (!external()) by_ = section_.find("by"), between_ = section_.find("between");
+    read_ensembles();
+    if (!law_) return;
+    auto const parameters = read_parameters(section_, fmt::format("law '{}'", law_->name), law_->parameters, reading_);
+    if (external())
+      only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
+    else
+      read_pairs();
+    section_.finish();
+    bool const there = a_ && b_ && a_->particles && b_->particles && reading_.result->scheme;
+    if (reading_.context.mistakes.count() != before_ || !there || (reading_.smooth.wanted && !reading_.result->smooth))
+      return;
+    install(*parameters);
   }
 
-  std::optional<ParameterValues> parameters;
-  std::optional<std::vector<std::uint32_t>> only;
-  std::vector<Connection> connections;
-  Item const* connect = nullptr;
-  std::optional<double> cutoff;
-  if (law) {
-    parameters = read_parameters(section, fmt::format("law '{}'", law->name), law->parameters, reading);
-    if (external) {
-      only = read_particles(section, a ? a->particles : nullptr, reading);
-    } else {
-      cutoff = section.quantity("cutoff", dimensions::length, positive);
-      connect = section.find("connect");
-      if (connect) {
-        connections = read_connections(*connect, a ? a->particles : nullptr, reading);
-        if (!on && given == 1)
-          reading.mistake(connect->place, "connect: connections are within one ensemble; write 'on'");
-        if (section.has("cutoff")) reading.mistake(section.place("cutoff"), "cutoff: connections have none");
-      }
-    }
-    section.finish();
+ private:
+  bool external() const { return law_ && law_->kind == LawKind::external; }
+
+  /// False: nothing else of it can be read.
+  bool read_law() {
+    std::vector<std::string> names;
+    for (auto const& law : scenario_laws()) names.emplace_back(law.name);
+    Item const* item = section_.need("law", "law = \"lennard-jones\"");
+    auto const name = item ? read_word(*item, "law", names, reading_.context) : std::nullopt;
+    if (!name) return true;
+    law_ = find_law(*name);
+    law_place_ = item->place;
+    section_.rename(fmt::format("[[influences]] '{}'", *name));
+    if (!reading_.smooth.wanted || external()) return true;
+    reading_.mistake(law_place_, fmt::format("law '{}' acts between pairs of particles; smooth particles act on each "
+                                             "other by what they are made of, their 'material'",
+                                             *name));
+    return false;
   }
-  if (reading.context.mistakes.count() != before || !law || !a || !b || !a->particles || !b->particles ||
-      !reading.result->scheme || !parameters || (reading.smooth.wanted && !reading.result->smooth))
-    return;
-  if (reading.result->smooth) {
-    if (section.has("particles") || section.has("where"))
-      return reading.mistake(section.place(section.has("particles") ? "particles" : "where"),
-                             fmt::format("law '{}' acts on all smooth particles of an ensemble; put some of them into "
-                                         "one of their own",
-                                         *name));
-    guarded(reading, law_item->place,
-            [&] { install_external(*reading.result->smooth, *law, *parameters, *a->particles); });
-    return;
-  }
-  PairScheme& scheme = *reading.result->pairs;
-  if (external) {
-    guarded(reading, law_item->place,
-            [&] { install_external(scheme, *law, *parameters, *a->particles, only ? &*only : nullptr); });
-  } else if (connect) {
-    guarded(reading, law_item->place,
-            [&] { install_connections(scheme, *law, *parameters, *a->particles, connections); });
-  } else {
-    if (!cutoff && !reading.run.cutoff_known) return;
-    double const reach = cutoff ? *cutoff : reading.run.cutoff.value_or(no_cutoff);
-    for (int axis = 0; axis < reading.dimension; ++axis) {
-      if (!reading.box->periodic(axis)) continue;
-      double const most = reading.box->length(axis);
-      if (reach == no_cutoff)
-        return reading.mistake(table.place, fmt::format("axis {} is periodic: law '{}' needs a cut-off there, in [run] "
-                                                        "or here, of at most {}",
-                                                        "xyz"[axis], law -> name, most));
-      if (reach > most)
-        return reading.mistake(section.place("cutoff"),
-                               fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}",
-                                           reach, "xyz"[axis], most));
+
+  void read_ensembles() {
+    if (between_ && (on_ || by_))
+      return reading_.mistake(between_->place,
+                              "[[influences]] needs 'on', or 'on' and 'by', or 'between', not more of them");
+    if (between_) return read_both();
+    if (on_) {
+      a_ = b_ = reading_.ensemble(*on_, "on");
+      if (!by_) return;
+      b_ = reading_.ensemble(*by_, "by");
+      if (a_ && a_ == b_) refuse_twice(*by_, "by");
+    } else if (by_) {
+      reading_.mistake(by_->place, "by: it says who acts; on whom says 'on', which is missing");
+    } else if (!external()) {
+      reading_.mistake(section_.place(),
+                       "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
+                       "\"b\"] or on = \"a\" with by = \"b\"");
+    } else if (!section_.has("between") && !section_.has("by")) {
+      reading_.mistake(section_.place(),
+                       fmt::format("law '{}' comes from outside and needs 'on', e.g. on = \"atoms\"", law_->name));
     }
-    guarded(reading, law_item->place, [&] {
-      install_pairs(scheme, *law, *parameters,
-                    on        ? LawUse::internal
-                    : between ? LawUse::between
-                              : LawUse::one_way,
-                    *a->particles, *b->particles, reach);
+  }
+  void read_both() {
+    if (!between_->is(Item::Kind::array) || between_->elements.size() != 2)
+      return reading_.mistake(
+          between_->place,
+          fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", found(*between_),
+                      between_->is(Item::Kind::array) ? fmt::format(" of {}", between_->elements.size()) : ""));
+    a_ = reading_.ensemble(between_->elements[0], "between");
+    b_ = reading_.ensemble(between_->elements[1], "between");
+    if (a_ && a_ == b_) refuse_twice(between_->elements[1], "between");
+  }
+  void refuse_twice(Item const& item, char const* key) {
+    reading_.mistake(item.place,
+                     fmt::format("{}: '{}' twice; within one ensemble write on = \"{}\"", key, a_->name, a_->name));
+    a_ = nullptr;
+  }
+
+  void read_pairs() {
+    cutoff_ = section_.quantity("cutoff", dimensions::length, positive);
+    connect_ = section_.find("connect");
+    if (!connect_) return;
+    connections_ = read_connections(*connect_, a_ ? a_->particles : nullptr, reading_);
+    if (between_ || by_) reading_.mistake(connect_->place, "connect: connections are within one ensemble; write 'on'");
+    if (section_.has("cutoff")) reading_.mistake(section_.place("cutoff"), "cutoff: connections have none");
+  }
+
+  void install(ParameterValues const& parameters) {
+    AnyEnsemble &a = *a_->particles, &b = *b_->particles;
+    SmoothScheme* smooth = reading_.result->smooth;
+    if (smooth && (section_.has("particles") || section_.has("where")))
+      return reading_.mistake(section_.place(section_.has("particles") ? "particles" : "where"),
+                              fmt::format("law '{}' acts on all smooth particles of an ensemble; put some of them into "
+                                          "one of their own",
+                                          law_->name));
+    double const reach = smooth || external() || connect_ ? no_cutoff : reach_of_pairs();
+    if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
+    guarded(reading_, law_place_, [&] {
+      PairScheme* pairs = reading_.result->pairs;
+      if (smooth)
+        install_external(*smooth, *law_, parameters, a);
+      else if (external())
+        install_external(*pairs, *law_, parameters, a, only_ ? &*only_ : nullptr);
+      else if (connect_)
+        install_connections(*pairs, *law_, parameters, a, connections_);
+      else
+        install_pairs(*pairs, *law_, parameters,
+                      between_ ? LawUse::between
+                      : by_    ? LawUse::one_way
+                               : LawUse::internal,
+                      a, b, reach);
     });
   }
-}
+
+  /// A mistake if periodic axes do not allow it; NaN: it is not known.
+  double reach_of_pairs() {
+    if (!cutoff_ && !reading_.run.cutoff_known) return std::numeric_limits<double>::quiet_NaN();
+    double const reach = cutoff_ ? *cutoff_ : reading_.run.cutoff.value_or(no_cutoff);
+    for (int axis = 0; axis < reading_.dimension; ++axis) {
+      double const most = reading_.box->length(axis);
+      if (!reading_.box->periodic(axis) || reach <= most) continue;
+      if (reach == no_cutoff)
+        reading_.mistake(
+            section_.place(),
+            fmt::format("axis {} is periodic: law '{}' needs a cut-off there, in [run] or here, of at most {}",
+                        "xyz"[axis], law_ -> name, most));
+      else
+        reading_.mistake(section_.place("cutoff"),
+                         fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}", reach,
+                                     "xyz"[axis], most));
+      break;
+    }
+    return reach;
+  }
+
+  Reading& reading_;
+  std::size_t before_;
+  Section section_;
+  LawInfo const* law_ = nullptr;
+  Place law_place_;
+  Item const *on_ = nullptr, *by_ = nullptr, *between_ = nullptr, *connect_ = nullptr;
+  ReadEnsemble *a_ = nullptr, *b_ = nullptr;
+  std::optional<double> cutoff_;
+  std::optional<std::vector<std::uint32_t>> only_;
+  std::vector<Connection> connections_;
+};
 
 }  // namespace
 
 void read_influences(Section& document, Reading& reading) {
-  for (Item const* table : find_tables(document, "influences")) read_influence(*table, reading);
+  for (Item const* table : find_tables(document, "influences")) InfluenceReader(*table, reading).read();
 }
 
 }  // namespace boltzmann

@@ -123,11 +123,10 @@ OptionTable make_influence_options() {
   OptionTable all;
   all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
   all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
-               "one of `on`, `between`, `one_way`");
+               "`on` or `between`");
   all.add_said("between", "the names of two ensembles", "between the particles of two ensembles, both ways",
-               "one of `on`, `between`, `one_way`");
-  all.add_said("one_way", "the names of two ensembles, `[\"on\", \"by\"]`",
-               "of the second on the first; nothing acts back", "one of `on`, `between`, `one_way`");
+               "`on` or `between`");
+  all.add_said("by", "the name of an ensemble", "with `on`: who acts; nothing acts back", "the same as `on`");
   all.add_said("cutoff", "a length, positive", "of this law", "that of `[run]`");
   all.add_said("connect", "`[[first, last, interval]]`",
                "with `on`: only between fixed pairs, (first, first + interval), (first + interval, first + 2 "

@@ -36,19 +36,19 @@ enum class Command { pause, play, rewind };
 }  // namespace
 
 struct LiveRun::State {
-  State(Stage& the_stage, Audience& the_audience, Recording* the_recording, LiveOptions the_options)
+  State(Stage& the_stage, Clients& the_audience, Recording* the_recording, LiveOptions the_options)
       : stage(the_stage),
-        audience(the_audience),
+        clients(the_audience),
         recording(the_recording),
         simulation(the_stage.simulation()),
         options(std::move(the_options)) {}
 
   Stage& stage;
-  Audience& audience;
+  Clients& clients;
   Recording* recording;
   Simulation& simulation;
   LiveOptions options;
-  Show* show = nullptr;
+  Source* show = nullptr;
 
   bool here = true;     // the LiveRun still is
   bool inside = false;  // within run() or rewind() of the simulation
@@ -94,9 +94,9 @@ struct LiveRun::State {
   bool decide(std::int64_t step) {
     if (!start_kept && step == first) return true;
     ++since_frame;
-    if (audience.calls()) return true;
+    if (clients.calls()) return true;
     if (paced()) return since_frame >= steps_per_frame;
-    if (!audience.ready()) return false;
+    if (!clients.ready()) return false;
     // The clock is read some thousand times a second, not after every step.
     if (++steps_since_clock < steps_between_clocks) return false;
     auto const now = Clock::now();
@@ -113,30 +113,30 @@ struct LiveRun::State {
     keep_start();
     ++scene;
     count();
-    audience.handle_requests();
+    clients.handle_requests();
     if (paced())
       keep_pace();
-    else if (audience.send_updates())
+    else if (clients.send_updates())
       // Steps don't end when a frame is due: what one comes late, the next one comes early.
       next_frame = std::max({afford(), next_frame + period(), begun_frame + period() / 2});
     if (turned()) simulation.pause();
   }
 
   // STEP goes as fast as it can.
-  bool paced() const { return steps_per_frame > 0 && !goal && audience.watched(); }
+  bool paced() const { return steps_per_frame > 0 && !goal && clients.watched(); }
 
   // The pace that was asked for, whether or not a browser keeps up with it. Where steps alone take longer than that,
   // drawing is held to its share of the time.
   void keep_pace() {
     bool const late = begun_frame > next_frame + period();
     if (!late || begun_frame >= next_affordable)
-      if (audience.send_updates()) afford();
+      if (clients.send_updates()) afford();
     if (since_frame < steps_per_frame) return;
     since_frame = 0;
     for (auto now = Clock::now(); now < next_frame && !turned() && !simulation.stopped(); now = Clock::now()) {
-      audience.wait(std::min(seconds_between(now, next_frame), 0.1));
-      audience.handle_requests();
-      audience.send_updates();
+      clients.wait(std::min(seconds_between(now, next_frame), 0.1));
+      clients.handle_requests();
+      clients.send_updates();
     }
     next_frame = std::max(next_frame, Clock::now() - period()) + period();
   }
@@ -323,8 +323,8 @@ struct LiveRun::State {
   }
 };
 
-LiveRun::LiveRun(Stage& stage, Audience& audience, Recording* recording, LiveOptions const& options)
-    : state_(std::make_shared<State>(stage, audience, recording, options)) {
+LiveRun::LiveRun(Stage& stage, Clients& clients, Recording* recording, LiveOptions const& options)
+    : state_(std::make_shared<State>(stage, clients, recording, options)) {
   state_->show = this;
   if (recording)
     recording->on_row([weak = std::weak_ptr<State>(state_)](std::int64_t step, std::span<double const> values) {
@@ -340,7 +340,7 @@ LiveRun::LiveRun(Stage& stage, Audience& audience, Recording* recording, LiveOpt
 
 LiveRun::~LiveRun() {
   state_->here = false;
-  state_->audience.close();
+  state_->clients.close();
 }
 
 void LiveRun::run(std::uint64_t steps) {
@@ -356,16 +356,16 @@ void LiveRun::run(std::uint64_t steps) {
           : std::max<std::int64_t>(
                 1, static_cast<std::int64_t>(static_cast<double>(steps) / (min_run_seconds * frames_per_second)));
   if (state.options.play) state.command = Command::play;
-  state.audience.open(*this);
+  state.clients.open(*this);
   while (!state.over()) {
-    state.audience.handle_requests();
+    state.clients.handle_requests();
     if (state.over()) break;
     bool const busy = !state.failure && (state.command != Command::pause || state.goal || state.new_step_size);
     if (!busy) {
-      state.audience.send_updates();
+      state.clients.send_updates();
       bool const finished = state.failure || state.simulation.step() >= state.target;
-      if (state.options.play && finished && state.audience.viewers() == 0) break;
-      state.audience.wait(0.1);
+      if (state.options.play && finished && state.clients.viewers() == 0) break;
+      state.clients.wait(0.1);
       continue;
     }
     if (state.new_step_size && state.command == Command::pause && !state.goal) {
@@ -390,7 +390,7 @@ void LiveRun::run(std::uint64_t steps) {
   }
   state.quit = true;
   ++state.notice;
-  state.audience.send_updates();
+  state.clients.send_updates();
   // Whoever quits before the first step finds the start of the run in its folder, ready to be resumed.
   if (state.recording && !state.begun && !state.failure) state.simulation.run(0);
   if (state.failure) std::rethrow_exception(state.failure);
@@ -495,14 +495,14 @@ json LiveRun::particle(std::string const& ensemble, std::size_t number) const {
   return state_->stage.particle(ensemble, number);
 }
 
-RunReport run_live(Stage& stage, Audience& audience, Recording* recording, std::uint64_t steps,
+RunReport run_live(Stage& stage, Clients& clients, Recording* recording, std::uint64_t steps,
                    LiveOptions const& options, bool quiet) {
   if (recording) stage.take(*recording);
   stage.add_usual();
-  LiveRun live(stage, audience, recording, options);
+  LiveRun live(stage, clients, recording, options);
   ProgressOptions const progress{quiet, 0, true, [&](std::uint64_t n) { live.run(n); }};
   if (!recording) return run_with_progress(stage.simulation(), steps, progress);
-  AddressFile const address(recording->folder(), audience.address());
+  AddressFile const address(recording->folder(), clients.address());
   return run_with_progress(*recording, steps, progress);
 }
 

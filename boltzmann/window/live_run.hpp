@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/recording/progress.hpp>
-#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/clients.hpp>
 #include <boltzmann/window/stage.hpp>
 
 #include <cstdint>
@@ -18,16 +18,16 @@ struct LiveOptions {
   std::string name = {}, description = {};
 };
 
-class LiveRun final : public Show {
+class LiveRun final : public Source {
  public:
   /// Adds an observer to the simulation of the stage, which stays there without effect when the run is gone.
   /// `recording` may be null.
-  LiveRun(Stage& stage, Audience& audience, Recording* recording, LiveOptions const& options = {});
+  LiveRun(Stage& stage, Clients& clients, Recording* recording, LiveOptions const& options = {});
   ~LiveRun() override;
   LiveRun(LiveRun const&) = delete;
   LiveRun& operator=(LiveRun const&) = delete;
 
-  /// Does what the audience wants, until it quits; `steps` are planned. Rethrows what a step has thrown, then.
+  /// Does what the clients wants, until it quits; `steps` are planned. Rethrows what a step has thrown, then.
   void run(std::uint64_t steps);
 
   nlohmann::json hello() const override;
@@ -45,9 +45,9 @@ class LiveRun final : public Show {
   std::shared_ptr<State> state_;
 };
 
-/// A run on a stage before an audience from its beginning to its end, with progress and records as run_with_progress
+/// A run on a stage before an clients from its beginning to its end, with progress and records as run_with_progress
 /// has them (which see). `recording` may be null. While it goes on, its folder says where the window is.
-RunReport run_live(Stage& stage, Audience& audience, Recording* recording, std::uint64_t steps,
+RunReport run_live(Stage& stage, Clients& clients, Recording* recording, std::uint64_t steps,
                    LiveOptions const& options = {}, bool quiet = false);
 
 }  // namespace boltzmann

@@ -27,9 +27,9 @@ Clock::duration seconds(double number) {
 
 }  // namespace
 
-Replay::Replay(Stage& stage, Audience& audience, std::string name, std::string description)
+Replay::Replay(Stage& stage, Clients& clients, std::string name, std::string description)
     : stage_(stage),
-      audience_(audience),
+      clients_(clients),
       name_(std::move(name)),
       description_(std::move(description)),
       path_(stage.folder() + "/trajectory.h5") {
@@ -41,7 +41,7 @@ Replay::Replay(Stage& stage, Audience& audience, std::string name, std::string d
   go_to(0);
 }
 
-Replay::~Replay() { audience_.close(); }
+Replay::~Replay() { clients_.close(); }
 
 void Replay::read_table() {
   std::string const path = stage_.folder() + "/diagnoses.csv";
@@ -119,10 +119,10 @@ void Replay::take(std::unique_ptr<TrajectoryReader> reader) {
 
 bool Replay::run() {
   Interrupt const interrupt(stage_.simulation());
-  audience_.open(*this);
+  clients_.open(*this);
   auto next_frame = Clock::now(), next_look = Clock::now() + steps_between_clocks;
   while (!quit_ && !interrupt.seen()) {
-    audience_.handle_requests();
+    clients_.handle_requests();
     auto const now = Clock::now();
     if (now >= next_look) {
       look_for_more();
@@ -144,13 +144,13 @@ bool Replay::run() {
         next_frame = std::max(next_frame + seconds(1 / frames_per_second_), now);
       }
     }
-    audience_.send_updates();
+    clients_.send_updates();
     double const idle = direction_ == 0 ? 0.1 : std::chrono::duration<double>(next_frame - Clock::now()).count();
-    if (idle > 0) audience_.wait(std::min(idle, 0.1));
+    if (idle > 0) clients_.wait(std::min(idle, 0.1));
     if (direction_ == 0) next_frame = Clock::now();
   }
   ++notice_;
-  audience_.send_updates();
+  clients_.send_updates();
   return interrupt.seen();
 }
 

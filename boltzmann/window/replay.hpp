@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/files/trajectory.hpp>
-#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/clients.hpp>
 #include <boltzmann/window/stage.hpp>
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace boltzmann {
 
-class Replay final : public Show {
+class Replay final : public Source {
  public:
   /// Shows the frames of folder/trajectory.h5 in the ensembles of the stage, and the table of folder/diagnoses.csv.
   /// Error if there are none.
-  Replay(Stage& stage, Audience& audience, std::string name, std::string description);
+  Replay(Stage& stage, Clients& clients, std::string name, std::string description);
   ~Replay() override;
   Replay(Replay const&) = delete;
   Replay& operator=(Replay const&) = delete;
 
-  /// Does what the audience wants until it quits, or a signal comes (then it returns true).
+  /// Does what the clients wants until it quits, or a signal comes (then it returns true).
   bool run();
 
   nlohmann::json hello() const override;
@@ -45,7 +45,7 @@ class Replay final : public Show {
   void look_for_more();
 
   Stage& stage_;
-  Audience& audience_;
+  Clients& clients_;
   std::string name_, description_, path_;
   std::unique_ptr<TrajectoryReader> reader_;  // null while the file can't be read
   std::vector<std::int64_t> steps_;

@@ -111,13 +111,13 @@ std::optional<WebFile> RunList::picture(std::string_view path) const {
   }
 }
 
-json RunListShow::hello() const {
-  json result = ChoiceShow::hello();
+json RunListSource::hello() const {
+  json result = ChoiceSource::hello();
   result["runs"] = true;
   return result;
 }
 
-json RunListShow::answer(std::string const& what, json const& request) {
+json RunListSource::answer(std::string const& what, json const& request) {
   if (what == "scenarios") return list_.runs();
   if (what == "run") {
     choice_ = list_.find(need_text(request, "name"));

@@ -1,7 +1,7 @@
 // Run list: the runs whose results stand below a folder, and the start page on which one of them is chosen.
 #pragma once
 
-#include <boltzmann/window/choice_show.hpp>
+#include <boltzmann/window/choice_source.hpp>
 #include <boltzmann/window/web_server.hpp>
 
 #include <mutex>
@@ -36,10 +36,10 @@ class RunList {
   std::vector<std::string> pictures_;  ///< their paths, by number
 };
 
-class RunListShow final : public ChoiceShow {
+class RunListSource final : public ChoiceSource {
  public:
-  RunListShow(RunList& list, Audience& audience, std::string const& folder, std::string message = "")
-      : ChoiceShow(audience, "Runs in " + folder, std::move(message)), list_(list) {}
+  RunListSource(RunList& list, Clients& clients, std::string const& folder, std::string message = "")
+      : ChoiceSource(clients, "Runs in " + folder, std::move(message)), list_(list) {}
 
   nlohmann::json hello() const override;
   /// The folder of the run that somebody wants to see; nothing: somebody has quit.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <boltzmann/pictures/picture.hpp>
-#include <boltzmann/window/show.hpp>
+#include <boltzmann/window/source.hpp>
 
 #include <nlohmann/json_fwd.hpp>
 

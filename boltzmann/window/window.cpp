@@ -1,4 +1,4 @@
-// One stage, one audience, one run.
+// One stage, one clients, one run.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/recording/recording.hpp>
@@ -13,7 +13,7 @@ struct Window::State {
   Recording* recording;
   WindowOptions options;
   Stage stage;
-  Audience audience;
+  Clients clients;
   std::optional<Announcement> announcement;
 
   State(Simulation& simulation, Base const& base, Recording* the_recording, WindowOptions the_options,
@@ -21,9 +21,9 @@ struct Window::State {
       : recording(the_recording),
         options(std::move(the_options)),
         stage(simulation, base, std::move(title), std::move(folder)),
-        audience(options.port) {
+        clients(options.port) {
     simulation.check();
-    if (!options.quiet) announcement.emplace("window", audience.address());
+    if (!options.quiet) announcement.emplace("window", clients.address());
   }
 };
 
@@ -38,7 +38,7 @@ Window::Window(Simulation& simulation, Base const& base, WindowOptions options) 
   state_ = std::make_unique<State>(simulation, base, nullptr, std::move(options), title, "");
 }
 
-Window::~Window() { state_->audience.bye("the program has closed the window"); }
+Window::~Window() { state_->clients.bye("the program has closed the window"); }
 
 void Window::install_drawing(std::string name, std::function<void(Canvas&)> draw) {
   if (name.empty()) throw Error("a diagnosis needs a name");
@@ -56,12 +56,12 @@ void Window::colours(std::vector<std::string> const& names) {
   state_->stage.palette(std::move(palette));
 }
 
-std::string Window::address() const { return state_->audience.address(); }
+std::string Window::address() const { return state_->clients.address(); }
 Simulation& Window::simulation() const { return state_->stage.simulation(); }
 
 RunReport Window::run(std::uint64_t steps) {
   State& state = *state_;
-  return run_live(state.stage, state.audience, state.recording, steps,
+  return run_live(state.stage, state.clients, state.recording, steps,
                   {state.options.play, -1, state.options.name, state.options.description}, state.options.quiet);
 }
 

@@ -57,7 +57,7 @@ struct OracleCoupling {
   DissipationLaw dissipation;
   int a = 0, b = 0;
   std::uint32_t number = 0;
-  std::uint32_t dissipation = 0;  // the number of the dissipation in its simulation
+  std::uint32_t owner = 0;  // the number of the dissipation in its simulation
 };
 
 struct OracleStrength {
@@ -181,7 +181,7 @@ struct OracleMatter {
     DissipationLaw const& d = coupling.dissipation;
     int const directions = d.projected ? 1 : box.dimension();
     double const mi = bodies[i].mass, mj = bodies[j].mass, reduced = mi * mj / (mi + mj);
-    auto const normal = normals_of_pair(bodies[i].number, bodies[j].number, coupling.number, coupling.dpd, context);
+    auto const normal = normals_of_pair(bodies[i].number, bodies[j].number, coupling.number, coupling.owner, context);
     std::array<double, 3> v{}, p{};
     double along = 0, square = 0;
     for (int a = 0; a < 3; ++a) v[a] = u[i][a] - u[j][a], along += v[a] * e[a], square += v[a] * v[a];

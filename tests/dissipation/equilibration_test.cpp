@@ -217,7 +217,7 @@ TEST(Equilibration, ByDissipativeFlowAndOneAfterTheOther) {
 
 TEST(Equilibration, NothingHappensWithoutARun) {
   Crystal crystal;
-  crystal.dpd.complete();  // temperatures, which follow
+  crystal.dpd.update_derived_fields();  // temperatures, which follow
   auto const before = bits_of_rows(crystal.matter);
   crystal.simulation.equilibrate(crystal.bath(), 20);
   crystal.simulation.check();

@@ -40,7 +40,7 @@ void pair_by_hand(OracleMatter& matter, OracleCoupling const& coupling, StepCont
   double const k = matter.k, mu = p.mass * q.mass / (p.mass + q.mass);
   StateLaw const *law_p = matter.laws[static_cast<std::size_t>(p.kind)],
                  *law_q = matter.laws[static_cast<std::size_t>(q.kind)];
-  auto const normal = normals_of_pair(p.number, q.number, coupling.number, coupling.dpd, context);
+  auto const normal = normals_of_pair(p.number, q.number, coupling.number, coupling.owner, context);
   std::array<double, 3> v{};
   for (int a = 0; a < dimension; ++a) v[a] = p.velocity[a] - q.velocity[a];
   if (d.projected) v = {v[0] * e[0] + v[1] * e[1] + v[2] * e[2], 0, 0};

@@ -16,7 +16,7 @@
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #ifdef BOLTZMANN_WITH_WINDOW
-#include <boltzmann/window/gallery_show.hpp>
+#include <boltzmann/window/gallery_source.hpp>
 #include <boltzmann/window/live_run.hpp>
 #endif
 
@@ -202,11 +202,11 @@ void read_message(std::string const& text) {
   struct Shows {
     std::string before = fs::current_path();
     Pair pair;
-    Audience audience;
+    Clients clients;
     Gallery gallery{folder()};
-    GalleryShow list{gallery, audience};
+    GallerySource list{gallery, clients};
     Stage stage{pair.simulation, Base::reduced(), "two", ""};
-    LiveRun live{stage, audience, nullptr};
+    LiveRun live{stage, clients, nullptr};
     Shows() { pair.simulation.check(), stage.add_usual(); }
   };
   static Shows shows;
@@ -222,7 +222,7 @@ void read_message(std::string const& text) {
     } catch (Error const& error) {
       // a line for the page
     } catch (json::exception const&) {
-      // which the audience answers, too
+      // which the clients answers, too
     }
 }
 std::vector<std::string> message_seeds() {

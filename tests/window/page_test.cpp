@@ -71,7 +71,7 @@ TEST(Page, IsEmbeddedAsItStandsInTheRepository) {
   EXPECT_TRUE(page_html() == text_of(window / "page.html")) << "the object file of page.cpp is older than page.html";
 }
 
-// The one script that stands in it is what the audience gives a nonce.
+// The one script that stands in it is what the clients gives a nonce.
 TEST(Page, HasOneScript) {
   std::string_view const page = page_html();
   auto const first = page.find("<script");

@@ -52,11 +52,11 @@ class ReplayTest : public testing::Test {
   struct Shown {
     Balls stored;
     Stage stage;
-    Audience audience;
+    Clients clients;
     Replay replay;
     std::thread thread;
     explicit Shown(std::string const& folder)
-        : stage(stored.simulation, Base::reduced(), "balls", folder), replay(stage, audience, "balls", "") {
+        : stage(stored.simulation, Base::reduced(), "balls", folder), replay(stage, clients, "balls", "") {
       stored.simulation.check();
       stage.add_usual();
       thread = std::thread([this] { replay.run(); });
@@ -87,7 +87,7 @@ json const particles = json::array({{{"id", 1}, {"diagnosis", "Particles"}}});
 
 TEST_F(ReplayTest, ShowsEachFrameAsItWas) {
   Shown shown(folder_);
-  PageReader page(shown.audience.address());
+  PageReader page(shown.clients.address());
   EXPECT_EQ(page.hello["kind"], "replay");
   EXPECT_EQ(page.hello["planned"], 200);
   EXPECT_NE(page.hello["can"]["step_size"], "");
@@ -109,7 +109,7 @@ TEST_F(ReplayTest, ShowsEachFrameAsItWas) {
 
 TEST_F(ReplayTest, PlaysForwardsAndBackwards) {
   Shown shown(folder_);
-  PageReader page(shown.audience.address());
+  PageReader page(shown.clients.address());
   page.show(particles);
   page.ask({{"do", "set"}, {"steps_per_frame", 200}});
   page.ask({{"do", "play"}});
@@ -128,7 +128,7 @@ TEST_F(ReplayTest, PlaysForwardsAndBackwards) {
 
 TEST_F(ReplayTest, RefusesWhatAStoredRunCantDo) {
   Shown shown(folder_);
-  PageReader page(shown.audience.address());
+  PageReader page(shown.clients.address());
   page.show(particles);
   for (json const& wrong : {json{{"do", "checkpoint"}}, json{{"do", "set"}, {"step_size", 1}}, json{{"do", "seek"}},
                             json{{"do", "seek"}, {"frame", 21}}, json{{"do", "seek"}, {"frame", "five"}},
@@ -139,7 +139,7 @@ TEST_F(ReplayTest, RefusesWhatAStoredRunCantDo) {
 
 TEST_F(ReplayTest, HasTheTableOfTheRun) {
   Shown shown(folder_);
-  PageReader page(shown.audience.address());
+  PageReader page(shown.clients.address());
   page.show(particles);
   auto const update = page.until([](json const& u) { return u.contains("table"); });
   EXPECT_EQ(update.head["table"]["rows"], 41);
@@ -158,7 +158,7 @@ TEST_F(ReplayTest, GrowsWhileTheRunGoesOn) {
     recording.trajectory(10);
     growing.simulation.run(30);
     Shown shown(other);
-    PageReader page(shown.audience.address());
+    PageReader page(shown.clients.address());
     page.show(particles);
     EXPECT_EQ(page.update().head["frames"], 4);
     growing.simulation.run(30);
@@ -182,7 +182,7 @@ TEST_F(ReplayTest, StopsBeforeADamagedFrame) {
     TextFile(path, TextFile::Mode::replace).write(bytes.replace(at + 8, 8, 8, '\0'));
   }
   Shown shown(folder_);
-  PageReader page(shown.audience.address());
+  PageReader page(shown.clients.address());
   EXPECT_NE(page.ask({{"do", "seek"}, {"frame", 20}})["error"].get<std::string>().find("frame 20 is damaged"),
             std::string::npos);
   EXPECT_FALSE(page.ask({{"do", "seek"}, {"frame", 18}}).contains("error"));
@@ -196,18 +196,18 @@ TEST_F(ReplayTest, StopsBeforeADamagedFrame) {
 
 TEST_F(ReplayTest, NeedsFrames) {
   Balls stored;
-  Audience audience;
+  Clients clients;
   Stage nowhere(stored.simulation, Base::reduced(), "", folder_ + "-missing");
-  EXPECT_THROW(Replay(nowhere, audience, "", ""), Error);
+  EXPECT_THROW(Replay(nowhere, clients, "", ""), Error);
 }
 
 TEST(AddressFile, TellsOfAWindowOnlyWhileItLives) {
   std::string const folder = (fs::temp_directory_path() / ("address_file_" + std::to_string(getpid()))).string();
   EXPECT_FALSE(living_window(folder));
   {
-    Audience const audience;
-    AddressFile const file(folder, audience.address());
-    EXPECT_EQ(living_window(folder), audience.address());
+    Clients const clients;
+    AddressFile const file(folder, clients.address());
+    EXPECT_EQ(living_window(folder), clients.address());
     EXPECT_EQ(fs::status(folder + "/window.txt").permissions(), fs::perms::owner_read | fs::perms::owner_write);
   }
   EXPECT_FALSE(fs::exists(folder + "/window.txt"));

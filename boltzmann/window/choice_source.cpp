@@ -1,6 +1,6 @@
 // Nothing to see yet but names.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/window/choice_show.hpp>
+#include <boltzmann/window/choice_source.hpp>
 
 namespace boltzmann {
 
@@ -12,22 +12,22 @@ std::string need_text(json const& request, char const* key) {
   return request[key].get<std::string>();
 }
 
-ChoiceShow::ChoiceShow(Audience& audience, std::string title, std::string message)
-    : audience_(audience), title_(std::move(title)), message_(std::move(message)) {}
+ChoiceSource::ChoiceSource(Clients& clients, std::string title, std::string message)
+    : clients_(clients), title_(std::move(title)), message_(std::move(message)) {}
 
-ChoiceShow::~ChoiceShow() { audience_.close(); }
+ChoiceSource::~ChoiceSource() { clients_.close(); }
 
-void ChoiceShow::wait() {
-  audience_.open(*this);
+void ChoiceSource::wait() {
+  clients_.open(*this);
   while (!quit_ && !chosen()) {
-    audience_.handle_requests();
-    audience_.send_updates();
-    audience_.wait(1);
+    clients_.handle_requests();
+    clients_.send_updates();
+    clients_.wait(1);
   }
 }
 
 // The page knows what else a start page lacks.
-json ChoiceShow::hello() const {
+json ChoiceSource::hello() const {
   std::string const why = "there is no simulation yet";
   return {{"type", "hello"},
           {"kind", "gallery"},
@@ -36,7 +36,7 @@ json ChoiceShow::hello() const {
           {"can", {{"rewind", why}, {"step_size", why}, {"checkpoint", why}, {"seek", why}, {"quit", ""}}}};
 }
 
-json ChoiceShow::status() const {
+json ChoiceSource::status() const {
   return {{"state", quit_ ? "ended" : "paused"},
           {"step", 0},
           {"time", ""},
@@ -47,7 +47,7 @@ json ChoiceShow::status() const {
           {"missed", nullptr}};
 }
 
-json ChoiceShow::perform(json const& request) {
+json ChoiceSource::perform(json const& request) {
   std::string const what = request["do"];
   if (what != "quit") return answer(what, request);
   quit_ = true;
@@ -55,8 +55,8 @@ json ChoiceShow::perform(json const& request) {
   return json::object();
 }
 
-std::shared_ptr<Canvas const> ChoiceShow::draw(json const&) { throw Error("there are no particles to show yet"); }
-PictureFile ChoiceShow::picture(json const&) { throw Error("there are no particles to show yet"); }
-json ChoiceShow::particle(std::string const&, std::size_t) const { return nullptr; }
+std::shared_ptr<Canvas const> ChoiceSource::draw(json const&) { throw Error("there are no particles to show yet"); }
+PictureFile ChoiceSource::picture(json const&) { throw Error("there are no particles to show yet"); }
+json ChoiceSource::particle(std::string const&, std::size_t) const { return nullptr; }
 
 }  // namespace boltzmann

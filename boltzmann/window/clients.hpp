@@ -1,9 +1,9 @@
-// Audience: the browsers that look at a window. What each of them shows, what they have said, and who is ready for the
+// Clients: the browsers that look at a window. What each of them shows, what they have said, and who is ready for the
 // next update; a browser gets one only when it has asked, so that a slow one delays nobody and one that never reads
 // costs nothing.
 #pragma once
 
-#include <boltzmann/window/show.hpp>
+#include <boltzmann/window/source.hpp>
 #include <boltzmann/window/web_server.hpp>
 
 #include <atomic>
@@ -16,20 +16,20 @@
 
 namespace boltzmann {
 
-class Audience {
+class Clients {
  public:
   /// Listens at once. `file` gives further files by path; it is called on another thread. Errors as of WebServer.
-  explicit Audience(std::uint16_t port = 0, std::function<std::optional<WebFile>(std::string_view path)> file = {},
-                    std::string token = "");
-  ~Audience();
-  Audience(Audience const&) = delete;
-  Audience& operator=(Audience const&) = delete;
+  explicit Clients(std::uint16_t port = 0, std::function<std::optional<WebFile>(std::string_view path)> file = {},
+                   std::string token = "");
+  ~Clients();
+  Clients(Clients const&) = delete;
+  Clients& operator=(Clients const&) = delete;
 
   std::string address() const;
   std::uint16_t port() const;
 
   /// What is shown from now on; every browser is told.
-  void open(Show& show);
+  void open(Source& show);
   /// Nothing is, for now.
   void close();
   /// The last word to all.

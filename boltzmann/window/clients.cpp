@@ -1,7 +1,7 @@
 // Who looks at what, and the messages to and fro. Browsers speak on the server's thread, which only notes it down.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/nesting.hpp>
-#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/clients.hpp>
 #include <boltzmann/window/page.hpp>
 #include <boltzmann/window/wire.hpp>
 
@@ -70,7 +70,7 @@ json view_of(json const& given) {
 
 }  // namespace
 
-struct Audience::State {
+struct Clients::State {
   std::mutex mutex;
   std::condition_variable stirred;
   std::map<std::uint64_t, Browser> browsers;
@@ -79,10 +79,20 @@ struct Audience::State {
   std::uint64_t crowd = 0;  // changes with the number of browsers
   std::uint64_t event_count = 0,
                 handled_count = 0;  // what has happened, and how much of it when it was last attended to
-  Show* show = nullptr;
+  Source* show = nullptr;
   std::unique_ptr<WebServer> server;
   // The same for its own thread: from the moment on at which it is known here, and until that thread has ended.
   std::atomic<WebServer*> speaks{nullptr};
+
+  /// A browser that is ready and has something to see.
+  struct Turn {
+    std::uint64_t id;
+    std::vector<Wanted> views;
+    std::int64_t rows;
+    std::optional<std::pair<std::string, std::size_t>> selected;
+  };
+  /// All of them; each of their views is marked as drawn.
+  std::vector<Turn> turns(std::uint64_t scene, std::uint64_t notice, ShownTable const* table);
 
   void joined(std::uint64_t id) {
     std::scoped_lock const lock(mutex);
@@ -222,7 +232,7 @@ struct Audience::State {
   }
 };
 
-Audience::Audience(std::uint16_t port, std::function<std::optional<WebFile>(std::string_view)> file, std::string token)
+Clients::Clients(std::uint16_t port, std::function<std::optional<WebFile>(std::string_view)> file, std::string token)
     : state_(std::make_shared<State>()), calls_(state_->calls), ready_(state_->ready) {
   State* const state = state_.get();
   WebEvents events;
@@ -237,15 +247,15 @@ Audience::Audience(std::uint16_t port, std::function<std::optional<WebFile>(std:
   state_->speaks = state_->server.get();
 }
 
-Audience::~Audience() {
+Clients::~Clients() {
   state_->speaks = nullptr;
   state_->server.reset();
 }
 
-std::string Audience::address() const { return state_->server->address(); }
-std::uint16_t Audience::port() const { return state_->server->port(); }
+std::string Clients::address() const { return state_->server->address(); }
+std::uint16_t Clients::port() const { return state_->server->port(); }
 
-void Audience::open(Show& show) {
+void Clients::open(Source& show) {
   state_->show = &show;
   std::vector<std::uint64_t> all;
   {
@@ -260,9 +270,9 @@ void Audience::open(Show& show) {
   for (auto const id : all) state_->greet(id);
 }
 
-void Audience::close() { state_->show = nullptr; }
+void Clients::close() { state_->show = nullptr; }
 
-void Audience::bye(std::string const& message) {
+void Clients::bye(std::string const& message) {
   std::vector<std::uint64_t> all;
   {
     std::scoped_lock const lock(state_->mutex);
@@ -274,12 +284,12 @@ void Audience::bye(std::string const& message) {
   }
 }
 
-int Audience::viewers() const {
+int Clients::viewers() const {
   std::scoped_lock const lock(state_->mutex);
   return static_cast<int>(state_->browsers.size());
 }
 
-bool Audience::watched() const {
+bool Clients::watched() const {
   auto const since = Clock::now() - std::chrono::duration<double>(watching_seconds);
   std::scoped_lock const lock(state_->mutex);
   for (auto const& [id, browser] : state_->browsers)
@@ -287,7 +297,7 @@ bool Audience::watched() const {
   return false;
 }
 
-bool Audience::handle_requests() {
+bool Clients::handle_requests() {
   std::deque<Said> said;
   {
     std::scoped_lock const lock(state_->mutex);
@@ -306,95 +316,108 @@ bool Audience::handle_requests() {
   return !said.empty();
 }
 
-bool Audience::send_updates() {
-  Show* const show = state_->show;
-  if (!show) return false;
-  std::uint64_t const scene = show->scene(), notice = show->notice();
-  ShownTable const* const table = show->table();
-
-  // Who is ready and has something to see; each of their views is marked as drawn.
-  struct Turn {
-    std::uint64_t id;
-    std::vector<Wanted> views;
-    std::int64_t rows, table;
-    std::optional<std::pair<std::string, std::size_t>> selected;
-  };
-  std::vector<Turn> turns;
-  std::size_t viewers = 0;
-  {
-    std::scoped_lock const lock(state_->mutex);
-    viewers = state_->browsers.size();
-    bool waiting = false;
-    for (auto& [id, browser] : state_->browsers) {
-      if (!browser.ready) continue;
-      bool news = browser.scene != scene || browser.notice != notice || browser.crowd != state_->crowd ||
-                  browser.selection_changed;
-      if (table) {
-        if (browser.table != table->number) browser.rows = 0;
-        news = news || static_cast<std::size_t>(browser.rows) < table->rows();
-      }
-      Turn turn{id, {}, browser.rows, browser.table, browser.selected};
-      for (auto& view : browser.views)
-        if (view.drawn != scene) {
-          turn.views.push_back(view);
-          view.drawn = scene;
-        }
-      if (!news && turn.views.empty()) {
-        waiting = true;
-        continue;
-      }
-      browser.ready = false;
-      browser.selection_changed = false;
-      browser.scene = scene;
-      browser.notice = notice;
-      browser.crowd = state_->crowd;
-      turns.push_back(std::move(turn));
+std::vector<Clients::State::Turn> Clients::State::turns(std::uint64_t scene, std::uint64_t notice,
+                                                        ShownTable const* table) {
+  std::vector<Turn> found;
+  std::scoped_lock const lock(mutex);
+  bool waiting = false;
+  for (auto& [id, browser] : browsers) {
+    if (!browser.ready) continue;
+    bool news =
+        browser.scene != scene || browser.notice != notice || browser.crowd != crowd || browser.selection_changed;
+    if (table) {
+      if (browser.table != table->number) browser.rows = 0;
+      news = news || static_cast<std::size_t>(browser.rows) < table->rows();
     }
-    state_->ready.store(waiting, std::memory_order_relaxed);
+    Turn turn{id, {}, browser.rows, browser.selected};
+    for (auto& view : browser.views)
+      if (view.drawn != scene) {
+        turn.views.push_back(view);
+        view.drawn = scene;
+      }
+    if (!news && turn.views.empty()) {
+      waiting = true;
+      continue;
+    }
+    browser.ready = false;
+    browser.selection_changed = false;
+    browser.scene = scene;
+    browser.notice = notice;
+    browser.crowd = crowd;
+    found.push_back(std::move(turn));
+  }
+  ready.store(waiting, std::memory_order_relaxed);
+  return found;
+}
+
+namespace {
+
+/// The drawings of one update; browsers that look at the same share them.
+class Drawings {
+ public:
+  explicit Drawings(Source& show) : show_(show) {}
+
+  /// What a browser is told of a view: null if there is nothing.
+  json of(Wanted const& view, BinaryMessage& message) {
+    auto [found, fresh] = drawn_.try_emplace(view.key);
+    if (fresh) found->second = draw(view);
+    auto const& [canvas, error] = found->second;
+    if (canvas) return {{"id", view.id}, {"canvas", canvas_json(canvas, message)}};
+    return error.empty() ? json() : json{{"id", view.id}, {"error", error}};
   }
 
-  struct Drawn {
-    std::shared_ptr<Canvas const> canvas;
-    std::string error;
-  };
-  std::map<std::string, Drawn> drawn;  // browsers that look at the same share the drawing
-  json const status = turns.empty() ? json() : show->status();
-  for (auto& turn : turns) {
+ private:
+  using Drawn = std::pair<std::shared_ptr<Canvas const>, std::string>;  // or why it can't be
+
+  Drawn draw(Wanted const& view) const try { return {show_.draw(view.view), ""}; } catch (json::exception const&) {
+    return {nullptr, "a field of the view is of the wrong kind"};
+  } catch (std::exception const& error) {
+    return {nullptr, error.what()};
+  }
+
+  Source& show_;
+  std::map<std::string, Drawn> drawn_;
+};
+
+/// The rows of the table from `first` on.
+json rows_of(ShownTable const& table, std::int64_t first, BinaryMessage& message) {
+  auto const from = static_cast<std::size_t>(std::max<std::int64_t>(first, 0));
+  std::vector<double> rows(table.values.begin() + static_cast<std::ptrdiff_t>(from * table.columns),
+                           table.values.end());
+  return {{"number", table.number},
+          {"from", from},
+          {"rows", table.rows() - from},
+          {"values", message.array(std::move(rows))}};
+}
+
+}  // namespace
+
+bool Clients::send_updates() {
+  Source* const show = state_->show;
+  if (!show) return false;
+  ShownTable const* const table = show->table();
+  auto const turns = state_->turns(show->scene(), show->notice(), table);
+  if (turns.empty()) return false;
+  Drawings drawings(*show);
+  json const status = show->status();
+  std::size_t const viewers = this->viewers();
+  for (auto const& turn : turns) {
     BinaryMessage message;
     json head = status;
     head["type"] = "update";
     head["viewers"] = viewers;
     head["selected"] = turn.selected ? show->particle(turn.selected->first, turn.selected->second) : json();
-    if (table && table->rows() > static_cast<std::size_t>(std::max<std::int64_t>(turn.rows, 0))) {
-      auto const from = static_cast<std::size_t>(std::max<std::int64_t>(turn.rows, 0));
-      std::vector<double> rows(table->values.begin() + static_cast<std::ptrdiff_t>(from * table->columns),
-                               table->values.end());
-      head["table"] = {{"number", table->number},
-                       {"from", from},
-                       {"rows", table->rows() - from},
-                       {"values", message.array(std::move(rows))}};
-    }
+    if (table && static_cast<std::int64_t>(table->rows()) > std::max<std::int64_t>(turn.rows, 0))
+      head["table"] = rows_of(*table, turn.rows, message);
     json& views = head["views"] = json::array();
-    for (auto const& view : turn.views) {
-      auto [found, fresh] = drawn.try_emplace(view.key);
-      if (fresh) try {
-          found->second.canvas = show->draw(view.view);
-        } catch (json::exception const&) {
-          found->second.error = "a field of the view is of the wrong kind";
-        } catch (std::exception const& error) {
-          found->second.error = error.what();
-        }
-      if (found->second.canvas)
-        views.push_back({{"id", view.id}, {"canvas", canvas_json(found->second.canvas, message)}});
-      else if (!found->second.error.empty())
-        views.push_back({{"id", view.id}, {"error", found->second.error}});
-    }
+    for (auto const& view : turn.views)
+      if (json one = drawings.of(view, message); !one.is_null()) views.push_back(std::move(one));
     state_->server->send(turn.id, message.finish(head));
   }
-  return !turns.empty();
+  return true;
 }
 
-void Audience::wait(double seconds) {
+void Clients::wait(double seconds) {
   std::unique_lock lock(state_->mutex);
   state_->stirred.wait_for(lock, std::chrono::duration<double>(seconds),
                            [&] { return state_->event_count != state_->handled_count; });

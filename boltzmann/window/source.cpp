@@ -1,5 +1,5 @@
 // Tables that never grow beyond what a page can draw.
-#include <boltzmann/window/show.hpp>
+#include <boltzmann/window/source.hpp>
 
 namespace boltzmann {
 

@@ -1,7 +1,7 @@
 // Gallery show: the start page, where a scenario is chosen, changed, saved and run.
 #pragma once
 
-#include <boltzmann/window/choice_show.hpp>
+#include <boltzmann/window/choice_source.hpp>
 #include <boltzmann/window/gallery.hpp>
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace boltzmann {
 
-class GalleryShow final : public ChoiceShow {
+class GallerySource final : public ChoiceSource {
  public:
   /// `message` is said to those who come: how the last run ended.
-  GalleryShow(Gallery const& gallery, Audience& audience, std::string message = "")
-      : ChoiceShow(audience, "Boltzmann", std::move(message)), gallery_(gallery) {}
+  GallerySource(Gallery const& gallery, Clients& clients, std::string message = "")
+      : ChoiceSource(clients, "Boltzmann", std::move(message)), gallery_(gallery) {}
 
   struct Choice {
     std::string name;    ///< of the scenario

@@ -1,6 +1,6 @@
 // The requests of the start page, handed to the gallery.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/window/gallery_show.hpp>
+#include <boltzmann/window/gallery_source.hpp>
 
 namespace boltzmann {
 namespace {
@@ -21,7 +21,7 @@ json changes(json const& request) {
 
 }  // namespace
 
-json GalleryShow::answer(std::string const& what, json const& request) {
+json GallerySource::answer(std::string const& what, json const& request) {
   if (what == "scenarios") return gallery_.scenarios();
   if (what == "scenario") return gallery_.scenario(need_text(request, "name"));
   if (what == "check") return gallery_.check(need_text(request, "name"), changes(request));

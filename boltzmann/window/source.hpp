@@ -1,4 +1,4 @@
-// Show: what a window shows, as its audience sees it: a run that goes on, a stored one, or the gallery of scenarios.
+// Source: what a window shows, as its clients sees it: a run that goes on, a stored one, or the gallery of scenarios.
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
@@ -32,9 +32,9 @@ struct PictureFile {
 };
 
 /// The fields of the messages are those of protocol.md. All functions are called on the simulation's thread.
-class Show {
+class Source {
  public:
-  virtual ~Show() = default;
+  virtual ~Source() = default;
 
   /// The message that begins it, whole.
   virtual nlohmann::json hello() const = 0;

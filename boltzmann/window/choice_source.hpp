@@ -1,7 +1,7 @@
 // Choice show: a start page on which something is chosen, before there is a simulation.
 #pragma once
 
-#include <boltzmann/window/audience.hpp>
+#include <boltzmann/window/clients.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace boltzmann {
 
-class ChoiceShow : public Show {
+class ChoiceSource : public Source {
  public:
-  ChoiceShow(Audience& audience, std::string title, std::string message);
-  ~ChoiceShow() override;
-  ChoiceShow(ChoiceShow const&) = delete;
-  ChoiceShow& operator=(ChoiceShow const&) = delete;
+  ChoiceSource(Clients& clients, std::string title, std::string message);
+  ~ChoiceSource() override;
+  ChoiceSource(ChoiceSource const&) = delete;
+  ChoiceSource& operator=(ChoiceSource const&) = delete;
 
   nlohmann::json hello() const override;
   nlohmann::json status() const override;
@@ -34,7 +34,7 @@ class ChoiceShow : public Show {
   virtual nlohmann::json answer(std::string const& what, nlohmann::json const& request) = 0;
 
  private:
-  Audience& audience_;
+  Clients& clients_;
   std::string title_, message_;
   bool quit_ = false;
   std::uint64_t notice_ = 1;
