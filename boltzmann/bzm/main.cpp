@@ -127,26 +127,55 @@ std::string whole_number(std::string& text) {
   return "";
 }
 
-int command_line(int argc, char** argv) {
-  CLI::App app("Boltzmann: particle simulations from a scenario file or a C++ program.", "bzm");
-  app.set_version_flag("--version", std::string("bzm ") + described_version);
-  app.require_subcommand(0, 1);
-  app.footer(exit_statuses);
-  app.set_help_flag("-h,--help", "say what can be said, and stop");
-  std::function<int()> action;
-  auto const command = [&](char const* name, char const* doc, std::function<int()> call) {
-    auto* sub = app.add_subcommand(name, doc);
-    sub->set_help_flag("-h,--help", "say what can be said, and stop");
-    sub->callback([&action, call = std::move(call)] { action = call; });
-    return sub;
-  };
+/// The commands with their options, and what is to be done.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.set_version_flag("--version", std::string("bzm ") + described_version);
+    app_.require_subcommand(0, 1);
+    app_.footer(exit_statuses);
+    app_.set_help_flag("-h,--help", help);
+    add_run();
+    add_resume();
+    add_window();
+    add_render();
+    add_export();
+    add_words();
+    add_tools();
+  }
 
-  auto const window_options = [](CLI::App* sub, WindowRun& window) {
+  int perform(int argc, char** argv) {
+    check_command(app_, argc, argv);
+    try {
+      app_.parse(argc, argv);
+    } catch (CLI::ParseError const& error) {
+      if (error.get_exit_code() == 0) return app_.exit(error);
+      throw Error(explain(app_, error, argc, argv));
+    }
+    if (!action_) {
+      fmt::print("{}", app_.help());
+      return 0;
+    }
+    instruction_set();  // a wrong BOLTZMANN_INSTRUCTIONS is said once, not at each law of a scenario
+    return action_();
+  }
+
+ private:
+  static constexpr char const* help = "say what can be said, and stop";
+
+  CLI::App* command(char const* name, char const* doc, std::function<int()> call) {
+    auto* sub = app_.add_subcommand(name, doc);
+    sub->set_help_flag("-h,--help", help);
+    sub->callback([this, call = std::move(call)] { action_ = call; });
+    return sub;
+  }
+
+  static void window_options(CLI::App* sub, WindowRun& window) {
     sub->add_flag("--window", window.open, "in a window: prints the address of a page to watch and steer it");
     sub->add_option("--port", window.port, "of the window's page [a free one]")->check(CLI::Range(0, 65535));
     sub->add_flag("--play", window.play, "with --window: begin at once, and end with the last step if nobody looks");
-  };
-  auto const scenario_options = [](CLI::App* sub, Overrides& overrides) {
+  }
+  static void scenario_options(CLI::App* sub, Overrides& overrides) {
     sub->add_option("--set", overrides.set, "change the scenario: key.path=value (may be given again)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
@@ -161,131 +190,140 @@ int command_line(int argc, char** argv) {
     sub->add_option("--seeds", overrides.seeds, "one run for each of so many seeds, and means with their errors")
         ->check(CLI::Range(1, 10000));
     sub->add_flag("--no-sweep", overrides.no_sweep, "one run of a scenario that has a [sweep]");
-  };
-  RunOptions run_options;
-  auto* sub = command("run", "run a scenario; results go into a folder", [&] { return run(run_options); });
-  sub->add_option("scenario", run_options.scenario,
-                  "a file, the name of a shipped scenario (bzm list), or -: standard input")
-      ->required();
-  scenario_options(sub, run_options.overrides);
-  sub->add_option("--hours", run_options.hours, hours_doc)->check(hours_above_zero);
-  sub->add_option("--out", run_options.out, "folder for the results [results/<name>]")->type_name("DIR");
-  sub->add_flag("--quiet", run_options.quiet, "no progress line and no table");
-  sub->add_flag("--force", run_options.force, "replace a run that is in the folder");
-  window_options(sub, run_options.window);
-
-  ResumeOptions resume_options;
-  sub = command("resume", "go on with a run or a sweep from where it was stopped",
-                [&] { return resume(resume_options); });
-  sub->add_option("folder", resume_options.folder, "the folder of the run or sweep")->required();
-  sub->add_option("--steps", resume_options.steps, "so many steps from the checkpoint on [to the planned end]")
-      ->transform(CLI::Validator(whole_number, "N"));
-  sub->add_option("--threads", resume_options.threads, "number of threads")->check(CLI::Range(1, 4096));
-  sub->add_option("--hours", resume_options.hours, hours_doc)->check(hours_above_zero);
-  sub->add_flag("--quiet", resume_options.quiet, "no progress line and no table");
-  window_options(sub, resume_options.window);
-
-  WindowCommand window_command;
-  sub = command("window", "watch a stored run on a page; without a folder: choose a scenario, change it and run it",
-                [&] { return window(window_command); });
-  sub->add_option("folder", window_command.folder, "the folder of a run [none: the gallery of scenarios]");
-  sub->add_option("--port", window_command.port, "of the page [a free one]")->check(CLI::Range(0, 65535));
-
-  RenderOptions render_options;
-  sub = command("render", "draw a picture or a movie of a run", [&] { return render(render_options); });
-  sub->add_option("folder", render_options.folder, "the folder of the run")->required();
-  sub->add_option("-o,--out", render_options.out,
-                  "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
-      ->required()
-      ->type_name("FILE");
-  sub->add_option("--frame", render_options.frame, "number of the frame, from 0; negative: from the end [-1]");
-  picture_words(sub, render_options.picture);
-  sub->add_option("--fps", render_options.frames_per_second, "frames per second of a movie")->capture_default_str();
-  sub->add_option("--scale", render_options.scale, "1: 1200 x 900 pixels")->capture_default_str();
-  sub->add_flag("--dark", render_options.dark, "light on dark");
-
-  ExportRun export_options;
-  sub = command("export", "write a run's trajectory for OVITO, VMD, ParaView, ASE, MDAnalysis or a spreadsheet",
-                [&] { return export_run(export_options); });
-  sub->footer(export_help());
-  sub->add_option("folder", export_options.folder, "the folder of the run, or a trajectory.h5")->required();
-  sub->add_option("-o,--out", export_options.out, "the file; its ending says what it is")
-      ->required()
-      ->type_name("FILE");
-  sub->add_option("--frames", export_options.frames,
-                  "one, 7, or from:to:every, 10:100:5; from 0, negative: from the end")
-      ->type_name("A:B:C");
-  sub->add_option("--ensemble", export_options.ensembles, "only these (may be given again, or with commas)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  sub->add_option("--fields", export_options.fields, "only these, beside the position: velocity,mass")
-      ->type_name("NAMES")
-      ->allow_extra_args(false);
-  sub->add_option("--species", export_options.species, "what stands for the particles of an ensemble: atoms=Cu")
-      ->type_name("NAME=SYMBOL")
-      ->allow_extra_args(false);
-  sub->add_option("--units", export_options.units,
-                  "metal (angstrom, ps, amu, eV, K, e), si, or run: those of trajectory.h5 "
-                  "[.xyz, .dump: metal for atoms, si for larger things; else run]");
-
-  std::string kind;
-  bool names_only = false;
-  sub = command("list", "list the names there are, each with a line", [&] { return list(kind, names_only); });
-  sub->add_option("kind", kind, join(listed_kinds()) + " [all but units]");
-  sub->add_flag("--names", names_only, "only the names, one a line");
-
-  std::string name;
-  Overrides overrides;
-  bool schema = false;
-  sub = command("show", "explain a scenario, class, law, loader, integrator, diagnosis, table or unit",
-                [&] { return schema ? show_schema(name) : show(name); });
-  sub->add_option("name", name, "a word that bzm list shows, or a unit");
-  sub->add_flag("--schema", schema, "the JSON Schema of scenario files, for editors");
-  sub = command("check", "find all mistakes of a scenario, and run nothing", [&] { return check(name, overrides); });
-  sub->add_option("scenario", name, "a file, the name of a shipped scenario, or -: standard input")->required();
-  scenario_options(sub, overrides);
-  sub = command("new", "write a commented scenario to start from", [&] { return new_scenario(name); });
-  sub->add_option("name", name, "the scenario's name; NAME.toml is written here")->required();
-
-  BuildOptions build_options;
-  sub = command("build", "compile a C++ program with the right compiler line, and show the line",
-                [&] { return build(build_options); });
-  sub->add_option("program", build_options.program, "program.cpp")->required();
-  sub->add_option("-o,--out", build_options.out, "the program to write [without .cpp]")->type_name("FILE");
-  sub->add_flag("--dry", build_options.dry, "show the line only");
-
-  std::string folder;
-  sub = command("doctor", "look at this machine and compute a known answer", [&] { return doctor(folder); });
-  sub->add_option("folder", folder, "where results will go [results]");
-
-  BenchOptions bench_options;
-  sub = command("bench", "how fast are some standard problems on this machine?", [&] { return bench(bench_options); });
-  sub->add_option("--seconds", bench_options.seconds, "time for all of them together")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->capture_default_str();
-  sub->add_option("--threads", bench_options.threads, "each runs on one thread and on so many [all]")
-      ->check(CLI::Range(1, 4096));
-  sub->add_option("--json", bench_options.json, "write the figures into this file too")->type_name("FILE");
-
-  std::string shell = "bash";
-  sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"",
-                [&] { return completion(shell, command_words(app)); });
-  sub->add_option("shell", shell, "bash, zsh or fish")->capture_default_str();
-
-  check_command(app, argc, argv);
-  try {
-    app.parse(argc, argv);
-  } catch (CLI::ParseError const& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    throw Error(explain(app, error, argc, argv));
   }
-  if (!action) {
-    fmt::print("{}", app.help());
-    return 0;
+
+  void add_run() {
+    CLI::App* sub = command("run", "run a scenario; results go into a folder", [this] { return run(run_options_); });
+    sub->add_option("scenario", run_options_.scenario,
+                    "a file, the name of a shipped scenario (bzm list), or -: standard input")
+        ->required();
+    scenario_options(sub, run_options_.overrides);
+    sub->add_option("--hours", run_options_.hours, hours_doc)->check(hours_above_zero);
+    sub->add_option("--out", run_options_.out, "folder for the results [results/<name>]")->type_name("DIR");
+    sub->add_flag("--quiet", run_options_.quiet, "no progress line and no table");
+    sub->add_flag("--force", run_options_.force, "replace a run that is in the folder");
+    window_options(sub, run_options_.window);
   }
-  instruction_set();  // a wrong BOLTZMANN_INSTRUCTIONS is said once, not at each law of a scenario
-  return action();
-}
+
+  void add_resume() {
+    CLI::App* sub = command("resume", "go on with a run or a sweep from where it was stopped",
+                            [this] { return resume(resume_options_); });
+    sub->add_option("folder", resume_options_.folder, "the folder of the run or sweep")->required();
+    sub->add_option("--steps", resume_options_.steps, "so many steps from the checkpoint on [to the planned end]")
+        ->transform(CLI::Validator(whole_number, "N"));
+    sub->add_option("--threads", resume_options_.threads, "number of threads")->check(CLI::Range(1, 4096));
+    sub->add_option("--hours", resume_options_.hours, hours_doc)->check(hours_above_zero);
+    sub->add_flag("--quiet", resume_options_.quiet, "no progress line and no table");
+    window_options(sub, resume_options_.window);
+  }
+
+  void add_window() {
+    CLI::App* sub =
+        command("window", "watch a stored run on a page; without a folder: choose a scenario, change it and run it",
+                [this] { return window(window_command_); });
+    sub->add_option("folder", window_command_.folder, "the folder of a run [none: the gallery of scenarios]");
+    sub->add_option("--port", window_command_.port, "of the page [a free one]")->check(CLI::Range(0, 65535));
+  }
+
+  void add_render() {
+    CLI::App* sub = command("render", "draw a picture or a movie of a run", [this] { return render(render_options_); });
+    sub->add_option("folder", render_options_.folder, "the folder of the run")->required();
+    sub->add_option("-o,--out", render_options_.out,
+                    "picture.png .svg .pdf; movie.mp4 .webm .gif (needs ffmpeg); frames/ for numbered pictures")
+        ->required()
+        ->type_name("FILE");
+    sub->add_option("--frame", render_options_.frame, "number of the frame, from 0; negative: from the end [-1]");
+    picture_words(sub, render_options_.picture);
+    sub->add_option("--fps", render_options_.frames_per_second, "frames per second of a movie")->capture_default_str();
+    sub->add_option("--scale", render_options_.scale, "1: 1200 x 900 pixels")->capture_default_str();
+    sub->add_flag("--dark", render_options_.dark, "light on dark");
+  }
+
+  void add_export() {
+    CLI::App* sub =
+        command("export", "write a run's trajectory for OVITO, VMD, ParaView, ASE, MDAnalysis or a spreadsheet",
+                [this] { return export_run(export_options_); });
+    sub->footer(export_help());
+    sub->add_option("folder", export_options_.folder, "the folder of the run, or a trajectory.h5")->required();
+    sub->add_option("-o,--out", export_options_.out, "the file; its ending says what it is")
+        ->required()
+        ->type_name("FILE");
+    sub->add_option("--frames", export_options_.frames,
+                    "one, 7, or from:to:every, 10:100:5; from 0, negative: from the end")
+        ->type_name("A:B:C");
+    sub->add_option("--ensemble", export_options_.ensembles, "only these (may be given again, or with commas)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    sub->add_option("--fields", export_options_.fields, "only these, beside the position: velocity,mass")
+        ->type_name("NAMES")
+        ->allow_extra_args(false);
+    sub->add_option("--species", export_options_.species, "what stands for the particles of an ensemble: atoms=Cu")
+        ->type_name("NAME=SYMBOL")
+        ->allow_extra_args(false);
+    sub->add_option("--units", export_options_.units,
+                    "metal (angstrom, ps, amu, eV, K, e), si, or run: those of trajectory.h5 "
+                    "[.xyz, .dump: metal for atoms, si for larger things; else run]");
+  }
+
+  void add_words() {
+    CLI::App* sub =
+        command("list", "list the names there are, each with a line", [this] { return list(kind_, names_only_); });
+    sub->add_option("kind", kind_, join(listed_kinds()) + " [all but units]");
+    sub->add_flag("--names", names_only_, "only the names, one a line");
+
+    sub = command("show", "explain a scenario, class, law, loader, integrator, diagnosis, table or unit",
+                  [this] { return schema_ ? show_schema(name_) : show(name_); });
+    sub->add_option("name", name_, "a word that bzm list shows, or a unit");
+    sub->add_flag("--schema", schema_, "the JSON Schema of scenario files, for editors");
+    sub = command("check", "find all mistakes of a scenario, and run nothing",
+                  [this] { return check(name_, overrides_); });
+    sub->add_option("scenario", name_, "a file, the name of a shipped scenario, or -: standard input")->required();
+    scenario_options(sub, overrides_);
+    sub = command("new", "write a commented scenario to start from", [this] { return new_scenario(name_); });
+    sub->add_option("name", name_, "the scenario's name; NAME.toml is written here")->required();
+  }
+
+  void add_tools() {
+    CLI::App* sub = command("build", "compile a C++ program with the right compiler line, and show the line",
+                            [this] { return build(build_options_); });
+    sub->add_option("program", build_options_.program, "program.cpp")->required();
+    sub->add_option("-o,--out", build_options_.out, "the program to write [without .cpp]")->type_name("FILE");
+    sub->add_flag("--dry", build_options_.dry, "show the line only");
+
+    sub = command("doctor", "look at this machine and compute a known answer", [this] { return doctor(folder_); });
+    sub->add_option("folder", folder_, "where results will go [results]");
+
+    sub = command("bench", "how fast are some standard problems on this machine?",
+                  [this] { return bench(bench_options_); });
+    sub->add_option("--seconds", bench_options_.seconds, "time for all of them together")
+        ->check(CLI::Range(0.1, 86400.0))
+        ->capture_default_str();
+    sub->add_option("--threads", bench_options_.threads, "each runs on one thread and on so many [all]")
+        ->check(CLI::Range(1, 4096));
+    sub->add_option("--json", bench_options_.json, "write the figures into this file too")->type_name("FILE");
+
+    sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"",
+                  [this] { return completion(shell_, command_words(app_)); });
+    sub->add_option("shell", shell_, "bash, zsh or fish")->capture_default_str();
+  }
+
+  CLI::App app_{"Boltzmann: particle simulations from a scenario file or a C++ program.", "bzm"};
+  std::function<int()> action_;
+  RunOptions run_options_;
+  ResumeOptions resume_options_;
+  WindowCommand window_command_;
+  RenderOptions render_options_;
+  ExportRun export_options_;
+  std::string kind_;
+  bool names_only_ = false;
+  std::string name_;
+  Overrides overrides_;
+  bool schema_ = false;
+  BuildOptions build_options_;
+  std::string folder_;
+  BenchOptions bench_options_;
+  std::string shell_ = "bash";
+};
 
 }  // namespace
 
@@ -294,7 +332,7 @@ int main(int argc, char** argv) {
   hdf5::leave_without_words();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
   try {
-    return command_line(argc, argv);
+    return CommandLine().perform(argc, argv);
   } catch (ScenarioErrors const& errors) {
     for (auto const& line : errors.lines) fmt::print(stderr, "{}\n", line);
     return 2;
