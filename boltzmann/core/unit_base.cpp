@@ -33,7 +33,7 @@ struct Printed {
 
 // The units that are printed, as a reader of each field expects them; of two that serve equally well, the first is
 // taken.
-std::vector<Printed> const& printed_units() {
+std::vector<Printed> const& printed_units() {  // long: a table
   static std::vector<Printed> const printed = [] {
     std::vector<Printed> all;
     for (auto const* name : {"m",

@@ -546,7 +546,7 @@ struct Entry {
 
 OptionTable told(std::vector<OptionKey> const& keys) { return diagnosis_options().only(keys); }
 
-std::vector<Entry> const& table() {
+std::vector<Entry> const& table() {  // long: a table, an entry for each diagnosis
   static std::vector<Entry> const entries = [] {
     OptionKey const each{"ensembles", "one set of columns for each of them", "of each ensemble there is"};
     std::vector<OptionKey> const group{each, {"label"}, {"particles"}, {"similar_velocity"}, {"tolerance"}};

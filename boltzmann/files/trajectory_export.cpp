@@ -449,6 +449,50 @@ std::vector<std::size_t> chosen_frames(std::string_view text, std::size_t count)
   return frames;
 }
 
+namespace {
+
+/// A frame of those that are chosen; `memory` keeps its numbers.
+ExportFrame frame_of(TrajectoryReader const& reader, std::size_t number, std::vector<Chosen> const& chosen,
+                     UnitChange const& units, ExportOptions const& options, std::vector<std::vector<double>>& memory) {
+  ExportFrame frame;
+  auto const time = units(reader.time_unit());
+  frame.step = reader.steps()[number];
+  frame.time = reader.written_time(number) * time.factor;
+  frame.time_unit = time.unit;
+  frame.box = reader.box(number, TrajectoryReader::Numbers::written);
+  for (auto const& [ensemble, fields, first_id] : chosen) {
+    ExportParticles particles{ensemble->name, ensemble->dimension, reader.size(number, ensemble->name), first_id, {}};
+    for (auto const& [name, species] : options.species)
+      if (name == ensemble->name) particles.species = species;
+    for (auto const* field : fields) {
+      memory.push_back(reader.read(number, ensemble->name, field->name, TrajectoryReader::Numbers::written));
+      auto const change = units(field->unit);
+      particles.fields.push_back({field->name, field->components, memory.back().data(),
+                                  static_cast<std::size_t>(field->components), change.factor, change.unit});
+      if (field->name == "position" && frame.particles.empty()) {
+        frame.length_unit = change.unit;
+        for (int axis = 0; axis < frame.box.dimension; ++axis)
+          frame.box.low[axis] *= change.factor, frame.box.high[axis] *= change.factor;
+      }
+    }
+    frame.particles.push_back(std::move(particles));
+  }
+  return frame;
+}
+
+std::vector<std::string> names_of(ExportFrame const& frame, bool in_columns) {
+  std::vector<std::string> names;
+  if (in_columns)
+    for (auto const& field : common_fields(frame.particles)) names.push_back(field.name);
+  else
+    for (auto const& particles : frame.particles)
+      for (auto const& field : particles.fields)
+        if (std::find(names.begin(), names.end(), field.name) == names.end()) names.push_back(field.name);
+  return names;
+}
+
+}  // namespace
+
 ExportReport export_trajectory(TrajectoryReader const& reader, std::string const& path, ExportOptions const& options) {
   Kind const kind = kind_of(path);
   bool const in_columns = kind == Kind::xyz || kind == Kind::dump;
@@ -472,40 +516,10 @@ ExportReport export_trajectory(TrajectoryReader const& reader, std::string const
 
   ExportReport report{0, units.name(), {}};
   auto const writer = make_writer(kind, path);
-  auto const time = units(reader.time_unit());
   for (auto const number : frames) {
     std::vector<std::vector<double>> memory;
-    ExportFrame frame;
-    frame.step = reader.steps()[number];
-    frame.time = reader.written_time(number) * time.factor;
-    frame.time_unit = time.unit;
-    frame.box = reader.box(number, TrajectoryReader::Numbers::written);
-    for (auto const& [ensemble, fields, first_id] : chosen) {
-      ExportParticles particles{ensemble->name, ensemble->dimension, reader.size(number, ensemble->name), first_id, {}};
-      for (auto const& [name, species] : options.species)
-        if (name == ensemble->name) particles.species = species;
-      for (auto const* field : fields) {
-        memory.push_back(reader.read(number, ensemble->name, field->name, TrajectoryReader::Numbers::written));
-        auto const change = units(field->unit);
-        particles.fields.push_back({field->name, field->components, memory.back().data(),
-                                    static_cast<std::size_t>(field->components), change.factor, change.unit});
-        if (field->name == "position" && frame.particles.empty()) {
-          frame.length_unit = change.unit;
-          for (int axis = 0; axis < frame.box.dimension; ++axis)
-            frame.box.low[axis] *= change.factor, frame.box.high[axis] *= change.factor;
-        }
-      }
-      frame.particles.push_back(std::move(particles));
-    }
-    if (report.frames == 0) {
-      if (in_columns)
-        for (auto const& field : common_fields(frame.particles)) report.names.push_back(field.name);
-      else
-        for (auto const& particles : frame.particles)
-          for (auto const& field : particles.fields)
-            if (std::find(report.names.begin(), report.names.end(), field.name) == report.names.end())
-              report.names.push_back(field.name);
-    }
+    auto const frame = frame_of(reader, number, chosen, units, options, memory);
+    if (report.frames == 0) report.names = names_of(frame, in_columns);
     writer->write(frame);
     ++report.frames;
     if (options.progress) options.progress(report.frames, frames.size());

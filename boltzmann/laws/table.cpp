@@ -125,6 +125,37 @@ struct Table::Source {
   }
 };
 
+/// The ends, and between them those knots that don't come too near to the ends.
+std::vector<double> Table::knots_between(std::int64_t end_row) const {
+  std::vector<double> s{least_};
+  for (std::int64_t row = first_row_ + 1; row < end_row; ++row) {
+    double const width = knot(row + 1) - knot(row);
+    if (knot(row) - least_ > width / 4 && greatest_ - knot(row) > width / 4) s.push_back(knot(row));
+  }
+  s.push_back(greatest_);
+  return s;
+}
+
+namespace {
+
+/// dU/d(r^2) at the knots, so that two derivatives are continuous; u at the knots, h between them.
+std::vector<double> slopes_at_knots(std::vector<double> const& u, std::vector<double> const& h, double first,
+                                    double last) {
+  std::size_t const n = h.size();
+  std::vector<double> low(n + 1, 0), middle(n + 1, 1), high(n + 1, 0), right(n + 1);
+  for (std::size_t k = 1; k < n; ++k) {
+    low[k] = 1 / h[k - 1];
+    high[k] = 1 / h[k];
+    middle[k] = 2 * (low[k] + high[k]);
+    right[k] = 3 * ((u[k] - u[k - 1]) * low[k] * low[k] + (u[k + 1] - u[k]) * high[k] * high[k]);
+  }
+  right[0] = first;
+  right[n] = last;
+  return tridiagonal(low, middle, high, right);
+}
+
+}  // namespace
+
 Table::Table(Source const& source, PerOctave fineness) {
   source.check();
   if (!std::has_single_bit(fineness.intervals) || fineness.intervals < least_per_octave ||
@@ -141,13 +172,7 @@ Table::Table(Source const& source, PerOctave fineness) {
   auto const rows = static_cast<std::size_t>(end_row - first_row_);
   if (rows > most_intervals) throw Error(fmt::format("table: {} intervals; {} are allowed", rows, most_intervals));
 
-  // Knots: the ends, and between them those that don't come too near to the ends.
-  std::vector<double> s{least_};
-  for (std::int64_t row = first_row_ + 1; row < end_row; ++row) {
-    double const width = knot(row + 1) - knot(row);
-    if (knot(row) - least_ > width / 4 && greatest_ - knot(row) > width / 4) s.push_back(knot(row));
-  }
-  s.push_back(greatest_);
+  auto const s = knots_between(end_row);
   std::size_t const n = s.size() - 1;
   if (n < 3)
     throw Error(
@@ -156,23 +181,14 @@ Table::Table(Source const& source, PerOctave fineness) {
   auto const energy_at = [&](double square) {
     return source.value(std::clamp(std::sqrt(square), source.first, source.last));
   };
-  std::vector<double> u(n + 1), h(n), low(n + 1, 0), middle(n + 1, 1), high(n + 1, 0), right(n + 1);
+  std::vector<double> u(n + 1), h(n);
   for (std::size_t k = 0; k <= n; ++k) u[k] = energy_at(s[k]);
   for (std::size_t k = 0; k < n; ++k) h[k] = s[k + 1] - s[k];
-  // dU/d(r^2) at the knots, from two continuous derivatives; at the ends from five values near them.
-  for (std::size_t k = 1; k < n; ++k) {
-    low[k] = 1 / h[k - 1];
-    high[k] = 1 / h[k];
-    middle[k] = 2 * (low[k] + high[k]);
-    right[k] = 3 * ((u[k] - u[k - 1]) * low[k] * low[k] + (u[k + 1] - u[k]) * high[k] * high[k]);
-  }
   auto const end_slope = [&](double square, double step) {
     auto const v = [&](int k) { return energy_at(square + k * step); };
     return (48 * v(1) - 36 * v(2) + 16 * v(3) - 3 * v(4) - 25 * v(0)) / (12 * step);
   };
-  right[0] = end_slope(least_, h[0] / 16);
-  right[n] = end_slope(greatest_, -h[n - 1] / 16);
-  auto const slope = tridiagonal(low, middle, high, right);
+  auto const slope = slopes_at_knots(u, h, end_slope(least_, h[0] / 16), end_slope(greatest_, -h[n - 1] / 16));
 
   auto data = std::make_shared<Data>();
   data->first = first;

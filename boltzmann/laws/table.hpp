@@ -141,6 +141,7 @@ class Table {
                                result.c.data(), 4);
     return result;
   }
+  std::vector<double> knots_between(std::int64_t end_row) const;
   double knot(std::int64_t row) const { return std::bit_cast<double>(row << shift_); }
 
   double const* rows_;

@@ -50,46 +50,127 @@ template <int W>
   return count >= W ? (1U << W) - 1U : (1U << count) - 1U;
 }
 
+inline double squared(double x) { return x * x; }
+
+/// A block in space.
+struct Block {
+  double least[3] = {}, greatest[3] = {};
+};
+/// The end of a group of consecutive targets whose block is no longer than that.
+template <int D>
+[[gnu::always_inline]] inline std::size_t end_of_group(NearTask const& task, std::size_t first, std::size_t end,
+                                                       double const (&longest)[3], Block& block) {
+  constexpr std::size_t group_size = 16;
+  for (int a = 0; a < D; ++a) block.least[a] = block.greatest[a] = task.reference[4 * first + a];
+  std::size_t last = first + 1;
+  for (; last < end && last < first + group_size; ++last) {
+    double low[3] = {}, high[3] = {};
+    bool fits = true;
+    for (int a = 0; a < D; ++a) {
+      double const x = task.reference[4 * last + a];
+      low[a] = x < block.least[a] ? x : block.least[a];
+      high[a] = x > block.greatest[a] ? x : block.greatest[a];
+      fits = fits && high[a] - low[a] <= longest[a];
+    }
+    if (!fits) break;
+    for (int a = 0; a < D; ++a) block.least[a] = low[a], block.greatest[a] = high[a];
+  }
+  return last;
+}
+
+/// The same block in steps: its lower corner and how far it extends.
+struct BlockInSteps {
+  std::int32_t corner[3] = {}, extent[3] = {};
+};
+template <int D>
+[[gnu::always_inline]] inline BlockInSteps in_steps(NearTask const& task, std::size_t first, std::size_t last) {
+  BlockInSteps block;
+  for (int a = 0; a < D; ++a) {
+    std::int32_t const* steps = task.reference_steps + a;
+    block.corner[a] = steps[4 * first];
+    for (std::size_t i = first + 1; i < last; ++i) {
+      std::int32_t const d = wrapped_difference(steps[4 * i], block.corner[a]);
+      if (d < 0) {
+        block.extent[a] -= d;
+        block.corner[a] = steps[4 * i];
+      } else if (d > block.extent[a]) {
+        block.extent[a] = d;
+      }
+    }
+  }
+  return block;
+}
+
+/// Of the candidates k to end_of_range those within the square of a reach of the block: items and positions from its
+/// corner, appended to the `near` that are there. How many there are then.
+template <int W, int D>
+[[gnu::always_inline]] inline std::uint32_t gather(Candidates const& among, std::uint32_t k, std::uint32_t end_of_range,
+                                                   BlockInSteps const& block, float reach2,
+                                                   float* const (&near_position)[3], std::uint32_t* near_item,
+                                                   std::uint32_t near) {
+  for (; k < end_of_range; k += W) {
+    Pack<float, W> relative[D], square = 0.0F;
+    for (int a = 0; a < D; ++a) {
+      auto const steps = less<W>(load_steps<W>(among.position[a] + k), Steps<W>{} + block.corner[a]);
+      relative[a] = to_float<W>(steps);
+      auto const beyond = less<W>(steps, Steps<W>{} + block.extent[a]), before = less<W>(Steps<W>{}, steps);
+      auto out_of = beyond > before ? beyond : before;
+      out_of = out_of > 0 ? out_of : Steps<W>{};
+      auto const distance = to_float<W>(out_of);
+      square += distance * distance;
+    }
+    LaneBits const bits = lanes_below(square, reach2) & first_lanes<W>(end_of_range - k);
+    for (int a = 0; a < D; ++a) store_selected<W>(near_position[a] + near, relative[a], bits);
+    store_selected<W>(near_item + near, load_words<W>(among.item + k), bits);
+    near += count_of(bits);
+  }
+  return near;
+}
+
+/// Appends the outer rings of a target's row to the innermost, and says where the row is and how long to each ring.
+template <int W>
+[[gnu::always_inline]] inline void finish_row(NearRows& out, std::size_t i,
+                                              std::uint32_t* const (&ring_end)[list_rings],
+                                              std::uint32_t* const (&shell_item)[list_rings], std::uint32_t sentinel) {
+  std::uint32_t *const row = out.index + out.used, *next = ring_end[0], *length = out.length + i;
+  *length = static_cast<std::uint32_t>(next - row);
+  for (int r = 1; r < list_rings; ++r) {
+    auto const count = static_cast<std::size_t>(ring_end[r] - shell_item[r - 1]);
+    for (std::size_t k = 0; k < count; k += W) {
+      auto const words = load_words<W>(shell_item[r - 1] + k);
+      __builtin_memcpy(next + k, &words, sizeof(words));
+    }
+    next += count;
+    length += out.rows;
+    *length = static_cast<std::uint32_t>(next - row);
+  }
+  for (std::size_t k = 0; k < list_padding; ++k) next[k] = sentinel;
+  out.offset[i - out.first] = out.used;
+  out.used += (static_cast<std::size_t>(next - row) + list_padding - 1) / list_padding * list_padding;
+}
+
 /// Consecutive targets, which are near each other, share the search: those within reach of the block around them are
 /// copied side by side, in single precision from the block's corner; each target then looks at these. Radii are widened
 /// by what the rounding to steps may be wrong.
 template <int W, int D>
 [[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end, NearRows& out) {
-  constexpr std::size_t group_size = 16;
   double const longest[3] = {1.5 * task.reach, 0.6 * task.reach, 0.6 * task.reach};
   Grid const grid = *task.grid;
   float ring2[list_rings];
-  for (int r = 0; r < list_rings; ++r) {
-    double const radius = task.ring[r] * task.steps_per_length * (1 + 1e-6) + 4;
-    ring2[r] = static_cast<float>(radius * radius);
-  }
-  // Known to nobody else, so that they stay in registers.
+  for (int r = 0; r < list_rings; ++r)
+    ring2[r] = static_cast<float>(squared(task.ring[r] * task.steps_per_length * (1 + 1e-6) + 4));
+  // Known to no one else, so that they stay in registers.
   float* const near_position[3] = {out.near_position[0], out.near_position[1], out.near_position[2]};
   std::uint32_t* const near_item = out.near_item;
   std::uint32_t* shell_item[list_rings];
   for (int r = 0; r + 1 < list_rings; ++r) shell_item[r] = out.shell_item[r];
-  std::uint32_t const* const start = task.start;
   for (std::size_t first = begin; first < end;) {
-    // A group, and the block around it.
-    double least[3] = {}, greatest[3] = {};
-    for (int a = 0; a < D; ++a) least[a] = greatest[a] = task.reference[4 * first + a];
-    std::size_t last = first + 1;
-    for (; last < end && last < first + group_size; ++last) {
-      double low[3] = {}, high[3] = {};
-      bool fits = true;
-      for (int a = 0; a < D; ++a) {
-        double const x = task.reference[4 * last + a];
-        low[a] = x < least[a] ? x : least[a];
-        high[a] = x > greatest[a] ? x : greatest[a];
-        fits = fits && high[a] - low[a] <= longest[a];
-      }
-      if (!fits) break;
-      for (int a = 0; a < D; ++a) least[a] = low[a], greatest[a] = high[a];
-    }
+    Block around;
+    std::size_t const last = end_of_group<D>(task, first, end, longest, around);
     std::uint32_t from[Grid::most_runs], to[Grid::most_runs], ranges = 0, candidates = task.moved_count;
-    grid.near(least, greatest, task.reach, [&](std::size_t first_cell, std::size_t last_cell) {
-      from[ranges] = start[first_cell];
-      to[ranges] = start[last_cell + 1];
+    grid.near(around.least, around.greatest, task.reach, [&](std::size_t first_cell, std::size_t last_cell) {
+      from[ranges] = task.start[first_cell];
+      to[ranges] = task.start[last_cell + 1];
       candidates += to[ranges] - from[ranges];
       ranges += from[ranges] != to[ranges] ? 1 : 0;
     });
@@ -97,59 +178,24 @@ template <int W, int D>
     out.wanted = (last - first) * (candidates + 2 * W);
     if (out.wanted_scratch > out.scratch || out.used + out.wanted > out.room) return first;
 
-    // In steps, from the corner.
-    std::int32_t corner[3] = {}, extent[3] = {};
-    for (int a = 0; a < D; ++a) {
-      std::int32_t const* steps = task.reference_steps + a;
-      corner[a] = steps[4 * first];
-      extent[a] = 0;
-      for (std::size_t i = first + 1; i < last; ++i) {
-        std::int32_t const d = wrapped_difference(steps[4 * i], corner[a]);
-        if (d < 0) {
-          extent[a] -= d;
-          corner[a] = steps[4 * i];
-        } else if (d > extent[a]) {
-          extent[a] = d;
-        }
-      }
-    }
+    BlockInSteps const block = in_steps<D>(task, first, last);
     std::uint32_t near = 0;
-    auto const gather = [&](Candidates const& among, std::uint32_t k, std::uint32_t end_of_range) {
-      for (; k < end_of_range; k += W) {
-        Pack<float, W> relative[D], square = 0.0F;
-        for (int a = 0; a < D; ++a) {
-          auto const steps = less<W>(load_steps<W>(among.position[a] + k), Steps<W>{} + corner[a]);
-          relative[a] = to_float<W>(steps);
-          auto const beyond = less<W>(steps, Steps<W>{} + extent[a]), before = less<W>(Steps<W>{}, steps);
-          auto out_of = beyond > before ? beyond : before;
-          out_of = out_of > 0 ? out_of : Steps<W>{};
-          auto const distance = to_float<W>(out_of);
-          square += distance * distance;
-        }
-        LaneBits const bits = lanes_below(square, ring2[list_rings - 1]) & first_lanes<W>(end_of_range - k);
-        for (int a = 0; a < D; ++a) store_selected<W>(near_position[a] + near, relative[a], bits);
-        store_selected<W>(near_item + near, load_words<W>(among.item + k), bits);
-        near += count_of(bits);
-      }
-    };
-    for (std::uint32_t n = 0; n < ranges; ++n) gather(task.sorted, from[n], to[n]);
-    gather(task.moved, 0, task.moved_count);
+    for (std::uint32_t n = 0; n < ranges; ++n)
+      near = gather<W, D>(task.sorted, from[n], to[n], block, ring2[list_rings - 1], near_position, near_item, near);
+    near = gather<W, D>(task.moved, 0, task.moved_count, block, ring2[list_rings - 1], near_position, near_item, near);
 
     for (std::size_t i = first; i < last; ++i) {
       Pack<float, W> at[D];
       for (int a = 0; a < D; ++a)
-        at[a] = static_cast<float>(wrapped_difference(task.reference_steps[4 * i + a], corner[a]));
+        at[a] = static_cast<float>(wrapped_difference(task.reference_steps[4 * i + a], block.corner[a]));
       auto const self = task.same ? item_of_row(i) : 0xffffffffU;
-      std::uint32_t* const row = out.index + out.used;
       std::uint32_t* ring_end[list_rings];
-      ring_end[0] = row;
-      for (int r = 1; r < list_rings; ++r) ring_end[r] = shell_item[r - 1];
+      for (int r = 0; r < list_rings; ++r) ring_end[r] = r == 0 ? out.index + out.used : shell_item[r - 1];
       for (std::uint32_t k = 0; k < near; k += W) {
-        auto d = load_pack<W>(near_position[0] + k) - at[0];
-        auto square = d * d;
-        for (int a = 1; a < D; ++a) {
-          d = load_pack<W>(near_position[a] + k) - at[a];
-          square += d * d;
+        Pack<float, W> square = 0.0F;
+        for (int a = 0; a < D; ++a) {
+          auto const d = load_pack<W>(near_position[a] + k) - at[a];
+          square = a == 0 ? d * d : square + d * d;
         }
         auto const items = load_words<W>(near_item + k);
         LaneBits left = first_lanes<W>(near - k) & ~lanes_equal<W>(items, self);
@@ -160,23 +206,7 @@ template <int W, int D>
           ring_end[r] += count_of(ring);
         }
       }
-      std::uint32_t* next = ring_end[0];
-      std::uint32_t* length = out.length + i;
-      *length = static_cast<std::uint32_t>(next - row);
-      for (int r = 1; r < list_rings; ++r) {
-        auto const count = static_cast<std::size_t>(ring_end[r] - shell_item[r - 1]);
-        for (std::size_t k = 0; k < count; k += W) {
-          auto const words = load_words<W>(shell_item[r - 1] + k);
-          __builtin_memcpy(next + k, &words, sizeof(words));
-        }
-        next += count;
-        length += out.rows;
-        *length = static_cast<std::uint32_t>(next - row);
-      }
-      auto const used = (static_cast<std::size_t>(next - row) + list_padding - 1) / list_padding * list_padding;
-      for (std::size_t k = 0; k < list_padding; ++k) next[k] = task.sentinel;
-      out.offset[i - out.first] = out.used;
-      out.used += used;
+      finish_row<W>(out, i, ring_end, shell_item, task.sentinel);
     }
     first = last;
   }

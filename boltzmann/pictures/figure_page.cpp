@@ -167,24 +167,7 @@ class Figure {
       bool const equal = canvas_.equal_aspect() && !x_.logarithmic && !y_.logarithmic;
       if (equal) widen_thin_ranges();
       choose_ticks(equal);
-      double right = outer;
-      if (framed && !x_ticks_.labels.empty()) {
-        double const half = text_.width(x_ticks_.labels.back(), length(size::tick_text)) / 2;
-        right = std::max(right, half - (1 - x_.place(x_ticks_.major.back())) * box_.width + length(8));
-      }
-      double bars = 0;
-      for (std::size_t i = 0; i < bars_.size(); ++i) bars += plan_colour_bar(canvas_.colour_bars()[i], bars_[i]);
-      if (bars > 0) right = bars + length(12);
-
-      double left = outer;
-      y_labels_ = framed ? widest(y_ticks_) : 0;
-      if (framed) {
-        left = length(size::tick + size::tick_gap) + y_labels_ + outer;
-        if (!y_title_.empty()) left += length(size::title_gap + 1.05 * size::axis_title) - 0.35 * outer;
-        if (!y_ticks_.multiplier.empty() && !shares_digits(y_ticks_))
-          left = std::max(left,
-                          text_.width(y_ticks_.multiplier, length(size::tick_text)) + length(size::tick) + 0.5 * outer);
-      }
+      double const right = plan_right(framed, outer), left = plan_left(framed, outer);
       plan_heading(left, right);
       bool const headed = !keys_.empty() || !title_.empty();
       bool const any_multiplier =
@@ -198,20 +181,47 @@ class Figure {
       double const bottom = plan_below(left, right);
 
       DeviceBox const room{left, top, std::max(width_ - left - right, 8.0), std::max(height_ - top - bottom, 8.0)};
-      box_ = room;
-      if (equal) {
-        double const ratio = (x_.high - x_.low) / (y_.high - y_.low);
-        box_.width = std::max(std::min(room.width, room.height * ratio), 4.0);
-        box_.height = std::max(std::min(room.height, room.width / ratio), 4.0);
-        box_.left += (room.width - box_.width) / 2;
-        box_.top += (room.height - box_.height) / 2;
-      }
-      if (raster_)
-        box_ = {std::round(box_.left), std::round(box_.top), std::round(box_.width), std::round(box_.height)};
+      fit_box(room, equal);
       notes_left_ = framed ? box_.left : outer;
       notes_top_ = box_.bottom() + bottom - outer - static_cast<double>(notes_.size()) * length(size::note_row);
       if (!framed) notes_top_ = height_ - 0.8 * outer - static_cast<double>(notes_.size()) * length(size::note_row);
     }
+  }
+
+  // Of the numbers below the frame the last may stand out; colour bars have their place beside it.
+  double plan_right(bool framed, double outer) {
+    double right = outer;
+    if (framed && !x_ticks_.labels.empty()) {
+      double const half = text_.width(x_ticks_.labels.back(), length(size::tick_text)) / 2;
+      right = std::max(right, half - (1 - x_.place(x_ticks_.major.back())) * box_.width + length(8));
+    }
+    double bars = 0;
+    for (std::size_t i = 0; i < bars_.size(); ++i) bars += plan_colour_bar(canvas_.colour_bars()[i], bars_[i]);
+    return bars > 0 ? bars + length(12) : right;
+  }
+
+  double plan_left(bool framed, double outer) {
+    y_labels_ = framed ? widest(y_ticks_) : 0;
+    if (!framed) return outer;
+    double left = length(size::tick + size::tick_gap) + y_labels_ + outer;
+    if (!y_title_.empty()) left += length(size::title_gap + 1.05 * size::axis_title) - 0.35 * outer;
+    if (!y_ticks_.multiplier.empty() && !shares_digits(y_ticks_))
+      left =
+          std::max(left, text_.width(y_ticks_.multiplier, length(size::tick_text)) + length(size::tick) + 0.5 * outer);
+    return left;
+  }
+
+  // The frame in the room that is left; with equal units in its middle.
+  void fit_box(DeviceBox const& room, bool equal) {
+    box_ = room;
+    if (equal) {
+      double const ratio = (x_.high - x_.low) / (y_.high - y_.low);
+      box_.width = std::max(std::min(room.width, room.height * ratio), 4.0);
+      box_.height = std::max(std::min(room.height, room.width / ratio), 4.0);
+      box_.left += (room.width - box_.width) / 2;
+      box_.top += (room.height - box_.height) / 2;
+    }
+    if (raster_) box_ = {std::round(box_.left), std::round(box_.top), std::round(box_.width), std::round(box_.height)};
   }
 
   // With equal units, a system much longer than high would be a thread: it gets empty room across.

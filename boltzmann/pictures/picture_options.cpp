@@ -82,7 +82,7 @@ OptionTable const& members() {
   return table;
 }
 
-std::vector<Drawing> make_drawings() {
+std::vector<Drawing> make_drawings() {  // long: a table, an entry for each drawing
   std::vector<OptionKey> const style{{"colour"}, {"size"}};
   std::vector<OptionKey> const ends{{"low"}, {"high"}};
   std::vector<OptionKey> const axis_ends{{"low", "the lower end of the axis of values"}, {"high", "its upper end"}};

@@ -175,63 +175,70 @@ void read_scheme(Section& document, Reading& reading) {
   result.scheme->threads(reading.run.threads);
 }
 
+namespace {
+
+/// Whom the mesh may act on: those that are named, or all. Null where one could not be read.
+std::vector<ReadEnsemble*> ensembles_on_mesh(Section& section, Reading& reading) {
+  std::vector<ReadEnsemble*> on;
+  Item const* item = section.find("on");
+  if (!item) {
+    for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
+  } else if (!item->is(Item::Kind::array)) {
+    on.push_back(reading.ensemble(*item, "on"));
+  } else {
+    if (item->elements.empty())
+      reading.mistake(item->place, "on: no ensemble; name one or more, or leave it out: all that fit");
+    for (auto const& word : item->elements) {
+      on.push_back(reading.ensemble(word, "on"));
+      if (on.back() && std::find(on.begin(), on.end() - 1, on.back()) != on.end() - 1)
+        reading.mistake(word.place, fmt::format("on: '{}' twice", on.back()->name));
+    }
+  }
+  return on;
+}
+
+/// False: something is wrong with those that are there.
+bool load_mesh(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  MeshScheme& mesh = *reading.result->mesh;
+  Section section(table, "[mesh]", reading.context);
+  bool const chosen = section.has("on"), repel = mesh.constant() > 0;
+  char const* const fitting = repel ? "Coulomb" : "Kepler";
+  auto const refuse = [&](std::string const& what) {
+    reading.mistake(section.place("on"), what);
+    return reading.mesh.usable = false;
+  };
+  bool any = false;
+  for (auto* ensemble : ensembles_on_mesh(section, reading)) {
+    if (!ensemble || !ensemble->particles || !ensemble->kind) return false;
+    MeshKind const kind = ensemble->kind->in(reading.dimension)->mesh;
+    bool const can = kind.strengths != nullptr && kind.sign * mesh.constant() > 0;
+    if (!can && !chosen) continue;
+    if (!kind.strengths)
+      return refuse(fmt::format("on: '{}' is of class {}, which makes no field; the class that does: {}",
+                                ensemble->name, ensemble->kind->name, fitting));
+    if (!can)
+      return refuse(fmt::format(
+          "on: '{}' is of class {}, which the law '{}' does not act on; write law = \"{}\", "
+          "or choose class {}",
+          ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity", repel ? "gravity" : "coulomb", fitting));
+    any = true;
+    guarded(reading, chosen ? section.place("on") : ensemble->place, [&] { mesh.load(*ensemble->particles, kind); });
+  }
+  if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
+    reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does", fitting));
+  return true;
+}
+
+}  // namespace
+
 void load_scheme(Section& document, Reading& reading) {
   ScenarioSimulation& result = *reading.result;
   if (!result.scheme) return;
   if (result.smooth) return load_smooth(reading);
   if (!result.pairs) return;
   std::size_t const before = reading.context.mistakes.count();
-  if (result.mesh) {
-    Item const& table = *find_table(document, "mesh");
-    Section section(table, "[mesh]", reading.context);
-    std::vector<ReadEnsemble*> on;
-    bool const chosen = section.has("on");
-    if (Item const* item = section.find("on")) {
-      if (item->is(Item::Kind::array)) {
-        if (item->elements.empty())
-          reading.mistake(item->place, "on: no ensemble; name one or more, or leave it out: all that fit");
-        for (auto const& word : item->elements) {
-          on.push_back(reading.ensemble(word, "on"));
-          if (on.back() && std::find(on.begin(), on.end() - 1, on.back()) != on.end() - 1)
-            reading.mistake(word.place, fmt::format("on: '{}' twice", on.back()->name));
-        }
-      } else {
-        on.push_back(reading.ensemble(*item, "on"));
-      }
-    } else {
-      for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
-    }
-    bool const repel = result.mesh->constant() > 0;
-    char const* const fitting = repel ? "Coulomb" : "Kepler";
-    bool any = false;
-    for (auto* ensemble : on) {
-      if (!ensemble || !ensemble->particles || !ensemble->kind) return;
-      MeshKind const kind = ensemble->kind->in(reading.dimension)->mesh;
-      bool const can = kind.strengths != nullptr && kind.sign * result.mesh->constant() > 0;
-      if (!can && !chosen) continue;
-      if (!kind.strengths) {
-        reading.mistake(section.place("on"),
-                        fmt::format("on: '{}' is of class {}, which makes no field; the class that does: {}",
-                                    ensemble->name, ensemble->kind->name, fitting));
-        reading.mesh.usable = false;
-        return;
-      }
-      if (!can) {
-        reading.mistake(section.place("on"),
-                        fmt::format("on: '{}' is of class {}, which the law '{}' does not act on; write law = \"{}\", "
-                                    "or choose class {}",
-                                    ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity",
-                                    repel ? "gravity" : "coulomb", fitting));
-        reading.mesh.usable = false;
-        return;
-      }
-      any = true;
-      guarded(reading, chosen ? section.place("on") : ensemble->place,
-              [&] { result.mesh->load(*ensemble->particles, kind); });
-    }
-    if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
-      reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does", fitting));
-  }
+  if (result.mesh && !load_mesh(*find_table(document, "mesh"), reading)) return;
   if (reading.context.mistakes.count() != before) reading.mesh.usable = false;
   // Those that no law acts on are supervised, too.
   for (auto const& ensemble : reading.ensembles)

@@ -164,6 +164,65 @@ void read_units(Section& document, Reading& reading) {
   }
 }
 
+namespace {
+
+std::array<double, 3> wide(std::vector<double> const& v) {
+  std::array<double, 3> w{};
+  for (std::size_t a = 0; a < v.size() && a < 3; ++a) w[a] = v[a];
+  return w;
+}
+
+/// A corner; the first one says how many dimensions there are.
+std::vector<double> read_corner(Item const* item, char const* key, Reading& reading) {
+  if (!item) return {};
+  bool const list = item->is(Item::Kind::array);
+  if (!list || item->elements.empty() || item->elements.size() > 3) {
+    reading.mistake(item->place,
+                    fmt::format("{}: an array of 1, 2 or 3 lengths is needed, not {}{}", key, found(*item),
+                                list && !item->elements.empty() ? fmt::format(" of {}", item->elements.size()) : ""));
+    return {};
+  }
+  if (reading.dimension == 0) reading.dimension = static_cast<int>(item->elements.size());
+  return read_vector(*item, key, reading.dimension, dimensions::length, reading.context)
+      .value_or(std::vector<double>{});
+}
+
+std::array<Boundary, 3> read_boundaries(Item const* item, Reading& reading) {
+  std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
+  auto const kind = [&](Item const& word) {
+    return read_word(word, "boundary", boundary_words(), reading.context).value_or(Boundary::open);
+  };
+  if (!item) return boundaries;
+  if (!item->is(Item::Kind::array))
+    boundaries.fill(kind(*item));
+  else if (reading.dimension > 0 && item->elements.size() != static_cast<std::size_t>(reading.dimension))
+    reading.mistake(item->place, fmt::format("boundary: {} word{} for {} ax{}; give one for all, or one for each",
+                                             item->elements.size(), item->elements.size() == 1 ? "" : "s",
+                                             reading.dimension, reading.dimension == 1 ? "is" : "es"));
+  else
+    for (std::size_t a = 0; a < item->elements.size() && a < 3; ++a) boundaries[a] = kind(item->elements[a]);
+  return boundaries;
+}
+
+void read_region(Item const& table, Reading& reading) {
+  Section region(table, "[[box.regions]]", reading.context);
+  Item const* first = region.need("low", "low = [2, 2]");
+  Item const* second = region.need("high", "high = [4, 4]");
+  Item const* side_item = region.need("side", "side = \"keep-out\"");
+  auto const side = side_item ? read_word(*side_item, "side", {"keep-out", "keep-in"}, reading.context) : std::nullopt;
+  region.finish();
+  if (!first || !second || reading.dimension == 0) return;
+  auto const from = read_vector(*first, "low", reading.dimension, dimensions::length, reading.context);
+  auto const to = read_vector(*second, "high", reading.dimension, dimensions::length, reading.context);
+  if (from && to && side && reading.box)
+    guarded(reading, region.place(), [&] {
+      reading.box->install(
+          {wide(*from), wide(*to), *side == "keep-in" ? Region::Side::keep_in : Region::Side::keep_out});
+    });
+}
+
+}  // namespace
+
 void read_box(Section& document, Reading& reading) {
   Item const* table = find_table(document, "box");
   if (!document.has("box"))
@@ -173,65 +232,16 @@ void read_box(Section& document, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Item const* low_item = section.need("low", "low = [0, 0]");
   Item const* high_item = section.need("high", "high = [10, 10]");
-  std::vector<double> low, high;
-  for (auto const& [item, key] : {std::pair(low_item, "low"), std::pair(high_item, "high")}) {
-    if (!item) continue;
-    if (!item->is(Item::Kind::array) || item->elements.empty() || item->elements.size() > 3) {
-      reading.mistake(item->place,
-                      fmt::format("{}: an array of 1, 2 or 3 lengths is needed, not {}{}", key, found(*item),
-                                  item->is(Item::Kind::array) && !item->elements.empty()
-                                      ? fmt::format(" of {}", item->elements.size())
-                                      : ""));
-      continue;
-    }
-    if (reading.dimension == 0) reading.dimension = static_cast<int>(item->elements.size());
-    auto values = read_vector(*item, key, reading.dimension, dimensions::length, reading.context);
-    if (values) (item == low_item ? low : high) = *values;
-  }
-  auto const kind = [&](Item const& item) {
-    return read_word(item, "boundary", boundary_words(), reading.context).value_or(Boundary::open);
-  };
-  std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
-  if (Item const* item = section.find("boundary")) {
-    if (!item->is(Item::Kind::array)) {
-      boundaries.fill(kind(*item));
-    } else if (reading.dimension > 0 && item->elements.size() != static_cast<std::size_t>(reading.dimension)) {
-      reading.mistake(item->place, fmt::format("boundary: {} word{} for {} ax{}; give one for all, or one for each",
-                                               item->elements.size(), item->elements.size() == 1 ? "" : "s",
-                                               reading.dimension, reading.dimension == 1 ? "is" : "es"));
-    } else {
-      for (std::size_t a = 0; a < item->elements.size() && a < 3; ++a) boundaries[a] = kind(item->elements[a]);
-    }
-  }
-  auto const wide = [](std::vector<double> const& v) {
-    std::array<double, 3> w{};
-    for (std::size_t a = 0; a < v.size() && a < 3; ++a) w[a] = v[a];
-    return w;
-  };
+  auto const low = read_corner(low_item, "low", reading), high = read_corner(high_item, "high", reading);
+  auto const boundaries = read_boundaries(section.find("boundary"), reading);
   if (low_item && high_item && low_item->is(Item::Kind::array) && high_item->is(Item::Kind::array) &&
       low_item->elements.size() != high_item->elements.size())
-    reading.dimension = 0;  // nobody knows which of the two is meant
+    reading.dimension = 0;  // which of the two is meant is not known
   if (reading.context.mistakes.count() == before && reading.base_known && !low.empty() && !high.empty())
     guarded(reading, high_item->place,
             [&] { reading.box.emplace(reading.dimension, wide(low), wide(high), boundaries); });
-  for (Item const* region_table : find_tables(section, "regions")) {
-    Section region(*region_table, "[[box.regions]]", reading.context);
-    Item const* first = region.need("low", "low = [2, 2]");
-    Item const* second = region.need("high", "high = [4, 4]");
-    Item const* side_item = region.need("side", "side = \"keep-out\"");
-    auto const side =
-        side_item ? read_word(*side_item, "side", {"keep-out", "keep-in"}, reading.context) : std::nullopt;
-    region.finish();
-    if (!first || !second || reading.dimension == 0) continue;
-    auto const from = read_vector(*first, "low", reading.dimension, dimensions::length, reading.context);
-    auto const to = read_vector(*second, "high", reading.dimension, dimensions::length, reading.context);
-    if (from && to && side && reading.box)
-      guarded(reading, region.place(), [&] {
-        reading.box->install(
-            {wide(*from), wide(*to), *side == "keep-in" ? Region::Side::keep_in : Region::Side::keep_out});
-      });
-  }
-  for (Item const* wall_table : find_tables(section, "walls")) read_wall(*wall_table, reading);
+  for (Item const* region : find_tables(section, "regions")) read_region(*region, reading);
+  for (Item const* wall : find_tables(section, "walls")) read_wall(*wall, reading);
   section.finish();
 }
 

@@ -56,7 +56,7 @@ OptionTable make_box_options() {
   return all;
 }
 
-OptionTable make_ensemble_options() {
+OptionTable make_ensemble_options() {  // long: a table, a row for each key
   std::string methods;
   for (auto const& word : method_words())
     methods += (methods.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);

@@ -142,25 +142,14 @@ void Simulation::check() {
   keeps_influences_ = false;
   bool reversible = false;
   for (auto* ensemble : ensembles_) {
-    auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
-    if (part == parts_.end())
-      throw Error("ensemble '" + ensemble->name() +
-                  "' has no integrator: call integrate(ensemble, Method::...), one of " + join(method_words().names()));
-    part->time_after.clear();
-    part->integrator->threads(schemes_.front()->threads());
-    bool const takes = part->integrator->takes_rotations();
-    std::vector<Rotation> rotations;
-    for (auto* scheme : schemes_)
-      for (auto const& rotation : scheme->rotations(*ensemble, takes)) rotations.push_back(rotation);
-    if (takes) part->integrator->rotate(std::move(rotations));
-    part->stages = part->integrator->stages();
-    for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
-    keeps_influences_ = keeps_influences_ || (part->integrator->method() == Method::leap_frog &&
+    Part const& part = ready_part(*ensemble);
+    Method const method = part.integrator->method();
+    keeps_influences_ = keeps_influences_ || (method == Method::leap_frog &&
                                               std::any_of(schemes_.begin(), schemes_.end(), [&](Scheme const* scheme) {
                                                 return scheme->velocity_dependent(*ensemble);
                                               }));
-    stages_ = std::max(stages_, part->stages);
-    reversible = reversible || part->integrator->method() == Method::reversible_leap_frog;
+    stages_ = std::max(stages_, part.stages);
+    reversible = reversible || method == Method::reversible_leap_frog;
   }
   std::erase_if(parts_, [&](Part const& p) {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
@@ -179,19 +168,41 @@ void Simulation::check() {
                       told_time(std::abs(step_size_)), told_time(longest)));
   }
   calculate(time());
-  for (auto* ensemble : ensembles_)
-    for (std::size_t i = 0; i < ensemble->size(); ++i)
-      for (std::size_t c = 0; c < ensemble->influence_size(); ++c)
-        if (!std::isfinite(ensemble->influence(i)[c])) {
-          std::string why;
-          for (auto const* scheme : schemes_)
-            if (why.empty()) why = scheme->explain(*ensemble, i);
-          throw Error(why.empty() ? fmt::format("the influence on particle {} of '{}' is not finite at the start", i,
-                                                ensemble->name())
-                                  : why);
-        }
+  check_influences();
   fresh_ = true;
   checked_ = true;
+}
+
+/// The integrator of an ensemble, with its stages and with what it takes over from the schemes.
+Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
+  auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == &ensemble; });
+  if (part == parts_.end())
+    throw Error("ensemble '" + ensemble.name() + "' has no integrator: call integrate(ensemble, Method::...), one of " +
+                join(method_words().names()));
+  part->integrator->threads(schemes_.front()->threads());
+  bool const takes = part->integrator->takes_rotations();
+  std::vector<Rotation> rotations;
+  for (auto* scheme : schemes_)
+    for (auto const& rotation : scheme->rotations(ensemble, takes)) rotations.push_back(rotation);
+  if (takes) part->integrator->rotate(std::move(rotations));
+  part->stages = part->integrator->stages();
+  part->time_after.clear();
+  for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
+  return *part;
+}
+
+void Simulation::check_influences() const {
+  for (auto* ensemble : ensembles_)
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      for (std::size_t c = 0; c < ensemble->influence_size(); ++c) {
+        if (std::isfinite(ensemble->influence(i)[c])) continue;
+        std::string why;
+        for (auto const* scheme : schemes_)
+          if (why.empty()) why = scheme->explain(*ensemble, i);
+        throw Error(why.empty() ? fmt::format("the influence on particle {} of '{}' is not finite at the start", i,
+                                              ensemble->name())
+                                : why);
+      }
 }
 
 void Simulation::check_dissipations() {

@@ -134,6 +134,8 @@ class Simulation {
   void observe_now() const;
   void adapt_now();
   void take_particles();
+  Part const& ready_part(AnyEnsemble& ensemble);
+  void check_influences() const;
   void check_dissipations();
   void prepare_now();
   void take_lengths();

@@ -150,8 +150,27 @@ void Stage::add_usual() {
 void Stage::columns(std::vector<std::string> header) { header_ = std::move(header); }
 
 json Stage::describe() const {
+  auto const length = base_.display(dimensions::length), time = base_.display(dimensions::time);
+  double const step = simulation_.step_size();
+  json result{{"title", title_},
+              {"folder", folder_},
+              {"length_unit", length.unit},
+              {"length_factor", length.factor},
+              {"time_unit", time.unit},
+              {"step_size_number", step},
+              {"step_size", base_.is_reduced() ? fmt::format("{:g}", step) : quantity(step, dimensions::time)},
+              {"maps", colour_maps_json()}};
+  describe_box(result);
+  describe_ensembles(result);
+  describe_pictures(result);
+  json& colours = result["colours"] = json::array();
+  for (int k = 0; k < 16; ++k) colours.push_back(colour_text(species_colour(k)));
+  return result;
+}
+
+void Stage::describe_box(json& result) const {
   Box const& box = simulation_.schemes().front()->box();
-  json result{{"title", title_}, {"dimension", box.dimension()}, {"folder", folder_}};
+  result["dimension"] = box.dimension();
   json sides{{"low", json::array()}, {"high", json::array()}, {"boundary", json::array()}};
   for (int a = 0; a < box.dimension(); ++a) {
     sides["low"].push_back(box.low(a));
@@ -159,15 +178,9 @@ json Stage::describe() const {
     sides["boundary"].push_back(to_string(box.boundary(a)));
   }
   result["box"] = sides;
-  auto const length = base_.display(dimensions::length), time = base_.display(dimensions::time);
-  result["length_unit"] = length.unit;
-  result["length_factor"] = length.factor;
-  result["time_unit"] = time.unit;
-  double const step = simulation_.step_size();
-  std::string const shown = quantity(step, dimensions::time);
-  result["step_size_number"] = step;
-  result["step_size"] = base_.is_reduced() ? fmt::format("{:g}", step) : shown;
+}
 
+void Stage::describe_ensembles(json& result) const {
   json &all = result["ensembles"] = json::array(), &together = result["quantities"] = json::array();
   std::vector<std::string> vectors, names;
   int number = 0;
@@ -198,6 +211,9 @@ json Stage::describe() const {
     ++number;
   }
   result["vectors"] = vectors;
+}
+
+void Stage::describe_pictures(json& result) const {
   json& diagnoses = result["diagnoses"] = json::array();
   for (auto const& entry : entries_) {
     Picture const& p = entry.picture;
@@ -220,10 +236,6 @@ json Stage::describe() const {
         {{"name", header_[c].substr(0, unit)},
          {"unit", unit == std::string::npos ? "" : header_[c].substr(unit + 2, header_[c].size() - unit - 3)}});
   }
-  result["maps"] = colour_maps_json();
-  json& colours = result["colours"] = json::array();
-  for (int k = 0; k < 16; ++k) colours.push_back(colour_text(species_colour(k)));
-  return result;
 }
 
 Stage::Entry const& Stage::entry(std::string const& name) const {

@@ -56,6 +56,10 @@ class Stage {
   std::string const& folder() const { return folder_; }
 
  private:
+  void describe_box(nlohmann::json& result) const;
+  void describe_ensembles(nlohmann::json& result) const;
+  void describe_pictures(nlohmann::json& result) const;
+
   struct Entry {
     std::string name;
     Picture picture;

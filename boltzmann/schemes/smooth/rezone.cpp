@@ -308,14 +308,17 @@ void check(AnyEnsemble const& ensemble, Box const& box, Rezoning const& rezoning
   for (char const* name : {"position", "velocity"}) Rows::place(ensemble, name, ensemble.dimension());
 }
 
-Rezoned rezone(AnyEnsemble& ensemble, Box const& box, Rezoning const& rezoning) {
-  check(ensemble, box, rezoning);
-  Rows const rows(ensemble);
+namespace {
+
+/// What the state as it stands asks for.
+struct Chosen {
+  std::vector<Split> splits;
+  std::vector<std::size_t> candidates;  ///< for merging
+};
+Chosen chosen_of(AnyEnsemble& ensemble, Rows const& rows, Box const& box, Rezoning const& rezoning) {
   int const density = Rows::place(ensemble, "density", 1), d = rows.dimension;
 
-  // Who, by the state as it stands.
-  std::vector<Split> splits;
-  std::vector<std::size_t> candidates;
+  Chosen chosen;
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     double const* const row = ensemble.row(i);
     double const* const x = row + rows.position;
@@ -336,11 +339,21 @@ Rezoned rezone(AnyEnsemble& ensemble, Box const& box, Rezoning const& rezoning) 
     double const size = rezoning.by == Rezoning::By::density ? row[density] : row[rows.mass] / row[density];
     if (size > rezoning.split_above && row[rows.mass] / 2 >= rezoning.smallest_mass) {
       Offset offset = offset_of(rows, i, ensemble.size());
-      if (make_fit(box, x, d, offset)) splits.push_back({i, offset});
+      if (make_fit(box, x, d, offset)) chosen.splits.push_back({i, offset});
     } else if (size < rezoning.merge_below) {
-      candidates.push_back(i);
+      chosen.candidates.push_back(i);
     }
   }
+  return chosen;
+}
+
+}  // namespace
+
+Rezoned rezone(AnyEnsemble& ensemble, Box const& box, Rezoning const& rezoning) {
+  check(ensemble, box, rezoning);
+  Rows const rows(ensemble);
+  int const d = rows.dimension;
+  auto [splits, candidates] = chosen_of(ensemble, rows, box, rezoning);
   auto const pairs = pairs_of(rows, box, candidates, rezoning);
   Rezoned result{splits.size(), pairs.size(), {}};
   if (splits.empty() && pairs.empty()) return result;

@@ -125,6 +125,11 @@ class SmoothScheme final : public Scheme {
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
   void find(Until until);
   Tensor<3> stress();
+  /// Of each particle: its grad-h factor, and two ranges that are too short and too long.
+  struct RangeBracket {
+    std::vector<double> factor, shorter, longer;
+  };
+  double new_ranges(RangeBracket& bracket);
   void prepare();
   void reach(double cutoff);
   void take_places();

@@ -11,6 +11,37 @@ namespace boltzmann {
 
 using namespace detail;
 
+namespace {
+constexpr double precision = 1e-12;  // of ranges, to which they are found
+}
+
+/// The ranges of the next iteration; the largest relative change.
+double SmoothScheme::new_ranges(RangeBracket& bracket) {
+  double largest_change = 0;
+  in_dimension(box().dimension(), [&](auto d) {
+    constexpr int D = d;
+    for (auto const& loaded : loaded_)
+      for (std::size_t i = 0; i < loaded->ensemble->size(); ++i) {
+        auto& p = *reinterpret_cast<Smooth<D>*>(loaded->ensemble->row(i));
+        double &low = bracket.shorter[loaded->first + i], &high = bracket.longer[loaded->first + i];
+        double const excess = std::log(p.density / p.mass * detail::power<D>(p.range / variable_->spacings));
+        (excess < 0 ? low : high) = std::clamp(p.range, variable_->shortest, variable_->longest);
+        double wanted = p.range * std::exp(std::clamp(-excess * bracket.factor[loaded->first + i] / D, -1.0, 1.0));
+        if (std::abs(wanted / p.range - 1) > precision && !(wanted > low && wanted < high)) {
+          if (wanted <= low && low > variable_->shortest)
+            wanted = std::sqrt(low * high);
+          else if (wanted >= high && high < variable_->longest)
+            wanted = low > 0 ? std::sqrt(low * high) : 0.5 * high;
+          else
+            wanted = std::clamp(wanted, low, high);
+        }
+        largest_change = std::max(largest_change, std::abs(wanted / p.range - 1));
+        p.range = wanted;
+      }
+  });
+  return largest_change;
+}
+
 void SmoothScheme::variable_range(VariableRange const& variable) {
   check_parameter("variable range", "spacings", variable.spacings, positive);
   check_parameter("variable range", "shortest", variable.shortest, not_negative);
@@ -28,33 +59,12 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
   // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
   // between two ranges that are too short and too long: density range^D grows with the range.
   constexpr int most_iterations = 200;
-  constexpr double precision = 1e-12;
-  std::vector<double> factor_of(count()), shorter(count(), variable_->shortest), longer(count(), variable_->longest);
+  RangeBracket bracket{std::vector<double>(count()), std::vector<double>(count(), variable_->shortest),
+                       std::vector<double>(count(), variable_->longest)};
   for (int iteration = 0;; ++iteration) {
     complete(0);
-    for (std::size_t k = 0; k < factors_.size(); ++k) factor_of[hood_->target(0).order()[k]] = factors_[k];
-    double largest_change = 0;
-    in_dimension(box().dimension(), [&](auto d) {
-      constexpr int D = d;
-      for (auto const& loaded : loaded_)
-        for (std::size_t i = 0; i < loaded->ensemble->size(); ++i) {
-          auto& p = *reinterpret_cast<Smooth<D>*>(loaded->ensemble->row(i));
-          double &low = shorter[loaded->first + i], &high = longer[loaded->first + i];
-          double const excess = std::log(p.density / p.mass * detail::power<D>(p.range / variable.spacings));
-          (excess < 0 ? low : high) = std::clamp(p.range, variable_->shortest, variable_->longest);
-          double wanted = p.range * std::exp(std::clamp(-excess * factor_of[loaded->first + i] / D, -1.0, 1.0));
-          if (std::abs(wanted / p.range - 1) > precision && !(wanted > low && wanted < high)) {
-            if (wanted <= low && low > variable_->shortest)
-              wanted = std::sqrt(low * high);
-            else if (wanted >= high && high < variable_->longest)
-              wanted = low > 0 ? std::sqrt(low * high) : 0.5 * high;
-            else
-              wanted = std::clamp(wanted, low, high);
-          }
-          largest_change = std::max(largest_change, std::abs(wanted / p.range - 1));
-          p.range = wanted;
-        }
-    });
+    for (std::size_t k = 0; k < factors_.size(); ++k) bracket.factor[hood_->target(0).order()[k]] = factors_[k];
+    double const largest_change = new_ranges(bracket);
     if (largest_change < precision) break;
     if (iteration == most_iterations)
       throw Error(
