@@ -53,7 +53,7 @@ struct Plasma {
     random_load(electrons, box, 1);
     maxwellian_load(electrons, electrons[0].mass, 1, 1);  // Debye length 1: that of a cell
     mesh = std::make_unique<MeshScheme>(box, std::vector<std::size_t>(D, cells), coulomb(1));
-    mesh->load(electrons);
+    mesh->add(electrons);
     mesh->background(true);
     simulation = std::make_unique<Simulation>(*mesh, 0.1);
     simulation->integrate(electrons, Method::leap_frog);

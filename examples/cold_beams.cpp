@@ -24,7 +24,7 @@ void run(double a, std::string const& folder) {
       electron.charge = -electron.mass;
       electron.velocity[0] = beam == &right ? 1 : -1;
     }
-    mesh.load(*beam);
+    mesh.add(*beam);
   }
   velocity_ripple(right, box, wave_of_mode(box, 0, 1), 1e-5, 0);
 

@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   MeshScheme mesh(box, {64, 64}, coulomb(1 / (4 * pi)));  // div E = rho
   mesh.assignment(Assignment::tsc);
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
   mesh.external(electrons, UniformMagneticField<2>{{cyclotron_frequency}});
 
   Simulation simulation(mesh, 0.1);

@@ -21,7 +21,7 @@ int main(int argc, char** argv) try {
 
   MeshScheme mesh(box, {64}, coulomb(1 / (4 * pi)));  // div E = rho
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
 
   Simulation simulation(mesh, 0.04);
   simulation.integrate(electrons, Method::leap_frog);

@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   MeshScheme mesh(box, {256}, coulomb(1 / (4 * pi)));  // div E = rho
   mesh.assignment(Assignment::tsc);
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
 
   Simulation simulation(mesh, 0.1);
   simulation.integrate(electrons, Method::leap_frog);

@@ -30,7 +30,7 @@ int main(int argc, char** argv) try {
   MeshScheme built_in(box, {32}, coulomb(1 / (4 * pi))), mesh(box, {32}, coulomb(1 / (4 * pi)));
   for (auto* scheme : {&built_in, &mesh}) {
     scheme->background(true);
-    scheme->load(electrons);
+    scheme->add(electrons);
   }
 
   mesh.density_assignment([&](MeshScheme&, MeshField& density) {

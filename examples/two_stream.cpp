@@ -30,7 +30,7 @@ int main(int argc, char** argv) try {
   maxwellian_load(ions, in_one * temperature, k, 5);
 
   MeshScheme mesh(box, {128}, coulomb(1));
-  for (auto* ensemble : {&right, &left, &ions}) mesh.load(*ensemble);
+  for (auto* ensemble : {&right, &left, &ions}) mesh.add(*ensemble);
 
   Simulation simulation(mesh, 9.91e-6);  // 0.079 of a plasma time
   for (auto* ensemble : {&right, &left, &ions}) simulation.integrate(*ensemble, Method::leap_frog);

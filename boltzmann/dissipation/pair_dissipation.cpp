@@ -57,7 +57,7 @@ PairDissipation::Member& PairDissipation::member(AnyEnsemble& ensemble) {
   made->energy = at("internal_energy");
   made->temperature = at("temperature");
   made->copy = &scheme_.neighbourhood().copy(ensemble);
-  scheme_.load(ensemble);
+  scheme_.add(ensemble);
   members_.push_back(std::move(made));
   return *members_.back();
 }

@@ -223,7 +223,7 @@ bool load_mesh(Item const& table, Reading& reading) {
           "or choose class {}",
           ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity", repel ? "gravity" : "coulomb", fitting));
     any = true;
-    guarded(reading, chosen ? section.place("on") : ensemble->place, [&] { mesh.load(*ensemble->particles, kind); });
+    guarded(reading, chosen ? section.place("on") : ensemble->place, [&] { mesh.add(*ensemble->particles, kind); });
   }
   if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
     reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does", fitting));
@@ -242,7 +242,7 @@ void load_scheme(Section& document, Reading& reading) {
   if (reading.context.mistakes.count() != before) reading.mesh.usable = false;
   // Those that no law acts on are supervised, too.
   for (auto const& ensemble : reading.ensembles)
-    if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.pairs->load(*ensemble.particles); });
+    if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.pairs->add(*ensemble.particles); });
 }
 
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {

@@ -210,7 +210,7 @@ struct RunReader {
     top.finish();
     if (!context.mistakes.none()) return;
     run.scheme = std::make_unique<StoredScheme>(*space);
-    for (auto const& ensemble : run.ensembles) run.scheme->load(*ensemble);
+    for (auto const& ensemble : run.ensembles) run.scheme->add(*ensemble);
     run.simulation = std::make_unique<Simulation>(*run.scheme, step);
     run.simulation->speak_in(run.base);
   }

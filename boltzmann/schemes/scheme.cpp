@@ -5,7 +5,7 @@
 
 namespace boltzmann {
 
-void Scheme::load(AnyEnsemble& ensemble) {
+void Scheme::add(AnyEnsemble& ensemble) {
   if (std::find(ensembles_.begin(), ensembles_.end(), &ensemble) != ensembles_.end()) return;
   for (auto const* other : ensembles_)
     if (other->name() == ensemble.name())

@@ -45,7 +45,7 @@ class Scheme {
   Box& box() { return box_; }
   /// The ensembles that this scheme supervises, in the order in which they were loaded.
   virtual std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
-  void load(AnyEnsemble& ensemble);
+  void add(AnyEnsemble& ensemble);
 
   /// The influence on every particle at this time, into the ensembles' influence arrays. PhysicsFailure naming the
   /// particle if a position is not finite.

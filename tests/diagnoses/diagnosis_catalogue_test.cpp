@@ -30,7 +30,7 @@ class Diagnoses : public testing::Test {
     fluid_.influence(0)[1] = 7;
     scheme_.internal(atoms_, LennardJones{0.5, 1});
     scheme_.external(atoms_, [](auto const& p) { return Interaction{p.position * 0.0, p.mass * p.position[1]}; });
-    scheme_.load(fluid_);
+    scheme_.add(fluid_);
     measures_ = scheme_.measure();
   }
 

@@ -275,7 +275,7 @@ struct Flight {
   Simulation simulation;
 
   explicit Flight(std::vector<std::size_t> const& cells) : scheme(box(), cells), simulation(scheme, 0.125) {
-    scheme.load(clock);
+    scheme.add(clock);
     clock[0].velocity[0] = 1;
     simulation.integrate(clock, Method::leap_frog);
   }
@@ -433,7 +433,7 @@ TEST(MeshRecords, NeedAMesh) {
   TemporaryFolder const folder;
   Ensemble<Coulomb<1>> ions("ions", 1);
   PairScheme scheme(Flight<1>::box(), 1);
-  scheme.load(ions);
+  scheme.add(ions);
   Simulation simulation(scheme, 0.1);
   simulation.integrate(ions, Method::leap_frog);
   Recording recording(simulation, Base::reduced(), folder / "run");

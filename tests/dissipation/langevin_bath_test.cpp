@@ -123,16 +123,16 @@ TEST(LangevinBath, HeatIsWhatTheBathHasGiven) {
   start(gas, 5000, {1, 2, 3});
   start(more, 100, {0, 0, 0});
   PairScheme scheme(cube<3>(10));
-  scheme.load(gas);
-  scheme.load(more);
+  scheme.add(gas);
+  scheme.add(more);
   LangevinBath bath(2, 0.5, 1);
   bath.on(gas);
   bath.on(more);
   bath.on(gas);  // twice is once
   EXPECT_EQ(bath.ensembles().size(), 2U);
   PairScheme none(cube<3>(10), 1);
-  none.load(gas);
-  none.load(more);
+  none.add(gas);
+  none.add(more);
   Simulation simulation(none, 0.05);
   simulation.add(bath);
   simulation.integrate(gas, Method::leap_frog);
@@ -157,7 +157,7 @@ TEST(LangevinBath, TheSameBitsForAnyThreadsAndAfterARestart) {
     Simulation simulation{scheme, 0.05};
     explicit Run(int threads) {
       start(gas, 20000, {1, 2, 3});
-      scheme.load(gas);
+      scheme.add(gas);
       bath.on(gas);
       simulation.add(bath);
       simulation.integrate(gas, Method::leap_frog);
@@ -190,7 +190,7 @@ TEST(LangevinBath, TwoBathsOfOneTemperatureAreOne) {
   Ensemble<Newton<3>> gas("gas");
   start(gas, 20000, {0, 0, 0});
   PairScheme scheme(cube<3>(10), 1);
-  scheme.load(gas);
+  scheme.add(gas);
   LangevinBath first(2, 3, 1), second(2, 3, 1);
   first.on(gas);
   second.on(gas);

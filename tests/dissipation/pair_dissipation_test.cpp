@@ -297,7 +297,7 @@ TEST(PairDissipation, BesideTwoSchemes) {
     PairScheme near(box, 1.5);
     near.internal(ions, Soft{.repulsion = 60, .range = 1.5});
     P3MScheme far(box, coulomb(0.3), 1e-4);
-    far.load(ions);
+    far.add(ions);
     PairDissipation dpd(near, 1);
     dpd.state(ions, StateLaw(20));
     dpd.internal(ions, usual());

@@ -41,7 +41,7 @@ Beams beams(double a, double until) {
     reduced_plasma(*beam, box, 0.5);
     quiet_load(*beam, box);
     for (auto& p : *beam) p.velocity[0] = (beam == &right ? a : -a) / k;
-    mesh.load(*beam);
+    mesh.add(*beam);
   }
   velocity_ripple(right, box, wave_of_mode(box, 0, 1), 1e-5, 0);
   Simulation simulation(mesh, step);

@@ -191,7 +191,7 @@ struct Halves {
         dpd(scheme, 1),
         simulation(scheme, 1) {
     block_load(lattice, {Lattice::square, 1, {nx, ny, 1}, {0.5, 0.5, 0}});
-    scheme.load(lattice);
+    scheme.add(lattice);
     dpd.state(lattice, StateLaw(capacity));
     dpd.internal(lattice, {.range = range, .exponent = exponent, .conduction = conduction});
     for (auto& p : lattice) p.internal_energy = capacity * (p.position[0] < nx / 2.0 ? 1 + step : 1 - step);

@@ -325,7 +325,7 @@ TEST(DpdeSimultaneous, HeatsOfThreeInARow) {
       lumps.push_back({{row[i].position[0]}, {velocities[i]}, masses[i], energies[i], c});
     }
     PairScheme scheme(Box(Vector{-5.0}, Vector{5.0}), 1.6);
-    scheme.load(row);
+    scheme.add(row);
     PairDissipation dpd(scheme, k);
     dpd.state(row, StateLaw(c));
     DissipationLaw const d{.friction = 1.3, .range = 1.5};
@@ -376,7 +376,7 @@ TEST(DpdeSimultaneous, ACloudWithoutNoiseIsTheOracles) {
         lumps.push_back({{p.position[0], p.position[1]}, {p.velocity[0], p.velocity[1]}, p.mass, p.internal_energy, c});
       }
       PairScheme scheme(Box(Vector{0.0, 0.0}, Vector{length, length}, Boundary::periodic), 1.6);
-      scheme.load(cloud);
+      scheme.add(cloud);
       PairDissipation dpd(scheme, k);
       dpd.state(cloud, StateLaw(c));
       DissipationLaw const d{.friction = 0.3, .range = 1.5, .exponent = 0.7, .projected = projected};

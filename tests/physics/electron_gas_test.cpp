@@ -50,7 +50,7 @@ TEST(ElectronGas, WavesHaveTheEnergyOfEquilibrium) {
   mesh.assignment(Assignment::tsc);
   mesh.form(PoissonForm::spectral);
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
   Simulation simulation(mesh, step);
   simulation.integrate(electrons, Method::leap_frog);
   simulation.run(400);

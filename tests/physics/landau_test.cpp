@@ -48,7 +48,7 @@ Swing damped_wave(double k, double amplitude, double from, double to) {
   maxwellian_load(electrons, electrons[0].mass, 1, 1, options);  // thermal velocity 1
   MeshScheme mesh(box, {64}, reduced_law());
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
   Simulation simulation(mesh, 0.05);
   simulation.integrate(electrons, Method::leap_frog);
   std::vector<double> times, field;

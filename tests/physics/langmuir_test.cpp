@@ -47,7 +47,7 @@ Swing cold_oscillation(std::array<std::size_t, 3> const& cells, Vector<D> const&
   mesh.assignment(order);
   mesh.form(form);
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
   Simulation simulation(mesh, step);
   simulation.integrate(electrons, Method::leap_frog);
   std::size_t component = 0;
@@ -124,7 +124,7 @@ void expect_warm(std::array<std::size_t, 3> const& cells, Vector<D> const& edges
   maxwellian_load(electrons, electrons[0].mass * thermal * thermal, 1, 1, options);
   MeshScheme mesh(box, std::vector<std::size_t>(cells.begin(), cells.begin() + D), reduced_law());
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
   Simulation simulation(mesh, step);
   simulation.integrate(electrons, Method::leap_frog);
   std::vector<double> times, field;
@@ -163,7 +163,7 @@ TEST(Langmuir, UpperHybridOscillation) {
   double const cyclotron = 0.75, step = 0.05;
   MeshScheme mesh(box, {32, 8}, reduced_law());
   mesh.background(true);
-  mesh.load(electrons);
+  mesh.add(electrons);
   mesh.external(electrons, UniformMagneticField<2>{{cyclotron}});
   Simulation simulation(mesh, step);
   simulation.integrate(electrons, Method::leap_frog);

@@ -23,7 +23,7 @@ struct MesoparticleGas {
                range),
         dpd(scheme, k),
         k(k) {
-    scheme.load(gas);
+    scheme.add(gas);
     scheme.skin(0.3 * range);  // ideal particles are fast
     random_load(gas, scheme.box(), test_seed(4));
   }

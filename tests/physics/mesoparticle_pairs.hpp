@@ -31,8 +31,8 @@ struct MesoparticlePairs {
       for (int d = 0; d < D; ++d, cell /= n) first[i].position[d] = 4 * static_cast<double>(cell % n) + 2;
       second[i].position = first[i].position + direction * (distance / magnitude(direction));
     }
-    scheme.load(first);
-    scheme.load(second);
+    scheme.add(first);
+    scheme.add(second);
     dpd.state(first, StateLaw(first_capacity));
     dpd.state(second, StateLaw(second_capacity));
   }

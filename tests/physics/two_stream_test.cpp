@@ -67,7 +67,7 @@ TEST(TwoStream, ModesGrowAsTheoryHasIt) {
       options.quiet = true;
       options.drift[0] = (stream == &right ? 5 : -5) * thesis.thermal;
       maxwellian_load(*stream, 16000 * weight, thesis.base(constants::boltzmann), 1, options);
-      mesh.load(*stream);
+      mesh.add(*stream);
     }
     velocity_ripple(right, box, wave_of_mode(box, 0, mode), 1e-3 * thesis.thermal, 0);
     double const step = 0.1 / thesis.plasma_frequency, gamma = thesis.growth(mode, 128);

@@ -33,8 +33,8 @@ struct Atoms {
 
   explicit Atoms(Boundary boundary = Boundary::periodic, bool two = false)
       : scheme(box(boundary)), simulation(scheme, 0.1) {
-    scheme.load(atoms);
-    if (two) scheme.load(others);
+    scheme.add(atoms);
+    if (two) scheme.add(others);
   }
   static Box box(Boundary boundary) {
     Vector<D> low{}, high;
@@ -251,8 +251,8 @@ TEST(PhaseSpacePictures, EnsemblesWithoutTheFieldAreNamed) {
   Ensemble<Coulomb<2>> ions("ions", 3);
   Ensemble<Newton<2>> atoms("atoms", 2);
   PairScheme scheme(Box(Vector{0., 0.}, Vector{1., 1.}, Boundary::periodic));
-  scheme.load(ions);
-  scheme.load(atoms);
+  scheme.add(ions);
+  scheme.add(atoms);
   Simulation simulation(scheme, 0.1);
   Canvas const canvas =
       draw({.drawing = "phase-space", .x = "charge", .y = "velocity.x"}, {simulation, Base::reduced(), "", 0, 0, ""});
@@ -550,7 +550,7 @@ TEST(Looking, TracksThatAreLostAreTold) {
     Ensemble<Newton<2>> gas("gas", 1);
     gas[0].velocity = {0.8, 0};
     PairScheme scheme(Box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::periodic));
-    scheme.load(gas);
+    scheme.add(gas);
     Simulation simulation(scheme, 1);
     simulation.integrate(gas, Method::leap_frog);
     Recording recording(simulation, Base::reduced(), folder, true);

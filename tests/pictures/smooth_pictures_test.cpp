@@ -34,7 +34,7 @@ struct Matter {
       if constexpr (requires { p.range; }) p.range = 3;
       particles.add(p);
     }
-    scheme.load(particles);
+    scheme.add(particles);
   }
   static Box box(Boundary boundary) {
     Vector<D> low{}, high;

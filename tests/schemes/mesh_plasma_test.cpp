@@ -52,7 +52,7 @@ Measured measure_wave(Wave const& wave, std::size_t per_cell) {
   mesh.form(wave.form);
   if (wave.general)
     mesh.density_assignment([](MeshScheme& scheme, MeshField& density) { scheme.assign_density(density); });
-  mesh.load(electrons);
+  mesh.add(electrons);
   mesh.calculate();
   Measured result{0, 0};
   for (std::size_t i = 0; i < count; ++i) result.acceleration += electrons.influence_on(i)[0] * std::sin(k * start[i]);

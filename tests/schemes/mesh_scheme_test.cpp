@@ -55,8 +55,8 @@ double error_in_open_space(std::size_t cells, int order, PoissonForm form) {
   MeshScheme mesh(box, cubic<D>(cells), coulomb(1));
   mesh.assignment(order);
   mesh.form(form);
-  mesh.load(source);
-  mesh.load(probes);
+  mesh.add(source);
+  mesh.add(probes);
   PairScheme pairs(box);
   pairs.between(probes, source, coulomb(1));
   for (int shift = 0; shift < 6; ++shift) {
@@ -111,7 +111,7 @@ TEST(MeshInOpenSpace, Sheets) {
       MeshScheme mesh(box, {400}, coulomb(0.7));
       mesh.assignment(order);
       mesh.form(form);
-      mesh.load(sheets);
+      mesh.add(sheets);
       mesh.calculate();
       auto const by_mesh = forces(sheets);
       auto const of_mesh = mesh.measure();
@@ -173,7 +173,7 @@ double error_in_periodic_box(Vector<D> const& edges, std::size_t cells_per_lengt
     MeshScheme mesh(box_of(edges, Boundary::periodic), cells, coulomb(1.3));
     mesh.assignment(order);
     mesh.form(form);
-    mesh.load(charges);
+    mesh.add(charges);
     mesh.calculate();
     std::vector<double> q;
     for (auto const& p : charges) q.push_back(p.charge);
@@ -198,7 +198,7 @@ TEST(MeshInPeriodicBox, Sheets) {
       mesh.background(true);
       mesh.assignment(order);
       mesh.form(form);
-      mesh.load(sheets);
+      mesh.add(sheets);
       mesh.calculate();
       auto const exact =
           ewald_sums<1>(positions(sheets), std::vector<double>(q, q + 4), Vector{2.0}, coulomb(0.7).constant);
@@ -279,8 +279,8 @@ void expect_walls_are_images(std::array<FieldEnds, D> const& ends, Vector<D> con
   }
   with_images.background(true);
   if (closed) with_walls.background(true);
-  with_walls.load(charges);
-  with_images.load(whole);
+  with_walls.add(charges);
+  with_images.add(whole);
   with_walls.calculate();
   with_images.calculate();
   auto exact = forces(whole);
@@ -323,7 +323,7 @@ double error_between_walls(std::array<FieldEnds, D> const& ends, Vector<D> const
   mesh.form(order > 2 ? PoissonForm::spectral : PoissonForm::finite_difference);
   mesh.background(std::all_of(ends.begin(), ends.end(),
                               [](auto const& end) { return end.low != dirichlet && end.high != dirichlet; }));
-  mesh.load(charges);
+  mesh.add(charges);
   mesh.calculate();
   auto exact = ewald_sums<D>(images.positions, images.strengths, images.edges, coulomb(0.8).constant).force;
   exact.resize(charges.size());
@@ -352,7 +352,7 @@ TEST(MeshWalls, OpenBesideAWall) {
     MeshScheme mesh(Box(Vector{0.0, 0.0}, Vector{4.0, 4.0}, Boundary::reflecting), {160, 160}, coulomb(1));
     mesh.boundary(0, wall, dirichlet);
     mesh.assignment(3);
-    mesh.load(charge);
+    mesh.add(charge);
     mesh.calculate();
     // Images in both walls, 8 apart.
     double force = 0;
@@ -383,8 +383,8 @@ TEST(MeshClasses, AnyClassWithAStrength) {
   mesh.background(true);
   mesh.assignment(4);
   mesh.form(PoissonForm::spectral);
-  mesh.load(ions);
-  mesh.load(own);
+  mesh.add(ions);
+  mesh.add(own);
   mesh.calculate();
   auto all = positions(ions);
   std::vector<double> strengths{1, -1, 1};
@@ -404,7 +404,7 @@ TEST(MeshClasses, GravityAttracts) {
   stars[0].mass = 2;
   stars[1].mass = 3;
   MeshScheme open(box_of(filled<3>(1.0), Boundary::open), {40, 40, 40}, gravity(0.5));
-  open.load(stars);
+  open.add(stars);
   open.assignment(3);
   open.calculate();
   EXPECT_NEAR(stars.influence_on(0)[0], 0.5 * 6 / 0.16, 0.01 * 0.5 * 6 / 0.16);
@@ -412,7 +412,7 @@ TEST(MeshClasses, GravityAttracts) {
   EXPECT_LT(open.measure().potential, 0);
 
   MeshScheme periodic_box(box_of(filled<3>(1.0), Boundary::periodic), {40, 40, 40}, gravity(0.5));
-  periodic_box.load(stars);
+  periodic_box.add(stars);
   periodic_box.assignment(3);
   EXPECT_TRUE(has(failure([&] { periodic_box.calculate(); }), "background(true)"));
   periodic_box.background(true);
@@ -435,7 +435,7 @@ void expect_no_total_force(Boundary boundary, PoissonForm form, int order) {
   mesh.background(boundary == Boundary::periodic);
   mesh.assignment(order);
   mesh.form(form);
-  mesh.load(charges);
+  mesh.add(charges);
   mesh.calculate();
   Vector<D> total{};
   for (auto const& f : forces(charges)) total += f;
@@ -473,7 +473,7 @@ TEST(MeshEnergy, IsTheWorkDone) {
       mesh.boundary(0, dirichlet, neumann);
       mesh.boundary(1, open);
     }
-    mesh.load(charges);
+    mesh.add(charges);
     auto const energy_at = [&](double s) {
       charges[2].position = {0.35 + 0.5 * s,
                              0.62 - 0.3125 * s};  // whole cells: its own energy at both ends is the same
@@ -504,7 +504,7 @@ TEST(MeshEnergy, OfAPairInOpenSpace) {
   MeshScheme mesh(box_of(filled<3>(1.0), Boundary::open), {32, 32, 32}, coulomb(0.5));
   mesh.assignment(3);
   mesh.form(PoissonForm::spectral);
-  mesh.load(pair);
+  mesh.add(pair);
   double const together = mesh.measure().potential;
   auto const parts = mesh.measure().per_particle;
   EXPECT_NEAR(parts[0][0] + parts[0][1], together, 1e-12 * std::abs(together));
@@ -532,7 +532,7 @@ void expect_virial(std::vector<std::size_t> const& cells) {
     }
     MeshScheme mesh(box_of(scaled, Boundary::periodic), cells, coulomb(1));
     mesh.form(PoissonForm::spectral);
-    mesh.load(charges);
+    mesh.add(charges);
     auto const measures = mesh.measure();
     if (virial) *virial = measures.virial;
     return measures.potential;
@@ -556,7 +556,7 @@ TEST(MeshEnergy, VirialIsTheChangeWithTheBox) {
   charges[1].position[0] = 0.5;
   charges[0].charge = 1;
   MeshScheme mesh(box_of(Vector{1.0}, Boundary::open), {8}, coulomb(1));
-  mesh.load(charges);
+  mesh.add(charges);
   EXPECT_TRUE(std::isnan(mesh.measure().virial[0][0]));
   EXPECT_EQ(mesh.measure().no_virial, "axis x is not periodic: the field of a mesh goes on behind its ends");
 }
@@ -574,7 +574,7 @@ void expect_same_bits(int order, Boundary boundary) {
     MeshScheme mesh(box_of(edges, boundary), cubic<D>(D == 3 ? 12 : 20), coulomb(1));
     mesh.background(true);
     mesh.assignment(order);
-    mesh.load(charges);
+    mesh.add(charges);
     mesh.threads(threads);
     mesh.calculate();
     mesh.calculate();
@@ -616,7 +616,7 @@ TEST(MeshOfFew, NoneOneAndTwo) {
   Ensemble<Coulomb<2>> charges("charges");
   MeshScheme mesh(box_of(filled<2>(1.0), Boundary::periodic), {8, 8}, coulomb(1));
   mesh.calculate();  // no ensemble at all
-  mesh.load(charges);
+  mesh.add(charges);
   mesh.calculate();
   EXPECT_EQ(mesh.measure().potential, 0);
   charges.resize(1);

@@ -19,11 +19,11 @@ TEST(MeshStages, AnAssignmentThatCounts) {
   scatter<2>(charges, 50, Vector<2>{}, filled<2>(1.0), 1);
   MeshScheme mesh(box_of(filled<2>(1.0), Boundary::periodic), {12, 14}, coulomb(1)),
       plain(mesh.box(), {12, 14}, coulomb(1));
-  plain.load(charges);
+  plain.add(charges);
   plain.calculate();
   auto const expected = forces(charges);
   int calls = 0;
-  mesh.load(charges);
+  mesh.add(charges);
   mesh.density_assignment([&](MeshScheme& scheme, MeshField& density) {
     ++calls;
     scheme.assign_density(density);
@@ -54,7 +54,7 @@ TEST(MeshStages, APotentialByRelaxation) {
   scatter<1>(charges, 9, Vector{-1.0}, Vector{1.0}, 2);
   MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::reflecting), {24}, coulomb(0.3));
   mesh.boundary(0, FieldBoundary::dirichlet);
-  mesh.load(charges);
+  mesh.add(charges);
   mesh.calculate();
   auto const expected = forces(charges);
   double const energy = mesh.measure().potential;
@@ -94,7 +94,7 @@ TEST(MeshStages, AFieldOfFourthOrder) {
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = 0; i < n; ++i) potential.at(i, j) = std::cos(k * density.grid.position(0, i));
   });
-  mesh.load(charges);
+  mesh.add(charges);
   auto const factor_of = [&] {
     mesh.calculate();
     double most = 0;
@@ -123,8 +123,8 @@ TEST(MeshStages, AnInterpolationFromTheNearestNode) {
   scatter<2>(charges, 30, Vector<2>{}, filled<2>(1.0), 3);
   scatter<2>(others, 10, Vector<2>{}, filled<2>(1.0), 4);
   MeshScheme mesh(box_of(filled<2>(1.0), Boundary::periodic), {10, 10}, coulomb(1));
-  mesh.load(charges);
-  mesh.load(others);
+  mesh.add(charges);
+  mesh.add(others);
   mesh.interpolation([](MeshScheme&, MeshField const& field, AnyEnsemble const& ensemble, std::vector<double>& E) {
     E.resize(ensemble.size() * 2);
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
@@ -159,7 +159,7 @@ TEST(MeshStages, WrongSizesAreRefused) {
   scatter<2>(charges, 4, Vector<2>{}, filled<2>(1.0), 5);
   auto const with = [&](auto const& set) {
     MeshScheme mesh(box_of(filled<2>(1.0), Boundary::periodic), {8, 8}, coulomb(1));
-    mesh.load(charges);
+    mesh.add(charges);
     set(mesh);
     return failure([&] {
       mesh.calculate();
@@ -191,7 +191,7 @@ TEST(MeshStages, WrongSizesAreRefused) {
                   }),
                   "the interpolation gave 7 numbers for 4 particles of 2 dimensions"));
   MeshScheme mesh(box_of(filled<2>(1.0), Boundary::periodic), {8, 8}, coulomb(1));
-  mesh.load(charges);
+  mesh.add(charges);
   EXPECT_TRUE(has(failure([&] { mesh.strengths(stranger); }), "'stranger' is not loaded"));
   std::vector<double> E;
   MeshField const field = *mesh.mesh_fields()[2];
@@ -212,7 +212,7 @@ TEST(MeshBackground, Slab) {
       mesh.boundary(0, walls, walls == FieldBoundary::neumann ? FieldBoundary::dirichlet : walls);
       mesh.background(true);
       mesh.assignment(order);
-      mesh.load(charge);
+      mesh.add(charge);
       mesh.density_assignment(
           [](MeshScheme& scheme, MeshField& density) { density.components[0].assign(scheme.grid().size(), 0.0); });
       auto const fields = mesh.mesh_fields();
@@ -245,7 +245,7 @@ TEST(MeshBackground, OscillatingElectron) {
     mesh.boundary(0, walls);
     mesh.background(true);
     mesh.assignment(3);
-    mesh.load(electron);
+    mesh.add(electron);
     // Between conductors its images pull it out: a sheet at x has the force C q^2 x / L from them, all that the
     // background has. The two cancel, and it stays.
     double const wc2 = walls == FieldBoundary::open ? C / (4 * L) : 0;
@@ -283,7 +283,7 @@ TEST(MeshIntegrators, ReversibleToTheLastBit) {
     }
     MeshScheme mesh(box_of(filled<2>(1.0), boundary), {16, 16}, coulomb(1));
     if (boundary == Boundary::reflecting) mesh.boundary(0, FieldBoundary::dirichlet, FieldBoundary::neumann);
-    mesh.load(charges);
+    mesh.add(charges);
     mesh.threads(3);
     Simulation simulation(mesh, 0.01);
     simulation.integrate(charges, Method::reversible_leap_frog);
@@ -311,7 +311,7 @@ TEST(MeshIntegrators, RungeKutta) {
     MeshScheme mesh(Box(Vector{-1.0}, Vector{1.0}, Boundary::reflecting), {10}, coulomb(1));
     mesh.background(true);
     mesh.assignment(2);
-    mesh.load(sheets);
+    mesh.add(sheets);
     // The exact field of the background on the nodes: linear, so that the mesh gives a harmonic oscillator.
     mesh.influence_field([](MeshScheme&, MeshField const&, MeshField& field) {
       for (std::size_t i = 0; i < field.grid.nodes[0]; ++i) field.at(i) = -field.grid.position(0, i);
@@ -361,15 +361,15 @@ TEST(MeshMistakes, AreOneLine) {
 
   Ensemble<Kepler<2>> stars("stars", 1);
   Ensemble<Coulomb<2>> charges("charges", 1), namesake("charges", 1), lost("lost", 1);
-  EXPECT_TRUE(has(failure([&] { mesh.load(stars); }), "Kepler of 'stars' attracts, but with the constant"));
+  EXPECT_TRUE(has(failure([&] { mesh.add(stars); }), "Kepler of 'stars' attracts, but with the constant"));
   MeshScheme cosmos(mesh.box(), {8, 8}, gravity(1));
-  EXPECT_TRUE(has(failure([&] { cosmos.load(charges); }), "repels its like"));
-  mesh.load(charges);
-  mesh.load(charges);  // again: nothing
+  EXPECT_TRUE(has(failure([&] { cosmos.add(charges); }), "repels its like"));
+  mesh.add(charges);
+  mesh.add(charges);  // again: nothing
   EXPECT_EQ(mesh.ensembles().size(), 1U);
-  EXPECT_TRUE(has(failure([&] { mesh.load(namesake); }), "two ensembles are called 'charges'"));
+  EXPECT_TRUE(has(failure([&] { mesh.add(namesake); }), "two ensembles are called 'charges'"));
   lost[0].position = {0.5, 2.0};
-  EXPECT_TRUE(has(failure([&] { mesh.load(lost); }), "'lost'"));
+  EXPECT_TRUE(has(failure([&] { mesh.add(lost); }), "'lost'"));
 
   // Far too large: said at once, nothing allocated, whether or not the number of nodes is one that a size can hold.
   for (std::size_t const n : {std::size_t{200000}, std::size_t{1} << 32U, std::size_t{1} << 40U}) {
@@ -383,7 +383,7 @@ TEST(MeshMistakes, BadNumbers) {
   Ensemble<Coulomb<1>> charges("charges", 3);
   for (std::size_t i = 0; i < 3; ++i) charges[i].position[0] = 0.2 + 0.3 * static_cast<double>(i);
   MeshScheme mesh(box_of(Vector{1.0}, Boundary::open), {8}, coulomb(1));
-  mesh.load(charges);
+  mesh.add(charges);
   mesh.calculate();
   charges[1].charge = std::nan("");
   EXPECT_TRUE(has(failure([&] { mesh.calculate(); }), "strength that is not finite"));
@@ -420,7 +420,7 @@ struct Advised {
     MeshScheme mesh(box_of(Vector{1.0}, Boundary::periodic), {cells}, LaplaceLaw{constant});
     mesh.background(true);
     mesh.assignment(order);
-    mesh.load(electrons);
+    mesh.add(electrons);
     return mesh.warnings(dt);
   }
   bool warns(std::string const& word) const {
@@ -467,11 +467,11 @@ TEST(MeshAdvice, Nobody) {
   Ensemble<Coulomb<1>> none("none");
   MeshScheme mesh(box_of(Vector{1.0}, Boundary::periodic), {8}, coulomb(1));
   EXPECT_TRUE(mesh.warnings(0.1).empty());
-  mesh.load(none);
+  mesh.add(none);
   EXPECT_TRUE(mesh.warnings(0.1).empty());
   Ensemble<Kepler<3>> stars("stars", 8);
   MeshScheme cosmos(box_of(filled<3>(1.0), Boundary::periodic), {2, 2, 2}, gravity(1));
-  cosmos.load(stars);
+  cosmos.add(stars);
   auto const lines = cosmos.warnings(0.1);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0], "mesh: particles per cell 1, largest v dt/dx 0");

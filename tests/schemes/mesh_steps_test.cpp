@@ -73,7 +73,7 @@ struct Plasma {
         p.charge = charges[which] / static_cast<double>(options.count);
         p.mass = masses[which] / static_cast<double>(options.count);
       }
-      mesh->load(*ensemble);
+      mesh->add(*ensemble);
       ++which;
     }
     mesh->background(true);
@@ -215,8 +215,8 @@ TEST(MeshSteps, OneTwoAndNoParticles) {
       MeshScheme mesh(box_of(filled<2>(1.0), Boundary::reflecting), {9, 10}, coulomb(1));
       mesh.boundary(1, FieldBoundary::dirichlet, FieldBoundary::neumann);
       auto& particles = general ? others : some;
-      mesh.load(particles);
-      if (general) mesh.load(nobody);
+      mesh.add(particles);
+      if (general) mesh.add(nobody);
       Simulation simulation(mesh, 0.01);
       simulation.integrate(particles, Method::leap_frog);
       if (general) simulation.integrate(nobody, Method::leap_frog);
@@ -353,7 +353,7 @@ TEST(MeshSteps, FieldsThatChangeInTime) {
     auto& particles = general ? others : some;
     particles[0].position[0] = 0.3, particles[1].position[0] = 0.6;
     MeshScheme mesh(box_of(Vector{1.0}, Boundary::reflecting), {8}, coulomb(1));
-    mesh.load(particles);
+    mesh.add(particles);
     mesh.external(particles, Waving{3});
     if (general)
       mesh.density_assignment([](MeshScheme& scheme, MeshField& density) { scheme.assign_density(density); });
@@ -386,7 +386,7 @@ TEST(MeshSteps, LargeClassesInAMagneticField) {
   }
   MeshScheme mesh(box_of(filled<2>(1.0), Boundary::periodic), {8, 8}, coulomb(1));
   mesh.background(true);
-  mesh.load(ions);
+  mesh.add(ions);
   mesh.external(ions, UniformMagneticField<2>{Vector<1>{1e9}});
   Simulation simulation(mesh, 0.1);
   simulation.integrate(ions, Method::leap_frog);
@@ -413,7 +413,7 @@ struct Failing {
     }
     mesh =
         std::make_unique<MeshScheme>(box_of(filled<2>(1.0), boundary), std::vector<std::size_t>{128, 128}, coulomb(1));
-    mesh->load(ions);
+    mesh->add(ions);
     mesh->precision(precision);
     simulation = std::make_unique<Simulation>(*mesh, 0.01);
     simulation->integrate(ions, Method::leap_frog);

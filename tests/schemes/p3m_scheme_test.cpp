@@ -34,7 +34,7 @@ TEST(P3M, MadelungConstants) {
       salt[static_cast<std::size_t>(i)].charge = (x + y + z) % 2 == 0 ? 1 : -1;
     }
     P3MScheme scheme(box_of(filled<3>(4.0), Boundary::periodic), coulomb(1), accuracy);
-    scheme.load(salt);
+    scheme.add(salt);
     auto const measures = scheme.measure();
     EXPECT_NEAR(measures.potential / -32, 1.747564594633182, accuracy * 2);
     for (double const e : measures.per_particle[0]) EXPECT_NEAR(e * -2, 1.747564594633182, accuracy * 5);
@@ -51,7 +51,7 @@ TEST(P3M, MadelungConstants) {
       caesium[2 * i].charge = 1, caesium[2 * i + 1].charge = -1;
     }
     P3MScheme other(box_of(filled<3>(3.0), Boundary::periodic), coulomb(1), accuracy);
-    other.load(caesium);
+    other.add(caesium);
     EXPECT_NEAR(other.measure().potential / -27 * std::sqrt(0.75), 1.762674773070988, accuracy * 2);
   }
 }
@@ -69,7 +69,7 @@ void expect_accuracies(std::vector<double> const& accuracies, Vector<D> const& e
   auto const exact = exact_sums<D>(charges, edges, coulomb(0.7).constant);
   for (double const accuracy : accuracies) {
     P3MScheme scheme(box_of(edges, Boundary::periodic), coulomb(0.7), accuracy);
-    scheme.load(charges);
+    scheme.add(charges);
     if (charged) {
       EXPECT_TRUE(has(failure([&] { scheme.calculate(); }), "background(true)"));
       scheme.background(true);
@@ -122,7 +122,7 @@ void expect_virial_of_ewald(Vector<D> const& edges, bool charged, unsigned seed)
   if (charged)
     for (std::size_t i = 0; i < 60; ++i) charges[i].charge = 0.3 + 0.01 * static_cast<double>(i % 97);
   P3MScheme scheme(box_of(edges, Boundary::periodic), coulomb(0.7), 1e-6);
-  scheme.load(charges);
+  scheme.add(charges);
   if (charged) scheme.background(true);
   auto const measures = scheme.measure();
   double const constant = coulomb(0.7).constant;
@@ -168,7 +168,7 @@ TEST(P3M, VirialOfAPairIsItsOwn) {
   charges[1].position = charges[0].position + r;
   charges[0].charge = 2, charges[1].charge = -2;
   P3MScheme scheme(box_of(filled<3>(12.0), Boundary::periodic), coulomb(1), 1e-5);
-  scheme.load(charges);
+  scheme.add(charges);
   auto const virial = scheme.measure().virial;
   double const strength = 4 / cube(magnitude(r));
   for (int a = 0; a < 3; ++a)
@@ -190,9 +190,9 @@ TEST(P3M, SeveralClasses) {
   }
   beads[0].valence = -2, beads[0].weight = 0.5, beads[1].weight = 0;
   P3MScheme scheme(box_of(edges, Boundary::periodic), coulomb(1), 1e-5);
-  scheme.load(ions);
-  scheme.load(nobody);
-  scheme.load(beads);
+  scheme.add(ions);
+  scheme.add(nobody);
+  scheme.add(beads);
   auto all = positions(ions);
   std::vector<double> q;
   for (auto const& p : ions) q.push_back(p.charge);
@@ -214,7 +214,7 @@ TEST(P3M, SeveralClasses) {
   }
   P3MScheme cosmos(box_of(edges, Boundary::periodic), gravity(0.3), 1e-4);
   cosmos.background(true);
-  cosmos.load(stars);
+  cosmos.add(stars);
   cosmos.calculate();
   std::vector<double> masses;
   for (auto const& p : stars) masses.push_back(p.mass);
@@ -230,13 +230,13 @@ TEST(P3M, AccuracyIsThatOfItsOwnForces) {
   scatter<3>(charges, 200, Vector<3>{}, edges, 73);
   auto const box = box_of(edges, Boundary::periodic);
   P3MScheme alone(box, coulomb(1), 1e-5), together(box, coulomb(1), 1e-5);
-  alone.load(charges);
-  together.load(charges);
+  alone.add(charges);
+  together.add(charges);
   together.external(charges, [](auto const& p) { return p.velocity * 0.0 + 1e6; });
   EXPECT_EQ(alone.parameters().alpha, together.parameters().alpha);
   EXPECT_EQ(alone.parameters().cells, together.parameters().cells);
   P3MScheme fresh(box, coulomb(1), 1e-5);
-  fresh.load(charges);
+  fresh.add(charges);
   for (std::size_t i = 0; i < charges.size(); ++i) charges.influence(i)[1] = 1e4;
   fresh.add_influences(0);
   auto const added = forces(charges);
@@ -256,7 +256,7 @@ TEST(P3M, NoneOneAndTwo) {
     }
     P3MScheme scheme(box, coulomb(1), 1e-5);
     scheme.background(true);
-    scheme.load(charges);
+    scheme.add(charges);
     scheme.calculate();
     auto const exact = exact_sums<3>(charges, filled<3>(2.0));
     double const scale = 0.25 + 4 * static_cast<double>(count);
@@ -268,7 +268,7 @@ TEST(P3M, NoneOneAndTwo) {
   Ensemble<Coulomb<3>> plain("plain", 3);
   for (std::size_t i = 0; i < 3; ++i) plain[i].position[0] = 0.5 * static_cast<double>(i);
   P3MScheme scheme(box, coulomb(1), 1e-5);
-  scheme.load(plain);
+  scheme.add(plain);
   scheme.calculate();
   EXPECT_EQ(rms(forces(plain)), 0);
   EXPECT_EQ(scheme.measure().potential, 0);
@@ -304,8 +304,8 @@ struct MoltenSalt {
       ion.charge = (x + y + z) % 2 == 0 ? 1 : -1;
     }
     scheme = std::make_unique<P3MScheme>(box_of(filled<3>(6.0), Boundary::periodic), coulomb(1), 1e-4);
-    scheme->load(sodium);
-    scheme->load(chlorine);
+    scheme->add(sodium);
+    scheme->add(chlorine);
     scheme->pairs().internal(sodium, Repulsion{}, 2.5);
     scheme->pairs().internal(chlorine, Repulsion{}, 2.5);
     scheme->pairs().between(sodium, chlorine, Repulsion{}, 2.5);
@@ -401,7 +401,7 @@ TEST(P3MErrors, AreOneLine) {
   Ensemble<Coulomb<3>> charges("charges", 2);
   charges[0].charge = 1, charges[1].charge = -1, charges[1].position = {50.0, 0.0, 0.0};
   P3MScheme flat(Box(Vector{0.0, 0.0, 0.0}, Vector{100.0, 100.0, 0.01}, Boundary::periodic), coulomb(1), 1e-8);
-  flat.load(charges);
+  flat.add(charges);
   EXPECT_TRUE(has(failure([&] { flat.calculate(); }), "can't be reached")) << failure([&] { flat.calculate(); });
 }
 
@@ -409,7 +409,7 @@ TEST(P3MErrors, LostParticle) {
   Ensemble<Coulomb<3>> charges("charges", 2);
   charges[0].charge = 1, charges[1].charge = -1, charges[1].position = {0.5, 0.0, 0.0};
   P3MScheme scheme(box_of(filled<3>(1.0), Boundary::periodic), coulomb(1), 1e-3);
-  scheme.load(charges);
+  scheme.add(charges);
   scheme.calculate();
   charges[1].position[2] = std::nan("");
   EXPECT_TRUE(has(failure([&] { scheme.calculate(); }), "particle 1 of 'charges' has a position that is not finite"));

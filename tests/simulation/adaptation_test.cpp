@@ -107,8 +107,8 @@ TEST(Adaptation, ChargesOnAMeshMayComeAndGo) {
   MeshScheme mesh(box, {32}, LaplaceLaw{1}), other(box, {32}, LaplaceLaw{1});
   mesh.background(true);
   other.background(true);
-  mesh.load(a);
-  other.load(b);
+  mesh.add(a);
+  other.add(b);
   Simulation whole(mesh, 0.02), pieces(other, 0.02);
   whole.integrate(a, Method::leap_frog);
   pieces.integrate(b, Method::leap_frog);

@@ -235,7 +235,7 @@ TEST(Simulation, ReflectingBoxReflectsElastically) {
   ball[0].position = {0.9};
   ball[0].velocity = {1};
   PairScheme scheme(Box(Vector{0.}, Vector{1.}, Boundary::reflecting));
-  scheme.load(ball);
+  scheme.add(ball);
   Simulation simulation(scheme, 0.0625);
   simulation.integrate(ball, Method::leap_frog);
   simulation.run(8);  // half a time unit: to the wall and 0.4 back
@@ -248,7 +248,7 @@ TEST(Simulation, PeriodicPositionsAreWrappedAtTheStart) {
   ball[0].position = {37.25};
   ball[1].position = {-12.5};
   PairScheme scheme(Box(Vector{0.}, Vector{1.}, Boundary::periodic), 0.5);
-  scheme.load(ball);
+  scheme.add(ball);
   Simulation simulation(scheme, 0.1);
   simulation.integrate(ball, Method::leap_frog);
   simulation.run(1);
@@ -265,7 +265,7 @@ TEST(Simulation, RegionsKeepOutAndIn) {
   Box outside(Vector{0., 0.}, Vector{10., 10.});
   outside.install(Vector{4., 4.}, Vector{6., 6.}, Region::Side::keep_out);
   PairScheme scheme(outside);
-  scheme.load(ball);
+  scheme.add(ball);
   Simulation simulation(scheme, 0.125);
   simulation.integrate(ball, Method::leap_frog);
   simulation.run(40);  // 5 time units: 3 to the face, 2 back
@@ -275,14 +275,14 @@ TEST(Simulation, RegionsKeepOutAndIn) {
   Box inside(Vector{0., 0.}, Vector{10., 10.});
   inside.install(Vector{8., 8.}, Vector{9.5, 9.5}, Region::Side::keep_in);
   PairScheme cage(inside);
-  cage.load(caged);
+  cage.add(caged);
   Simulation in_cage(cage, 0.125);
   in_cage.integrate(caged, Method::leap_frog);
   in_cage.run(8);
   EXPECT_NEAR(caged[0].position[1], 9, 1e-13);
   ball[0].position = {5, 5};
   PairScheme late(outside);
-  EXPECT_THROW(late.load(ball), Error);
+  EXPECT_THROW(late.add(ball), Error);
 }
 
 template <class Thrown>
@@ -313,7 +313,7 @@ TEST(Simulation, FailuresNameStepAndParticle) {
     make(atoms);
     atoms[1].velocity = {1000, 0};
     PairScheme scheme(box);
-    scheme.load(atoms);
+    scheme.add(atoms);
     Simulation simulation(scheme, 0.05);
     simulation.integrate(atoms, Method::leap_frog);
     auto const text = message_of<PhysicsFailure>(simulation);
@@ -365,7 +365,7 @@ TEST(Simulation, ObserversSeeFinishedSteps) {
   Ensemble<Newton<1>> ball("ball", 1);
   ball[0].velocity = {1};
   PairScheme scheme(Box(Vector{-9.}, Vector{9.}));
-  scheme.load(ball);
+  scheme.add(ball);
   Simulation simulation(scheme, 0.5);
   simulation.integrate(ball, Method::leap_frog);
   std::vector<double> seen;
@@ -383,7 +383,7 @@ TEST(Simulation, ObserversSeeFinishedSteps) {
 TEST(Simulation, StopFinishesTheStep) {
   Ensemble<Newton<1>> ball("ball", 1);
   PairScheme scheme(Box(Vector{-9.}, Vector{9.}));
-  scheme.load(ball);
+  scheme.add(ball);
   Simulation simulation(scheme, 0.5);
   simulation.integrate(ball, Method::leap_frog);
   simulation.observe(3, [&](Simulation const& s) {

@@ -133,14 +133,14 @@ void MeshScheme::form(PoissonForm form) {
 
 void MeshScheme::background(bool yes) { background_ = yes; }
 
-void MeshScheme::load(AnyEnsemble& ensemble, MeshKind const& kind) {
+void MeshScheme::add(AnyEnsemble& ensemble, MeshKind const& kind) {
   if (kind.sign * law_.constant < 0)
     throw Error(fmt::format("mesh: class {} of '{}' {}, but with the constant {} equal strengths {}; use {}",
                             ensemble.class_name(), ensemble.name(), kind.sign > 0 ? "repels its like" : "attracts",
                             law_.constant, law_.constant > 0 ? "repel" : "attract",
                             kind.sign > 0 ? "coulomb(k)" : "gravity(G)"));
   if (std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& l) { return l->ensemble == &ensemble; })) return;
-  Scheme::load(ensemble);
+  Scheme::add(ensemble);
   loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kind, {}}));
 }
 

@@ -1,7 +1,7 @@
 // MeshScheme: influences of Laplace particles through a potential on a mesh (section 4.4 of the 1990 thesis).
 //
 //   MeshScheme mesh(Box(Vector{0.}, Vector{L}, Boundary::periodic), {512}, coulomb(k));
-//   mesh.load(electrons);
+//   mesh.add(electrons);
 //   mesh.background(true);
 //   Simulation simulation(mesh, dt);
 #pragma once
@@ -67,13 +67,13 @@ class MeshScheme : public Scheme {
 
   /// The particles of an ensemble of any class with a strength() make the field and feel it.
   template <class P>
-  void load(Ensemble<P>& ensemble) {
+  void add(Ensemble<P>& ensemble) {
     static_assert(MeshParticle<P>,
                   "a mesh supervises classes that derive from Laplace: with a strength(), and a force as influence");
-    load(ensemble, mesh_kind<P>());
+    add(ensemble, mesh_kind<P>());
   }
   /// For code that knows classes only at run time.
-  void load(AnyEnsemble& ensemble, MeshKind const& kind);
+  void add(AnyEnsemble& ensemble, MeshKind const& kind);
 
   /// An influence from outside, as in PairScheme.
   template <class P, class Law>

@@ -2,8 +2,8 @@
 // particles in a periodic box have the accuracy that is asked for (Hockney and Eastwood, ch. 8).
 //
 //   P3MScheme scheme(Box(Vector{0., 0., 0.}, Vector{L, L, L}, Boundary::periodic), coulomb(k), 1e-5);
-//   scheme.load(sodium);
-//   scheme.load(chlorine);
+//   scheme.add(sodium);
+//   scheme.add(chlorine);
 #pragma once
 
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>

@@ -146,8 +146,8 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
       throw Error(fmt::format("the cut-off {} is longer than the periodic axis {}, which allows at most {}", cutoff,
                               axis_name[a], box().length(a)));
   }
-  load(target);
-  load(source);
+  add(target);
+  add(source);
   auto near = std::make_unique<Near>();
   near->target = &target;
   near->source = &source;
@@ -163,7 +163,7 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
 
 void PairScheme::add_connections(AnyEnsemble& ensemble, std::vector<Connection> const& connections, PairKernels kernels,
                                  LawPointer law, LawTraits traits) {
-  load(ensemble);
+  add(ensemble);
   auto connected = std::make_unique<Connected>();
   connected->ensemble = &ensemble;
   connected->kernels = kernels;
@@ -175,7 +175,7 @@ void PairScheme::add_connections(AnyEnsemble& ensemble, std::vector<Connection> 
 
 void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, LawPointer law, LawTraits traits,
                               std::vector<std::uint32_t> const* only) {
-  load(ensemble);
+  add(ensemble);
   auto external = std::make_unique<External>();
   external->ensemble = &ensemble;
   external->kernels = kernels;

@@ -127,14 +127,14 @@ void SmoothScheme::add_material(AnyEnsemble& ensemble, MaterialKernels const& ke
         fmt::format("ensemble '{}' comes after variable_range(), which finds the ranges of those that are "
                     "there: say what all are made of before",
                     ensemble.name()));
-  load(ensemble);
+  add(ensemble);
   loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kernels, std::move(material), 0, {}, {}}));
   hood_.reset();
 }
 
 void SmoothScheme::add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels,
                                 std::shared_ptr<void const> law) {
-  load(ensemble);
+  add(ensemble);
   outside_.push_back(std::make_unique<Outside>(Outside{&ensemble, kernels, std::move(law)}));
 }
 
