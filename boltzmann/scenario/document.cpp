@@ -91,7 +91,7 @@ Item Item::of_number(double number, Place place) {
   return item;
 }
 
-std::string found(Item const& item) {
+std::string describe(Item const& item) {
   switch (item.kind) {
     case Item::Kind::table:
       return "a table";
@@ -371,7 +371,7 @@ void assign(Item& document, std::string const& path, Item value, Place const& pl
                                                names.empty() ? "nothing" : join(names), did_you_mean(step, names)));
       }
     } else {
-      return mistakes.add(place, fmt::format("{} is {}: it has no '{}'", so_far, found(*at), step));
+      return mistakes.add(place, fmt::format("{} is {}: it has no '{}'", so_far, describe(*at), step));
     }
     so_far += (k > 0 ? "." : "") + step;
     at = next;

@@ -122,6 +122,6 @@ class Lines {
 };
 
 /// "a text", "an array", ...: what was found.
-std::string found(Item const& item);
+std::string describe(Item const& item);
 
 }  // namespace boltzmann

@@ -83,8 +83,8 @@ std::optional<Formula> read_formula(Item const& item, std::string_view key, Form
   if (reading.context.recorder) reading.context.recorder->plain(item, item.is_number() ? "number" : "text");
   if (item.is_number()) return Formula(fmt::format("({})", item.number), names.names());
   if (!item.is(Item::Kind::text)) {
-    reading.mistake(item.place,
-                    fmt::format("{}: a formula in quotes is needed, e.g. \"sin(2*pi*x)\", not {}", key, found(item)));
+    reading.mistake(item.place, fmt::format("{}: a formula in quotes is needed, e.g. \"sin(2*pi*x)\", not {}", key,
+                                            describe(item)));
     return std::nullopt;
   }
   try {
@@ -110,7 +110,7 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
   if (!table->is(Item::Kind::table)) {
     reading.mistake(
         table->place,
-        fmt::format("formulas: a table is needed, {{ velocity = [\"...\", \"...\"] }}, not {}", found(*table)));
+        fmt::format("formulas: a table is needed, {{ velocity = [\"...\", \"...\"] }}, not {}", describe(*table)));
     return formulas;
   }
   Section inner(*table, "formulas", reading.context);
@@ -150,7 +150,7 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
       reading.mistake(
           item.place,
           fmt::format("{}: {} formulas are needed, one for each component, not {}{}", field->name, field->components,
-                      found(item), item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
+                      describe(item), item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
       continue;
     } else {
       for (auto const& element : item.elements)

@@ -81,7 +81,7 @@ std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& rea
   if (!between->is(Item::Kind::array) || between->elements.size() != 2) {
     reading.mistake(
         between->place,
-        fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", found(*between),
+        fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", describe(*between),
                     between->is(Item::Kind::array) ? fmt::format(" of {}", between->elements.size()) : ""));
     return {};
   }
@@ -200,7 +200,7 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
     for (ReadEnsemble const* one : {a, b})
       if (!has_temperatures(*one, section.place("convention"), section.item("convention")->text, reading)) return;
   if (!all.pairs)
-    guarded(reading, table.place, [&] {
+    catch_errors(reading, table.place, [&] {
       auto pairs = std::make_unique<PairDissipation>(*reading.result->pairs, reading.boltzmann_constant());
       pairs->method(all.together.method);
       pairs->corrector(all.together.corrector);
@@ -209,7 +209,7 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
       reading.result->dissipations.push_back(std::move(pairs));
     });
   if (!all.pairs) return;
-  guarded(reading, table.place, [&] {
+  catch_errors(reading, table.place, [&] {
     for (ReadEnsemble const* one : {a, b})
       if (one->state && (one == a || a != b)) all.pairs->state(*one->particles, *one->state);
     if (a == b)
@@ -238,7 +238,7 @@ void read_langevin(Section& section, Dissipations& all) {
   if (reading.context.mistakes.count() != before || !ensemble || !bath) return;
   if (!supports(*ensemble, on->place, "on", reading)) return;
   if (taken(all.baths, ensemble, ensemble, on->place, "langevin", reading)) return;
-  guarded(reading, on->place, [&] {
+  catch_errors(reading, on->place, [&] {
     bath->on(*ensemble->particles);
     reading.result->dissipations.push_back(std::move(bath));
   });
@@ -310,7 +310,7 @@ void read_equilibration(Item const& table, Reading& reading) {
     return reading.mistake(table.place,
                            "[equilibrate]: there is no ensemble of particles with mass and velocity whose "
                            "integrator is \"leap-frog\"");
-  guarded(reading, table.place, [&] {
+  catch_errors(reading, table.place, [&] {
     for (ReadEnsemble const* ensemble : chosen) bath->on(*ensemble->particles);
     reading.equilibration = {std::move(bath), static_cast<std::uint64_t>(steps)};
   });

@@ -29,7 +29,8 @@ std::string title_of(Item const& table) {
 class EnsembleReader {
  public:
   EnsembleReader(Item const& table, Reading& reading)
-      : reading_(reading),
+      : table_(table),
+        reading_(reading),
         before_(reading.context.mistakes.count()),
         section_(table, title_of(table), reading.context) {
     ensemble_.place = table.place;
@@ -47,7 +48,7 @@ class EnsembleReader {
     if (kind_) section_.finish();
     if (variant_) make_integrator();
     if (particles_ && ensemble_.state) find_temperatures(*particles_, *ensemble_.state);
-    if (particles_) guarded(reading_, ensemble_.load_place, [&] { reading_.box->check(*particles_); });
+    if (particles_) catch_errors(reading_, ensemble_.load_place, [&] { reading_.box->check(*particles_); });
     ensemble_.particles = right() ? particles_ : nullptr;
     reading_.ensembles.push_back(std::move(ensemble_));
   }
@@ -73,7 +74,7 @@ class EnsembleReader {
           mistake(item->place, fmt::format("name: there is an ensemble '{}' already, in line {}; names must differ",
                                            item->text, other.place.line));
     }
-    guarded(reading_, section_.place("colour"), [&] {
+    catch_errors(reading_, section_.place("colour"), [&] {
       if (!options_.appearance.colour.empty() || section_.has("colour")) colour_named(options_.appearance.colour);
     });
   }
@@ -106,7 +107,7 @@ class EnsembleReader {
     ensemble_.load_place = item->place;
     if (!item->is(Item::Kind::table))
       return mistake(item->place,
-                     fmt::format("load: a table is needed, {{ kind = \"block\", ... }}, not {}", found(*item)));
+                     fmt::format("load: a table is needed, {{ kind = \"block\", ... }}, not {}", describe(*item)));
     loader_.emplace(*item, reading_, variant_);
     loadable_ =
         loader_->read(section_.has("number") ? std::optional(options_.number) : std::nullopt, section_.place("number"));
@@ -117,7 +118,8 @@ class EnsembleReader {
     ensemble_.state = read_state_law(section_, *kind_, reading_);
     internal_temperature_ = read_internal_temperature(section_, *kind_, reading_);
     if (section_.has("position"))
-      mistake(section_.place("position"), "positions are loaded: load = { kind = \"positions\", positions = [...] }");
+      mistake(table_.find("position")->place,
+              "positions are loaded: load = { kind = \"positions\", positions = [...] }");
     refuse_found(section_, *kind_, reading_);
     auto given = given_fields(*kind_, reading_.dimension);
     if (Item const* item = section_.item("internal_energy"); item && item->is(Item::Kind::table))
@@ -130,7 +132,7 @@ class EnsembleReader {
         mistake(formula.place,
                 smooth() ? fmt::format("{}: the material finds it from density and specific_energy", formula.field.name)
                          : fmt::format("{}: it follows from internal_energy and heat_capacity", formula.field.name));
-    section_.know("position");
+    section_.mark_used("position");
     check_positive(section_, fields_, *kind_, reading_);
     ensemble_.range_place = section_.place(section_.has("range") ? "range" : "formulas");
   }
@@ -162,7 +164,7 @@ class EnsembleReader {
     particles_->appearance = options_.appearance;
     auto const all = all_indices(*particles_);
     for (auto const& value : fields_) apply(value, *particles_, all);  // loaders look at masses
-    bool const loaded = guarded(reading_, ensemble_.load_place, [&] { loader_->load(*particles_); });
+    bool const loaded = catch_errors(reading_, ensemble_.load_place, [&] { loader_->load(*particles_); });
     for (auto const& value : fields_) apply(value, *particles_, all);
     if (smooth() && volume() && reading_.smooth.variable && !gives(section_, "range"))
       set_ranges(*particles_, *volume(), reading_.smooth.variable->spacings);
@@ -172,7 +174,7 @@ class EnsembleReader {
   /// Internal energies, and what formulas say. The density goes before: from it follow masses, and other formulas may
   /// use both.
   bool fill_fields(std::vector<std::uint32_t> const& all) {
-    if (internal_temperature_ && ensemble_.state && !guarded(reading_, section_.place("internal_energy"), [&] {
+    if (internal_temperature_ && ensemble_.state && !catch_errors(reading_, section_.place("internal_energy"), [&] {
           internal_energy_load(*particles_, *ensemble_.state, *internal_temperature_, reading_.boltzmann_constant(),
                                reading_.run.seed);
         }))
@@ -191,12 +193,12 @@ class EnsembleReader {
 
   bool fill_velocities() {
     if (options_.drift) options_.thermal.drift = *options_.drift;
-    if (options_.temperature && !guarded(reading_, section_.place("temperature"), [&] {
+    if (options_.temperature && !catch_errors(reading_, section_.place("temperature"), [&] {
           maxwellian_load(*particles_, *options_.temperature, reading_.boltzmann_constant(), reading_.run.seed,
                           options_.thermal);
         }))
       return false;
-    return !ripple_ || guarded(reading_, section_.place("velocity_ripple"), [&] {
+    return !ripple_ || catch_errors(reading_, section_.place("velocity_ripple"), [&] {
       velocity_ripple(*particles_, *reading_.box, ripple_->wave, ripple_->amplitude, ripple_->component);
     });
   }
@@ -236,8 +238,8 @@ class EnsembleReader {
     Method const method = options_.integrator.value_or(kind_->usual_method);
     std::unique_ptr<AnyEnsemble> none;
     if (!particles_) none = variant_->make(ensemble_.name, 0);
-    guarded(reading_, section_.place("integrator"),
-            [&] { ensemble_.integrator = variant_->integrate(particles_ ? *particles_ : *none, method); });
+    catch_errors(reading_, section_.place("integrator"),
+                 [&] { ensemble_.integrator = variant_->integrate(particles_ ? *particles_ : *none, method); });
     if (none) return ensemble_.integrator.reset();
     if (!ensemble_.integrator || frozen_.empty()) return;
     std::sort(frozen_.begin(), frozen_.end());
@@ -247,6 +249,7 @@ class EnsembleReader {
     ensemble_.integrator = std::make_unique<Frozen>(*particles_, frozen_, std::move(ensemble_.integrator));
   }
 
+  Item const& table_;
   Reading& reading_;
   std::size_t before_;
   Section section_;

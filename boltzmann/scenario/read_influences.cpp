@@ -16,7 +16,7 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
   std::vector<Connection> connections;
   auto const wrong = [&](Item const& where) {
     reading.mistake(where.place, fmt::format("connect: [[first, last, interval]] is needed, e.g. [[0, 99, 1]], not {}",
-                                             found(where)));
+                                             describe(where)));
   };
   if (!item.is(Item::Kind::array)) {
     wrong(item);
@@ -107,6 +107,8 @@ class InfluenceReader {
       if (a_ && a_ == b_) refuse_twice(*by_, "by");
     } else if (by_) {
       reading_.mistake(by_->place, "by: it says who acts; on whom says 'on', which is missing");
+    } else if (section_.has("one_way")) {
+      return;  // as before, of which section_.finish() tells
     } else if (!external()) {
       reading_.mistake(section_.place(),
                        "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
@@ -120,7 +122,7 @@ class InfluenceReader {
     if (!between_->is(Item::Kind::array) || between_->elements.size() != 2)
       return reading_.mistake(
           between_->place,
-          fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", found(*between_),
+          fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", describe(*between_),
                       between_->is(Item::Kind::array) ? fmt::format(" of {}", between_->elements.size()) : ""));
     a_ = reading_.ensemble(between_->elements[0], "between");
     b_ = reading_.ensemble(between_->elements[1], "between");
@@ -151,7 +153,7 @@ class InfluenceReader {
                                           law_->name));
     double const reach = smooth || external() || connect_ ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
-    guarded(reading_, law_place_, [&] {
+    catch_errors(reading_, law_place_, [&] {
       PairScheme* pairs = reading_.result->pairs;
       if (smooth)
         install_external(*smooth, *law_, parameters, a);

@@ -60,7 +60,7 @@ VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
   if (!item.is(Item::Kind::table)) {
     reading.mistake(
         item.place,
-        fmt::format("velocity_ripple: a table is needed, {{ mode = 1, amplitude = 0.1 }}, not {}", found(item)));
+        fmt::format("velocity_ripple: a table is needed, {{ mode = 1, amplitude = 0.1 }}, not {}", describe(item)));
     return {};
   }
   Section section(item, "velocity_ripple", reading.context);
@@ -152,7 +152,7 @@ double Loader::read_block() {
       reading_.mistake(
           counts->place,
           fmt::format("counts: an array of {} whole numbers is needed, one for each axis, not {}{}", dimension,
-                      found(*counts),
+                      describe(*counts),
                       counts->is(Item::Kind::array) ? fmt::format(" of {}", counts->elements.size()) : ""));
     } else {
       for (std::size_t a = 0; a < counts->elements.size() && a < 3; ++a)
@@ -209,7 +209,7 @@ double Loader::read_fill() {
       where && dimension > 0 ? read_formula(*where, "where", names, {}, reading_) : std::optional<Formula>{};
   if (!section_.has("spacing") || !reading_.box || reading_.context.mistakes.count() != before) return 0;
   double count = 0;
-  guarded(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
+  catch_errors(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
     Filling const filling{block_.kind, block_.spacing, low, high};
     count = static_cast<double>(filling_count(filling, dimension));
     if (variant_ && !fits_memory(count, *variant_, section_.place("spacing"), reading_)) return;
@@ -228,8 +228,8 @@ double Loader::read_positions() {
   Item const* list = section_.find("positions");
   if (!list) return 0;
   if (!list->is(Item::Kind::array) || list->elements.empty()) {
-    reading_.mistake(list->place,
-                     fmt::format("positions: an array of positions is needed, [[0, 0], [1, 0]], not {}", found(*list)));
+    reading_.mistake(list->place, fmt::format("positions: an array of positions is needed, [[0, 0], [1, 0]], not {}",
+                                              describe(*list)));
     return 0;
   }
   Dimension dimension = dimensions::length;
@@ -248,15 +248,15 @@ double Loader::read_file() {
   auto const path = path_item ? read_path(*path_item, "path", reading_.context) : std::nullopt;
   Item const* species_item = section_.find("species");
   if (!path) return 0;
-  if (!guarded(reading_, path_item->place,
-               [&] { frame_ = from_xyz_file(*path, static_cast<std::size_t>(options_.frame)); }))
+  if (!catch_errors(reading_, path_item->place,
+                    [&] { frame_ = from_xyz_file(*path, static_cast<std::size_t>(options_.frame)); }))
     return 0;
   if (reading_.box)
     if (auto const line = lattice_misfit(frame_, *reading_.box, options_.length); !line.empty())
       reading_.mistake(path_item->place, "path: " + line);
   double count = 0;
-  guarded(reading_, species_item ? species_item->place : path_item->place,
-          [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
+  catch_errors(reading_, species_item ? species_item->place : path_item->place,
+               [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
   return count;
 }
 

@@ -18,8 +18,8 @@ std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
   Item const* word = section.need("law", "law = \"coulomb\"");
   auto const name = word ? read_word(*word, "law", {"coulomb", "gravity"}, reading.context) : std::nullopt;
   if (!name) {
-    section.know("k");
-    section.know("G");
+    section.mark_used("k");
+    section.mark_used("G");
     return std::nullopt;
   }
   auto parameters = find_law(*name)->parameters;
@@ -72,7 +72,8 @@ FieldBoundary read_end(Item const& item, Reading& reading) {
 void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   auto const set = [&](int axis, Place const& place, FieldBoundary low, FieldBoundary high) {
-    if (reading.context.mistakes.count() == before) guarded(reading, place, [&] { mesh.boundary(axis, low, high); });
+    if (reading.context.mistakes.count() == before)
+      catch_errors(reading, place, [&] { mesh.boundary(axis, low, high); });
   };
   auto const dimension = static_cast<std::size_t>(reading.dimension);
   if (item.is(Item::Kind::text)) {
@@ -84,7 +85,7 @@ void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
     reading.mistake(item.place,
                     fmt::format("boundary: a word, or an array with a word or a pair [low, high] for each of the {} "
                                 "axes is needed, not {}{}",
-                                dimension, found(item),
+                                dimension, describe(item),
                                 item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
     return;
   }
@@ -110,7 +111,7 @@ void read_plain_mesh(Section& section, MeshOptions const& options, LaplaceLaw co
   auto const cells = item ? read_cells(*item, reading) : std::nullopt;
   Item const* boundary = section.find("boundary");
   if (!cells) return;
-  guarded(reading, item->place, [&] {
+  catch_errors(reading, item->place, [&] {
     auto mesh = std::make_unique<MeshScheme>(*reading.box, *cells, law);
     mesh->assignment(options.assignment);
     mesh->form(options.poisson);
@@ -135,7 +136,7 @@ void read_mesh(Item const& table, Reading& reading) {
                         fmt::format("{}: with 'accuracy' it is chosen by the scheme; leave it out", key));
     section.finish();
     if (!law || !options.accuracy || !reading.box) return;
-    guarded(reading, section.place("accuracy"), [&] {
+    catch_errors(reading, section.place("accuracy"), [&] {
       auto mesh = std::make_unique<P3MScheme>(*reading.box, *law, *options.accuracy);
       reading.result->mesh = mesh.get();
       reading.result->scheme = std::move(mesh);
@@ -223,7 +224,8 @@ bool load_mesh(Item const& table, Reading& reading) {
           "or choose class {}",
           ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity", repel ? "gravity" : "coulomb", fitting));
     any = true;
-    guarded(reading, chosen ? section.place("on") : ensemble->place, [&] { mesh.add(*ensemble->particles, kind); });
+    catch_errors(reading, chosen ? section.place("on") : ensemble->place,
+                 [&] { mesh.add(*ensemble->particles, kind); });
   }
   if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
     reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does", fitting));
@@ -242,7 +244,7 @@ void load_scheme(Section& document, Reading& reading) {
   if (reading.context.mistakes.count() != before) reading.mesh.usable = false;
   // Those that no law acts on are supervised, too.
   for (auto const& ensemble : reading.ensembles)
-    if (ensemble.particles) guarded(reading, ensemble.place, [&] { result.pairs->add(*ensemble.particles); });
+    if (ensemble.particles) catch_errors(reading, ensemble.place, [&] { result.pairs->add(*ensemble.particles); });
 }
 
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {

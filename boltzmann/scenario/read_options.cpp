@@ -33,8 +33,8 @@ class OptionReader {
     Item const* item = section_.find(option_.key);
     if (!item) return;
     if (!item->is(Item::Kind::table))
-      return mistake(*item,
-                     fmt::format("a table is needed, {} = {}, not {}", option_.key, kind_.words.front(), found(*item)));
+      return mistake(
+          *item, fmt::format("a table is needed, {} = {}, not {}", option_.key, kind_.words.front(), describe(*item)));
     Section part(*item, option_.key, section_.context());
     read_options(part, *group.options, group.make(), meaning_);
     part.finish();
@@ -77,7 +77,7 @@ class OptionReader {
     Item const* item = section_.find(option_.key);
     if (!item) return;
     if (!item->is(Item::Kind::array))
-      return mistake(*item, fmt::format("pairs are needed, [[low, high], ...], not {}", found(*item)));
+      return mistake(*item, fmt::format("pairs are needed, [[low, high], ...], not {}", describe(*item)));
     pairs->clear();
     for (auto const& element : item->elements)
       if (auto const pair = read_vector(element, option_.key, 2, dimension_, section_.context()))
@@ -106,7 +106,7 @@ class OptionReader {
     for (Item const& element : item->is(Item::Kind::array) ? item->elements : one) {
       if (!element.is(Item::Kind::table)) {
         mistake(element,
-                fmt::format("a table is needed, {{ {} = 1 }}, not {}", list.options->begin()->key, found(element)));
+                fmt::format("a table is needed, {{ {} = 1 }}, not {}", list.options->begin()->key, describe(element)));
         continue;
       }
       Section part(element, option_.key, section_.context());
@@ -131,7 +131,8 @@ class OptionReader {
     return read && item->is(Item::Kind::text) ? std::optional(*read / kind_.counted_in) : read;
   }
   void numbers(Item const& item, std::vector<double>& list) const {
-    if (!item.is(Item::Kind::array)) return mistake(item, fmt::format("a list is needed, [1, 2], not {}", found(item)));
+    if (!item.is(Item::Kind::array))
+      return mistake(item, fmt::format("a list is needed, [1, 2], not {}", describe(item)));
     list.clear();
     for (auto const& element : item.elements)
       if (auto const read = read_quantity(element, option_.key, dimension_, section_.context())) list.push_back(*read);

@@ -96,11 +96,11 @@ void read_diagnosis(Item const& table, Reading& reading) {
     }
     parameters.mesh_fields = reading.mesh.fields;
     if (section.has("quantity") &&
-        !guarded(reading, place, [&] { mesh_quantity(parameters.mesh_fields, parameters.quantity); }))
+        !catch_errors(reading, place, [&] { mesh_quantity(parameters.mesh_fields, parameters.quantity); }))
       return;
     place = section.has("mode") ? section.place("mode") : section.has("axis") ? section.place("axis") : word->place;
   }
-  guarded(reading, place, [&] {
+  catch_errors(reading, place, [&] {
     auto diagnosis = make_diagnosis(*name, parameters);
     if (*name == "heat-flux" && reading.box)
       temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
@@ -157,7 +157,7 @@ void read_stop(Reading& reading) {
   if (reading.context.recorder) reading.context.recorder->plain(item, "text");
   if (!item.is(Item::Kind::text))
     return reading.mistake(
-        item.place, fmt::format("stop: a condition in quotes is needed, e.g. \"time > 5\", not {}", found(item)));
+        item.place, fmt::format("stop: a condition in quotes is needed, e.g. \"time > 5\", not {}", describe(item)));
   if (!reading.diagnoses_known || !all_loaded(reading) || !reading.base_known) return;
   std::vector<Column> columns;
   for (auto const& diagnosis : reading.result->diagnoses)

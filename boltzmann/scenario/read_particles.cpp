@@ -62,8 +62,8 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   if (margin_item && !edge) reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");
   if (item->is(Item::Kind::array)) return numbered_particles(*item, ensemble, reading);
   if (!item->is(Item::Kind::text)) {
-    reading.mistake(item->place,
-                    fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}", found(*item)));
+    reading.mistake(item->place, fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}",
+                                             describe(*item)));
     return std::nullopt;
   }
   if (!read_word(*item, "particles", {"all", "edge"}, reading.context)) return std::nullopt;

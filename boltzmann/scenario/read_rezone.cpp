@@ -57,7 +57,7 @@ void read_one(Item const& table, Reading& reading) {
                     "0.5");
   policy.region = read_block(section, reading);
   section.finish();
-  if (reading.context.mistakes.count() == before) guarded(reading, table.place, [&] { policy.check(); });
+  if (reading.context.mistakes.count() == before) catch_errors(reading, table.place, [&] { policy.check(); });
   reading.smooth.rezones.push_back(std::move(rezone));
 }
 
@@ -78,7 +78,7 @@ void read_rezone(Section& smooth, Reading& reading) {
       reading.mistake(table->place,
                       fmt::format("rezone: a table is needed, rezone = {{ every = 20, split_above = 2, smallest_mass = "
                                   "0.5 }}, not {}",
-                                  found(*table)));
+                                  describe(*table)));
   }
 }
 

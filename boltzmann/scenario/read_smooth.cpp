@@ -16,7 +16,8 @@ namespace {
 Item const* inner_table(Section& section, std::string_view key, std::string_view example, Reading& reading) {
   Item const* item = section.find(key);
   if (!item || item->is(Item::Kind::table)) return item;
-  reading.mistake(item->place, fmt::format("{}: a table is needed, {} = {}, not {}", key, key, example, found(*item)));
+  reading.mistake(item->place,
+                  fmt::format("{}: a table is needed, {} = {}, not {}", key, key, example, describe(*item)));
   return nullptr;
 }
 
@@ -26,7 +27,7 @@ std::vector<PressurePoint> read_points(Item const& item, Reading& reading) {
   auto const wrong = [&](Item const& where) {
     reading.mistake(where.place, fmt::format("points: pairs of a density and a pressure are needed, [[1, 0], [2, 3]], "
                                              "not {}",
-                                             found(where)));
+                                             describe(where)));
     return std::vector<PressurePoint>{};
   };
   if (!item.is(Item::Kind::array) || item.elements.empty()) return wrong(item);
@@ -57,8 +58,8 @@ std::optional<PressureTable> read_table(Section& section, Reading& reading) {
   auto const read = points ? read_points(*points, reading) : std::vector<PressurePoint>{};
   if (reading.context.mistakes.count() != before || (points && read.empty())) return std::nullopt;
   std::optional<PressureTable> table;
-  guarded(reading, (file ? file : points)->place,
-          [&] { table = file ? PressureTable::from_file(*path) : PressureTable(read); });
+  catch_errors(reading, (file ? file : points)->place,
+               [&] { table = file ? PressureTable::from_file(*path) : PressureTable(read); });
   return table;
 }
 
@@ -108,7 +109,7 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
   section.finish();
   if (reading.context.mistakes.count() != before || reading.dimension == 0) return std::nullopt;
   std::optional<BoundMaterial> bound;
-  guarded(reading, table->place, [&] { bound = bind_material(choice, kind.matter, reading.dimension); });
+  catch_errors(reading, table->place, [&] { bound = bind_material(choice, kind.matter, reading.dimension); });
   return bound;
 }
 
@@ -137,7 +138,7 @@ void read_smooth(Item const& table, Reading& reading) {
   if (reading.run.skin) reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
   reading.run.skin_place = section.place("skin");
   if (reading.context.mistakes.count() != before || !reading.box) return;
-  guarded(reading, table.place, [&] {
+  catch_errors(reading, table.place, [&] {
     auto scheme = std::make_unique<SmoothScheme>(*reading.box, options.weight);
     scheme->density_from(options.density);
     scheme->mean_density(options.mean_density);
@@ -153,10 +154,11 @@ void load_smooth(Reading& reading) {
   SmoothScheme& scheme = *reading.result->smooth;
   for (auto const& ensemble : reading.ensembles) {
     if (!ensemble.particles || !ensemble.material) return;
-    guarded(reading, ensemble.place,
-            [&] { scheme.add_material(*ensemble.particles, ensemble.material->kernels, ensemble.material->material); });
+    catch_errors(reading, ensemble.place, [&] {
+      scheme.add_material(*ensemble.particles, ensemble.material->kernels, ensemble.material->material);
+    });
   }
-  guarded(reading, reading.smooth.heating_place, [&] { scheme.check_heating(); });
+  catch_errors(reading, reading.smooth.heating_place, [&] { scheme.check_heating(); });
   if (reading.context.mistakes.none() && reading.smooth.variable && !reading.ensembles.empty()) try {
       scheme.variable_range(*reading.smooth.variable);
     } catch (std::runtime_error const& failure) {  // of the user's input or of the physics

@@ -97,8 +97,8 @@ void read_wall(Item const& table, Reading& reading) {
     if (along != std::array<double, 3>{}) refuse("velocity", "move along it only");
     if (reading.context.mistakes.count() != before) return;
   }
-  guarded(reading, table.place,
-          [&] { options.open ? reading.box->open_end(a, options.end) : reading.box->wall(a, options.end, wall); });
+  catch_errors(reading, table.place,
+               [&] { options.open ? reading.box->open_end(a, options.end) : reading.box->wall(a, options.end, wall); });
 }
 
 /// A time, "courant" or { courant = 0.5 }.
@@ -153,7 +153,7 @@ void read_units(Section& document, Reading& reading) {
   Item const* word = units.need("base", "base = \"si\"");
   auto const name = word ? read_word(*word, "base", base_names, reading.context) : std::nullopt;
   Base base;
-  if (name) guarded(reading, units.place(), [&] { base = read_base(units, *name); });
+  if (name) catch_errors(reading, units.place(), [&] { base = read_base(units, *name); });
   reading.base_known = reading.context.mistakes.count() == before;
   // Without a base nobody knows which keys it would have had.
   if (name) units.finish();
@@ -178,7 +178,7 @@ std::vector<double> read_corner(Item const* item, char const* key, Reading& read
   bool const list = item->is(Item::Kind::array);
   if (!list || item->elements.empty() || item->elements.size() > 3) {
     reading.mistake(item->place,
-                    fmt::format("{}: an array of 1, 2 or 3 lengths is needed, not {}{}", key, found(*item),
+                    fmt::format("{}: an array of 1, 2 or 3 lengths is needed, not {}{}", key, describe(*item),
                                 list && !item->elements.empty() ? fmt::format(" of {}", item->elements.size()) : ""));
     return {};
   }
@@ -215,7 +215,7 @@ void read_region(Item const& table, Reading& reading) {
   auto const from = read_vector(*first, "low", reading.dimension, dimensions::length, reading.context);
   auto const to = read_vector(*second, "high", reading.dimension, dimensions::length, reading.context);
   if (from && to && side && reading.box)
-    guarded(reading, region.place(), [&] {
+    catch_errors(reading, region.place(), [&] {
       reading.box->install(
           {wide(*from), wide(*to), *side == "keep-in" ? Region::Side::keep_in : Region::Side::keep_out});
     });
@@ -238,8 +238,8 @@ void read_box(Section& document, Reading& reading) {
       low_item->elements.size() != high_item->elements.size())
     reading.dimension = 0;  // which of the two is meant is not known
   if (reading.context.mistakes.count() == before && reading.base_known && !low.empty() && !high.empty())
-    guarded(reading, high_item->place,
-            [&] { reading.box.emplace(reading.dimension, wide(low), wide(high), boundaries); });
+    catch_errors(reading, high_item->place,
+                 [&] { reading.box.emplace(reading.dimension, wide(low), wide(high), boundaries); });
   for (Item const* region : find_tables(section, "regions")) read_region(*region, reading);
   for (Item const* wall : find_tables(section, "walls")) read_wall(*wall, reading);
   section.finish();

@@ -31,7 +31,7 @@ std::optional<StateLaw> read_file(Section& section, Item const& file, Reading& r
   section.finish();
   if (!path || reading.context.mistakes.count() != before) return std::nullopt;
   std::optional<StateLaw> law;
-  guarded(reading, file.place, [&] {
+  catch_errors(reading, file.place, [&] {
     std::vector<double> temperatures, capacities;
     for (auto const& [temperature, capacity] : read_two_columns(*path, "a temperature", "a heat capacity", true)) {
       temperatures.push_back(temperature * degree);
@@ -56,7 +56,7 @@ std::optional<StateLaw> read_curve(Section& section, Item const& text, Reading& 
   try {
     std::array<std::string, 2> const names{"T", "kB"};
     Formula const capacity(*formula, names);
-    guarded(reading, text.place, [&] {
+    catch_errors(reading, text.place, [&] {
       law.emplace(
           [&capacity, k = reading.boltzmann_constant()](double temperature) {
             return capacity(std::array<double, 2>{temperature, k});
@@ -82,7 +82,7 @@ std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& k
       reading.mistake(ensemble.place(capacity_key),
                       fmt::format("heat_capacity: particles of class {} have no internal energy; classes with one: {}",
                                   kind.name, join(classes_with_internal_energy())));
-    ensemble.know(capacity_key);
+    ensemble.mark_used(capacity_key);
     return std::nullopt;
   }
   Item const* item = ensemble.find(capacity_key);
@@ -90,7 +90,7 @@ std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& k
   std::optional<StateLaw> law;
   if (!item->is(Item::Kind::table)) {
     if (auto const capacity = read_quantity(*item, capacity_key, dimensions::heat_capacity, reading.context, positive))
-      guarded(reading, item->place, [&] { law.emplace(*capacity); });
+      catch_errors(reading, item->place, [&] { law.emplace(*capacity); });
     return law;
   }
   Section section(*item, capacity_key, reading.context);

@@ -122,7 +122,7 @@ void read_key(std::string const& path, Item const& item, Place const& place, Swe
   }
   if (!item.is(Item::Kind::array) || item.elements.empty())
     return mistakes.add(item.place, fmt::format("{}: an array of values is needed, e.g. [1, 2], not {}", path,
-                                                item.is(Item::Kind::array) ? "an empty one" : found(item)));
+                                                item.is(Item::Kind::array) ? "an empty one" : describe(item)));
   if (path == "sweep" || path.starts_with("sweep."))
     return mistakes.add(place, fmt::format("{}: a sweep can't vary what is in [sweep]", path));
   for (auto const& other : result.keys)
@@ -214,7 +214,7 @@ void read_sweep_picture(Item const& table, SweepPlan& plan, Reading& reading) {
   if (section.has("drawing") && !drawing) return;
   picture.time_series = drawing == "time-series";
   if (picture.time_series)
-    section.know("x"), section.know("fit");
+    section.mark_used("x"), section.mark_used("fit");
   else
     picture.x = read_right(section, plan, reading);
   for (char const* key : {"x", "fit"})
@@ -274,7 +274,7 @@ SweepValues read_sweep_values(Item const& sweep, Mistakes& mistakes) {
     else
       mistakes.add(vary->item.place,
                    fmt::format("vary: a table is needed, e.g. vary = {{ \"run.step\" = [0.01, 0.02] }}, not {}",
-                               found(vary->item)));
+                               describe(vary->item)));
   }
   return result;
 }
@@ -359,7 +359,7 @@ void read_sweep(Section& document, Reading& reading) {
   auto const values = read_sweep_values(*table, reading.context.mistakes);
   bool const values_known = reading.context.mistakes.count() == before;
   for (char const* key : {"vary", "seeds"}) section.allow(key);
-  section.know("folder");
+  section.mark_used("folder");
   SweepPlan plan;
   plan.values = values.count();
   plan.seeds = static_cast<std::size_t>(values.seeds);

@@ -101,7 +101,7 @@ struct Reading {
 
 /// Calls function(); an Error becomes a mistake at the place. False if there was one.
 template <class Function>
-bool guarded(Reading& reading, Place const& place, Function const& function) {
+bool catch_errors(Reading& reading, Place const& place, Function const& function) {
   try {
     function();
     return true;

@@ -48,7 +48,7 @@ void build(Item& document, Reading& reading) {
   if (!reading.context.mistakes.none()) return;
 
   result.steps = reading.run.steps;
-  guarded(reading, reading.run.place, [&] {
+  catch_errors(reading, reading.run.place, [&] {
     result.simulation = std::make_unique<Simulation>(*result.scheme, *reading.run.step);
     result.simulation->seed(reading.run.seed);
     result.simulation->speak_in(result.base);

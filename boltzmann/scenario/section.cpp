@@ -36,7 +36,8 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
       return std::nullopt;
     }
   } else {
-    context.mistakes.add(item.place, fmt::format("{}: {}, not {}", name, wanted(dimension, context.base), found(item)));
+    context.mistakes.add(item.place,
+                         fmt::format("{}: {}, not {}", name, wanted(dimension, context.base), describe(item)));
     return std::nullopt;
   }
   if (!std::isfinite(value)) {
@@ -56,7 +57,7 @@ std::optional<std::vector<double>> read_vector(Item const& item, std::string_vie
                                                Dimension dimension, ReadContext& context) {
   if (!item.is(Item::Kind::array)) {
     context.mistakes.add(item.place, fmt::format("{}: an array of {} number{} is needed, not {}", name, components,
-                                                 components == 1 ? "" : "s", found(item)));
+                                                 components == 1 ? "" : "s", describe(item)));
     return std::nullopt;
   }
   if (item.elements.size() != static_cast<std::size_t>(components)) {
@@ -77,7 +78,7 @@ std::optional<std::int64_t> read_integer(Item const& item, std::string_view name
   bool const whole =
       item.is(Item::Kind::number) && std::abs(item.number) < 9e15 && std::trunc(item.number) == item.number;
   if (!item.is(Item::Kind::integer) && !whole) {
-    context.mistakes.add(item.place, fmt::format("{}: a whole number is needed, not {}", name, found(item)));
+    context.mistakes.add(item.place, fmt::format("{}: a whole number is needed, not {}", name, describe(item)));
     return std::nullopt;
   }
   std::int64_t const value = whole ? static_cast<std::int64_t>(item.number) : item.integer;
@@ -97,7 +98,7 @@ std::optional<std::string> read_text(Item const& item, std::string_view name, Re
     if (context.recorder) context.recorder->plain(item, "text");
     return item.text;
   }
-  context.mistakes.add(item.place, fmt::format("{}: a text is needed, not {}", name, found(item)));
+  context.mistakes.add(item.place, fmt::format("{}: a text is needed, not {}", name, describe(item)));
   return std::nullopt;
 }
 
@@ -132,7 +133,7 @@ std::vector<std::string> read_texts(Item const& item, std::string_view name, Rea
   if (item.is(Item::Kind::text)) return {*read_text(item, name, context)};
   if (!item.is(Item::Kind::array)) {
     context.mistakes.add(item.place,
-                         fmt::format("{}: a text or an array of texts is needed, not {}", name, found(item)));
+                         fmt::format("{}: a text or an array of texts is needed, not {}", name, describe(item)));
     return {};
   }
   for (auto const& element : item.elements)
@@ -190,7 +191,7 @@ bool Section::boolean(std::string_view key, bool otherwise) {
     if (context_.recorder) context_.recorder->plain(*item, "boolean");
     return item->boolean;
   }
-  mistake(item->place, fmt::format("{}: true or false is needed, not {}", key, found(*item)));
+  mistake(item->place, fmt::format("{}: true or false is needed, not {}", key, describe(*item)));
   return otherwise;
 }
 
@@ -211,7 +212,7 @@ void Section::finish() {
 Item const* find_table(Section& document, std::string_view key) {
   Item const* item = document.find(key);
   if (!item || item->is(Item::Kind::table)) return item;
-  document.mistake(item->place, fmt::format("{}: a table is needed, [{}], not {}", key, key, found(*item)));
+  document.mistake(item->place, fmt::format("{}: a table is needed, [{}], not {}", key, key, describe(*item)));
   return nullptr;
 }
 
@@ -229,7 +230,7 @@ std::vector<Item const*> find_tables(Section& section, std::string_view key) {
     }
   if (!good)
     section.mistake(item->place, fmt::format("{}: a list of tables is needed, [[{}]] (two brackets), not {}", key, key,
-                                             found(*item)));
+                                             describe(*item)));
   return tables;
 }
 

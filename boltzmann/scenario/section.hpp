@@ -70,7 +70,7 @@ class Section {
     return entry ? &entry->item : nullptr;
   }
   /// Names a key that is known here, but not one to be proposed.
-  void know(std::string_view key) { known_.emplace_back(key); }
+  void mark_used(std::string_view key) { known_.emplace_back(key); }
   /// Names a key that is allowed but read elsewhere.
   void allow(std::string_view key) { find(key); }
 

@@ -17,7 +17,7 @@ void refuse_found(Section& section, ParticleClass const& kind, Reading& reading)
                       fmt::format("{}: the material finds it from density and specific_energy; give "
                                   "'specific_energy', e.g. by a formula",
                                   key));
-    section.know(key);
+    section.mark_used(key);
   }
 }
 

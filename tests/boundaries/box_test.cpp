@@ -574,7 +574,7 @@ TEST(Box, LengthsVolumesAndWords) {
   EXPECT_EQ(box.dimension(), 3);
   EXPECT_EQ(to_string(Boundary::open) + to_string(Boundary::reflecting) + to_string(Boundary::periodic) +
                 to_string(Boundary::mirror),
-            "openboundedperiodicmirror");
+            "openreflectingperiodicmirror");
 }
 
 template <int D>

@@ -226,7 +226,7 @@ TEST(Profile, AsAPicture) {
   Base const base = Base::reduced();
   PictureContext const context{simulation, base, "two halves", 0, 0, "", {}};
   Canvas const canvas =
-      draw({.drawing = "profile", .x = "position.x", .y = "density, kinetic-temperature.y", .cells = 20}, context);
+      draw({.drawing = "profile", .x = "position.x", .y = "density, kinetic-temperature.y", .bins = 20}, context);
   ASSERT_EQ(canvas.curves().size(), 2U);
   EXPECT_EQ(canvas.curves()[0].label, "density");
   EXPECT_EQ(canvas.curves()[1].label, "kinetic temperature y");

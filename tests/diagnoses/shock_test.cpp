@@ -460,7 +460,7 @@ TEST(ShockScenarios, ReadSlabsShocksAndProfiles) {
                "[[diagnoses]]\nkind = \"shock\"\nend = \"low\"\nquantity = \"density\"\nmargin = \"3 angstrom\"\n"
                "near = \"4 angstrom\"\nfar = \"1 nm\"\nsince = \"2 ps\"\ncount = 100\n"
                "[[output.pictures]]\ndrawing = \"profile\"\ny = \"kinetic-temperature.x, internal-temperature\"\n"
-               "cells = 20\nhigh = \"400 K\"\n"),
+               "bins = 20\nhigh = \"400 K\"\n"),
       "test.toml");
   ASSERT_EQ(run->diagnoses.size(), 3U);
   EXPECT_EQ(run->diagnoses[0]->columns()[0].name, "slab 1 kinetic temperature");
@@ -477,7 +477,7 @@ TEST(ShockScenarios, ReadSlabsShocksAndProfiles) {
   EXPECT_EQ(shock.since, 2);
   EXPECT_EQ(shock.count, 100U);
   ASSERT_EQ(run->output.pictures.size(), 1U);
-  EXPECT_EQ(run->output.pictures[0].cells, 20);
+  EXPECT_EQ(run->output.pictures[0].bins, 20);
   EXPECT_EQ(run->output.pictures[0].high, 400);
   EXPECT_NO_THROW(run->simulation->run(5));
 }
@@ -502,7 +502,7 @@ TEST(ShockScenarios, MistakesHaveOneLine) {
   expect(shock + "near = 5\nfar = 4\n", "must be nearer than its far end");
   expect(picture + "y = \"densty\"\n", "did you mean 'density'?");
   expect(picture + "x = \"position.z\"\n", "a profile in 2D is over position.x or position.y");
-  expect(picture + "cells = 0\n", "cells");
+  expect(picture + "bins = 0\n", "bins");
   expect(picture + "colour = \"speed\"\n", "unknown key 'colour'");
 }
 

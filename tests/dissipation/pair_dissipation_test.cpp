@@ -502,8 +502,8 @@ TEST(DissipationErrors, Names) {
   EXPECT_EQ(message([] { convention_words().named("constant-frictions"); }),
             "unknown convention 'constant-frictions'; there are fixed-temperature, constant-noise, constant-friction, "
             "deterministic; did you mean 'constant-friction'?");
-  EXPECT_EQ(message([] { dissipation_method_words().named("shardlow"); }),
-            "unknown method of dissipation 'shardlow'; there are simultaneous, shardlow");
+  EXPECT_EQ(message([] { dissipation_method_words().named("splitting"); }),
+            "unknown method of dissipation 'splitting'; there are simultaneous, shardlow");
 }
 
 TEST(DissipationErrors, EnsemblesAndBoxes) {

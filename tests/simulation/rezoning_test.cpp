@@ -363,7 +363,7 @@ TEST(Rezoning, RefusesWhatNeedsNumbersThatStay) {
   DiagnosisParameters parameters;
   parameters.available = {&burst.gas};
   parameters.particles = {3, 30};
-  group.diagnoses(5, make_diagnosis("drag", parameters));
+  group.diagnoses(5, make_diagnosis("mean-velocity", parameters));
   EXPECT_EQ(message([&] { group.check(); }),
             "the diagnosis of 'gas mean velocity x' follows particles by their numbers, which change where particles "
             "come and go between steps");
