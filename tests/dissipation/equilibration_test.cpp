@@ -108,7 +108,7 @@ TEST(Equilibration, BringsABodyToItsTemperature) {
   EXPECT_EQ(crystal.simulation.step(), 6);
 }
 
-TEST(Equilibration, IsARunOfItsOwnFlow) {
+TEST(Equilibration, IsARunOfItsOwnDissipation) {
   // What is prepared is what a run with the bath alone makes of the body at rest, moved afterwards.
   Crystal prepared, by_hand;
   prepared.simulation.equilibrate(prepared.bath(), 30);
@@ -194,7 +194,7 @@ TEST(Equilibration, AResumedRunDoesNotRepeatIt) {
   EXPECT_TRUE(bits_of_rows(taken.matter) == bits_of_rows(whole.matter));
 }
 
-TEST(Equilibration, ByDissipativeFlowAndOneAfterTheOther) {
+TEST(Equilibration, ByPairDissipationAndOneAfterTheOther) {
   Crystal crystal;
   auto const friction = std::make_shared<PairDissipation>(crystal.scheme, 1);
   DissipationLaw d;
