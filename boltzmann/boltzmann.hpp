@@ -53,6 +53,7 @@
 #include <boltzmann/particles/species.hpp>
 #include <boltzmann/particles/tethered.hpp>
 #include <boltzmann/particles/vortex.hpp>
+#include <boltzmann/program/program.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>

@@ -118,7 +118,7 @@ void show_scenario(std::string const& name) {
 void show_class(ParticleClass const& one) {
   fmt::print("class {}: {}\n", one.name, one.doc);
   fmt::print("\n  moved by    {}, usually with {}\n", one.classical ? "forces" : "a flow (its influence is a velocity)",
-             to_string(one.usual_method));
+             to_string(one.variants.back().usual_method));
   for (auto const& variant : one.variants) {
     int numbers = 0;
     for (auto const& field : variant.fields) numbers = std::max(numbers, field.offset + field.components);

@@ -435,6 +435,13 @@ extern template std::unique_ptr<Integrator> method_of<Tracer<3>>(AnyEnsemble&, M
 
 }  // namespace detail
 
+/// How particles of a class are advanced unless told otherwise: the random walk of viscous vortices, leap-frog where
+/// forces act, else the fourth-order Runge-Kutta method.
+template <class P>
+constexpr Method usual_method() {
+  return detail::has_viscosity<P> ? Method::random_walk : detail::has_velocity<P> ? Method::leap_frog : Method::rk4;
+}
+
 /// The integrator of an ensemble. Error if its class can't be advanced that way.
 template <class P>
 std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method) {

@@ -24,6 +24,7 @@ ClassVariant variant_of() {
       [](AnyEnsemble& ensemble, Method method) { return make_integrator(static_cast<Ensemble<P>&>(ensemble), method); },
       P::template fields<P>().fields,
       sizeof(Row<P>) + sizeof(typename P::Influence),
+      usual_method<P>(),
       mesh_kind_of<P>()};
 }
 

@@ -20,6 +20,7 @@ struct ClassVariant {
   std::unique_ptr<Integrator> (*integrate)(AnyEnsemble& ensemble, Method method);
   std::vector<Field> fields;
   std::size_t row_bytes;  ///< memory of one particle
+  Method usual_method;    ///< the integrator unless told otherwise
   MeshKind mesh;          ///< for a mesh; without `strengths` it can't supervise the class
 };
 
@@ -29,9 +30,8 @@ enum class Matter { none, fluid, solid };
 /// A particle class.
 struct ParticleClass {
   std::string name;
-  std::string doc;      ///< one line
-  Method usual_method;  ///< the integrator unless told otherwise
-  bool classical;       ///< moved by forces (has mass and velocity); else moved along by a flow
+  std::string doc;  ///< one line
+  bool classical;   ///< moved by forces (has mass and velocity); else moved along by a flow
   std::vector<ClassVariant> variants;
   Matter matter = Matter::none;
 

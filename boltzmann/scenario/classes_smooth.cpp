@@ -7,13 +7,11 @@ namespace boltzmann::detail {
 std::vector<ParticleClass> smooth_classes() {
   return {{"Smooth",
            "a piece of a continuum, spread over its range; what it is made of is its ensemble's material",
-           Method::leap_frog,
            true,
            {variant_of<Smooth<1>>(), variant_of<Smooth<2>>(), variant_of<Smooth<3>>()},
            Matter::fluid},
           {"Solid",
            "a piece of a solid: a smooth particle with strength, which remembers how it has been sheared",
-           Method::leap_frog,
            true,
            {variant_of<Solid<1>>(), variant_of<Solid<2>>(), variant_of<Solid<3>>()},
            Matter::solid}};

@@ -7,22 +7,18 @@ namespace boltzmann::detail {
 std::vector<ParticleClass> tracer_classes() {
   return {{"Tracer",
            "a fluid particle; its influence is the velocity of the flow",
-           Method::rk4,
            false,
            {variant_of<Tracer<1>>(), variant_of<Tracer<2>>(), variant_of<Tracer<3>>()}},
           {"Vortex",
            "an element of vorticity whose vorticity stays as it is",
-           Method::rk4,
            false,
            {variant_of<Vortex<2>>(), variant_of<Vortex<3>>()}},
           {"Inviscid",
            "a vortex without viscosity; in 3D the flow stretches and turns its vorticity",
-           Method::rk4,
            false,
            {variant_of<Inviscid<2>>(), variant_of<Inviscid<3>>()}},
           {"Viscous",
            "a vortex in a viscous fluid; it diffuses by a random walk",
-           Method::random_walk,
            false,
            {variant_of<Viscous<2>>(), variant_of<Viscous<3>>()}}};
 }

@@ -235,7 +235,7 @@ class EnsembleReader {
   /// Whether the class can be advanced that way is known without particles, too.
   void make_integrator() {
     if (section_.has("integrator") && !options_.integrator) return;
-    Method const method = options_.integrator.value_or(kind_->usual_method);
+    Method const method = options_.integrator.value_or(variant_->usual_method);
     std::unique_ptr<AnyEnsemble> none;
     if (!particles_) none = variant_->make(ensemble_.name, 0);
     catch_errors(reading_, section_.place("integrator"),

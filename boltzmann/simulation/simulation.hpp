@@ -27,9 +27,9 @@ class Simulation {
   /// advanced by leap-frog. A run with dissipations can't go backwards.
   void add(Dissipation& dissipation);
 
-  /// How an ensemble is advanced. Every ensemble needs one method.
+  /// How an ensemble is advanced: as its class usually is, unless told otherwise. Every ensemble needs one method.
   template <class P>
-  void integrate(Ensemble<P>& ensemble, Method method) {
+  void integrate(Ensemble<P>& ensemble, Method method = usual_method<P>()) {
     integrate(ensemble, make_integrator(ensemble, method));
   }
   void integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator);

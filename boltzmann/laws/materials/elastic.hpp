@@ -57,7 +57,8 @@ struct Elastic {
   double yield_stress = unlimited;      ///< of a rod under tension
   double tensile_strength = unlimited;  ///< the largest principal tension that it bears
 
-  static constexpr MaterialText text{.name = "elastic", .doc = "strength, on any material"};
+  static constexpr MaterialText text{
+      .name = "elastic", .doc = "strength, on any material", .formula = "ds/dt = 2 G (E - (div v / 3) I) + W.s - s.W"};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Elastic::shear_modulus,

@@ -20,7 +20,9 @@ struct Newtonian {
   double bulk_viscosity = 0;
   double conductivity = 0;
 
-  static constexpr MaterialText text{.name = "newtonian", .doc = "viscosity and conduction, on any material"};
+  static constexpr MaterialText text{.name = "newtonian",
+                                     .doc = "viscosity and conduction, on any material",
+                                     .formula = "-2 eta (E - (div v / D) I) - zeta (div v) I, Q = -kappa grad T"};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Newtonian::shear_viscosity,
