@@ -4,34 +4,34 @@
 
 using namespace boltzmann;
 
-int main(int argc, char** argv) try {
-  // Pure numbers: time in 1/wp, length in Debye lengths; 16 electrons in a Debye square.
-  double const edge = 32, count = 16384, cyclotron_frequency = 0.75;
-  Box const box(Vector{0.0, 0.0}, Vector{edge, edge}, Boundary::periodic);
-  Ensemble<Coulomb<2>> electrons("electrons", static_cast<std::size_t>(count));
-  set_field(electrons, "charge", -edge * edge / count);
-  set_field(electrons, "mass", edge * edge / count);
-  random_load(electrons, box, 1);
-  maxwellian_load(electrons, edge * edge / count, 1, 1);
+int main(int argc, char** argv) {
+  return run_program(argc, argv, "results/electron-gas-2d-cpp", [](Program& program) {
+    // Pure numbers: time in 1/wp, length in Debye lengths; 16 electrons in a Debye square.
+    double const edge = 32, count = 16384, cyclotron_frequency = 0.75;
+    Box const box(Vector{0.0, 0.0}, Vector{edge, edge}, Boundary::periodic);
+    Ensemble<Coulomb<2>> electrons("electrons", static_cast<std::size_t>(count));
+    set_field(electrons, "charge", -edge * edge / count);
+    set_field(electrons, "mass", edge * edge / count);
+    random_load(electrons, box, 1);
+    maxwellian_load(electrons, edge * edge / count, 1, 1);
 
-  MeshScheme mesh(box, {64, 64}, coulomb(1 / (4 * pi)));  // div E = rho
-  mesh.assignment(Assignment::tsc);
-  mesh.background(true);
-  mesh.add(electrons);
-  mesh.external(electrons, UniformMagneticField<2>{{cyclotron_frequency}});
+    MeshScheme mesh(box, {64, 64}, coulomb(1 / (4 * pi)));  // div E = rho
+    mesh.assignment(Assignment::tsc);
+    mesh.background(true);
+    mesh.add(electrons);
+    mesh.external(electrons, UniformMagneticField<2>{{cyclotron_frequency}});
 
-  Simulation simulation(mesh, 0.1);
-  simulation.integrate(electrons, Method::leap_frog);
+    Simulation simulation(mesh, 0.1);
+    simulation.integrate(electrons);
 
-  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/electron-gas-2d-cpp", true);
-  recording.diagnoses(10, {"energies", "temperature", "field-energy"});
-  recording.diagnoses(10, WaveSpectrum("field.x", 0, 16));
-  recording.trajectory(1000);
-  // Over the waves' power: sqrt(wp^2 + wc^2), and wc itself. Between its multiples lie the waves of Bernstein.
-  double const upper_hybrid = std::sqrt(1 + cyclotron_frequency * cyclotron_frequency);
-  recording.picture({.drawing = "wave-spectrum", .curves = {{upper_hybrid, 0}, {cyclotron_frequency, 0}}});
-  recording.picture({.drawing = "mesh", .y = "potential", .file = "potential.png"});
-  run_with_progress(recording, 2000);
-} catch (std::exception const& error) {
-  return report(error);
+    Recording recording = program.recording(simulation);
+    recording.diagnoses(10, {"energies", "temperature", "field-energy"});
+    recording.diagnoses(10, WaveSpectrum("field.x", 0, 16));
+    recording.trajectory(1000);
+    // Over the waves' power: sqrt(wp^2 + wc^2), and wc itself. Between its multiples lie the waves of Bernstein.
+    double const upper_hybrid = std::sqrt(1 + cyclotron_frequency * cyclotron_frequency);
+    recording.picture({.drawing = "wave-spectrum", .curves = {{upper_hybrid, 0}, {cyclotron_frequency, 0}}});
+    recording.picture({.drawing = "mesh", .y = "potential", .file = "potential.png"});
+    program.run(recording, 2000);
+  });
 }

@@ -6,52 +6,52 @@
 
 using namespace boltzmann;
 
-int main(int argc, char** argv) try {
-  std::size_t const n = 64;
-  double const spacing = 1.0 / n, energy = 1, duration = 0.5;
-  Ensemble<Smooth<2>> gas("gas", 0);
-  block_load(gas, Lattice::square, spacing, {n, n}, {spacing / 2, spacing / 2}, true);
-  double sum = 0;
-  for (auto& p : gas) {
-    p.mass = spacing * spacing;
-    p.range = 3 * spacing;
-    p.specific_energy = weight_at(WeightShape::lucy, 2, magnitude(p.position), 8 * spacing).value;
-    sum += p.mass * p.specific_energy;
-  }
-  for (auto& p : gas) p.specific_energy = p.specific_energy / sum * energy / 4 + 1e-6;
-  gas.appearance.diameter = spacing;
+int main(int argc, char** argv) {
+  return run_program(argc, argv, "results/sedov-cpp", [](Program& program) {
+    std::size_t const n = 64;
+    double const spacing = 1.0 / n, energy = 1, duration = 0.5;
+    Ensemble<Smooth<2>> gas("gas", 0);
+    block_load(gas, Lattice::square, spacing, {n, n}, {spacing / 2, spacing / 2}, true);
+    double sum = 0;
+    for (auto& p : gas) {
+      p.mass = spacing * spacing;
+      p.range = 3 * spacing;
+      p.specific_energy = weight_at(WeightShape::lucy, 2, magnitude(p.position), 8 * spacing).value;
+      sum += p.mass * p.specific_energy;
+    }
+    for (auto& p : gas) p.specific_energy = p.specific_energy / sum * energy / 4 + 1e-6;
+    gas.appearance.diameter = spacing;
 
-  SmoothScheme scheme(Box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::mirror));
-  scheme.material(gas, IdealGas{1.4});
-  scheme.artificial_viscosity({.alpha = 1, .beta = 2});
-  scheme.heating(Heating::own);  // shared, cold particles beside hot ones would pay for these
-  scheme.variable_range({.spacings = 3, .longest = 9 * spacing});
+    SmoothScheme scheme(Box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::mirror));
+    scheme.material(gas, IdealGas{1.4});
+    scheme.artificial_viscosity({.alpha = 1, .beta = 2});
+    scheme.heating(Heating::own);  // shared, cold particles beside hot ones would pay for these
+    scheme.variable_range({.spacings = 3, .longest = 9 * spacing});
 
-  double const step = duration / std::ceil(duration / (0.5 * scheme.courant_step()));
-  Simulation simulation(scheme, step);
-  simulation.integrate(gas, Method::leap_frog);
+    double const step = duration / std::ceil(duration / (0.5 * scheme.courant_step()));
+    Simulation simulation(scheme, step);
+    simulation.integrate(gas);
 
-  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/sedov-cpp", true);
-  recording.diagnoses(50, {"energies"});
-  recording.trajectory(200);
-  recording.picture({.drawing = "map", .y = "density"});
-  recording.picture({.drawing = "contours", .y = "pressure", .file = "pressure.png"});
-  run_with_progress(recording, static_cast<std::uint64_t>(std::round(duration / step)));
+    Recording recording = program.recording(simulation);
+    recording.diagnoses(50, {"energies"});
+    recording.trajectory(200);
+    recording.picture({.drawing = "map", .y = "density"});
+    recording.picture({.drawing = "contours", .y = "pressure", .file = "pressure.png"});
+    program.run(recording, static_cast<std::uint64_t>(std::round(duration / step)));
 
-  // The front: where the mean radial velocity of rings is half its maximum.
-  std::vector<double> velocity(2 * n), number(2 * n);
-  for (auto const& p : gas) {
-    double const r = magnitude(p.position);
-    auto const ring = static_cast<std::size_t>(2 * r / spacing);
-    if (ring < velocity.size()) velocity[ring] += dot(p.velocity, p.position) / r, ++number[ring];
-  }
-  double greatest = 0;
-  for (std::size_t ring = 0; ring < velocity.size(); ++ring)
-    greatest = std::max(greatest, velocity[ring] /= std::max(number[ring], 1.0));
-  std::size_t front = velocity.size() - 1;
-  while (velocity[front] < greatest / 2) --front;
-  std::printf("radius of the shock %.3f, by Sedov %.3f\n", (static_cast<double>(front) + 0.5) * spacing / 2,
-              1.004022 * std::sqrt(std::sqrt(energy) * duration));
-} catch (std::exception const& error) {
-  return report(error);
+    // The front: where the mean radial velocity of rings is half its maximum.
+    std::vector<double> velocity(2 * n), number(2 * n);
+    for (auto const& p : gas) {
+      double const r = magnitude(p.position);
+      auto const ring = static_cast<std::size_t>(2 * r / spacing);
+      if (ring < velocity.size()) velocity[ring] += dot(p.velocity, p.position) / r, ++number[ring];
+    }
+    double greatest = 0;
+    for (std::size_t ring = 0; ring < velocity.size(); ++ring)
+      greatest = std::max(greatest, velocity[ring] /= std::max(number[ring], 1.0));
+    std::size_t front = velocity.size() - 1;
+    while (velocity[front] < greatest / 2) --front;
+    std::printf("radius of the shock %.3f, by Sedov %.3f\n", (static_cast<double>(front) + 0.5) * spacing / 2,
+                1.004022 * std::sqrt(std::sqrt(energy) * duration));
+  });
 }

@@ -6,47 +6,47 @@
 
 using namespace boltzmann;
 
-int main(int argc, char** argv) try {
-  double const gamma = 1.4, duration = 0.2, spacing = 1.0 / 400;
-  Ensemble<Smooth<1>> gas("gas", 0);
-  block_load(gas, Lattice::square, spacing, {400, 1, 1}, {-0.5 + spacing / 2}, true);
-  for (auto& p : gas) {
-    bool const left = p.position[0] < 0;
-    double const density = left ? 1 : 0.125, pressure = left ? 1 : 0.1;
-    p.mass = density * spacing;
-    p.range = 3 * spacing;
-    p.specific_energy = pressure / ((gamma - 1) * density);
-  }
-  gas.appearance.diameter = spacing;
-
-  SmoothScheme scheme(Box(Vector{-0.5}, Vector{0.5}, Boundary::mirror));
-  scheme.material(gas, IdealGas{gamma});
-  scheme.artificial_viscosity({.alpha = 1, .beta = 2});
-  scheme.heating(Heating::own);
-  scheme.variable_range({.spacings = 3});
-
-  double const step = duration / std::ceil(duration / (0.5 * scheme.courant_step()));
-  Simulation simulation(scheme, step);
-  simulation.integrate(gas, Method::leap_frog);
-
-  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/sod-cpp", true);
-  recording.diagnoses(20, {"energies"});
-  recording.trajectory(100);
-  recording.picture({.drawing = "phase-space", .x = "position.x", .y = "density"});
-  recording.picture({.drawing = "phase-space", .x = "position.x", .y = "velocity.x", .file = "velocity.png"});
-  run_with_progress(recording, static_cast<std::uint64_t>(std::round(duration / step)));
-
-  // The exact solution: between contact and shock, 0.1855 < x < 0.3504, one state.
-  double pressure = 0, velocity = 0, density = 0, number = 0;
-  for (auto const& p : gas)
-    if (p.position[0] > 0.22 && p.position[0] < 0.32) {
-      pressure += p.pressure;
-      velocity += p.velocity[0];
-      density += p.density;
-      ++number;
+int main(int argc, char** argv) {
+  return run_program(argc, argv, "results/sod-cpp", [](Program& program) {
+    double const gamma = 1.4, duration = 0.2, spacing = 1.0 / 400;
+    Ensemble<Smooth<1>> gas("gas", 0);
+    block_load(gas, Lattice::square, spacing, {400, 1, 1}, {-0.5 + spacing / 2}, true);
+    for (auto& p : gas) {
+      bool const left = p.position[0] < 0;
+      double const density = left ? 1 : 0.125, pressure = left ? 1 : 0.1;
+      p.mass = density * spacing;
+      p.range = 3 * spacing;
+      p.specific_energy = pressure / ((gamma - 1) * density);
     }
-  std::printf("behind the shock   pressure  velocity  density\n  exact             0.30313   0.92745  0.26557\n");
-  std::printf("  here              %.5f   %.5f  %.5f\n", pressure / number, velocity / number, density / number);
-} catch (std::exception const& error) {
-  return report(error);
+    gas.appearance.diameter = spacing;
+
+    SmoothScheme scheme(Box(Vector{-0.5}, Vector{0.5}, Boundary::mirror));
+    scheme.material(gas, IdealGas{gamma});
+    scheme.artificial_viscosity({.alpha = 1, .beta = 2});
+    scheme.heating(Heating::own);
+    scheme.variable_range({.spacings = 3});
+
+    double const step = duration / std::ceil(duration / (0.5 * scheme.courant_step()));
+    Simulation simulation(scheme, step);
+    simulation.integrate(gas);
+
+    Recording recording = program.recording(simulation);
+    recording.diagnoses(20, {"energies"});
+    recording.trajectory(100);
+    recording.picture({.drawing = "phase-space", .x = "position.x", .y = "density"});
+    recording.picture({.drawing = "phase-space", .x = "position.x", .y = "velocity.x", .file = "velocity.png"});
+    program.run(recording, static_cast<std::uint64_t>(std::round(duration / step)));
+
+    // The exact solution: between contact and shock, 0.1855 < x < 0.3504, one state.
+    double pressure = 0, velocity = 0, density = 0, number = 0;
+    for (auto const& p : gas)
+      if (p.position[0] > 0.22 && p.position[0] < 0.32) {
+        pressure += p.pressure;
+        velocity += p.velocity[0];
+        density += p.density;
+        ++number;
+      }
+    std::printf("behind the shock   pressure  velocity  density\n  exact             0.30313   0.92745  0.26557\n");
+    std::printf("  here              %.5f   %.5f  %.5f\n", pressure / number, velocity / number, density / number);
+  });
 }

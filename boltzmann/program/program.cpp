@@ -2,7 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/program/program.hpp>
-#ifdef BOLTZMANN_HAS_WINDOW
+#ifdef BOLTZMANN_WITH_WINDOW
 #include <boltzmann/window/window.hpp>
 #endif
 
@@ -109,7 +109,7 @@ RunReport Program::run(Recording& recording, std::uint64_t steps) {
   std::uint64_t const planned = steps_.value_or(steps);
   RunReport report;
   if (window_) {
-#ifdef BOLTZMANN_HAS_WINDOW
+#ifdef BOLTZMANN_WITH_WINDOW
     Window window(recording, {.port = static_cast<std::uint16_t>(port_), .play = play_, .quiet = quiet_});
     report = window.run(planned);
 #else

@@ -212,7 +212,7 @@ void read_message(std::string const& text) {
   static Shows shows;
   json const request = nested_too_deep(text) ? json() : json::parse(text, nullptr, false);
   if (!request.is_object() || !request.contains("do") || !request["do"].is_string()) return;
-  for (Show* show : {static_cast<Show*>(&shows.list), static_cast<Show*>(&shows.live)}) try {
+  for (Source* show : {static_cast<Source*>(&shows.list), static_cast<Source*>(&shows.live)}) try {
       if (request["do"] == "picture")
         show->picture(request);
       else if (request["do"] == "views")
