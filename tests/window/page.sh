@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here.
+# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here; and whether its ticks are
+# those of pictures.
 # Usage: page.sh BUILD_FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -22,3 +23,5 @@ cmp out/page.html "$window/page.html" || {
   exit 1
 }
 echo "page.html is what its source gives"
+node_modules/.bin/esbuild src/paint/ticks.ts --format=esm --log-level=error --outfile=out/ticks.mjs
+node "$here/ticks.mjs" out/ticks.mjs "$here/../pictures/ticks.json"

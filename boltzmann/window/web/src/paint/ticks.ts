@@ -1,5 +1,5 @@
 // Ticks: steps of 1, 2, 5 times a power of ten, and labels as short as they can be. As in
-// boltzmann/pictures/canvas_ticks.cpp.
+// boltzmann/pictures/canvas_ticks.cpp; tests/pictures/ticks.json holds both to it.
 
 export interface Ticks {
   major: number[];
