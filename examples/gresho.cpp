@@ -15,45 +15,43 @@ double pressure(double r) {
   return 3 + 4 * std::numbers::ln2;
 }
 
-int main(int argc, char** argv) try {
-  std::string const folder = argc > 1 ? argv[1] : "results/gresho-cpp";
-  double const gamma = 5.0 / 3;
-  double last = 0;
-  for (std::size_t const n : {24, 48, 96}) {
-    double const spacing = 1 / static_cast<double>(n), middle = 0.5 * (spacing - 1);
-    Ensemble<Smooth<2>> gas("gas", 0);
-    block_load(gas, Lattice::square, spacing, {n, n}, {middle, middle}, true);
-    auto const exact = [](Vector<2> const& x) {
-      return Vector{-x[1], x[0]} * (swirl(magnitude(x)) / magnitude(x));  // no particle is at the centre
-    };
-    for (auto& p : gas) {
-      p.mass = spacing * spacing;
-      p.range = 5 * spacing;
-      p.velocity = exact(p.position);
-      p.specific_energy = pressure(magnitude(p.position)) / (gamma - 1);
+int main(int argc, char** argv) {
+  return run_program(argc, argv, "results/gresho-cpp", [](Program& program) {
+    double const gamma = 5.0 / 3;
+    double last = 0;
+    for (std::size_t const n : {24, 48, 96}) {
+      double const spacing = 1 / static_cast<double>(n), middle = 0.5 * (spacing - 1);
+      Ensemble<Smooth<2>> gas("gas", 0);
+      block_load(gas, Lattice::square, spacing, {n, n}, {middle, middle}, true);
+      auto const exact = [](Vector<2> const& x) {
+        return Vector{-x[1], x[0]} * (swirl(magnitude(x)) / magnitude(x));  // no particle is at the centre
+      };
+      for (auto& p : gas) {
+        p.mass = spacing * spacing;
+        p.range = 5 * spacing;
+        p.velocity = exact(p.position);
+        p.specific_energy = pressure(magnitude(p.position)) / (gamma - 1);
+      }
+      gas.appearance.diameter = spacing;
+      SmoothScheme scheme(Box(Vector{-0.5, -0.5}, Vector{0.5, 0.5}, Boundary::periodic), WeightShape::wendland);
+      scheme.material(gas, IdealGas{gamma});
+      scheme.artificial_viscosity({.alpha = 0.5, .beta = 1, .balsara = true});  // hardly any in shear
+      scheme.heating(Heating::own);
+
+      Simulation simulation(scheme, 0.5 * scheme.courant_step());
+      simulation.integrate(gas);
+      Recording recording = program.recording(simulation);
+      recording.diagnoses(50, {"energies", "angular-momentum"});
+      recording.trajectory(400);
+      recording.picture({.colour = "speed"});
+      program.run_for(recording, 1);
+
+      double error = 0;
+      for (auto const& p : gas) error += magnitude(p.velocity - exact(p.position)) / static_cast<double>(gas.size());
+      std::printf("%3zu x %3zu particles: mean error of the velocity %.4f", n, n, error);
+      if (last > 0) std::printf(", order %.2f", std::log2(last / error));
+      std::printf("\n");
+      last = error;
     }
-    gas.appearance.diameter = spacing;
-    SmoothScheme scheme(Box(Vector{-0.5, -0.5}, Vector{0.5, 0.5}, Boundary::periodic), WeightShape::wendland);
-    scheme.material(gas, IdealGas{gamma});
-    scheme.artificial_viscosity({.alpha = 0.5, .beta = 1, .balsara = true});  // hardly any in shear
-    scheme.heating(Heating::own);
-
-    double const step = 1 / std::ceil(1 / (0.5 * scheme.courant_step()));
-    Simulation simulation(scheme, step);
-    simulation.integrate(gas, Method::leap_frog);
-    Recording recording(simulation, Base::reduced(), folder, true);
-    recording.diagnoses(50, {"energies", "angular-momentum"});
-    recording.trajectory(400);
-    recording.picture({.colour = "speed"});
-    run_with_progress(recording, static_cast<std::uint64_t>(std::round(1 / step)));
-
-    double error = 0;
-    for (auto const& p : gas) error += magnitude(p.velocity - exact(p.position)) / static_cast<double>(gas.size());
-    std::printf("%3zu x %3zu particles: mean error of the velocity %.4f", n, n, error);
-    if (last > 0) std::printf(", order %.2f", std::log2(last / error));
-    std::printf("\n");
-    last = error;
-  }
-} catch (std::exception const& error) {
-  return report(error);
+  });
 }
