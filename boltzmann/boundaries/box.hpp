@@ -115,8 +115,8 @@ class Box {
   }
   std::vector<Region> const& regions() const { return regions_; }
 
-  /// Throws Error for the first particle that is not finite, is outside a reflecting axis, beyond a wall, or on the wrong
-  /// side of a region.
+  /// Throws Error for the first particle that is not finite, is outside a reflecting axis, beyond a wall, or on the
+  /// wrong side of a region.
   void check(AnyEnsemble const& particles) const;
 
   /// The coordinate moved by whole lengths of a periodic axis to where low <= x < high.
@@ -125,11 +125,11 @@ class Box {
   void wrap(AnyEnsemble& particles) const;
 
   /// Brings every particle that has left back: periodic axes wrap, reflecting axes and regions reflect position and
-  /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a reflecting
-  /// axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves away from
-  /// it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does not bring it
-  /// back, or is not finite. Returns the work that moving walls of reflecting axes have done on the particles (zero for
-  /// classes without mass), the same bits for any number of threads.
+  /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a
+  /// reflecting axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves
+  /// away from it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does
+  /// not bring it back, or is not finite. Returns the work that moving walls of reflecting axes have done on the
+  /// particles (zero for classes without mass), the same bits for any number of threads.
   double apply(AnyEnsemble& particles, int threads = 1) const;
 
   /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog. Error if walls

@@ -13,8 +13,8 @@
 namespace boltzmann {
 
 /// One part of a split equation of motion. After every step of the integrators (kick, drift, kick) a simulation lets
-/// its dissipations act for the time of the step, on the particles where they stand; forces, which are functions of positions,
-/// stay what they are.
+/// its dissipations act for the time of the step, on the particles where they stand; forces, which are functions of
+/// positions, stay what they are.
 class Dissipation {
  public:
   Dissipation() = default;

@@ -34,7 +34,7 @@ OptionTable make_dissipation_options() {
       "along the line of centres, so that angular momentum is conserved, too; else in all directions");
   all.add_of<D>(
       "conduction", [](D& d) -> OptionPlace { return &d.dissipation.conduction; }, number(conduction, not_negative),
-      "kappa of the heat that dissipations between internal energies, kappa chi^2 (1/Ti - 1/Tj)");
+      "kappa of the heat that flows between internal energies, kappa chi^2 (1/Ti - 1/Tj)");
   all.add_of<D>(
       "method", [](D& d) -> OptionPlace { return named_value(&d.method, dissipation_method_words()); },
       word(dissipation_method_words().names()),

@@ -181,7 +181,8 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, extremes, field-energy, field-mode, "
+      "entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, extremes, field-energy, "
+      "field-mode, "
       "wave-spectrum, "
       "energy-balance; "
       "did you mean 'energies'?");

@@ -1,8 +1,8 @@
 // Rezoning: one smooth particle becomes two, two become one, where more or less detail is wanted.
 #pragma once
 
-#include <boltzmann/core/words.hpp>
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <array>
