@@ -2,6 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/program/program.hpp>
+#include <boltzmann/recording/wall_time.hpp>
 #ifdef BOLTZMANN_WITH_WINDOW
 #include <boltzmann/window/window.hpp>
 #endif
@@ -87,7 +88,7 @@ void Program::read(Option const& option, std::string const& value) {
   if (option.name == "--time") time_ = value;
   if (option.name == "--threads") threads_ = static_cast<int>(number(1, 4096));
   if (option.name == "--seed") seed_ = static_cast<std::uint64_t>(number(0, 9e15));
-  if (option.name == "--hours") wall_.emplace(number(1e-6, 1e6));
+  if (option.name == "--hours") wall_ = std::make_shared<WallTime>(number(1e-6, 1e6));
   if (option.name == "--port") port_ = static_cast<int>(number(0, 65535));
   if (option.name == "--resume") resume_ = true;
   if (option.name == "--window") window_ = true;

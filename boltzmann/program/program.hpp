@@ -14,15 +14,17 @@
 #pragma once
 
 #include <boltzmann/recording/recording.hpp>
-#include <boltzmann/recording/wall_time.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace boltzmann {
+
+class WallTime;
 
 class Program {
  public:
@@ -56,8 +58,8 @@ class Program {
   std::string folder_;
   std::optional<std::uint64_t> steps_, seed_;
   std::optional<int> threads_;
-  std::optional<WallTime> wall_;
-  std::string time_;  // a quantity, told when the units are known
+  std::shared_ptr<WallTime> wall_;  // of --hours
+  std::string time_;                // a quantity, told when the units are known
   int port_ = 0;
   bool resume_ = false, window_ = false, play_ = false, quiet_ = false, help_ = false;
   int status_ = 0;
