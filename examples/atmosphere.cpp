@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
     Box const box(Vector{0.0, 0.0}, Vector{20.0, 60.0}, {Boundary::periodic, Boundary::reflecting});
     Ensemble<Newton<2>> air("air", 4000);
     set_field(air, "mass", base(28.97 * amu));
-    barometric_load(air, box, temperature, g, k, 1);
-    maxwellian_load(air, temperature, k, 1);
+    barometric_load(air, box, temperature, g, k, program.seed());
+    maxwellian_load(air, temperature, k, program.seed());
     air.appearance.diameter = 0.2;
 
     PairScheme sky(box);

@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
     double const side = 8, step = 0.04;
     Ensemble<Newton<3>> fluid("fluid", 1536);
     Box const box(Vector{0.0, 0.0, 0.0}, Vector{side, side, side}, Boundary::periodic);
-    random_load(fluid, box, 1);
-    maxwellian_load(fluid, 1, 1, 1, {.remove_drift = true});
+    random_load(fluid, box, program.seed());
+    maxwellian_load(fluid, 1, 1, program.seed(), {.remove_drift = true});
 
     PairScheme scheme(box, 1);
     scheme.skin(0.35);  // they are fast for their size

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     block_load(molecules, block);
     for (std::size_t i = 0; i < molecules.size(); ++i) molecules[i].mass = base((i % 2 == 0 ? 64.03 : 128.06) * amu);
     StateLaw const inside(16 * k);  // Cv
-    internal_energy_load(molecules, inside, 300, k, 1);
+    internal_energy_load(molecules, inside, 300, k, program.seed());
 
     auto const length = repeat_lengths(block, 2);
     PairScheme crystal(Box(Vector{0.0, 0.0}, Vector{length[0], length[1]}, Boundary::periodic), cutoff);

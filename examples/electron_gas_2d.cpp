@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
     Ensemble<Coulomb<2>> electrons("electrons", static_cast<std::size_t>(count));
     set_field(electrons, "charge", -edge * edge / count);
     set_field(electrons, "mass", edge * edge / count);
-    random_load(electrons, box, 1);
-    maxwellian_load(electrons, edge * edge / count, 1, 1);
+    random_load(electrons, box, program.seed());
+    maxwellian_load(electrons, edge * edge / count, 1, program.seed());
 
     MeshScheme mesh(box, {64, 64}, coulomb(1 / (4 * pi)));  // div E = rho
     mesh.assignment(Assignment::tsc);

@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
     Ensemble<Coulomb<1>> electrons("electrons", static_cast<std::size_t>(count));
     set_field(electrons, "charge", -length / count);
     set_field(electrons, "mass", length / count);
-    random_load(electrons, box, 1);
-    maxwellian_load(electrons, length / count, 1, 1);
+    random_load(electrons, box, program.seed());
+    maxwellian_load(electrons, length / count, 1, program.seed());
 
     MeshScheme mesh(box, {256}, coulomb(1 / (4 * pi)));  // div E = rho
     mesh.assignment(Assignment::tsc);

@@ -25,8 +25,8 @@ int main(int argc, char** argv) {
     Ensemble<Coulomb<1>> electrons("electrons", 2000);
     set_field(electrons, "charge", -charge);
     set_field(electrons, "mass", charge);
-    random_load(electrons, box, 1);
-    maxwellian_load(electrons, charge, 1, 1);
+    random_load(electrons, box, program.seed());
+    maxwellian_load(electrons, charge, 1, program.seed());
 
     MeshScheme built_in(box, {32}, coulomb(1 / (4 * pi))), mesh(box, {32}, coulomb(1 / (4 * pi)));
     for (auto* scheme : {&built_in, &mesh}) {

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     block_load(polymer, block);
     for (auto& p : polymer) p.mass = base(64.03 * amu);
     StateLaw const inside(15 * k);  // of the 18 degrees of freedom of a molecule three are those of a particle in space
-    internal_energy_load(polymer, inside, 300, k, 1);
+    internal_energy_load(polymer, inside, 300, k, program.seed());
 
     auto const length = repeat_lengths(block, 3);
     Box box(Vector{0.0, 0.0, 0.0}, Vector{length[0] + 100, length[1], length[2]},

@@ -22,13 +22,13 @@ int main(int argc, char** argv) {
     set_field(ions, "charge", in_one * charge);
     set_field(ions, "mass", in_one * base(constants::proton_mass));
 
-    sinusoidal_load(right, box, wave_of_mode(box, 0, 3), 0.2, 5);
-    random_load(left, box, 5);
-    random_load(ions, box, 5);
+    sinusoidal_load(right, box, wave_of_mode(box, 0, 3), 0.2, program.seed(5));
+    random_load(left, box, program.seed(5));
+    random_load(ions, box, program.seed(5));
     // A particle of ten masses moves like one electron at ten times the temperature.
-    maxwellian_load(right, in_one * temperature, k, 5, {.drift = {5 * thermal_velocity}});
-    maxwellian_load(left, in_one * temperature, k, 5, {.drift = {-5 * thermal_velocity}});
-    maxwellian_load(ions, in_one * temperature, k, 5);
+    maxwellian_load(right, in_one * temperature, k, program.seed(5), {.drift = {5 * thermal_velocity}});
+    maxwellian_load(left, in_one * temperature, k, program.seed(5), {.drift = {-5 * thermal_velocity}});
+    maxwellian_load(ions, in_one * temperature, k, program.seed(5));
 
     MeshScheme mesh(box, {128}, coulomb(1));
     for (auto* ensemble : {&right, &left, &ions}) mesh.add(*ensemble);

@@ -44,13 +44,13 @@ struct DissipationTask {
   PairNoise noise;
 };
 
-/// A pair, for pair splitting: rows of the two, and the row (an image, perhaps) where the second stands as seen by the
+/// A pair, for Shardlow's splitting: rows of the two, and the row (an image, perhaps) where the second stands as seen by the
 /// first.
 struct DissipationPair {
   std::uint32_t first, second, seen;
 };
 
-/// Pair splitting: of `count` pairs chi (zero out of range), the direction from second to first (unit vector;
+/// Shardlow's splitting: of `count` pairs chi (zero out of range), the direction from second to first (unit vector;
 /// unprojected: not), and normals: one (projected) or as many as dimensions, and one more where heat is conducted.
 struct GeometryTask {
   double const *first = nullptr, *second = nullptr;                       ///< dissipation points

@@ -23,7 +23,7 @@ struct PairDissipation::Member {
   bool dissipates = false, at_fixed_temperature = false;
   AlignedVector<double> points;     // of the rows of the sorted copy
   AlignedVector<double> predicted;  // the corrector's last try: 4 numbers an owned row (see DissipationTask)
-  std::vector<double> energies;     // pair splitting: of the owned rows
+  std::vector<double> energies;     // Shardlow's splitting: of the owned rows
   std::size_t first_chunk = 0;      // among those of all members
 
   int dimension() const { return ensemble->dimension(); }

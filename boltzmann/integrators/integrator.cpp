@@ -6,7 +6,7 @@ namespace boltzmann {
 Words<Method> const& method_words() {
   static Words<Method> const all{
       "integrator",
-      {{Method::euler, "euler", "first order, one evaluation a step; energy grows: for comparison, and for flows"},
+      {{Method::euler, "euler", "first order, one evaluation a step; energy grows: for comparison, and for tracers"},
        {Method::leap_frog, "leap-frog",
         "second order, one evaluation a step, symplectic (velocity Verlet): energy stays bounded; for forces"},
        {Method::rk2, "rk2", "second-order Runge-Kutta (midpoint), two evaluations a step"},

@@ -13,7 +13,7 @@ struct Meso : Newton<D, Real> {
   static constexpr char const* class_name = "Meso";
 
   Real internal_energy;
-  Real temperature;  ///< of the internal degrees of freedom, as the flow finds it when somebody looks
+  Real temperature;  ///< of the internal degrees of freedom, as the dissipation finds it when somebody looks
 
   template <class Self>
   static FieldTable<Self> fields() {

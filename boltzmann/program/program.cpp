@@ -18,21 +18,45 @@ namespace boltzmann {
 
 struct Program::Option {
   std::string name, value, doc;  ///< value: how it is called; empty: it has none
+  void (*take)(Program&, Option const&, std::string const& value);
+
+  /// Error, "--steps: a whole number of 0 to 9e+15 is needed, not 'x'".
+  double number(std::string const& text, double low, double high, bool whole = true) const {
+    double read = 0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
+    if (error != std::errc() || end != text.data() + text.size() || (whole && read != std::floor(read)) ||
+        !(read >= low && read <= high))
+      throw Error(fmt::format("{}: a {} of {:g} to {:g} is needed, not '{}'", name, whole ? "whole number" : "number",
+                              low, high, text));
+    return read;
+  }
 };
 
 std::vector<Program::Option> const& Program::options() {
-  static std::vector<Option> const all{{"--out", "DIR", "folder for the results"},
-                                       {"--steps", "N", "number of steps"},
-                                       {"--time", "T", "how long: 20, \"20 ps\"; as many steps as it takes"},
-                                       {"--threads", "N", "number of threads"},
-                                       {"--seed", "N", "seed of all random numbers"},
-                                       {"--hours", "H", "wall time, after which it stops with a checkpoint"},
-                                       {"--resume", "", "go on with the run in the folder"},
-                                       {"--window", "", "in a window: prints the address of a page"},
-                                       {"--play", "", "with --window: begin at once, and end with the last step"},
-                                       {"--port", "N", "of the window's page"},
-                                       {"--quiet", "", "no progress line and no table"},
-                                       {"--help", "", "this, and stop"}};
+  using P = Program;
+  using O = Option;
+  using Text = std::string;
+  static std::vector<Option> const all{
+      {"--out", "DIR", "folder for the results", [](P& p, O const&, Text const& v) { p.folder_ = v; }},
+      {"--steps", "N", "number of steps",
+       [](P& p, O const& o, Text const& v) { p.steps_ = static_cast<std::uint64_t>(o.number(v, 0, 9e15)); }},
+      {"--time", "T", "how long: 20, \"20 ps\"; as many steps as it takes",
+       [](P& p, O const&, Text const& v) { p.time_ = v; }},
+      {"--threads", "N", "number of threads",
+       [](P& p, O const& o, Text const& v) { p.threads_ = static_cast<int>(o.number(v, 1, 4096)); }},
+      {"--seed", "N", "seed of all random numbers",
+       [](P& p, O const& o, Text const& v) { p.seed_ = static_cast<std::uint64_t>(o.number(v, 0, 9e15)); }},
+      {"--hours", "H", "wall time, after which it stops with a checkpoint",
+       [](P& p, O const& o, Text const& v) { p.wall_ = std::make_shared<WallTime>(o.number(v, 1e-6, 1e6, false)); }},
+      {"--resume", "", "go on with the run in the folder", [](P& p, O const&, Text const&) { p.resume_ = true; }},
+      {"--window", "", "in a window: prints the address of a page",
+       [](P& p, O const&, Text const&) { p.window_ = true; }},
+      {"--play", "", "with --window: begin at once, and end with the last step",
+       [](P& p, O const&, Text const&) { p.play_ = true; }},
+      {"--port", "N", "of the window's page",
+       [](P& p, O const& o, Text const& v) { p.port_ = static_cast<int>(o.number(v, 0, 65535)); }},
+      {"--quiet", "", "no progress line and no table", [](P& p, O const&, Text const&) { p.quiet_ = true; }},
+      {"--help", "", "this, and stop", [](P& p, O const&, Text const&) { p.help_ = true; }}};
   return all;
 }
 
@@ -66,35 +90,16 @@ Program::Program(int argc, char** argv, std::string folder) : folder_(std::move(
     if (found->value.empty() && attached) throw Error(fmt::format("{} has no value", name));
     if (!found->value.empty() && !attached && i + 1 == argc)
       throw Error(fmt::format("{} needs a value, {} {}", name, name, found->value));
-    read(*found, found->value.empty() ? "" : attached ? word.substr(name.size() + 1) : argv[++i]);
+    found->take(*this, *found, found->value.empty() ? "" : attached ? word.substr(name.size() + 1) : argv[++i]);
   }
   if (play_ && !window_) throw Error("--play is for a --window");
   if (wall_ && window_) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
   if (steps_ && !time_.empty()) throw Error("--steps and --time say the same; leave one out");
 }
 
-void Program::read(Option const& option, std::string const& value) {
-  auto const number = [&](double low, double high) {
-    double read = 0;
-    auto const [end, error] = std::from_chars(value.data(), value.data() + value.size(), read);
-    bool const whole = option.name == "--hours" || read == std::floor(read);
-    if (error != std::errc() || end != value.data() + value.size() || !whole || !(read >= low && read <= high))
-      throw Error(fmt::format("{}: a {} of {:g} to {:g} is needed, not '{}'", option.name,
-                              option.name == "--hours" ? "number" : "whole number", low, high, value));
-    return read;
-  };
-  if (option.name == "--out") folder_ = value;
-  if (option.name == "--steps") steps_ = static_cast<std::uint64_t>(number(0, 9e15));
-  if (option.name == "--time") time_ = value;
-  if (option.name == "--threads") threads_ = static_cast<int>(number(1, 4096));
-  if (option.name == "--seed") seed_ = static_cast<std::uint64_t>(number(0, 9e15));
-  if (option.name == "--hours") wall_ = std::make_shared<WallTime>(number(1e-6, 1e6));
-  if (option.name == "--port") port_ = static_cast<int>(number(0, 65535));
-  if (option.name == "--resume") resume_ = true;
-  if (option.name == "--window") window_ = true;
-  if (option.name == "--play") play_ = true;
-  if (option.name == "--quiet") quiet_ = true;
-  if (option.name == "--help") help_ = true;
+std::uint64_t Program::seed(std::uint64_t otherwise) {
+  seed_asked_ = true;
+  return seed_.value_or(otherwise);
 }
 
 Recording Program::recording(Simulation& simulation, Base const& base) const {
@@ -105,7 +110,22 @@ Recording Program::recording(Simulation& simulation, Base const& base) const {
   return Recording(simulation, base, folder_, true);
 }
 
+namespace {
+
+/// Whether the seed of a simulation changes its run.
+bool has_noise(Simulation const& simulation) {
+  bool noise = !simulation.dissipations().empty() || simulation.equilibrates();
+  for (auto const* scheme : simulation.schemes())
+    for (auto const* ensemble : scheme->ensembles())
+      noise = noise || simulation.method(*ensemble) == Method::random_walk;
+  return noise;
+}
+
+}  // namespace
+
 RunReport Program::run(Recording& recording, std::uint64_t steps) {
+  if (seed_ && !seed_asked_ && !has_noise(recording.simulation()))
+    throw Error("--seed: nothing in this program asks for a seed (Program::seed), so that it would change nothing");
   if (!time_.empty()) return run_for(recording, in_base(time_, dimensions::time, recording.base()));
   std::uint64_t const planned = steps_.value_or(steps);
   RunReport report;

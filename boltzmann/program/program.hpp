@@ -33,12 +33,13 @@ class Program {
 
   std::string const& folder() const { return folder_; }
   /// The seed of the command line, else this one: for loaders, and for noise by Simulation::seed.
-  std::uint64_t seed(std::uint64_t otherwise = 1) const { return seed_.value_or(otherwise); }
+  std::uint64_t seed(std::uint64_t otherwise = 1);
   bool quiet() const { return quiet_; }
 
   /// A recording into the folder; in place of a run that is there, unless that is gone on with.
   Recording recording(Simulation& simulation, Base const& base = Base::reduced()) const;
-  /// Runs so many steps, or as many as the command line says, with a progress line or in a window.
+  /// Runs so many steps, or as many as the command line says, with a progress line or in a window. Error if the command
+  /// line gives a seed that nothing uses.
   RunReport run(Recording& recording, std::uint64_t steps);
   /// Runs for a time, or that of the command line, in steps of at most the simulation's that end there exactly. Error if
   /// it is not positive.
@@ -53,7 +54,6 @@ class Program {
  private:
   struct Option;
   static std::vector<Option> const& options();
-  void read(Option const& option, std::string const& value);
 
   std::string folder_;
   std::optional<std::uint64_t> steps_, seed_;
@@ -61,7 +61,7 @@ class Program {
   std::shared_ptr<WallTime> wall_;  // of --hours
   std::string time_;                // a quantity, told when the units are known
   int port_ = 0;
-  bool resume_ = false, window_ = false, play_ = false, quiet_ = false, help_ = false;
+  bool resume_ = false, window_ = false, play_ = false, quiet_ = false, help_ = false, seed_asked_ = false;
   int status_ = 0;
 };
 

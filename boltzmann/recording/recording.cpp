@@ -699,7 +699,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   Interrupt const interrupt(simulation);
   steps = recording.resume_if_asked(steps);
   simulation.check();
-  // What the run begins with is known only when it has been prepared. The observer stays with the simulation.
+  // What the run begins with is known only when it has been equilibrated. The observer stays with the simulation.
   auto const start = std::make_shared<Conserved>(conserved(simulation));
   simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
                           [start](Simulation const& now) { *start = conserved(now); });

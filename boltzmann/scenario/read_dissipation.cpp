@@ -14,7 +14,7 @@
 namespace boltzmann {
 namespace {
 
-/// A equilibration longer than this is a slip of the pen.
+/// An equilibration longer than this is a slip of the pen.
 constexpr double most_steps = 9e15;
 
 /// Two ensembles (or one, twice) with dissipation of some kind, and where it says so.
@@ -268,8 +268,8 @@ void read_table(Item const& table, Dissipations& all) {
     read_langevin(section, all);
 }
 
-/// Without `on` those that forces move by leap-frog are prepared.
-std::vector<ReadEnsemble const*> to_be_prepared(Item const* on, Reading& reading) {
+/// Without `on` those that forces move by leap-frog are brought to it.
+std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& reading) {
   std::vector<ReadEnsemble const*> chosen;
   if (!on) {
     for (auto const& ensemble : reading.ensembles)
@@ -297,7 +297,7 @@ void read_equilibration(Item const& table, Reading& reading) {
   auto const time = section.need_quantity(
       "time", dimensions::time, reading.context.base.is_reduced() ? "time = 10" : "time = \"2 ps\"", not_negative);
   section.finish();
-  auto const chosen = to_be_prepared(on, reading);
+  auto const chosen = to_be_equilibrated(on, reading);
   if (reading.context.mistakes.count() != before || !bath || !time || !reading.run.step) return;
   // A time of so many steps, but for rounding, is that many.
   double const steps = std::ceil(*time / *reading.run.step * (1 - 1e-12));

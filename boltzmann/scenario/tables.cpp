@@ -177,7 +177,7 @@ OptionTable make_wall_options() {
 OptionTable make_equilibration_options() {
   OptionTable all = bath_options();
   all.add_said("time", "a time, zero or more", "how long");
-  all.add_said("on", ensemble_or_list, "who is prepared", "all that leap-frog moves");
+  all.add_said("on", ensemble_or_list, "who is brought to it", "all that leap-frog moves");
   all.at("time").needed = "\"2 ps\"";
   return all;
 }

@@ -448,7 +448,7 @@ void Simulation::observe_now() const {
     if (observation.due(step_)) observation.observer(*this);
 }
 
-void Simulation::prepare_now() {
+void Simulation::equilibrate_now() {
   if (equilibrations_.empty()) return;
   auto const equilibrations = std::move(equilibrations_);
   equilibrations_.clear();
@@ -487,7 +487,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
   if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
   if (!observed_) {
-    prepare_now();  // also for no steps: what is stored of them is where another run goes on
+    equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
     observed_ = true;
     observe_now();
   }

@@ -137,7 +137,7 @@ class Simulation {
   Part const& ready_part(AnyEnsemble& ensemble);
   void check_influences() const;
   void check_dissipations();
-  void prepare_now();
+  void equilibrate_now();
   void take_lengths();
   void update_derived_fields() const;
   std::uint64_t checksum(bool with_influences = false) const;

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-namespace boltzmann::pair_splitting_test {
+namespace boltzmann::shardlow_test {
 namespace {
 
 constexpr double tight = 1e-12;
@@ -438,4 +438,4 @@ TEST(Shardlow, MetropolisIsRightForGrainsOfManyAtoms) {
 }
 
 }  // namespace
-}  // namespace boltzmann::pair_splitting_test
+}  // namespace boltzmann::shardlow_test

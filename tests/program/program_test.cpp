@@ -26,7 +26,7 @@ class Programs : public testing::Test {
   }
 
   /// Two bodies on a circle for 40 steps of 0.05; the exit status.
-  int run(std::vector<std::string> words, double time = 0) {
+  int run(std::vector<std::string> words, double time = 0, bool ask = true) {
     words.insert(words.begin(), "circle");
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
@@ -41,10 +41,10 @@ class Programs : public testing::Test {
       Simulation simulation(space, 0.05);
       simulation.integrate(bodies);
       EXPECT_EQ(simulation.method(bodies), Method::leap_frog);
+      if (ask) seed_ = program.seed(7);
       Recording recording = program.recording(simulation);
       recording.diagnoses(1, {"energies"});
       report_ = time > 0 ? program.run_for(recording, time) : program.run(recording, 40);
-      seed_ = program.seed(7);
       end_ = simulation.time();
     });
   }
@@ -125,6 +125,13 @@ TEST_F(Programs, SayWhatIsWrong) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
     EXPECT_FALSE(fs::exists(folder())) << said;
   }
+}
+
+TEST_F(Programs, RefuseASeedThatChangesNothing) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run({"--seed", "4", "--quiet"}, 0, false), 2);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("--seed: nothing in this program asks"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder()));
 }
 
 TEST_F(Programs, TellWhatTheyCanBeTold) {
