@@ -119,7 +119,8 @@ int check(std::string const& name, Overrides const& overrides) {
   auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
   scenario->simulation->check();
   recording->check();
-  std::size_t particles = 0, bytes = scenario->scheme->bytes();  // now that lists and meshes are there
+  std::size_t particles = 0, bytes = 0;
+  for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there
   for (auto const& ensemble : scenario->ensembles) {
     particles += ensemble->size();
     bytes += ensemble->size() * (ensemble->stride() + ensemble->influence_size()) * sizeof(double);

@@ -94,24 +94,18 @@ void show_scenario(std::string const& name) {
   for (auto const& ensemble : scenario->ensembles)
     fmt::print("  ensemble    {}: {} of class {}, {}D\n", ensemble->name(), ensemble->size(), ensemble->class_name(),
                ensemble->dimension());
-  Box const& box = scenario->scheme->box();
+  Box const& box = scenario->box();
   for (int a = 0; a < box.dimension(); ++a)
     fmt::print("  {}           {} to {}, {}\n", "xyz"[a], shown(box.low(a), dimensions::length),
                shown(box.high(a), dimensions::length), to_string(box.boundary(a)));
-  if (scenario->mesh) {
-    std::vector<std::string> cells;
-    for (int a = 0; a < box.dimension(); ++a)
-      cells.push_back(std::to_string(std::lround(box.length(a) / scenario->mesh->grid().spacing[a])));
-    bool const near = dynamic_cast<P3MScheme const*>(scenario->mesh) != nullptr;
-    fmt::print("  mesh        {} cells{}\n", join(cells, " x "), near ? ", and near pairs (P3M)" : "");
-  }
+  for (auto const& scheme : scenario->schemes)
+    if (auto const summary = scheme->summary(); !summary.empty()) fmt::print("  scheme      {}\n", summary);
   for (auto const& dissipation : scenario->dissipations) {
     std::vector<std::string> names;
     for (auto const* ensemble : dissipation->ensembles()) names.push_back(ensemble->name());
     auto const* pairs = dynamic_cast<PairDissipation const*>(dissipation.get());
     fmt::print("  dissipation {} on {}\n", pairs ? "dpd, " + to_string(pairs->method()) : "langevin", join(names));
   }
-  if (scenario->smooth) fmt::print("  smooth      the weight is {}\n", to_string(scenario->smooth->shape()));
   fmt::print("\nbzm run {}\n", name);
 }
 

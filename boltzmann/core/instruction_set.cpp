@@ -2,6 +2,10 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 #include <algorithm>
 #include <cstdlib>
 #include <kernel_sets.hpp>
@@ -27,9 +31,11 @@ namespace {
 bool can_run(InstructionSet set) {
 #if defined(__x86_64__)
   __builtin_cpu_init();
+  unsigned a = 0, b = 0, basic = 0, extended = 0, d = 0;  // three instructions that not every compiler's builtin knows
+  __get_cpuid(1, &a, &b, &basic, &d);
+  __get_cpuid(0x80000001, &a, &b, &extended, &d);
   bool const v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-                  __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
-                  __builtin_cpu_supports("movbe");
+                  __builtin_cpu_supports("bmi2") && (basic & bit_F16C) && (basic & bit_MOVBE) && (extended & bit_LZCNT);
   if (set == InstructionSet::x86_64_v3) return v3;
   if (set == InstructionSet::x86_64_v4)
     return v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&

@@ -36,6 +36,31 @@ template <class Element, int W>
 struct register_of {
   typedef Element type __attribute__((vector_size(W * sizeof(Element))));
 };
+/// The lanes of one register, or of two after each other, that the last bits of `at` name.
+template <class Native, class Lanes>
+[[gnu::always_inline]] inline Native permuted(Native a, Lanes at) {
+#if defined(__clang__)
+  Native result;
+  constexpr int width = sizeof(Native) / sizeof(a[0]);
+  for (int lane = 0; lane < width; ++lane) result[lane] = a[at[lane] & (width - 1)];
+  return result;
+#else
+  return __builtin_shuffle(a, at);
+#endif
+}
+template <class Native, class Lanes>
+[[gnu::always_inline]] inline Native permuted(Native a, Native b, Lanes at) {
+#if defined(__clang__)
+  Native result;
+  constexpr int width = sizeof(Native) / sizeof(a[0]);
+  for (int lane = 0; lane < width; ++lane)
+    result[lane] = at[lane] & width ? b[at[lane] & (width - 1)] : a[at[lane] & (width - 1)];
+  return result;
+#else
+  return __builtin_shuffle(a, b, at);
+#endif
+}
+
 }  // namespace detail
 
 /// The result of comparing packs: one truth value per lane.
@@ -98,13 +123,14 @@ struct Pack {
 
   /// a where the condition holds, else b.
   friend Pack select(Mask<Real, W> condition, Pack a, Pack b) { return condition.native ? a.native : b.native; }
-  friend Pack min(Pack a, Pack b) {  // the instructions give the second operand where one is NaN: here a
-#if defined(__AVX512F__)
+  friend Pack min(
+      Pack a, Pack b) {  // the instructions (clang finds them itself) give the second operand where one is NaN: here a
+#if defined(__AVX512F__) && !defined(__clang__)
     if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
       return __builtin_ia32_minpd512_mask(b.native, a.native, a.native, -1, 4);
     else
 #endif
-#if defined(__AVX__)
+#if defined(__AVX__) && !defined(__clang__)
         if constexpr (sizeof(Native) == 32 && sizeof(Real) == 8)
       return __builtin_ia32_minpd256(b.native, a.native);
     else
@@ -112,12 +138,12 @@ struct Pack {
       return select(b < a, b, a);
   }
   friend Pack max(Pack a, Pack b) {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
     if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
       return __builtin_ia32_maxpd512_mask(b.native, a.native, a.native, -1, 4);
     else
 #endif
-#if defined(__AVX__)
+#if defined(__AVX__) && !defined(__clang__)
         if constexpr (sizeof(Native) == 32 && sizeof(Real) == 8)
       return __builtin_ia32_maxpd256(b.native, a.native);
     else
@@ -130,7 +156,13 @@ struct Pack {
   }
 
   friend Pack sqrt(Pack a) {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && defined(__clang__)
+    if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
+      return __builtin_ia32_sqrtpd512(a.native, 4);
+    else if constexpr (sizeof(Native) == 64)
+      return __builtin_ia32_sqrtps512(a.native, 4);
+    else
+#elif defined(__AVX512F__)
     if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
       return __builtin_ia32_sqrtpd512_mask(a.native, a.native, -1, 4);
     else if constexpr (sizeof(Native) == 64)

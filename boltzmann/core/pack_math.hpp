@@ -138,7 +138,7 @@ template <int W>
     Native low, high;
     __builtin_memcpy(&low, roots_of_two<W>, sizeof low);
     __builtin_memcpy(&high, roots_of_two<W> + W, sizeof high);
-    return Native(__builtin_shuffle(low, high, j));
+    return detail::permuted(low, high, j);
   } else
 #endif
   {

@@ -18,7 +18,7 @@ using Words = typename register_of<std::uint64_t, W>::type;
 /// The product of the low halves of two 64-bit lanes.
 template <int W>
 [[gnu::always_inline]] inline Words<W> multiply_low_halves(Words<W> a, Words<W> b) {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
   typedef int Halves16 __attribute__((vector_size(64)));
   typedef long long Lanes8 __attribute__((vector_size(64)));
   if constexpr (W == 8)

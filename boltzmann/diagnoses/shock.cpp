@@ -201,7 +201,8 @@ void Shock::look(Sample const& sample, MassiveParticles const& bodies, double& f
   std::size_t const count = options_.count > 0 ? options_.count
                             : by_density       ? std::clamp<std::size_t>(number / 300, 20, 300)
                                                : std::clamp<std::size_t>(number / 30, 20, 1000);
-  auto const [low, high] = extent(bodies, box, axis);
+  Extent const ends = extent(bodies, box, axis);
+  double const low = ends.low, high = ends.high;
   Profile const fine = profile(bodies, box, axis, low, high, count, sample.boltzmann_constant);
 
   // Lengths along the way of the front: its direction, and the two ends of the matter.

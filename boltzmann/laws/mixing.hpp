@@ -85,11 +85,11 @@ class SpeciesTable {
       for (std::size_t n = 0; n < N; ++n) {
         auto const* const column = reinterpret_cast<Native const*>(columns_[n]);
         if constexpr (entries <= 8) {
-          numbers[n] = __builtin_shuffle(column[0], number);
+          numbers[n] = detail::permuted(column[0], number);
         } else {
-          numbers[n] = __builtin_shuffle(column[0], column[1], number);
+          numbers[n] = detail::permuted(column[0], column[1], number);
           if constexpr (entries > 16)
-            numbers[n] = select(place > 15.5, Pack<double, W>(__builtin_shuffle(column[2], number)), numbers[n]);
+            numbers[n] = select(place > 15.5, Pack<double, W>(detail::permuted(column[2], number)), numbers[n]);
         }
       }
     } else

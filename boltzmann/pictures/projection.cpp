@@ -100,8 +100,9 @@ class BoxOutline {
     for (int axis = 0; axis < 3; ++axis) {
       auto const edge = named_edge(axis);
       if (!edge) continue;
-      auto const [a, b, out_right, out_up] = *edge;
-      auto write = [&](double fraction, double away, std::string const& text, float font) {
+      auto const& [a, b, out_right, out_up] = *edge;
+      auto write = [&, a = a, b = b, out_right = out_right, out_up = out_up](double fraction, double away,
+                                                                             std::string const& text, float font) {
         double const align = 0.5 - 0.5 * std::clamp(4 * out_right, -1.0, 1.0);
         canvas.text(a.right + fraction * (b.right - a.right) + away * size * out_right,
                     a.up + fraction * (b.up - a.up) + away * size * out_up, text, ink, font, align);

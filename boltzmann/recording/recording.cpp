@@ -67,6 +67,9 @@ std::uint64_t whole(std::vector<double> const& halves) {
 }  // namespace
 
 struct Recording::State {
+  State(Simulation& of, Base const& units, std::string where, bool may_overwrite)
+      : simulation(of), base(units), folder(std::move(where)), overwrite(may_overwrite) {}
+
   Simulation& simulation;
   Base base;
   std::string folder;

@@ -8,7 +8,7 @@ namespace boltzmann::detail {
 
 template <class P>
 MeshKind mesh_kind_of() {
-  if constexpr (MeshParticle<P>)
+  if constexpr (ForcedParticle<P>)
     return mesh_kind<P>();
   else
     return {};

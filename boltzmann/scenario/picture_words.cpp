@@ -51,7 +51,7 @@ Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& word
   if (!drawing.empty()) picture.drawing = drawing;
   Section section(table, fmt::format("a picture '{}'", picture.drawing), context);
   read_options(section, drawing_named(picture.drawing).options, &picture,
-               {run.scheme->box().dimension(), [&] {
+               {run.box().dimension(), [&] {
                   PictureSources sources;
                   std::vector<AnyEnsemble*> ensembles;
                   for (auto const& ensemble : run.ensembles) ensembles.push_back(ensemble.get());
@@ -60,7 +60,7 @@ Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& word
                   return shown_dimension(picture, ensembles, sources);
                 }});
   section.finish();
-  check_picture_keys(section, picture, run.scheme->box().dimension(), &run.scheme->box());
+  check_picture_keys(section, picture, run.box().dimension(), &run.box());
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   return picture;
 }

@@ -4,6 +4,7 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,8 @@ bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view
     reading.mistake(place, fmt::format("{}: friction and noise can't act on '{}': {}", key, ensemble.name, why));
     return false;
   };
+  if (ensemble.smooth())
+    return refuse("smooth particles have the viscosity and the conductivity of their material, and no other");
   if (!carries_momentum(*particles))
     return refuse(fmt::format("particles of class {} have no mass and velocity", ensemble.kind->name));
   if (ensemble.integrator->method() != Method::leap_frog)
@@ -163,7 +166,8 @@ bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::str
 void read_pairs(Section& section, Item const& table, Dissipations& all) {
   Reading& reading = all.reading;
   std::size_t const before = reading.context.mistakes.count();
-  auto const [a, b] = read_pair(section, reading);
+  auto const pair = read_pair(section, reading);
+  ReadEnsemble *const a = pair.first, *const b = pair.second;
   DissipationOptions options;
   read_options(section, dissipation_options(), &options, {.dimension = reading.dimension});
   DissipationLaw const& dissipation = options.dissipation;
@@ -181,14 +185,15 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
                     fmt::format("convention: 'metropolis' is for friction with noise and internal energies, not for "
                                 "\"{}\"",
                                 to_string(dissipation.convention)));
-  if (reading.result->mesh)
+  if (reading.result->scheme<MeshScheme>())
     return reading.mistake(table.place,
                            "dissipation acts between near particles, which a scenario with a [mesh] does not "
                            "look for");
-  if (reading.context.mistakes.count() != before || !a || !b || !reading.result->pairs) return;
+  if (reading.context.mistakes.count() != before || !a || !b) return;
   Place const whom = section.place(section.has("on") ? "on" : "between");
   char const* key = section.has("on") ? "on" : "between";
-  if (!supports(*a, whom, key, reading) || (a != b && !supports(*b, whom, key, reading))) return;
+  if (!supports(*a, whom, key, reading) || (a != b && !supports(*b, whom, key, reading)) || !reading.result->pairs)
+    return;
   if (taken(all.dissipations, a, b, whom, "dpd", reading)) return;
   for (int axis = 0; axis < reading.dimension; ++axis)
     if (double const most = 0.5 * reading.box->length(axis); reading.box->periodic(axis) && dissipation.range > most)
@@ -244,17 +249,8 @@ void read_langevin(Section& section, Dissipations& all) {
   });
 }
 
-bool refused_with_smooth(Item const& table, std::string_view what, Reading& reading) {
-  if (!reading.smooth.wanted) return false;
-  reading.mistake(table.place, fmt::format("{}: smooth particles have the viscosity and the conductivity of their "
-                                           "material, and no other friction or noise",
-                                           what));
-  return true;
-}
-
 void read_table(Item const& table, Dissipations& all) {
   Reading& reading = all.reading;
-  if (refused_with_smooth(table, "[[dissipation]]", reading)) return;
   Section section(table, "[[dissipation]]", reading.context);
   Item const* word = section.need("kind", "kind = \"dpd\"");
   std::vector<std::string> kinds;
@@ -273,7 +269,7 @@ std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& rea
   std::vector<ReadEnsemble const*> chosen;
   if (!on) {
     for (auto const& ensemble : reading.ensembles)
-      if (ensemble.particles && ensemble.integrator && carries_momentum(*ensemble.particles) &&
+      if (ensemble.particles && !ensemble.smooth() && ensemble.integrator && carries_momentum(*ensemble.particles) &&
           ensemble.integrator->method() == Method::leap_frog && ensemble.integrator->same_for_all())
         chosen.push_back(&ensemble);
     return chosen;
@@ -289,7 +285,6 @@ std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& rea
 }
 
 void read_equilibration(Item const& table, Reading& reading) {
-  if (refused_with_smooth(table, "[equilibrate]", reading)) return;
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[equilibrate]", reading.context);
   Item const* on = section.find("on");

@@ -93,11 +93,9 @@ class EnsembleReader {
       mistake(item->place, fmt::format("class {} lives in {}; the box has {} dimension{}", kind_->name,
                                        join(spaces, " or "), reading_.dimension, reading_.dimension == 1 ? "" : "s"));
     }
-    if (smooth() != reading_.smooth.wanted)
+    if (smooth() && !reading_.smooth.wanted)
       mistake(item->place,
-              smooth() ? fmt::format("class {} needs the scheme of smooth particles; add a table [smooth]", kind_->name)
-                       : fmt::format("class {} is none of smooth particles, which [smooth] is for: Smooth, Solid",
-                                     kind_->name));
+              fmt::format("class {} needs the scheme of smooth particles; add a table [smooth]", kind_->name));
   }
 
   /// Before the fields: it knows how many particles there are.

@@ -58,41 +58,41 @@ class InfluenceReader {
         section_(table, "[[influences]]", reading.context) {}
 
   void read() {
-    if (!read_law()) return;
+    read_law();
     on_ = section_.find("on");
     if (!external()) by_ = section_.find("by"), between_ = section_.find("between");
     read_ensembles();
-    if (!law_) return;
+    if (!law_ || refused_with_smooth()) return;
     auto const parameters = read_parameters(section_, fmt::format("law '{}'", law_->name), law_->parameters, reading_);
     if (external())
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
     else
       read_pairs();
     section_.finish();
-    bool const there = a_ && b_ && a_->particles && b_->particles && reading_.result->scheme;
-    if (reading_.context.mistakes.count() != before_ || !there || (reading_.smooth.wanted && !reading_.result->smooth))
-      return;
-    install(*parameters);
+    bool const there =
+        a_ && b_ && a_->particles && b_->particles && (a_->smooth() ? smooth_ != nullptr : pairs_ != nullptr);
+    if (reading_.context.mistakes.count() == before_ && there) install(*parameters);
   }
 
  private:
   bool external() const { return law_ && law_->kind == LawKind::external; }
 
-  /// False: nothing else of it can be read.
-  bool read_law() {
+  void read_law() {
     std::vector<std::string> names;
     for (auto const& law : scenario_laws()) names.emplace_back(law.name);
     Item const* item = section_.need("law", "law = \"lennard-jones\"");
     auto const name = item ? read_word(*item, "law", names, reading_.context) : std::nullopt;
-    if (!name) return true;
+    if (!name) return;
     law_ = find_law(*name);
     law_place_ = item->place;
     section_.rename(fmt::format("[[influences]] '{}'", *name));
-    if (!reading_.smooth.wanted || external()) return true;
+  }
+  bool refused_with_smooth() {
+    if (external() || !((a_ && a_->smooth()) || (b_ && b_->smooth()))) return false;
     reading_.mistake(law_place_, fmt::format("law '{}' acts between pairs of particles; smooth particles act on each "
                                              "other by what they are made of, their 'material'",
-                                             *name));
-    return false;
+                                             law_->name));
+    return true;
   }
 
   void read_ensembles() {
@@ -145,7 +145,7 @@ class InfluenceReader {
 
   void install(ParameterValues const& parameters) {
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
-    SmoothScheme* smooth = reading_.result->smooth;
+    bool const smooth = a_->smooth();
     if (smooth && (section_.has("particles") || section_.has("where")))
       return reading_.mistake(section_.place(section_.has("particles") ? "particles" : "where"),
                               fmt::format("law '{}' acts on all smooth particles of an ensemble; put some of them into "
@@ -154,15 +154,14 @@ class InfluenceReader {
     double const reach = smooth || external() || connect_ ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
     catch_errors(reading_, law_place_, [&] {
-      PairScheme* pairs = reading_.result->pairs;
       if (smooth)
-        install_external(*smooth, *law_, parameters, a);
+        install_external(*smooth_, *law_, parameters, a);
       else if (external())
-        install_external(*pairs, *law_, parameters, a, only_ ? &*only_ : nullptr);
+        install_external(*pairs_, *law_, parameters, a, only_ ? &*only_ : nullptr);
       else if (connect_)
-        install_connections(*pairs, *law_, parameters, a, connections_);
+        install_connections(*pairs_, *law_, parameters, a, connections_);
       else
-        install_pairs(*pairs, *law_, parameters,
+        install_pairs(*pairs_, *law_, parameters,
                       between_ ? LawUse::between
                       : by_    ? LawUse::one_way
                                : LawUse::internal,
@@ -192,6 +191,8 @@ class InfluenceReader {
   }
 
   Reading& reading_;
+  PairScheme* pairs_ = reading_.result->pairs;
+  SmoothScheme* smooth_ = reading_.result->scheme<SmoothScheme>();
   std::size_t before_;
   Section section_;
   LawInfo const* law_ = nullptr;

@@ -118,12 +118,14 @@ void read_plain_mesh(Section& section, MeshOptions const& options, LaplaceLaw co
     mesh->precision(options.precision);
     if (boundary) read_boundary(*boundary, *mesh, reading);
     if (reading.context.mistakes.count() == before) mesh->grid();  // refuses what is too large for the memory
-    reading.result->mesh = mesh.get();
-    reading.result->scheme = std::move(mesh);
+    reading.result->schemes.push_back(std::move(mesh));
   });
 }
 
+}  // namespace
+
 void read_mesh(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[mesh]", reading.context);
   reading.mesh.background_place = section.place("background");
   auto const law = read_law(section, reading);
@@ -135,45 +137,16 @@ void read_mesh(Item const& table, Reading& reading) {
         reading.mistake(section.place(key),
                         fmt::format("{}: with 'accuracy' it is chosen by the scheme; leave it out", key));
     section.finish();
-    if (!law || !options.accuracy || !reading.box) return;
-    catch_errors(reading, section.place("accuracy"), [&] {
-      auto mesh = std::make_unique<P3MScheme>(*reading.box, *law, *options.accuracy);
-      reading.result->mesh = mesh.get();
-      reading.result->scheme = std::move(mesh);
-    });
+    if (law && options.accuracy && reading.box)
+      catch_errors(reading, section.place("accuracy"), [&] {
+        reading.result->schemes.push_back(std::make_unique<P3MScheme>(*reading.box, *law, *options.accuracy));
+      });
   } else {
     if (law && reading.box) read_plain_mesh(section, options, *law, reading);
     section.finish();
   }
-  if (reading.result->mesh) reading.result->mesh->background(options.background);
-}
-
-}  // namespace
-
-void read_scheme(Section& document, Reading& reading) {
-  ScenarioSimulation& result = *reading.result;
-  std::size_t const before = reading.context.mistakes.count();
-  Item const* table = find_table(document, "mesh");
-  if (table) read_mesh(*table, reading);
+  if (auto* mesh = reading.result->scheme<MeshScheme>()) mesh->background(options.background);
   reading.mesh.usable = reading.context.mistakes.count() == before;
-  Item const* smooth = find_table(document, "smooth");
-  reading.smooth.wanted = smooth != nullptr;
-  if (table && smooth)
-    reading.mistake(smooth->place, "[smooth] and [mesh]: a scenario has one of them; smooth particles have no mesh");
-  if (smooth && !table) read_smooth(*smooth, reading);
-  if (!reading.box || result.smooth || smooth) {
-    if (result.scheme) result.scheme->threads(reading.run.threads);
-    return;
-  }
-  if (!result.scheme) {
-    auto pairs = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
-    result.pairs = pairs.get();
-    result.scheme = std::move(pairs);
-  } else {
-    result.pairs = &result.mesh->pairs();
-  }
-  if (reading.run.skin) result.pairs->skin(*reading.run.skin);
-  result.scheme->threads(reading.run.threads);
 }
 
 namespace {
@@ -199,22 +172,21 @@ std::vector<ReadEnsemble*> ensembles_on_mesh(Section& section, Reading& reading)
 }
 
 /// False: something is wrong with those that are there.
-bool load_mesh(Item const& table, Reading& reading) {
+bool load_ensembles(Item const& table, MeshScheme& mesh, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
-  MeshScheme& mesh = *reading.result->mesh;
   Section section(table, "[mesh]", reading.context);
   bool const chosen = section.has("on"), repel = mesh.constant() > 0;
   char const* const fitting = repel ? "Coulomb" : "Kepler";
   auto const refuse = [&](std::string const& what) {
     reading.mistake(section.place("on"), what);
-    return reading.mesh.usable = false;
+    return false;
   };
   bool any = false;
   for (auto* ensemble : ensembles_on_mesh(section, reading)) {
     if (!ensemble || !ensemble->particles || !ensemble->kind) return false;
     MeshKind const kind = ensemble->kind->in(reading.dimension)->mesh;
     bool const can = kind.strengths != nullptr && kind.sign * mesh.constant() > 0;
-    if (!can && !chosen) continue;
+    if (!chosen && !(can && kind.own)) continue;
     if (!kind.strengths)
       return refuse(fmt::format("on: '{}' is of class {}, which makes no field; the class that does: {}",
                                 ensemble->name, ensemble->kind->name, fitting));
@@ -228,36 +200,30 @@ bool load_mesh(Item const& table, Reading& reading) {
                  [&] { mesh.add(*ensemble->particles, kind); });
   }
   if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
-    reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does", fitting));
-  return true;
+    reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does{}", fitting,
+                                             repel ? "" : ", and with 'on' any other that has a mass"));
+  return reading.context.mistakes.count() == before;
 }
 
 }  // namespace
 
-void load_scheme(Section& document, Reading& reading) {
-  ScenarioSimulation& result = *reading.result;
-  if (!result.scheme) return;
-  if (result.smooth) return load_smooth(reading);
-  if (!result.pairs) return;
-  std::size_t const before = reading.context.mistakes.count();
-  if (result.mesh && !load_mesh(*find_table(document, "mesh"), reading)) return;
-  if (reading.context.mistakes.count() != before) reading.mesh.usable = false;
-  // Those that no law acts on are supervised, too.
-  for (auto const& ensemble : reading.ensembles)
-    if (ensemble.particles) catch_errors(reading, ensemble.place, [&] { result.pairs->add(*ensemble.particles); });
+void load_mesh(Item const& table, Reading& reading) {
+  if (auto* mesh = reading.result->scheme<MeshScheme>())
+    if (!load_ensembles(table, *mesh, reading)) reading.mesh.usable = false;
 }
 
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {
   if (!reading.mesh.usable) return false;
   if (!reading.mesh.fields.empty()) return true;
-  if (!reading.result->mesh) {
+  auto* mesh = reading.result->scheme<MeshScheme>();
+  if (!mesh) {
     reading.mistake(place, fmt::format("{} needs a mesh, but the scenario has no [mesh]", what));
     return reading.mesh.usable = false;
   }
   for (auto const& ensemble : reading.ensembles)
     if (!ensemble.particles) return false;
   try {
-    reading.mesh.fields = reading.result->scheme->mesh_fields();
+    reading.mesh.fields = mesh->mesh_fields();
   } catch (std::runtime_error const& failure) {  // of the user's input or, with particles outside, of the physics
     reading.mistake(place_of(failure.what(), reading), failure.what());
     reading.mesh.usable = false;

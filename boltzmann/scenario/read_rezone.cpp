@@ -90,9 +90,13 @@ void load_rezone(Reading& reading) {
     else if (rezone.on)
       on.push_back(reading.ensemble(*rezone.on, "on"));
     else
-      for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
+      for (auto& ensemble : reading.ensembles)
+        if (ensemble.smooth()) on.push_back(&ensemble);
     for (auto const* ensemble : on) {
       if (!ensemble || !ensemble->particles) continue;
+      if (!ensemble->smooth())
+        reading.mistake(rezone.on->place, fmt::format("rezone: '{}' is of class {}; smooth particles are rezoned",
+                                                      ensemble->name, ensemble->kind->name));
       if (ensemble->integrator && !ensemble->integrator->same_for_all())
         reading.mistake(rezone.on ? rezone.on->place : rezone.place,
                         fmt::format("rezone: some particles of '{}' are frozen, by their numbers, which rezoning "
@@ -108,7 +112,7 @@ void add_rezoners(Reading const& reading) {
   for (auto const& rezone : reading.smooth.rezones)
     for (auto* ensemble : rezone.ensembles)
       result.simulation->adapt(static_cast<std::uint64_t>(rezone.every),
-                               Rezoner(*ensemble, result.scheme->box(), rezone.policy));
+                               Rezoner(*ensemble, result.box(), rezone.policy));
 }
 
 }  // namespace boltzmann

@@ -116,6 +116,7 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
 void read_smooth(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   ReadSmooth& smooth = reading.smooth;
+  smooth.wanted = true;
   Section section(table, "[smooth]", reading.context);
   SmoothOptions options;
   read_options(section, smooth_options(), &options, {.dimension = reading.dimension});
@@ -132,11 +133,7 @@ void read_smooth(Item const& table, Reading& reading) {
   if (smooth.from_continuity && smooth.variable)
     reading.mistake(smooth.variable_place,
                     "variable_range: ranges follow densities that are summed; with density = \"continuity\" they stay");
-  if (reading.run.cutoff)
-    reading.mistake(reading.run.cutoff_place,
-                    "cutoff: smooth particles act as far as their 'range', a field of the ensembles; leave it out");
-  if (reading.run.skin) reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
-  reading.run.skin_place = section.place("skin");
+  if (section.has("skin")) reading.run.skin_place = section.place("skin");
   if (reading.context.mistakes.count() != before || !reading.box) return;
   catch_errors(reading, table.place, [&] {
     auto scheme = std::make_unique<SmoothScheme>(*reading.box, options.weight);
@@ -145,27 +142,36 @@ void read_smooth(Item const& table, Reading& reading) {
     scheme->heating(options.heating);
     if (options.artificial_viscosity) scheme->artificial_viscosity(*options.artificial_viscosity);
     if (options.skin) scheme->skin(*options.skin);
-    reading.result->smooth = scheme.get();
-    reading.result->scheme = std::move(scheme);
+    reading.result->schemes.push_back(std::move(scheme));
   });
 }
 
-void load_smooth(Reading& reading) {
-  SmoothScheme& scheme = *reading.result->smooth;
+void load_smooth(Item const& table, Reading& reading) {
+  auto* const found = reading.result->scheme<SmoothScheme>();
+  if (!found) return;
+  SmoothScheme& scheme = *found;
+  std::vector<ReadEnsemble const*> matter;
   for (auto const& ensemble : reading.ensembles) {
-    if (!ensemble.particles || !ensemble.material) return;
+    if (ensemble.kind ? ensemble.smooth() && (!ensemble.particles || !ensemble.material) : true) return;
+    if (ensemble.smooth()) matter.push_back(&ensemble);
+  }
+  if (matter.empty() && !reading.ensembles.empty())
+    return reading.mistake(table.place, "[smooth]: no ensemble is of smooth particles; classes Smooth and Solid are");
+  for (auto const* one : matter) {
+    ReadEnsemble const& ensemble = *one;
     catch_errors(reading, ensemble.place, [&] {
       scheme.add_material(*ensemble.particles, ensemble.material->kernels, ensemble.material->material);
     });
   }
   catch_errors(reading, reading.smooth.heating_place, [&] { scheme.check_heating(); });
-  if (reading.context.mistakes.none() && reading.smooth.variable && !reading.ensembles.empty()) try {
+  if (reading.context.mistakes.none() && reading.smooth.variable && !matter.empty()) try {
       scheme.variable_range(*reading.smooth.variable);
     } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
       reading.mistake(reading.smooth.variable_place, failure.what());
       return;
     }
-  for (auto const& ensemble : reading.ensembles) {
+  for (auto const* one : matter) {
+    ReadEnsemble const& ensemble = *one;
     auto const ranges = ensemble.particles->column(ensemble.particles->field("range"));
     for (int a = 0; a < reading.dimension && !ranges.empty(); ++a) {
       double const longest = *std::max_element(ranges.begin(), ranges.end()), length = reading.box->length(a);

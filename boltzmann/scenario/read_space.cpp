@@ -290,11 +290,11 @@ void settle_run(Item& resolved, Reading& reading) {
     reading.mistake(run.step_place,
                     "step: only smooth particles have a Courant step, and the scenario has no [smooth]; "
                     "give a time");
-  if (!reading.context.mistakes.none() || (!run.step && !reading.result->smooth)) return;
+  if (!reading.context.mistakes.none() || (!run.step && !reading.result->scheme<SmoothScheme>())) return;
   if (run.courant) {
     double longest = 0;
     try {
-      longest = reading.result->smooth->courant_step();
+      longest = reading.result->scheme<SmoothScheme>()->courant_step();
     } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
       return reading.mistake(place_of(failure.what(), reading), failure.what());
     }

@@ -9,15 +9,20 @@
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/rezone.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
+
+struct SchemeEntry;
 
 /// An ensemble of the file; `particles` is null if it could not be loaded.
 struct ReadEnsemble {
@@ -28,6 +33,8 @@ struct ReadEnsemble {
   std::unique_ptr<Integrator> integrator;
   std::optional<BoundMaterial> material;  ///< of smooth particles
   std::optional<StateLaw> state;          ///< of internal energies
+
+  bool smooth() const { return kind && kind->matter != Matter::none; }
 };
 
 struct ReadRun {
@@ -84,6 +91,7 @@ struct Reading {
   int dimension = 0;  ///< of the box; 0: unknown
   std::optional<Box> box;
   ReadRun run;
+  std::vector<std::pair<SchemeEntry const*, Item const*>> schemes;  ///< those that the file has, with their tables
   ReadMesh mesh;
   ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
@@ -132,11 +140,11 @@ void read_run(Section& document, Reading& reading);
 /// What follows from [run] when everything is loaded: a Courant step, the number of steps of a time. They stand in
 /// `resolved` instead of what was asked for.
 void settle_run(Item& resolved, Reading& reading);
-/// Makes the scheme: a mesh if there is a [mesh], smooth particles if there is a [smooth], else pairs alone.
-void read_scheme(Section& document, Reading& reading);
-void read_ensembles(Section& document, Reading& reading);
-/// Makes the scheme of smooth particles from the table [smooth].
+/// Makes the schemes that the file has tables of.
+void read_schemes(Section& document, Reading& reading);
+void read_mesh(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
+void read_ensembles(Section& document, Reading& reading);
 /// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Whether particles of this class have an internal energy of their own (the field "internal_energy").
@@ -147,9 +155,10 @@ std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& k
 std::optional<double> read_internal_temperature(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Sets the field "temperature" to that of the internal energies.
 void find_temperatures(AnyEnsemble& particles, StateLaw const& law);
-/// Loads ensembles into the scheme.
-void load_scheme(Section& document, Reading& reading);
-void load_smooth(Reading& reading);
+/// Loads ensembles into the schemes; what none of these takes is for pairs.
+void load_schemes(Reading& reading);
+void load_mesh(Item const& table, Reading& reading);
+void load_smooth(Item const& table, Reading& reading);
 /// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);

@@ -32,9 +32,9 @@ void build(Item& document, Reading& reading) {
   read_units(top, reading);
   read_box(top, reading);
   read_run(top, reading);
-  read_scheme(top, reading);
+  read_schemes(top, reading);
   read_ensembles(top, reading);
-  load_scheme(top, reading);
+  load_schemes(reading);
   load_rezone(reading);
   read_influences(top, reading);
   settle_run(document, reading);
@@ -49,7 +49,8 @@ void build(Item& document, Reading& reading) {
 
   result.steps = reading.run.steps;
   catch_errors(reading, reading.run.place, [&] {
-    result.simulation = std::make_unique<Simulation>(*result.scheme, *reading.run.step);
+    result.simulation = std::make_unique<Simulation>(*result.schemes.front(), *reading.run.step);
+    for (std::size_t k = 1; k < result.schemes.size(); ++k) result.simulation->add(*result.schemes[k]);
     result.simulation->seed(reading.run.seed);
     result.simulation->speak_in(result.base);
   });
@@ -121,6 +122,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
                   {},
                   {},
                   {},
+                  {},
                   {}};
   reading.result->name = name;
   try {
@@ -141,7 +143,7 @@ Place place_of(std::string const& message, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
     if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
   if (message.starts_with("the skin ")) return reading.run.skin_place;
-  if (reading.result->mesh && message.starts_with("mesh: ")) return reading.mesh.background_place;
+  if (message.starts_with("mesh: ")) return reading.mesh.background_place;
   return reading.run.place;
 }
 

@@ -10,9 +10,6 @@
 #include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/sweep.hpp>
-#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
-#include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cstdint>
@@ -24,6 +21,8 @@
 #include <vector>
 
 namespace boltzmann {
+
+class PairScheme;
 
 /// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right
 /// word`.
@@ -49,10 +48,8 @@ struct ScenarioSimulation {
   Base base;
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
-  std::unique_ptr<Scheme> scheme;
-  PairScheme* pairs = nullptr;     ///< the scheme itself, or what acts beside its mesh; null with [smooth]
-  MeshScheme* mesh = nullptr;      ///< the scheme itself, if the scenario has a [mesh]
-  SmoothScheme* smooth = nullptr;  ///< the scheme itself, if the scenario has a [smooth]
+  std::vector<std::unique_ptr<Scheme>> schemes;  ///< one or more, whose influences add up
+  PairScheme* pairs = nullptr;  ///< one of them, or what acts beside the mesh; null if all particles are smooth
   std::vector<std::unique_ptr<Dissipation>> dissipations;  ///< friction and noise
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
@@ -64,6 +61,15 @@ struct ScenarioSimulation {
   std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
   std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
   std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
+
+  Box const& box() const { return schemes.front()->box(); }
+  /// The scheme of this kind, scheme<MeshScheme>(); null if there is none.
+  template <class S>
+  S* scheme() const {
+    for (auto const& one : schemes)
+      if (auto* found = dynamic_cast<S*>(one.get())) return found;
+    return nullptr;
+  }
 };
 
 /// The text of a scenario, and where it comes from.

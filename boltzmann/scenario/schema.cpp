@@ -9,6 +9,7 @@
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/schema.hpp>
+#include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/scenario/tables.hpp>
 
 #include <fmt/format.h>
@@ -247,7 +248,7 @@ std::string scenario_schema() {
       object({{"type", quoted_text("string")}, {"description", described("one line; stands above pictures")}});
   std::string const description =
       object({{"type", quoted_text("string")}, {"description", described("what one sees, and where it comes from")}});
-  Members const properties{
+  Members properties{
       {"title", title},
       {"description", description},
       {"units", table({{"base", words({"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"},
@@ -255,8 +256,6 @@ std::string scenario_schema() {
                       false, "what plain numbers mean, and the units of the results")},
       {"box", closed("box", {{"walls", tables(closed("box.walls"))}})},
       {"run", closed("run")},
-      {"mesh", closed("mesh")},
-      {"smooth", closed("smooth", {{"rezone", one_or_tables(closed("smooth.rezone"))}})},
       {"ensembles", ensembles()},
       {"influences", influences()},
       {"dissipation", tables(kinds("kind", dissipations,
@@ -267,6 +266,12 @@ std::string scenario_schema() {
       {"output", closed("output", {{"pictures", of_pictures({{"file", object({{"type", quoted_text("string")}})}})}})},
       {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},
       {"sweep", table({}, false, "the same scenario for several values of its keys, and with several seeds")}};
+  for (auto const& scheme : scheme_entries()) {
+    Members inner;
+    for (auto const& table : scheme.inner)
+      inner.push_back({table.name.substr(scheme.told.name.size() + 1), one_or_tables(closed(table.name))});
+    properties.push_back({scheme.told.name, closed(scheme.told.name, inner)});
+  }
   return object({{"$schema", quoted_text("http://json-schema.org/draft-07/schema#")},
                  {"title", quoted_text("A scenario of Boltzmann")},
                  {"type", quoted_text("object")},

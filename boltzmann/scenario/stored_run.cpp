@@ -209,9 +209,10 @@ struct RunReader {
     }
     top.finish();
     if (!context.mistakes.none()) return;
-    run.scheme = std::make_unique<StoredScheme>(*space);
-    for (auto const& ensemble : run.ensembles) run.scheme->add(*ensemble);
-    run.simulation = std::make_unique<Simulation>(*run.scheme, step);
+    auto scheme = std::make_unique<StoredScheme>(*space);
+    for (auto const& ensemble : run.ensembles) scheme->add(*ensemble);
+    run.simulation = std::make_unique<Simulation>(*scheme, step);
+    run.schemes.push_back(std::move(scheme));
     run.simulation->speak_in(run.base);
   }
 };
@@ -257,7 +258,7 @@ ScenarioOutline outline_stored_run(std::string const& folder) {
   auto const run = load_program_run(program_run_of(folder));
   ScenarioOutline outline;
   outline.title = run->title;
-  outline.dimension = run->scheme->box().dimension();
+  outline.dimension = run->box().dimension();
   return outline;
 }
 

@@ -3,9 +3,8 @@
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/pictures/colour.hpp>
+#include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/scenario/tables.hpp>
-#include <boltzmann/schemes/mesh/mesh_options.hpp>
-#include <boltzmann/schemes/smooth/smooth_options.hpp>
 
 #include <limits>
 
@@ -213,27 +212,34 @@ OptionTable const& equilibration_options() {
   return all;
 }
 
-std::vector<ScenarioTable> const& scenario_tables() {
+namespace {
+
+std::vector<ScenarioTable> make_tables() {
   static WallOptions wall;
   static RunOptions run;
-  static MeshOptions mesh;
-  static SmoothOptions smooth;
-  static RezoneOptions rezone;
   static BathOptions bath;
   static EnsembleOptions ensemble;
-  static std::vector<ScenarioTable> const all = {
+  std::vector<ScenarioTable> all = {
       {"box", "[box]", "the space", &box_options(), nullptr},
       {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of reflecting ones",
        &wall_options(), &wall},
-      {"run", "[run]", "how long, in which steps", &run_options(), &run},
-      {"mesh", "[mesh]", "charges or masses influence each other through a field on a mesh", &mesh_options(), &mesh},
-      {"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
-      {"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
-       &rezone_options(), &rezone},
-      {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
-      {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
-      {"output", "[output]", "what is written, and how often", &output_options(), nullptr},
-      {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath}};
+      {"run", "[run]", "how long, in which steps", &run_options(), &run}};
+  for (auto const& scheme : scheme_entries()) {
+    all.push_back(scheme.told);
+    all.insert(all.end(), scheme.inner.begin(), scheme.inner.end());
+  }
+  all.insert(all.end(),
+             {{"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
+              {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
+              {"output", "[output]", "what is written, and how often", &output_options(), nullptr},
+              {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath}});
+  return all;
+}
+
+}  // namespace
+
+std::vector<ScenarioTable> const& scenario_tables() {
+  static std::vector<ScenarioTable> const all = make_tables();
   return all;
 }
 

@@ -14,4 +14,9 @@ void Scheme::add(AnyEnsemble& ensemble) {
   ensembles_.push_back(&ensemble);
 }
 
+bool Scheme::supervises(AnyEnsemble const& ensemble) const {
+  auto const& all = ensembles();
+  return std::find(all.begin(), all.end(), &ensemble) != all.end();
+}
+
 }  // namespace boltzmann

@@ -46,6 +46,7 @@ class Scheme {
   /// The ensembles that this scheme supervises, in the order in which they were loaded.
   virtual std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   void add(AnyEnsemble& ensemble);
+  bool supervises(AnyEnsemble const& ensemble) const;
 
   /// The influence on every particle at this time, into the ensembles' influence arrays. PhysicsFailure naming the
   /// particle if a position is not finite.
@@ -99,6 +100,8 @@ class Scheme {
   virtual std::size_t bytes() const { return 0; }
   /// What one should know before a run with such steps: resolution, noise; warnings begin with "warning: ".
   virtual std::vector<std::string> warnings(double /*step_size*/) { return {}; }
+  /// A few words on what it is, "mesh of 64 x 64 cells", for `bzm show`; empty for pairs.
+  virtual std::string summary() const { return ""; }
   /// One line about the work done, for the end of a run.
   virtual std::string report() const { return ""; }
 

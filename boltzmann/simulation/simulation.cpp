@@ -62,7 +62,7 @@ void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> in
       part.integrator = std::move(integrator);
       return;
     }
-  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}});
+  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}, nullptr});
 }
 
 void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
@@ -188,6 +188,8 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   part->stages = part->integrator->stages();
   part->time_after.clear();
   for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
+  part->home = *std::find_if(schemes_.begin(), schemes_.end(),
+                             [&](Scheme const* scheme) { return scheme->supervises(ensemble); });
   return *part;
 }
 
@@ -291,7 +293,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
       passed = part.time_after[stage];
       if (motion != Motion::final) continue;
       move_walls(start + passed * dt);
-      for (auto const* scheme : schemes_) work_ += scheme->box().apply(*part.ensemble, scheme->threads());
+      work_ += part.home->box().apply(*part.ensemble, part.home->threads());
     }
   }
   if (!dissipations.empty() && !fresh_) calculate(start + passed * dt), fresh_ = true;

@@ -106,6 +106,7 @@ class Simulation {
     double longest_move2;  // square of the law's length
     int stages;
     std::vector<double> time_after;  // of each stage
+    Scheme* home;                    // the first that supervises the ensemble: its box keeps the particles
   };
   struct Observation {
     std::function<bool(std::int64_t step)> due;

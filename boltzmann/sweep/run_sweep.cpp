@@ -309,8 +309,7 @@ SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::strin
 /// Whether these are the same state, from which nothing random leads on.
 bool same_without_chance(ScenarioSimulation const& one, ScenarioSimulation const& other) {
   if (!one.simulation->dissipations().empty() || one.simulation->equilibrates()) return false;
-  auto const& a = one.scheme->ensembles();
-  auto const& b = other.scheme->ensembles();
+  auto const &a = one.ensembles, &b = other.ensembles;
   for (std::size_t e = 0; e < a.size(); ++e)
     if (copy_rows(*a[e]).rows != copy_rows(*b[e]).rows) return false;
   return true;

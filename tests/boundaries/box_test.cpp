@@ -503,8 +503,9 @@ TEST(Regions, KeepInRefusesWhatOneReflectionDoesNotBringBack) {
 
 TEST(Box, RefusesEdgesThatAreNoBox) {
   double const nan = std::nan("");
-  for (auto const& [low, high] : {std::pair{1.0, 1.0}, std::pair{2.0, 1.0}, std::pair{nan, 1.0}, std::pair{0.0, nan},
-                                  std::pair{-infinity, 0.0}, std::pair{0.0, infinity}}) {
+  for (auto const& edges : {std::pair{1.0, 1.0}, std::pair{2.0, 1.0}, std::pair{nan, 1.0}, std::pair{0.0, nan},
+                            std::pair{-infinity, 0.0}, std::pair{0.0, infinity}}) {
+    double const low = edges.first, high = edges.second;
     expect_parts(message<Error>([&] {
                    Box(Vector{0., low}, Vector{1., high});
                  }),

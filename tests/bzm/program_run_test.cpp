@@ -119,7 +119,7 @@ void expect_drawn_again() {
   ASSERT_EQ(stored->ensembles.size(), 2U);
   TrajectoryReader const reader((folder / "run" / "trajectory.h5").string());
   Beads<D> again;
-  Box const& told = stored->scheme->box();
+  Box const& told = stored->box();
   for (int a = 0; a < D; ++a) {
     EXPECT_EQ(told.boundary(a), again.scheme.box().boundary(a));
     EXPECT_EQ(told.low(a), -3);
@@ -245,8 +245,7 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
     auto const back = load_stored_run(folder.string());
     std::vector<AnyEnsemble*> const again{back->ensembles[0].get()};
     std::vector<Picture> const plans(back->output.pictures.begin(), back->output.pictures.end());
-    EXPECT_EQ(run_file_text(back->title, back->base, back->simulation->step_size(), back->scheme->box(), again, plans),
-              text);
+    EXPECT_EQ(run_file_text(back->title, back->base, back->simulation->step_size(), back->box(), again, plans), text);
     EXPECT_EQ(back->base, units);
     // None of the words was left out because it looked like nothing.
     for (auto const& option : picture_options())

@@ -476,10 +476,10 @@ TEST(MeshScenarios, MeasureTheFieldOfARipple) {
   ASSERT_EQ(run->output.pictures[1].curves.size(), 1U);
   EXPECT_EQ(run->output.pictures[1].curves[0].frequency, 3);
   EXPECT_EQ(run->output.pictures[1].curves[0].speed, 2);
-  auto const fields = run->scheme->mesh_fields();
+  auto const fields = run->schemes.front()->mesh_fields();
   std::vector<double> values;
   for (auto& diagnosis : run->diagnoses)
-    diagnosis->measure({run->simulation->ensembles(), run->scheme->box(), nullptr, 1, 0, 0, fields}, values);
+    diagnosis->measure({run->simulation->ensembles(), run->box(), nullptr, 1, 0, 0, fields}, values);
   // div E = 4 pi k rho with rho = rho0 (1 + 0.1 sin(kx)) and a background: E = -A cos(k x), A = 4 pi k 0.1 rho0/k.
   double const k = 2 * pi, rho = 0.1 * 6400 * 1e-9 / 2, constant = 4 * pi * 8.9875517923e9;
   double const amplitude = constant * rho / k, energy = amplitude * amplitude * 2 / (4 * constant);

@@ -259,7 +259,7 @@ std::string scenario(std::string const& load, std::string const& more = "") {
 
 TEST(PlasmaScenarios, LoadRipplesAndQuietStarts) {
   auto const mode_of = [](ScenarioSimulation const& run, int axis, int mode) {
-    return wave_in(*run.ensembles.front(), run.scheme->box(), axis, mode);
+    return wave_in(*run.ensembles.front(), run.box(), axis, mode);
   };
   auto const x = parse_scenario(
       scenario("{ kind = \"sinusoidal\", mode = 3, amplitude = 0.2, phase = \"30 degree\", quiet = true }"),

@@ -399,6 +399,9 @@ struct HeatFlow {
   Real heating;
 };
 
+template <class Real>
+HeatFlow(Vector<3, Real>, Real) -> HeatFlow<Real>;
+
 /// A lump with a temperature; lumps pull and heat each other.
 template <class Real = double>
 struct Lump : Newton<3, Real> {

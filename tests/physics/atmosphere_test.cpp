@@ -11,7 +11,7 @@ namespace {
 TEST(Atmosphere, StaysExponential) {
   auto const run = shipped("atmosphere");
   auto& air = *run->ensembles.front();
-  Box const& box = run->scheme->box();
+  Box const& box = run->box();
   int const up = air.dimension() - 1;
   Field const &mass = air.field("mass"), &velocity = air.field("velocity");
   double const k = run->base(constants::boltzmann);

@@ -90,7 +90,7 @@ TEST(ColdBeams, TheShippedRunGrowsAndTurns) {
   std::vector<double> times, amplitudes;
   run->simulation->observe(4, [&](Simulation const& s) {
     times.push_back(s.time());
-    amplitudes.push_back(std::abs(mode_of(mesh_field(*run->scheme, "field"), 0, {1, 0, 0})));
+    amplitudes.push_back(std::abs(mode_of(mesh_field(*run->schemes.front(), "field"), 0, {1, 0, 0})));
   });
   double const start = total_energy(*run);
   run->simulation->run(static_cast<std::uint64_t>(run->steps));

@@ -80,7 +80,7 @@ TEST(Landau, TheShippedRunDampsToo) {
   std::vector<double> times, field;
   run->simulation->observe(2, [&](Simulation const& s) {
     times.push_back(s.time());
-    field.push_back(mode_of(mesh_field(*run->scheme, "field"), 0, {1, 0, 0}).real());
+    field.push_back(mode_of(mesh_field(*run->schemes.front(), "field"), 0, {1, 0, 0}).real());
   });
   run->simulation->run(350);
   auto const swing = swing_of(times, field, 2, 13);

@@ -189,7 +189,7 @@ TEST(Langmuir, TheShippedRunShowsTheBranch) {
   auto const run = shipped("langmuir");
   std::vector<std::vector<Complex>> waves(6);
   run->simulation->observe(10, [&](Simulation const&) {
-    auto const& field = mesh_field(*run->scheme, "field");
+    auto const& field = mesh_field(*run->schemes.front(), "field");
     for (int mode : {3, 4, 5}) waves[static_cast<std::size_t>(mode)].push_back(mode_of(field, 0, {mode, 0, 0}));
   });
   run->simulation->run(3000);

@@ -100,7 +100,8 @@ Canvas box_of(double side, Projection const& from = {}) {
 }
 
 TEST(Spaces, MarksFallWhereTheirProjectionPutsThemToThePixel) {
-  for (auto const& [azimuth, elevation] : {std::array{35.0, 22.0}, {-90.0, 90.0}, {200.0, -30.0}, {0.0, 0.0}}) {
+  for (auto const& from : {std::array{35.0, 22.0}, {-90.0, 90.0}, {200.0, -30.0}, {0.0, 0.0}}) {
+    double const azimuth = from[0], elevation = from[1];
     Canvas space = box_of(10, {azimuth, elevation});
     Canvas::Cloud cloud;
     cloud.dimension = 3;

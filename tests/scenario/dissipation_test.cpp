@@ -292,7 +292,7 @@ TEST(Dissipation, WhatAPistonDoesIsPartOfTheEnergyBalance) {
   run->simulation->run(2000);
   Conserved const end = conserved(*run->simulation);
   EXPECT_EQ(start.work, 0);
-  EXPECT_NEAR(run->scheme->box().length(0), 6, 1e-9);
+  EXPECT_NEAR(run->box().length(0), 6, 1e-9);
   // Slowly and without loss from the length 10 to 6, with 10 k for each particle to heat: T rises by (10 / 6)^(1 / 10).
   double const work = 400 * 10 * (std::pow(10.0 / 6, 0.1) - 1);
   EXPECT_NEAR(end.work, 1.1 * work, 0.15 * work);  // a little more: it is not that slow
@@ -308,7 +308,7 @@ TEST(Dissipation, EnergyBalanceIsTheFirstColumnLessTheOthers) {
   run->simulation->run(20);
   Measures const measures = run->simulation->measure();
   std::vector<double> values;
-  run->diagnoses[0]->measure({run->simulation->ensembles(), run->scheme->box(), &measures, 1, 0, 20}, values);
+  run->diagnoses[0]->measure({run->simulation->ensembles(), run->box(), &measures, 1, 0, 20}, values);
   ASSERT_EQ(values.size(), run->diagnoses[0]->columns().size());
   EXPECT_GT(values[0], 100);
   EXPECT_EQ(values[1], 0);

@@ -553,7 +553,7 @@ std::vector<Mistake> const mesh_rows{
     {"mesh on a class without charge",
      with("charge = -1\n", "", with("\"Coulomb\"", "\"Newton\"", plasma_with(magnet, ""))),
      "19:6",
-     {"'electrons' is of class Newton", "no field", "Coulomb"}},
+     {"'electrons' is of class Newton", "'coulomb' does not act on", "Coulomb"}},
     {"mesh for nobody",
      with("charge = -1\n", "",
           with("\"Coulomb\"", "\"Newton\"", with("on = \"electrons\"\n[[e", "[[e", plasma_with(magnet, "")))),

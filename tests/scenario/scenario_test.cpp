@@ -50,10 +50,10 @@ void expect_same_bits(ScenarioSimulation const& a, ScenarioSimulation const& b) 
 std::vector<double> diagnosed(ScenarioSimulation& scenario) {
   std::vector<double> values;
   auto const measures = scenario.simulation->measure();
-  auto const mesh_fields = scenario.scheme->mesh_fields();
+  auto const mesh_fields = scenario.schemes.front()->mesh_fields();
   for (auto& diagnosis : scenario.diagnoses)
-    diagnosis->measure({scenario.simulation->ensembles(), scenario.scheme->box(), &measures, 1.0,
-                        scenario.simulation->time(), scenario.simulation->step(), mesh_fields},
+    diagnosis->measure({scenario.simulation->ensembles(), scenario.box(), &measures, 1.0, scenario.simulation->time(),
+                        scenario.simulation->step(), mesh_fields},
                        values);
   return values;
 }
@@ -119,7 +119,7 @@ TEST(Scenario, OverridesAreInTheStoredForm) {
   EXPECT_EQ(first->steps, 7);
   EXPECT_EQ(first->ensembles[0]->size(), 120U);
   EXPECT_EQ(first->simulation->seed(), 5U);
-  EXPECT_EQ(first->scheme->threads(), 1);
+  EXPECT_EQ(first->schemes.front()->threads(), 1);
   EXPECT_NEAR(first->pairs->cutoff(), 20 / 1.804, 1e-12);
   EXPECT_EQ(first->ensembles[0]->row(60)[3], 0.1);
   EXPECT_EQ(first->ensembles[0]->appearance.colour, "red");
@@ -158,7 +158,7 @@ TEST(Scenario, LoadsInTheBase) {
       "velocity = [[\"1 km/s\", 0, 0], [0, 0, 1]]\nload = { kind = \"positions\", positions = [[1, 1, 1], [\"1 nm\", "
       "2, 3]] }\n",
       "units.toml");
-  auto const& box = scenario->scheme->box();
+  auto const& box = scenario->box();
   EXPECT_EQ(box.boundary(0), Boundary::open);
   EXPECT_EQ(box.boundary(1), Boundary::reflecting);
   EXPECT_EQ(box.boundary(2), Boundary::periodic);
@@ -392,10 +392,10 @@ TEST(ShippedScenario, PendulumsFeelTheTorquesOfTheirEnergy) {
   p.row(0)[0] = 0.7;
   p.row(1)[0] = -0.4;
   auto const potential = [&] {
-    auto const measures = scenario->scheme->measure();
+    auto const measures = scenario->schemes.front()->measure();
     return measures.potential + measures.external;
   };
-  scenario->scheme->calculate();
+  scenario->schemes.front()->calculate();
   double const torque[] = {p.influence(0)[0], p.influence(1)[0]};
   double const h = 1e-5;
   for (std::size_t i = 0; i < 2; ++i) {

@@ -150,8 +150,8 @@ std::vector<Mistake> const rows{
     {"mesh and smooth",
      with("[smooth]", "[mesh]\nlaw = \"gravity\"\nG = 1\ncells = 8\n[smooth]",
           with("\"mirror\"", "\"periodic\"", with("[[box.walls]]\naxis = \"y\"\nend = \"low\"\nslips = false\n", ""))),
-     "14:1",
-     {"[smooth] and [mesh]", "one of them"}},
+     "10:1",
+     {"[mesh]: no ensemble makes a field", "with 'on' any other that has a mass"}},
     {"no scheme",
      with("[smooth]\nweight = \"wendland\"\nartificial_viscosity = { alpha = 1 }\n", "",
           with("{ courant = 0.5 }", "0.01",
@@ -160,11 +160,6 @@ std::vector<Mistake> const rows{
                     "", with("[[influences]]\n", "")))),
      "16:9",
      {"class Smooth", "[smooth]"}},
-    {"another class",
-     good + "[[ensembles]]\nname = \"atoms\"\nclass = \"Newton\"\nload = { kind = \"positions\", positions = [[1, "
-            "0.5]] }\n",
-     "36:9",
-     {"class Newton", "Smooth, Solid"}},
     {"heat shared with what keeps none",
      good +
          "[[ensembles]]\nname = \"water\"\nclass = \"Smooth\"\nrange = 0.3\nload = { kind = \"positions\", positions "

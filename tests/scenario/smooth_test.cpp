@@ -167,7 +167,7 @@ TEST(SmoothScenario, ReadsBackFromItsStoredFormToTheSameBits) {
 TEST(SmoothScenario, ChoosesACourantStepAndAsManyStepsAsATimeNeeds) {
   for (auto const& [step, part] : {std::pair<std::string, double>{"\"courant\"", 1}, {"{ courant = 0.25 }", 0.25}}) {
     auto const scenario = read(replaced(gas, "step = 0.002\nsteps = 5", "step = " + step + "\ntime = 0.5"));
-    double const longest = scenario->smooth->courant_step(), chosen = scenario->simulation->step_size();
+    double const longest = scenario->scheme<SmoothScheme>()->courant_step(), chosen = scenario->simulation->step_size();
     EXPECT_NEAR(chosen, part * longest, 1e-12 * longest);
     // 0.4 h / c (1 + 0.6 alpha) of the fastest, c = sqrt(1.4 * 0.4 / density) or less
     EXPECT_NEAR(longest, 0.4 * 0.15 / (std::sqrt(0.56) * (1 + 0.6 * 0.7)), 0.15 * longest);
@@ -382,7 +382,7 @@ TEST(SmoothScenario, FallsAndIsSlowed) {
 
 TEST(SmoothScenario, WallsAreThoseOfTheFile) {
   auto const scenario = read(gas);
-  Box const& box = scenario->scheme->box();
+  Box const& box = scenario->box();
   EXPECT_EQ(box.boundary(0), Boundary::periodic);
   EXPECT_EQ(box.boundary(1), Boundary::mirror);
   Wall const &low = box.wall(1, Box::End::low), &high = box.wall(1, Box::End::high);
@@ -393,8 +393,8 @@ TEST(SmoothScenario, WallsAreThoseOfTheFile) {
   EXPECT_EQ(low.temperature, 1.5);
   EXPECT_TRUE(std::isnan(high.temperature));
   auto const opened = read(replaced(gas, "end = \"high\"\nvelocity = [0, -0.1]", "end = \"high\"\nopen = true"));
-  EXPECT_FALSE(opened->scheme->box().walled(1, Box::End::high));
-  EXPECT_TRUE(opened->scheme->box().walled(1, Box::End::low));
+  EXPECT_FALSE(opened->box().walled(1, Box::End::high));
+  EXPECT_TRUE(opened->box().walled(1, Box::End::low));
   // The upper wall is a piston.
   scenario->simulation->run(100);
   EXPECT_NEAR(box.high(1), 2 - 0.1 * 0.2, 1e-12);

@@ -56,7 +56,7 @@ std::string with(std::string const& old, std::string const& now, std::string tex
 
 TEST(WallsScenario, APistonDrivesParticlesToAFreeSurface) {
   auto const scenario = parse_scenario(good, "test.toml");
-  Box const& box = scenario->scheme->box();
+  Box const& box = scenario->box();
   EXPECT_EQ(box.wall(0, Box::End::low).velocity, (std::array<double, 3>{2, 0, 0}));
   EXPECT_FALSE(box.walled(0, Box::End::high));
   Simulation& simulation = *scenario->simulation;
@@ -82,12 +82,12 @@ TEST(WallsScenario, VelocitiesHaveUnits) {
   auto text =
       with("base = \"reduced\"\n", "base = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n");
   text = with("velocity = [2, 0]", "velocity = [\"3000 m/s\", 0]", text);
-  EXPECT_NEAR(parse_scenario(text, "test.toml")->scheme->box().wall(0, Box::End::low).velocity[0], 30, 1e-12);
+  EXPECT_NEAR(parse_scenario(text, "test.toml")->box().wall(0, Box::End::low).velocity[0], 30, 1e-12);
 }
 
 TEST(WallsScenario, AMomentumMirrorIsTheWallAtRest) {
   auto const scenario = parse_scenario(with("velocity = [2, 0]\n", "slips = true\n"), "test.toml");
-  EXPECT_FALSE(scenario->scheme->box().walls_move());
+  EXPECT_FALSE(scenario->box().walls_move());
   scenario->simulation->run(100);
   EXPECT_EQ(scenario->simulation->measure().work, 0);
 }

@@ -10,17 +10,23 @@
 
 namespace boltzmann {
 
-/// Classes that a mesh can supervise: classical particles with a strength().
-template <class P>
-concept MeshParticle = std::is_same_v<typename P::Influence, Vector<P::dimension>> && requires(P const& p) {
-  { p.strength() } -> std::convertible_to<double>;
-  p.mass;
-  p.velocity;
+template <class Influence, int D>
+concept BeginsWithForce = requires(Influence const& influence) {
+  requires std::is_same_v<std::decay_t<decltype(influence.force)>, Vector<D>>;
 };
 
+/// Classes that a mesh can act on: particles with mass and velocity, whose influence is a force or begins with one.
+template <class P>
+concept ForcedParticle = requires(P const& p) {
+  p.mass;
+  p.velocity;
+}
+&&(std::is_same_v<typename P::Influence, Vector<P::dimension>> || BeginsWithForce<typename P::Influence, P::dimension>);
+
 struct MeshKind {
-  /// strength() of particles begin ... end-1.
+  /// strength() of particles begin ... end-1; of classes that have none the mass, which attracts.
   void (*strengths)(double const* rows, std::size_t begin, std::size_t end, double* strengths) = nullptr;
+  bool own = false;            ///< the class has a strength()
   double sign = 0;             ///< +1: equal strengths repel, -1: they attract, 0: the class does not say
   bool newton = false;         ///< equations of motion are Newton's, and no other field evolves
   int mass = 0, velocity = 0;  ///< where they stand in the row
@@ -29,11 +35,19 @@ struct MeshKind {
 template <class P>
 MeshKind mesh_kind() {
   MeshKind kind;
+  kind.own = requires(P const& p) { p.strength(); };
   kind.strengths = [](double const* rows, std::size_t begin, std::size_t end, double* strengths) {
     auto const* particles = reinterpret_cast<Row<P> const*>(rows);
-    for (std::size_t i = begin; i < end; ++i) strengths[i] = particles[i].strength();
+    for (std::size_t i = begin; i < end; ++i)
+      if constexpr (requires(P const& p) { p.strength(); })
+        strengths[i] = particles[i].strength();
+      else
+        strengths[i] = particles[i].mass;
   };
-  if constexpr (requires { P::sign; }) kind.sign = P::sign;
+  if constexpr (requires { P::sign; })
+    kind.sign = P::sign;
+  else if (!kind.own)
+    kind.sign = -1;
   kind.newton = detail::moves_as<Newton<P::dimension>, P>();
   kind.mass = offset_of<P>(&P::mass);
   kind.velocity = offset_of<P>(&P::velocity);

@@ -13,8 +13,9 @@ OptionTable make_mesh_options() {
   all.add_said("law", "coulomb with `k`, or gravity with `G`", "what the field is made by");
   all.add_said("k", "as of the law", "of `law = \"coulomb\"`", "that of nature");
   all.add_said("G", "as of the law", "of `law = \"gravity\"`", "that of nature");
-  all.add_said("on", "the name of an ensemble, or a list", "who makes the field and feels it",
-               "all whose class has a charge (a mass) for that law");
+  all.add_said("on", "the name of an ensemble, or a list",
+               "who makes the field and feels it; gravity is made by the mass of any class",
+               "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`");
   all.add_said("cells", "a whole number, or a list with one for each axis", "of the mesh",
                "needed, but with `accuracy`");
   all.add_of<M>(

@@ -5,6 +5,7 @@
 #include <boltzmann/schemes/mesh/step_task.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -246,8 +247,8 @@ void MeshScheme::add_influences(double time) {
   std::vector<double> E;
   for (auto const& loaded : loaded_) {
     AnyEnsemble& ensemble = *loaded->ensemble;
-    std::size_t const components = ensemble.influence_size();
-    if (!interpolation_ && quantum_ == 0) {
+    std::size_t const components = static_cast<std::size_t>(box().dimension()), stride = ensemble.influence_size();
+    if (!interpolation_ && quantum_ == 0 && stride == components) {
       if (ensemble.size() > 0) gather(work, *loaded, false, ensemble.influence(0), false);
       continue;
     }
@@ -262,8 +263,11 @@ void MeshScheme::add_influences(double time) {
       gather(work, *loaded, false, E.data(), true);
     }
     double const rounding = 1.5 * 4503599627370496.0 * quantum_;
-    for (std::size_t i = 0; i < E.size(); ++i)
-      ensemble.influence(0)[i] += quantum_ > 0 ? (E[i] + rounding) - rounding : E[i];
+    for (std::size_t i = 0; i < ensemble.size(); ++i)
+      for (std::size_t a = 0; a < components; ++a) {
+        double const e = E[i * components + a];
+        ensemble.influence(i)[a] += quantum_ > 0 ? (e + rounding) - rounding : e;
+      }
   }
 }
 
@@ -357,10 +361,10 @@ void MeshScheme::make_reversible(double quantum) {
 
 std::size_t MeshScheme::bytes() const { return pairs_.bytes() + (work_ ? work_->bytes() : 0); }
 
+std::string MeshScheme::summary() const { return fmt::format("mesh of {} cells", fmt::join(cells_, " x ")); }
+
 std::string MeshScheme::report() const {
-  std::string cells;
-  for (auto const n : cells_) cells += fmt::format("{}{}", cells.empty() ? "" : " x ", n);
-  std::string text = fmt::format("mesh of {} cells solved {} times", cells, solves_);
+  std::string text = fmt::format("mesh of {} cells solved {} times", fmt::join(cells_, " x "), solves_);
   if (auto const pairs = pairs_.report(); !pairs.empty()) text += "; " + pairs;
   return text;
 }

@@ -65,11 +65,11 @@ class MeshScheme : public Scheme {
   void precision(Precision precision) { precision_ = precision; }
   Precision precision() const { return precision_; }
 
-  /// The particles of an ensemble of any class with a strength() make the field and feel it.
+  /// The particles of an ensemble make the field and feel it: by their strength(), or under gravity by their mass if the
+  /// class has no other strength. Further schemes may act on the same ensemble (gravity on a gas of smooth particles).
   template <class P>
   void add(Ensemble<P>& ensemble) {
-    static_assert(MeshParticle<P>,
-                  "a mesh supervises classes that derive from Laplace: with a strength(), and a force as influence");
+    static_assert(ForcedParticle<P>, "a mesh acts on classes with mass and velocity, and a force as influence");
     add(ensemble, mesh_kind<P>());
   }
   /// For code that knows classes only at run time.
@@ -125,6 +125,7 @@ class MeshScheme : public Scheme {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
+  std::string summary() const override;
   std::string report() const override;
   std::vector<std::string> warnings(double step_size) override;
   std::vector<double> state() const override;

@@ -161,12 +161,8 @@ void P3MScheme::add_influences(double time) {
   near_->scheme.calculate(time);
   std::size_t at = 0;
   for (auto* ensemble : Scheme::ensembles()) {
-    std::size_t const components = ensemble->influence_size(), count = ensemble->size() * components;
-    if (count > 0) {
-      double const* from = near_->sources->influence(0) + at * components;
-      double* to = ensemble->influence(0);
-      for (std::size_t k = 0; k < count; ++k) to[k] += from[k];
-    }
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      for (int a = 0; a < box().dimension(); ++a) ensemble->influence(i)[a] += near_->sources->influence(at + i)[a];
     at += ensemble->size();
   }
 }

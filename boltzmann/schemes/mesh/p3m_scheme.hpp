@@ -31,6 +31,7 @@ class P3MScheme final : public MeshScheme {
   Measures measure(double time = 0) override;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
+  std::string summary() const override { return MeshScheme::summary() + ", and near pairs (P3M)"; }
   std::string report() const override;
   std::vector<std::string> warnings(double step_size) override;
   std::vector<double> state() const override;

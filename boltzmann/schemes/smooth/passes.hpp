@@ -41,6 +41,17 @@ struct RateSum {
   Real heating;      ///< de/dt
   Real compression;  ///< d rho / dt
 };
+// For compilers that don't deduce those of aggregates.
+template <class Real>
+DensitySum(Real) -> DensitySum<Real>;
+template <class Real>
+VariableDensitySum(Real, Real) -> VariableDensitySum<Real>;
+template <int D, class Real>
+GradientSum(Tensor<D, Real>, Vector<D, Real>) -> GradientSum<D, Real>;
+template <int D, class Real>
+AccelerationSum(Vector<D, Real>) -> AccelerationSum<D, Real>;
+template <int D, class Real>
+RateSum(Vector<D, Real>, Real, Real) -> RateSum<D, Real>;
 
 namespace detail {
 

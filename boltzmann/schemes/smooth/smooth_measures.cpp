@@ -111,6 +111,7 @@ Measures SmoothScheme::measure(double time) {
 
 double SmoothScheme::length_scale(AnyEnsemble const& ensemble) const {
   double shortest = infinite;
+  if (!supervises(ensemble)) return shortest;
   auto const offset = ensemble.field("range").offset;
   for (std::size_t i = 0; i < ensemble.size(); ++i) shortest = std::min(shortest, ensemble.row(i)[offset]);
   return smoothing_length(shape_) * shortest;
@@ -142,6 +143,7 @@ double SmoothScheme::courant_step() {
 }
 
 std::string SmoothScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  if (!supervises(ensemble)) return "";
   double const* p = ensemble.row(i);
   auto const value = [&](char const* name) { return p[ensemble.field(name).offset]; };
   if (value("specific_energy") < 0)

@@ -88,7 +88,7 @@ class SmoothScheme final : public Scheme {
   void add_influences(double time) override;
   void complete(double time) override;
   Measures measure(double time = 0) override;
-  bool velocity_dependent(AnyEnsemble const&) const override { return true; }
+  bool velocity_dependent(AnyEnsemble const& ensemble) const override { return supervises(ensemble); }
   double length_scale(AnyEnsemble const& ensemble) const override;
   double longest_step() override { return courant_step(); }
   double sound_step() const override;
@@ -96,6 +96,7 @@ class SmoothScheme final : public Scheme {
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
   std::vector<std::string> warnings(double step_size) override;
+  std::string summary() const override { return "smooth particles, weight " + to_string(shape_); }
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

@@ -1,0 +1,77 @@
+// The table of schemes: a further one has its reader, and an entry here. Influences of all that a scenario has add up.
+#include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/scenario/schemes.hpp>
+#include <boltzmann/schemes/mesh/mesh_options.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
+#include <boltzmann/schemes/smooth/smooth_options.hpp>
+
+#include <algorithm>
+
+namespace boltzmann {
+
+std::vector<SchemeEntry> const& scheme_entries() {
+  static MeshOptions mesh;
+  static SmoothOptions smooth;
+  static RezoneOptions rezone;
+  static std::vector<SchemeEntry> const all = {
+      {{"mesh", "[mesh]", "charges or masses influence each other through a field on a mesh", &mesh_options(), &mesh},
+       {},
+       read_mesh,
+       load_mesh},
+      {{"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
+       {{"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
+         &rezone_options(), &rezone}},
+       read_smooth,
+       load_smooth}};
+  return all;
+}
+
+void read_schemes(Section& document, Reading& reading) {
+  for (auto const& entry : scheme_entries()) {
+    std::size_t const before = reading.context.mistakes.count();
+    Item const* table = find_table(document, entry.told.name);
+    if (reading.context.mistakes.count() != before) reading.mesh.usable = false;  // it may be meant to be a mesh
+    if (!table) continue;
+    reading.schemes.emplace_back(&entry, table);
+    entry.read(*table, reading);
+  }
+  for (auto const& scheme : reading.result->schemes) scheme->threads(reading.run.threads);
+}
+
+namespace {
+
+/// What acts between particles that are not smooth, and on them; a mesh has its own.
+void load_pairs(Reading& reading) {
+  ScenarioSimulation& result = *reading.result;
+  bool const needed =
+      !reading.smooth.wanted || std::any_of(reading.ensembles.begin(), reading.ensembles.end(),
+                                            [](ReadEnsemble const& ensemble) { return !ensemble.smooth(); });
+  if (auto* mesh = result.scheme<MeshScheme>()) {
+    result.pairs = &mesh->pairs();
+  } else if (needed && reading.box) {
+    auto pairs = std::make_unique<PairScheme>(*reading.box, reading.run.cutoff.value_or(no_cutoff));
+    pairs->threads(reading.run.threads);
+    result.pairs = pairs.get();
+    result.schemes.push_back(std::move(pairs));
+  }
+  if (!needed && reading.run.cutoff)
+    reading.mistake(reading.run.cutoff_place,
+                    "cutoff: smooth particles act as far as their 'range', a field of the ensembles; leave it out");
+  if (!needed && reading.run.skin)
+    reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
+  if (!result.pairs) return;
+  if (reading.run.skin) result.pairs->skin(*reading.run.skin);
+  // Those that no law acts on are supervised, too.
+  for (auto const& ensemble : reading.ensembles)
+    if (ensemble.particles && !ensemble.smooth())
+      catch_errors(reading, ensemble.place, [&] { result.pairs->add(*ensemble.particles); });
+}
+
+}  // namespace
+
+void load_schemes(Reading& reading) {
+  for (auto const& [entry, table] : reading.schemes) entry->load(*table, reading);
+  load_pairs(reading);
+}
+
+}  // namespace boltzmann
