@@ -89,7 +89,8 @@ TEST(HostileText, OnlyRegularFilesAreRead) {
       {"text", [](auto const& path) { read_text(path); }},
       {"checkpoint", [](auto const& path) { read_checkpoint(path); }},
       {"trajectory", [](auto const& path) { TrajectoryReader const reader(path); }}};
-  for (auto const& [name, read] : readers) {
+  for (auto const& [name, one] : readers) {
+    auto const& read = one;
     for (std::string const& path : {std::string("/dev/zero"), std::string("/dev/null"), pipe})
       EXPECT_EQ(message([&] { read(path); }), "'" + path + "' is a device or a pipe, not a file") << name;
     EXPECT_EQ(message([&] { read(folder.string()); }), "'" + folder.string() + "' is a directory, not a file") << name;

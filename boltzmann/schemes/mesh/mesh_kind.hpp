@@ -17,11 +17,11 @@ concept BeginsWithForce = requires(Influence const& influence) {
 
 /// Classes that a mesh can act on: particles with mass and velocity, whose influence is a force or begins with one.
 template <class P>
-concept ForcedParticle = requires(P const& p) {
+concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimension>> ||
+                          BeginsWithForce<typename P::Influence, P::dimension>)&&requires(P const& p) {
   p.mass;
   p.velocity;
-}
-&&(std::is_same_v<typename P::Influence, Vector<P::dimension>> || BeginsWithForce<typename P::Influence, P::dimension>);
+};
 
 struct MeshKind {
   /// strength() of particles begin ... end-1; of classes that have none the mass, which attracts.
