@@ -123,8 +123,8 @@ struct Pack {
 
   /// a where the condition holds, else b.
   friend Pack select(Mask<Real, W> condition, Pack a, Pack b) { return condition.native ? a.native : b.native; }
-  friend Pack min(
-      Pack a, Pack b) {  // the instructions (clang finds them itself) give the second operand where one is NaN: here a
+  // The instructions, which clang finds itself, give the second operand where one is NaN: here a.
+  friend Pack min(Pack a, Pack b) {
 #if defined(__AVX512F__) && !defined(__clang__)
     if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
       return __builtin_ia32_minpd512_mask(b.native, a.native, a.native, -1, 4);
