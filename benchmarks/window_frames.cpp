@@ -120,7 +120,7 @@ struct Liquid {
 template <class System>
 void report(char const* name, std::size_t count, double seconds) {
   System system(count);
-  Window window(*system.simulation, Base::reduced(), {.quiet = true});
+  Window window(*system.simulation, UnitSystem::reduced(), {.quiet = true});
   std::thread run([&] { window.run(1'000'000'000'000); });
   Browser control(window, 1, false);  // has had its first frame, and asks for no other
   control.say({{"do", "set"}, {"steps_per_frame", 0}});

@@ -5,7 +5,7 @@
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/core/tensor.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/measures.hpp>

@@ -6,7 +6,7 @@ using namespace boltzmann::units;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/atmosphere-cpp", [](Program& program) {
-    Base const base(kilometer, amu, second);
+    UnitSystem const base(kilometer, amu, second);
     double const k = base(constants::boltzmann), g = base(constants::standard_gravity), temperature = 288;
 
     Box const box(Vector{0.0, 0.0}, Vector{20.0, 60.0}, {Boundary::periodic, Boundary::reflecting});

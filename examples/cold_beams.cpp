@@ -38,7 +38,7 @@ void run(double a, std::string const& folder) {
     if (s.step() >= 325 && s.step() <= 625) late = std::max(late, field);
   });
 
-  Recording recording(simulation, Base::reduced(), folder, true);
+  Recording recording(simulation, UnitSystem::reduced(), folder, true);
   recording.diagnoses(4, {"energies", "field-energy"});
   recording.trajectory(80);
   recording.picture({.drawing = "phase-space", .x = "position.x", .y = "velocity.x"});

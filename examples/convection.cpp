@@ -47,15 +47,10 @@ int main(int argc, char** argv) try {
   Simulation simulation(scheme, step);
   simulation.integrate(particles, Method::leap_frog);
 
-  auto nusselt =
-      std::make_unique<HeatFlux>(std::vector<AnyEnsemble const*>{&particles},
-                                 HeatFluxOptions{.axis = 1, .conductivity = conductivity, .since = duration / 2});
-  HeatFlux const& flux = *nusselt;
-  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/convection-cpp", true);
+  Recording recording(simulation, UnitSystem::reduced(), argc > 1 ? argv[1] : "results/convection-cpp", true);
   recording.diagnoses(10, {"energies"});
-  std::vector<std::unique_ptr<Diagnosis>> more;
-  more.push_back(std::move(nusselt));
-  recording.diagnoses(10, std::move(more));
+  auto const& flux =
+      recording.diagnose(10, HeatFlux({&particles}, {.axis = 1, .conductivity = conductivity, .since = duration / 2}));
   recording.picture({.drawing = "map", .y = "temperature"});
   recording.picture({.drawing = "contours", .y = "temperature", .file = "contours.png"});
   run_with_progress(recording, static_cast<std::uint64_t>(duration / step));

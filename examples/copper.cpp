@@ -15,7 +15,7 @@ struct Atom : Newton<2, Real> {
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/copper-cpp", [](Program& program) {
-    Base const base(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
+    UnitSystem const base(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
     double const r0 = base(2.551 * angstrom);
     double const depth = base(0.1 * electronvolt);
     double const kappa = base(0.2 * electronvolt / (angstrom * angstrom));

@@ -49,11 +49,8 @@ int main(int argc, char** argv) {
     simulation.integrate(column);
 
     Recording recording = program.recording(simulation);
-    std::vector<std::unique_ptr<Diagnosis>> instruments;
-    instruments.push_back(std::make_unique<Front>(width, gravity, spacing / 2));
-    auto const& front = static_cast<Front const&>(*instruments.front());
     recording.diagnoses(10, {"energies"});
-    recording.diagnoses(10, std::move(instruments));
+    auto const& front = recording.diagnose(10, Front(width, gravity, spacing / 2));
     recording.picture({.colour = "pressure"});
     program.run(recording, static_cast<std::uint64_t>(5.4 / std::sqrt(2 * gravity / width) / step));
 

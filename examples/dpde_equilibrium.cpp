@@ -10,7 +10,7 @@ using namespace boltzmann::units;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/dpde-equilibrium-cpp", [](Program& program) {
-    Base const base(1 * angstrom, 1 * amu, 1 * picosecond);
+    UnitSystem const base(1 * angstrom, 1 * amu, 1 * picosecond);
     double const k = base(constants::boltzmann), spacing = base(5.13 * angstrom), cutoff = base(15 * angstrom);
     LatticeBlock const block{Lattice::triangular, spacing, {30, 30, 1}};
     Ensemble<Meso<2>> molecules("molecules", site_count(block, 2));

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
 
     Recording recording = program.recording(simulation);
     recording.diagnoses(10, {"energies", "temperature", "field-energy"});
-    recording.diagnoses(10, WaveSpectrum("field.x", 0, 16));
+    recording.diagnose(10, WaveSpectrum("field.x", 0, 16));
     recording.trajectory(1000);
     // Over the waves' power: sqrt(wp^2 + wc^2), and wc itself. Between its multiples lie the waves of Bernstein.
     double const upper_hybrid = std::sqrt(1 + cyclotron_frequency * cyclotron_frequency);

@@ -15,7 +15,7 @@ struct Point {
   double compression;
 };
 
-Point shock(Base const& base, std::string const& folder, double piston) {
+Point shock(UnitSystem const& base, std::string const& folder, double piston) {
   double const k = base(constants::boltzmann), cutoff = base(15 * angstrom);
   LatticeBlock const block{Lattice::triangular, base(5.13 * angstrom), {200, 10, 1}, {2.5, 2, 0}};
   Ensemble<Meso<2>> polymer("polymer", site_count(block, 2));
@@ -49,9 +49,7 @@ Point shock(Base const& base, std::string const& folder, double piston) {
   std::vector<AnyEnsemble const*> const matter{&polymer};
   auto const steps = static_cast<std::uint64_t>(0.9 * length[0] / (40 + 1.6 * piston) / simulation.step_size());
   Recording recording(simulation, base, folder + "/" + std::to_string(std::lround(100 * piston)), true);
-  auto instrument = std::make_unique<Shock>(matter, ShockOptions{.since = 4});
-  Shock const& measured = *instrument;
-  recording.diagnoses(25, std::move(instrument));
+  auto const& measured = recording.diagnose(25, Shock(matter, {.since = 4}));
   recording.picture({.drawing = "profile", .y = "velocity.x"});
   run_with_progress(recording, steps);
   double const us = measured.line().slope.mean;
@@ -60,7 +58,7 @@ Point shock(Base const& base, std::string const& folder, double piston) {
 
 int main(int argc, char** argv) try {
   std::string const folder = argc > 1 ? argv[1] : "results/hugoniot-cpp";
-  Base const base(1 * angstrom, 1 * amu, 1 * picosecond);
+  UnitSystem const base(1 * angstrom, 1 * amu, 1 * picosecond);
   std::vector<Point> points;
   for (double const speed : {1500, 2000, 3000}) points.push_back(shock(base, folder, base(speed * meter / second)));
   std::vector<double> pistons, shocks;

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
 
     Recording recording = program.recording(simulation);
     recording.diagnoses(10, {"energies"});
-    recording.diagnoses(10, WaveSpectrum("field.x", 0, 32));
+    recording.diagnose(10, WaveSpectrum("field.x", 0, 32));
     recording.trajectory(2000);
     // The branch of Bohm and Gross, omega^2 = wp^2 + 3 k^2 kT/m, over the power that was seen.
     recording.picture({.drawing = "wave-spectrum", .curves = {{1, std::sqrt(3.0)}}});

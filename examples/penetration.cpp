@@ -6,7 +6,7 @@ using namespace boltzmann::units;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/penetration-cpp", [](Program& program) {
-    Base const base(1 * centimeter, 1 * gram, 1e-6 * second);
+    UnitSystem const base(1 * centimeter, 1 * gram, 1e-6 * second);
     auto const pressure = [](double gigapascal) { return 0.01 * gigapascal; };  // in g / (cm microsecond^2)
     double const density = 7.85, sound = 0.46, spacing = 0.05, speed = 0.15;
 

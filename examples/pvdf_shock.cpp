@@ -11,7 +11,7 @@ using namespace boltzmann;
 using namespace boltzmann::units;
 
 void shock(std::string const& folder, bool coupled) {
-  Base const base(1 * angstrom, 1 * amu, 1 * picosecond);
+  UnitSystem const base(1 * angstrom, 1 * amu, 1 * picosecond);
   double const k = base(constants::boltzmann), cutoff = base(15 * angstrom);
   LatticeBlock const block{Lattice::triangular, base(5.13 * angstrom), {260, 12, 1}, {2.5, 2, 0}};
   Ensemble<Meso<2>> polymer("polymer", site_count(block, 2));
@@ -43,7 +43,8 @@ void shock(std::string const& folder, bool coupled) {
 
   Recording recording(simulation, base, folder, true);
   std::vector<AnyEnsemble const*> const matter{&polymer};
-  recording.diagnoses(50, Slab(matter, {.from = 500, .to = 550}), Shock(matter, {.since = 3}));
+  recording.diagnose(50, Slab(matter, {.from = 500, .to = 550}));
+  recording.diagnose(50, Shock(matter, {.since = 3}));
   recording.diagnoses(50, {"energy-balance"});
   recording.trajectory(500);
   recording.picture({.drawing = "time-series", .y = "slab kinetic temperature x, slab internal temperature"});

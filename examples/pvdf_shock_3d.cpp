@@ -10,7 +10,7 @@ using namespace boltzmann::units;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/pvdf-shock-3d-cpp", [](Program& program) {
-    Base const base(1 * angstrom, 1 * amu, 1 * picosecond);
+    UnitSystem const base(1 * angstrom, 1 * amu, 1 * picosecond);
     double const k = base(constants::boltzmann), cutoff = base(12 * angstrom);
     LatticeBlock const block{Lattice::fcc, base(5.05 * angstrom), {40, 4, 4}, {2, 1.5, 1.5}};
     Ensemble<Meso<3>> polymer("polymer", site_count(block, 3));
@@ -43,9 +43,7 @@ int main(int argc, char** argv) {
 
     std::vector<AnyEnsemble const*> const matter{&polymer};
     Recording recording = program.recording(simulation, base);
-    auto instrument = std::make_unique<Shock>(matter, ShockOptions{.since = 0.8});
-    Shock const& measured = *instrument;
-    recording.diagnoses(20, std::move(instrument));
+    auto const& measured = recording.diagnose(20, Shock(matter, {.since = 0.8}));
     recording.diagnoses(20, {"energy-balance"});
     recording.trajectory(300);
     recording.picture({.colour = "temperature"});

@@ -6,7 +6,7 @@ using namespace boltzmann::units;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/rod-cpp", [](Program& program) {
-    Base const base = Base::si();
+    UnitSystem const base = UnitSystem::si();
     double const area = 1, spacing = 0.05, density = 8.96e3, young = base(120 * gigapascal);
     std::size_t const count = 100;
 

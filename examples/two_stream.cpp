@@ -7,7 +7,7 @@ using namespace boltzmann;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/two-stream-cpp", [](Program& program) {
-    Base const base = Base::cgs();
+    UnitSystem const base = UnitSystem::cgs();
     double const length = 1e6, k = base(constants::boltzmann), temperature = 16000;
     double const charge = base(constants::elementary_charge), electron = base(constants::electron_mass);
     double const thermal_velocity = std::sqrt(k * temperature / electron);

@@ -25,7 +25,7 @@ int main(int argc, char** argv) try {
   simulation.integrate(light, Method::leap_frog);
   simulation.integrate(heavy, Method::leap_frog);
 
-  Recording recording(simulation, Base::reduced(), argc > 1 ? argv[1] : "results/window-cpp", true);
+  Recording recording(simulation, UnitSystem::reduced(), argc > 1 ? argv[1] : "results/window-cpp", true);
   recording.diagnoses(10, {"energies", "temperature"});
   recording.trajectory(50);
   recording.picture({.colour = "speed"});

@@ -18,7 +18,7 @@ namespace {
 
 constexpr char const* axis_name = "xyz";
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t grain = 2048, worth_threads = 1U << 13U;  // particles
+constexpr std::size_t grain = 2048;  // particles
 
 std::string who(AnyEnsemble const& particles, std::size_t i) {
   return fmt::format("particle {} of '{}'", i, particles.name());
@@ -385,7 +385,7 @@ double Box::apply(AnyEnsemble& particles, int threads) const {
   Reflection const reflection(*this, particles);
   // Added up by grains, in their order, whichever threads have done them.
   std::vector<double> works(walls_move_ && !held_ ? (particles.size() + grain - 1) / grain : 0);
-  for_ranges(particles.size(), grain, particles.size() < worth_threads ? 1 : threads,
+  for_ranges(particles.size(), grain, threads_for(particles.size(), 1, threads),
              [&](std::size_t begin, std::size_t end) {
                if (works.empty())
                  reflection.at_ends(begin, end);

@@ -2,7 +2,7 @@
 // parentheses.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>
 
 #include <fmt/format.h>
@@ -401,7 +401,7 @@ TextQuantity parse_quantity(std::string_view text) {
   }
 }
 
-double in_base(std::string_view text, Dimension wanted, Base const& base) {
+double in_base(std::string_view text, Dimension wanted, UnitSystem const& base) {
   auto const quantity = parse_quantity(text);
   if (!quantity.has_unit) return quantity.si;
   if (quantity.dimension != wanted) {

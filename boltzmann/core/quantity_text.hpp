@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-class Base;
+class UnitSystem;
 
 struct TextQuantity {
   double si;            ///< the value in SI; the number itself where there is no unit
@@ -43,7 +43,7 @@ TextQuantity parse_quantity(std::string_view text);
 /// Reads a quantity, checks its dimension, and gives the plain number in the base. A number without a unit is taken as
 /// already in the base's units. Throws Error: what parse_quantity says, "'2.551 angstrom' is a length, a mass is needed
 /// (e.g. 'kg', 'amu')", a unit in a reduced base, or a number beyond the range of double.
-double in_base(std::string_view text, Dimension wanted, Base const& base);
+double in_base(std::string_view text, Dimension wanted, UnitSystem const& base);
 
 /// "an energy", "a length".
 std::string with_article(std::string const& noun);

@@ -14,6 +14,12 @@ void parallel_ranges(std::size_t size, std::size_t grain, int threads, void cons
                      void (*call)(void const* function, std::size_t begin, std::size_t end));
 }
 
+/// How many of these threads pay for a loop over so many items: one where all is done before others are awake. `work` is
+/// that of one item: 1 for a particle that an integrator moves, 1/8 for a near pair.
+constexpr int threads_for(std::size_t items, double work, int threads) {
+  return static_cast<double>(items) * work < 8192 ? 1 : threads;
+}
+
 /// Calls function(begin, end) for ranges of `grain` items that cover [0, size), on `threads` threads; on the caller's
 /// thread if there is only one range or thread. Which thread takes which range is open, so a function must write only
 /// what belongs to its own items; then the result has the same bits for any number of threads. An exception in a range

@@ -5,7 +5,7 @@
 
 namespace boltzmann {
 
-std::string refusal(Diagnosis const& diagnosis, Measures const& measures) {
+std::string refusal(Diagnosis const& diagnosis, EnergyAndVirial const& measures) {
   std::string const what = diagnosis.columns().empty() ? "" : diagnosis.columns().front().name;
   if (diagnosis.needs_energies() && !measures.unknown.empty())
     return fmt::format("the diagnosis of '{}' needs energies, and {} gives none", what, measures.unknown);

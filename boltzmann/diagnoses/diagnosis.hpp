@@ -21,8 +21,8 @@ struct Column {
 struct Sample {
   std::span<AnyEnsemble* const> ensembles;
   Box const& box;
-  Measures const* measures;   ///< energies and virial; null unless the diagnosis needs one of them
-  double boltzmann_constant;  ///< in the simulation's base
+  EnergyAndVirial const* measures;  ///< energies and virial; null unless the diagnosis needs one of them
+  double boltzmann_constant;        ///< in the simulation's base
   double time;
   std::int64_t step;
   std::span<MeshField const* const> mesh_fields = {};  ///< empty unless the diagnosis needs_mesh()
@@ -48,6 +48,6 @@ class Diagnosis {
 };
 
 /// Why a simulation with such measures can't give what the diagnosis needs, in one line; empty if it can.
-std::string refusal(Diagnosis const& diagnosis, Measures const& measures);
+std::string refusal(Diagnosis const& diagnosis, EnergyAndVirial const& measures);
 
 }  // namespace boltzmann

@@ -19,7 +19,7 @@ void EnergyBalance::measure(Sample const& sample, std::vector<double>& values) {
     values.insert(values.end(), {nan, nan, nan, nan});
     return;
   }
-  Measures const& m = *sample.measures;
+  EnergyAndVirial const& m = *sample.measures;
   double const energy =
       m.unknown.empty() ? kinetic_energy(sample.ensembles) + m.potential + m.external + m.internal : nan;
   values.insert(values.end(), {energy, m.work, m.heat, energy - m.work - m.heat});

@@ -9,7 +9,7 @@ namespace boltzmann {
 
 /// Columns: the energy of all particles (kinetic, potential, external and internal), the work of moving walls and the
 /// heat of baths since the start of the run, and the balance, the first less the others, which a run conserves. Where a
-/// law gives no energy (Measures::unknown), the first and the last are NaN.
+/// law gives no energy (EnergyAndVirial::unknown), the first and the last are NaN.
 class EnergyBalance final : public Diagnosis {
  public:
   std::vector<Column> columns() const override;

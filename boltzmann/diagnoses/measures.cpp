@@ -168,14 +168,14 @@ Tensor3 kinetic_stress(Ensembles of) {
   return {value_of(sum[0]), value_of(sum[1]), value_of(sum[2])};
 }
 
-Tensor3 pressure_tensor(Ensembles of, Measures const& measures, Box const& box) {
+Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box) {
   Tensor3 tensor = kinetic_stress(of);
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) tensor[a][b] = (tensor[a][b] + measures.virial[a][b]) / box.volume();
   return tensor;
 }
 
-double pressure(Ensembles of, Measures const& measures, Box const& box) {
+double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box) {
   Tensor3 const tensor = pressure_tensor(of, measures, box);
   double trace = 0;
   for (int a = 0; a < box.dimension(); ++a) trace += tensor[a][a];

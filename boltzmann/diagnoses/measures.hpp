@@ -76,9 +76,9 @@ Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_d
 Tensor3 kinetic_stress(Ensembles of);
 /// (Sum m v v + virial) / V, V the volume of the box (area in 2D, length in 1D): the virial of all influences between
 /// particles. Meaningful where particles fill the box.
-Tensor3 pressure_tensor(Ensembles of, Measures const& measures, Box const& box);
+Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box);
 /// (Sum m v.v + trace of the virial) / (D V)
-double pressure(Ensembles of, Measures const& measures, Box const& box);
+double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box);
 
 // ---- Groups of particles ----
 

@@ -97,7 +97,7 @@ void MomentSums::restore(std::span<double const> state) {
 
 // ---- Particles ----
 
-MassiveParticles::MassiveParticles(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
+MassiveParticles::MassiveParticles(std::span<AnyEnsemble const* const> ensembles, EnergyAndVirial const* measures,
                                    std::vector<std::string> const& chosen) {
   for (std::size_t e = 0; e < ensembles.size(); ++e) {
     AnyEnsemble const& ensemble = *ensembles[e];

@@ -37,7 +37,7 @@ class MomentSums {
     double const* velocity;             ///< dimension components
     double internal_energy, potential;  ///< NaN: unknown
     double temperature;                 ///< NaN: its class has none
-    double const* virial;               ///< nine numbers (Measures::virial_per_particle); null: unknown
+    double const* virial;               ///< nine numbers (EnergyAndVirial::virial_per_particle); null: unknown
   };
   void add(Body const& body, int dimension);
   void add_volume(double volume) { volume_ += volume; }
@@ -64,7 +64,7 @@ class MassiveParticles {
  public:
   /// `measures` may be null: then energies and pressures are unknown. `chosen` names the ensembles that count; empty:
   /// all.
-  MassiveParticles(std::span<AnyEnsemble const* const> ensembles, Measures const* measures,
+  MassiveParticles(std::span<AnyEnsemble const* const> ensembles, EnergyAndVirial const* measures,
                    std::vector<std::string> const& chosen = {});
 
   struct Source {

@@ -1,4 +1,5 @@
 // The exact step of friction and noise on single particles.
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 
 #include <boltzmann/core/compensated_sum.hpp>
@@ -53,7 +54,7 @@ void LangevinBath::advance(StepContext const& context) {
     int const mass = ensemble.field("mass").offset, velocity = ensemble.field("velocity").offset;
     int const dimension = ensemble.dimension();
     std::vector<double> heat(ensemble.size() / grain + 1, 0.0);
-    for_ranges(ensemble.size(), grain, ensemble.size() < 2 * grain ? 1 : threads(),
+    for_ranges(ensemble.size(), grain, threads_for(ensemble.size(), 2, threads()),
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t i = begin; i < end; ++i) {
                    double* row = ensemble.row(i);

@@ -2,6 +2,7 @@
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
 
@@ -198,7 +199,7 @@ bool PairDissipation::take_points() {
     for (int a = 0; a < dimension; ++a)
       if (box.periodic(a)) half[a] = 0.5 * box.length(a);
     m.points.resize(m.stride() * (total + 1));
-    int const threads = worth_threads(owned, particles_worth_threads / 2, this->threads());
+    int const threads = threads_for(owned, 2, this->threads());
     StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
     for_ranges(owned, dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -292,10 +293,9 @@ void PairDissipation::take_lists() {
     }
     c.builds = neighbourhood.builds();
     c.moves = neighbourhood.moves();
-    for_ranges(chunks.size(), 1, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
-               [&](std::size_t first, std::size_t last) {
-                 for (std::size_t n = first; n < last; ++n) c.take_chunk(chunks[n], list);
-               });
+    for_ranges(chunks.size(), 1, threads_for(m.owned(), 2, threads()), [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) c.take_chunk(chunks[n], list);
+    });
   }
 }
 

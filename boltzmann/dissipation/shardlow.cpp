@@ -1,6 +1,7 @@
 // Shardlow's splitting: one pair after the other, each by an implicit step that keeps its momentum and its energy (Shardlow).
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
 #include <boltzmann/dissipation/strength.hpp>
 
@@ -246,7 +247,7 @@ void PairDissipation::for_dissipating(Function const& function) {
   for (auto& member : members_) {
     Member& m = *member;
     if (!m.dissipates) continue;
-    for_ranges(m.owned(), dissipation_chunk, worth_threads(m.owned(), particles_worth_threads / 2, threads()),
+    for_ranges(m.owned(), dissipation_chunk, threads_for(m.owned(), 2, threads()),
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t k = begin; k < end; ++k) function(m, k);
                });
@@ -265,17 +266,15 @@ void PairDissipation::shardlow(StepContext const& context) {
   std::size_t particles = 0;
   for (auto const& member : members_) particles += member->dissipates ? member->owned() : 0;
   for (auto const& colour : splitting.colours)
-    for_ranges(colour.size(), 1, worth_threads(particles, particles_worth_threads / 4, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t e = begin; e < end; ++e) {
-                   Splitting::Edge& edge = splitting.edges[colour[e]];
-                   edge.heat = 0;
-                   edge.proposed = edge.refused = 0;
-                   for (auto const& part : edge.parts)
-                     splitting.run(edge, part, part.coupling->noise(context, boltzmann_constant_, number()),
-                                   metropolis_, context);
-                 }
-               });
+    for_ranges(colour.size(), 1, threads_for(particles, 4, threads()), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) {
+        Splitting::Edge& edge = splitting.edges[colour[e]];
+        edge.heat = 0;
+        edge.proposed = edge.refused = 0;
+        for (auto const& part : edge.parts)
+          splitting.run(edge, part, part.coupling->noise(context, boltzmann_constant_, number()), metropolis_, context);
+      }
+    });
   for (auto const& edge : splitting.edges) {
     heat_ += edge.heat;
     proposed_ += edge.proposed;

@@ -1,5 +1,6 @@
 // The simultaneous dissipation: all pairs at once, then every particle gets back as heat what its motion has lost.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
 
 #include <fmt/format.h>
@@ -30,22 +31,20 @@ void PairDissipation::each_chunk(StepContext const& context, double asymmetry, F
       task.noise = c.noise(context, boltzmann_constant_, number());
       tasks.emplace_back(task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected));
     }
-    for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 4, threads()),
-               [&](std::size_t first, std::size_t last) {
-                 AlignedVector<double> sums;
-                 for (std::size_t chunk = first; chunk < last; ++chunk) {
-                   std::size_t const begin = chunk * dissipation_chunk,
-                                     end = std::min(begin + dissipation_chunk, m.owned());
-                   sums.assign(4 * (end - begin + 1), 0.0);
-                   for (auto [task, kernels] : tasks) {
-                     task.begin = begin;
-                     task.end = end;
-                     task.sums = sums.data();
-                     kernels->simultaneous(task);
-                   }
-                   function(m, chunk, sums.data());
-                 }
-               });
+    for_ranges(m.chunks(), 1, threads_for(m.owned(), 4, threads()), [&](std::size_t first, std::size_t last) {
+      AlignedVector<double> sums;
+      for (std::size_t chunk = first; chunk < last; ++chunk) {
+        std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
+        sums.assign(4 * (end - begin + 1), 0.0);
+        for (auto [task, kernels] : tasks) {
+          task.begin = begin;
+          task.end = end;
+          task.sums = sums.data();
+          kernels->simultaneous(task);
+        }
+        function(m, chunk, sums.data());
+      }
+    });
   }
 }
 
@@ -67,8 +66,7 @@ void PairDissipation::simultaneous(StepContext const& context) {
       std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
     });
     for (auto& member : members_)
-      if (member->dissipates)
-        member->take_mean_velocities(worth_threads(member->owned(), particles_worth_threads / 2, threads()));
+      if (member->dissipates) member->take_mean_velocities(threads_for(member->owned(), 2, threads()));
   }
   std::vector<std::vector<double>> paid;  // by the bath, for each chunk
   for (auto const& member : members_) paid.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);

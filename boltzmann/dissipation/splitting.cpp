@@ -1,4 +1,5 @@
 // The order of pairs: chunks, edges between them, colours.
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
 
 #include <algorithm>
@@ -24,25 +25,24 @@ void PairDissipation::Splitting::take_pairs(Neighbourhood const& neighbourhood,
     if (!c.first) continue;
     Member const &m = *c.target, &other = *c.source;
     NeighbourList const& list = neighbourhood.list(c.list);
-    for_ranges(m.chunks(), 1, worth_threads(m.owned(), particles_worth_threads / 4, threads),
-               [&](std::size_t first, std::size_t last) {
-                 for (std::size_t chunk = first; chunk < last; ++chunk) {
-                   auto& edges_from = found[m.first_chunk + chunk];
-                   std::size_t const end = std::min((chunk + 1) * dissipation_chunk, m.owned());
-                   for (std::size_t k = chunk * dissipation_chunk; k < end; ++k) {
-                     std::uint32_t const* j = list.rows()[k];
-                     for (std::uint32_t const* const stop = j + list.lengths(list_rings - 1)[k]; j < stop; ++j) {
-                       std::uint32_t const seen = *j / 4;
-                       if (seen == other.copy->sentinel()) continue;
-                       std::uint32_t const second = other.copy->owner(seen);
-                       if (c.same() && second <= k) continue;
-                       auto& parts = edges_from[other.first_chunk + second / dissipation_chunk];
-                       if (parts.empty() || parts.back().coupling != &c) parts.push_back({&c, {}});
-                       parts.back().pairs.push_back({static_cast<std::uint32_t>(k), second, seen});
-                     }
-                   }
-                 }
-               });
+    for_ranges(m.chunks(), 1, threads_for(m.owned(), 4, threads), [&](std::size_t first, std::size_t last) {
+      for (std::size_t chunk = first; chunk < last; ++chunk) {
+        auto& edges_from = found[m.first_chunk + chunk];
+        std::size_t const end = std::min((chunk + 1) * dissipation_chunk, m.owned());
+        for (std::size_t k = chunk * dissipation_chunk; k < end; ++k) {
+          std::uint32_t const* j = list.rows()[k];
+          for (std::uint32_t const* const stop = j + list.lengths(list_rings - 1)[k]; j < stop; ++j) {
+            std::uint32_t const seen = *j / 4;
+            if (seen == other.copy->sentinel()) continue;
+            std::uint32_t const second = other.copy->owner(seen);
+            if (c.same() && second <= k) continue;
+            auto& parts = edges_from[other.first_chunk + second / dissipation_chunk];
+            if (parts.empty() || parts.back().coupling != &c) parts.push_back({&c, {}});
+            parts.back().pairs.push_back({static_cast<std::uint32_t>(k), second, seen});
+          }
+        }
+      }
+    });
   }
   edges.clear();
   colours.clear();

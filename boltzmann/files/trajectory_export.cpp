@@ -1,7 +1,7 @@
 // Frames go from the reader, field by field, through a change of units, to the writer of a format.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/export.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -86,8 +86,8 @@ class UnitChange {
     bool const atoms = parse_quantity("1 " + length).si < 1e-8;
     name_ = !wanted.empty() ? wanted : !text ? "run" : atoms ? "metal" : "si";
     using namespace literals;
-    if (name_ == "metal") base_ = Base(1_angstrom, 1_amu, 1_ps);
-    if (name_ == "si") base_ = Base::si();
+    if (name_ == "metal") base_ = UnitSystem(1_angstrom, 1_amu, 1_ps);
+    if (name_ == "si") base_ = UnitSystem::si();
   }
 
   std::string const& name() const { return name_; }
@@ -115,7 +115,7 @@ class UnitChange {
   }
 
   std::string name_;
-  std::optional<Base> base_;  // none: the units of the run
+  std::optional<UnitSystem> base_;  // none: the units of the run
 };
 
 // ---- Files that are whole or not there ----

@@ -17,7 +17,6 @@ namespace boltzmann {
 namespace detail {
 
 inline constexpr std::size_t integrator_grain = 2048;
-inline constexpr std::size_t integrator_worth_threads = 1U << 13U;
 
 template <class P>
 inline constexpr bool has_velocity = requires(P p) {
@@ -105,7 +104,7 @@ class MethodOf : public Integrator {
       return part;
     };
     std::size_t const size = ensemble_.size();
-    if (size < integrator_worth_threads) {
+    if (threads_for(size, 1, threads_) == 1) {
       move_ = loop(0, size);
       return;
     }
@@ -246,7 +245,7 @@ class LeapFrog final : public Alternating<P> {
     auto const& only = rotation.only;
     std::size_t const count = only ? only->size() : this->ensemble_.size();
     RotationTask const task{this->ensemble_.row(0), this->ensemble_.stride(), only ? only->data() : nullptr, time};
-    for_ranges(count, integrator_grain, count < integrator_worth_threads ? 1 : this->threads_,
+    for_ranges(count, integrator_grain, threads_for(count, 1, this->threads_),
                [&](std::size_t begin, std::size_t end) { rotation.kernel(rotation.law, task, begin, end); });
   }
 

@@ -1,4 +1,5 @@
 // When lists hold, how far they are read, and what is found anew when they don't.
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -88,14 +89,13 @@ double Neighbourhood::rows_around_one() const {
 void Neighbourhood::build(int threads) {
   if (auto line = skin_refused(longest_cutoff(), skin()); !line.empty()) throw Error(line);
   double const reach = longest_cutoff() + skin();
-  for (auto& copy : copies_) copy.build(reach, worth_threads(copy.ensemble().size(), particles_worth_threads, threads));
+  for (auto& copy : copies_) copy.build(reach, threads_for(copy.ensemble().size(), 1, threads));
   find_neighbours(threads);
 }
 
 void Neighbourhood::find_neighbours(int threads) {
   for (auto& list : lists_)
-    list.list.build(*list.target, *list.source, list.cutoff, skin(),
-                    worth_threads(list.target->owned(), particles_worth_threads / 4, threads));
+    list.list.build(*list.target, *list.source, list.cutoff, skin(), threads_for(list.target->owned(), 4, threads));
   stale_ = false;
   ring_ = 0;
   found_again_ = 0;
@@ -180,7 +180,7 @@ void Neighbourhood::refresh(int threads) {
   auto const follow = [&] {
     bool changed = false;
     for (auto& copy : copies_)
-      if (copy.refresh(worth_threads(copy.owned(), particles_worth_threads, threads))) changed = true;
+      if (copy.refresh(threads_for(copy.owned(), 1, threads))) changed = true;
     return changed;
   };
   if (!stale_ && (!follow() || lists_hold())) return;

@@ -15,11 +15,6 @@
 
 namespace boltzmann {
 
-/// Below so many particles one thread is faster than the start of two.
-inline constexpr std::size_t particles_worth_threads = 1U << 13U;
-/// `threads`, or 1 where there is less work than `least`.
-constexpr int worth_threads(std::size_t work, std::size_t least, int threads) { return work < least ? 1 : threads; }
-
 /// Why lists of this cut-off can't have so long a skin, in one line; empty if they can.
 std::string skin_refused(double cutoff, double skin);
 

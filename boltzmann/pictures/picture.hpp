@@ -3,7 +3,7 @@
 // and from the files of the run.
 #pragma once
 
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/pictures/canvas.hpp>
@@ -73,7 +73,7 @@ std::vector<std::string> const& drawing_names();
 /// The state that a picture shows and what is written about it.
 struct PictureContext {
   Simulation& simulation;  ///< goes on as if nobody had looked
-  Base const& base;
+  UnitSystem const& base;
   std::string title;
   std::int64_t step;
   double time;

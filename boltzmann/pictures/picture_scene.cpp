@@ -38,7 +38,7 @@ int Scene::threads() const {
   return context.threads > 0 ? context.threads : context.simulation.schemes().front()->threads();
 }
 
-Base::Display Scene::shown_in(Dimension dimension) const { return context.base.display(dimension); }
+UnitSystem::Display Scene::shown_in(Dimension dimension) const { return context.base.display(dimension); }
 
 Axis Scene::axis(std::string label, Dimension dimension) const {
   auto const [unit, factor] = shown_in(dimension);
@@ -83,8 +83,8 @@ Canvas Scene::too_few(std::string const& why) const {
   return canvas;
 }
 
-Measures Scene::potential_energies() {
-  Measures measures = context.simulation.measure();
+EnergyAndVirial Scene::potential_energies() {
+  EnergyAndVirial measures = context.simulation.measure();
   if (measures.per_particle.empty() && !measures.unknown.empty())
     throw Error("potential energies can't be shown: " + measures.unknown + " gives none");
   return measures;
@@ -93,7 +93,7 @@ Measures Scene::potential_energies() {
 std::vector<Values> Scene::values(std::string const& name) {
   meaning(ensembles, name);
   need(name);
-  Measures const measures = name == "potential-energy" ? potential_energies() : Measures{};
+  EnergyAndVirial const measures = name == "potential-energy" ? potential_energies() : EnergyAndVirial{};
   std::vector<Values> all;
   for (std::size_t e = 0; e < ensembles.size(); ++e) {
     std::span<double const> potential;
@@ -109,7 +109,7 @@ std::vector<Values> Scene::values(std::string const& name) {
 std::vector<ParticleColumn> Scene::columns(std::string const& name) {
   meaning(ensembles, name);
   need(name);
-  Measures const measures = name == "potential-energy" ? potential_energies() : Measures{};
+  EnergyAndVirial const measures = name == "potential-energy" ? potential_energies() : EnergyAndVirial{};
   std::vector<ParticleColumn> all;
   for (std::size_t e = 0; e < ensembles.size(); ++e) {
     std::span<double const> potential;

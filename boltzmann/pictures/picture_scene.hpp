@@ -32,7 +32,7 @@ class Scene {
   int threads() const;
 
   // How things are written.
-  Base::Display shown_in(Dimension dimension) const;
+  UnitSystem::Display shown_in(Dimension dimension) const;
   Axis axis(std::string label, Dimension dimension) const;
   std::string title(bool with_time = true) const;
   /// The colour that an ensemble was given, or the next of the palette.
@@ -49,8 +49,8 @@ class Scene {
   std::vector<Values> values(std::string const& name);
   /// The same where it stands; for the ensembles without it a column without values.
   std::vector<ParticleColumn> columns(std::string const& name);
-  /// Measures with those of each particle. Error if nobody knows them.
-  Measures potential_energies();
+  /// With those of each particle. Error if no law gives them.
+  EnergyAndVirial potential_energies();
   /// Finds influences for the state as it stands, if the quantity is, or follows from, one.
   void need(std::string const& name);
   /// The particles have been replaced: what is needed must be found again.

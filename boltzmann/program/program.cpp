@@ -102,7 +102,7 @@ std::uint64_t Program::seed(std::uint64_t otherwise) {
   return seed_.value_or(otherwise);
 }
 
-Recording Program::recording(Simulation& simulation, Base const& base) const {
+Recording Program::recording(Simulation& simulation, UnitSystem const& base) const {
   if (folder_.empty()) throw Error("the folder for the results has no name");
   if (threads_) simulation.threads(*threads_);
   if (seed_) simulation.seed(*seed_);

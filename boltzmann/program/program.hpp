@@ -37,7 +37,7 @@ class Program {
   bool quiet() const { return quiet_; }
 
   /// A recording into the folder; in place of a run that is there, unless that is gone on with.
-  Recording recording(Simulation& simulation, Base const& base = Base::reduced()) const;
+  Recording recording(Simulation& simulation, UnitSystem const& base = UnitSystem::reduced()) const;
   /// Runs so many steps, or as many as the command line says, with a progress line or in a window. Error if the command
   /// line gives a seed that nothing uses.
   RunReport run(Recording& recording, std::uint64_t steps);

@@ -67,11 +67,11 @@ std::uint64_t whole(std::vector<double> const& halves) {
 }  // namespace
 
 struct Recording::State {
-  State(Simulation& of, Base const& units, std::string where, bool may_overwrite)
+  State(Simulation& of, UnitSystem const& units, std::string where, bool may_overwrite)
       : simulation(of), base(units), folder(std::move(where)), overwrite(may_overwrite) {}
 
   Simulation& simulation;
-  Base base;
+  UnitSystem base;
   std::string folder;
   bool overwrite;
   std::string title, scenario;
@@ -305,7 +305,7 @@ struct Recording::State {
   }
 
   /// What diagnoses see.
-  Sample sample(std::vector<AnyEnsemble*> const& all, Measures const* measures,
+  Sample sample(std::vector<AnyEnsemble*> const& all, EnergyAndVirial const* measures,
                 std::vector<MeshField const*> const& on_nodes) const {
     return {all,
             simulation.schemes().front()->box(),
@@ -370,7 +370,7 @@ struct Recording::State {
       energies = energies || diagnosis->needs_energies() || diagnosis->needs_virial();
       mesh = mesh || diagnosis->needs_mesh();
     }
-    Measures measures;
+    EnergyAndVirial measures;
     if (energies) measures = simulation.measure();
     auto const all = ensembles();
     auto const on_nodes = mesh ? mesh_fields() : std::vector<MeshField const*>{};
@@ -552,7 +552,7 @@ struct Recording::State {
   }
 };
 
-Recording::Recording(Simulation& simulation, Base const& base, std::string folder, bool overwrite)
+Recording::Recording(Simulation& simulation, UnitSystem const& base, std::string folder, bool overwrite)
     : state_(std::make_shared<State>(simulation, base, std::move(folder), overwrite)) {
   open_standard_streams();
   simulation.speak_in(base);
@@ -575,7 +575,7 @@ Recording::~Recording() {
   state_->finished = true;
 }
 
-void Recording::add(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis) {
+void Recording::diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis) {
   need_interval(every, "diagnoses");
   auto const interval = static_cast<std::int64_t>(every);
   if (state_->every_diagnoses != 0 && state_->every_diagnoses != interval)
@@ -586,7 +586,7 @@ void Recording::add(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis) {
 }
 
 void Recording::diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds) {
-  for (auto const* kind : kinds) add(every, make_diagnosis(kind, state_->parameters(kind)));
+  for (auto const* kind : kinds) diagnose(every, make_diagnosis(kind, state_->parameters(kind)));
 }
 
 void Recording::trajectory(std::uint64_t every) {
@@ -633,7 +633,7 @@ void Recording::on_row(std::function<void(std::int64_t, std::span<double const>)
   state_->on_row.push_back(std::move(function));
 }
 Simulation& Recording::simulation() const { return state_->simulation; }
-Base const& Recording::base() const { return state_->base; }
+UnitSystem const& Recording::base() const { return state_->base; }
 std::string const& Recording::folder() const { return state_->folder; }
 std::string const& Recording::title() const { return state_->title; }
 std::vector<std::string> Recording::header() const {

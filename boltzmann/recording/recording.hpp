@@ -7,7 +7,7 @@
 //   run_with_progress(recording, 2000);
 #pragma once
 
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/recording/progress.hpp>
@@ -38,23 +38,26 @@ class Recording {
  public:
   /// Error when the run starts, if the folder can't be made or written, or already holds a run and `overwrite` is
   /// false.
-  Recording(Simulation& simulation, Base const& base, std::string folder, bool overwrite = false);
+  Recording(Simulation& simulation, UnitSystem const& base, std::string folder, bool overwrite = false);
   /// Finishes if that hasn't been done; failures go to standard error.
   ~Recording();
   Recording(Recording const&) = delete;
   Recording& operator=(Recording const&) = delete;
 
   /// A row of diagnoses.csv every so many steps: step, time and the columns of all these diagnoses. May be called
-  /// again, with the same interval. Diagnoses are given by value or as std::unique_ptr.
-  /// Kinds are words of the catalogue (diagnosis_kinds()), measured on the whole system.
+  /// again, with the same interval. Kinds are words of the catalogue (diagnosis_kinds()), measured on the whole system.
   void diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds);
-  template <class... D>
-  void diagnoses(std::uint64_t every, D... diagnosis) {
-    (add(every, own(std::move(diagnosis))), ...);
+  /// The same for one that is made here, and that can be asked when the run is over: it lives as long as the recording.
+  ///   auto& shock = recording.diagnose(20, Shock({&polymer}, {.since = 4}));
+  template <std::derived_from<Diagnosis> D>
+  D& diagnose(std::uint64_t every, D diagnosis) {
+    auto owned = std::make_unique<D>(std::move(diagnosis));
+    D& here = *owned;
+    diagnose(every, std::unique_ptr<Diagnosis>(std::move(owned)));
+    return here;
   }
-  void diagnoses(std::uint64_t every, std::vector<std::unique_ptr<Diagnosis>> list) {
-    for (auto& diagnosis : list) add(every, std::move(diagnosis));
-  }
+  /// For code that knows kinds only at run time.
+  void diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis);
   /// A frame of trajectory.h5 every so many steps, and one of the last state.
   void trajectory(std::uint64_t every);
   /// What a mesh has on its nodes (density, potential, field) every so many steps: mesh/000000100.vti, ..., and
@@ -106,7 +109,7 @@ class Recording {
   void on_row(std::function<void(std::int64_t step, std::span<double const> values)> function);
 
   Simulation& simulation() const;
-  Base const& base() const;
+  UnitSystem const& base() const;
   std::string const& folder() const;
   std::string const& title() const;
   /// The header of diagnoses.csv: "step", "time (ps)", "total energy (eV)", ...; empty if there are no diagnoses.
@@ -129,15 +132,6 @@ class Recording {
   std::vector<std::string> files() const;
 
  private:
-  template <class D>
-  static std::unique_ptr<Diagnosis> own(D diagnosis) {
-    if constexpr (std::convertible_to<D, std::unique_ptr<Diagnosis>>)
-      return diagnosis;
-    else
-      return std::make_unique<D>(std::move(diagnosis));
-  }
-  void add(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis);
-
   struct State;
   std::shared_ptr<State> state_;
 };

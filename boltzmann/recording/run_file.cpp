@@ -69,9 +69,9 @@ std::string ensemble_text(AnyEnsemble const& ensemble) {
 
 }  // namespace
 
-std::string run_file_text(std::string const& title, Base const& base, double step_size, Box const& box,
+std::string run_file_text(std::string const& title, UnitSystem const& base, double step_size, Box const& box,
                           std::span<AnyEnsemble* const> ensembles, std::span<Picture const> pictures) {
-  Base::Scale const s = base.scale();
+  UnitSystem::Scale const s = base.scale();
   std::string text = fmt::format(
       "# A run of a program, for `bzm render` and `bzm window`. [units]: the units of all numbers, in m, kg, s, K, C.\n"
       "title = {}\nstep = {}\n\n[units]\nreduced = {}\nlength = {}\nmass = {}\ntime = {}\ntemperature = {}\n"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/pictures/picture.hpp>
 
@@ -15,7 +15,7 @@ inline constexpr char const* run_file = "run.toml";  ///< in the folder of the r
 
 /// Title, units, size of the step, box with its walls and regions, classes of the ensembles with their fields,
 /// pictures, as TOML; numbers are in the base, except for the base itself. scenario/stored_run.hpp reads it.
-std::string run_file_text(std::string const& title, Base const& base, double step_size, Box const& box,
+std::string run_file_text(std::string const& title, UnitSystem const& base, double step_size, Box const& box,
                           std::span<AnyEnsemble* const> ensembles, std::span<Picture const> pictures);
 
 }  // namespace boltzmann

@@ -4,7 +4,7 @@
 
 #include <boltzmann/core/dimension.hpp>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 
 #include <cstddef>
 #include <span>
@@ -24,7 +24,7 @@ struct FormulaError : Error {
 struct MeasuredNames {
   std::vector<std::string> names;  ///< may have blanks: "kinetic energy"
   std::vector<Dimension> dimensions;
-  Base base;
+  UnitSystem base;
 };
 
 /// An expression of numbers (2, 0.5, 1e-3), names, + - * / ^ (powers; from right to left, before a sign: -x^2 is

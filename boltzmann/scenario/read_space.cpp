@@ -24,26 +24,26 @@ std::optional<Quantity<d>> unit(Section& units, std::string_view key, std::strin
   return value ? std::optional(Quantity<d>{*value}) : std::nullopt;
 }
 
-Base read_base(Section& units, std::string const& name) {
+UnitSystem read_base(Section& units, std::string const& name) {
   using namespace dimensions;
-  if (name == "si") return Base::si();
-  if (name == "cgs") return Base::cgs();
-  if (name == "reduced") return Base::reduced();
+  if (name == "si") return UnitSystem::si();
+  if (name == "cgs") return UnitSystem::cgs();
+  if (name == "reduced") return UnitSystem::reduced();
   if (name == "lennard-jones") {
     auto const sigma = unit<length>(units, "sigma", "sigma = \"3.405 angstrom\"");
     auto const epsilon = unit<energy>(units, "epsilon", "epsilon = \"0.01032 eV\"");
     auto const m = unit<mass>(units, "mass", "mass = \"39.948 amu\"");
-    if (sigma && epsilon && m) return Base::lennard_jones(*sigma, *epsilon, *m);
+    if (sigma && epsilon && m) return UnitSystem::lennard_jones(*sigma, *epsilon, *m);
   } else if (name == "gravitational") {
     auto const l = unit<length>(units, "length", "length = \"1 AU\"");
     auto const m = unit<mass>(units, "mass", "mass = \"1 Msun\"");
-    if (l && m) return Base::gravitational(*l, *m);
+    if (l && m) return UnitSystem::gravitational(*l, *m);
   } else if (name == "plasma") {
     auto const n = unit<number_density>(units, "density", "density = \"1e18 1/m^3\"");
     auto const q = unit<charge>(units, "charge", "charge = \"1.602176634e-19 C\"");
     auto const m = unit<mass>(units, "mass", "mass = \"9.1093837015e-31 kg\"");
     auto const t = unit<dimensions::temperature>(units, "temperature", "temperature = \"10000 K\"");
-    if (n && q && m && t) return Base::electrostatic_plasma(*n, *q, *m, *t);
+    if (n && q && m && t) return UnitSystem::electrostatic_plasma(*n, *q, *m, *t);
   } else if (name == "custom") {
     auto const l = unit<length>(units, "length", "length = \"1 angstrom\"");
     auto const m = unit<mass>(units, "mass", "mass = \"1 amu\"");
@@ -51,10 +51,10 @@ Base read_base(Section& units, std::string const& name) {
     auto const kelvins = units.quantity("temperature", dimensions::temperature);
     auto const coulombs = units.quantity("charge", charge);
     if (l && m && t)
-      return Base(*l, *m, *t, kelvins ? Quantity<dimensions::temperature>{*kelvins} : units::kelvin,
-                  coulombs ? Quantity<charge>{*coulombs} : units::elementary_charge);
+      return UnitSystem(*l, *m, *t, kelvins ? Quantity<dimensions::temperature>{*kelvins} : units::kelvin,
+                        coulombs ? Quantity<charge>{*coulombs} : units::elementary_charge);
   }
-  return Base::si();
+  return UnitSystem::si();
 }
 
 /// axis, end; open, or velocity, and of mirror axes slips, temperature.
@@ -152,7 +152,7 @@ void read_units(Section& document, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Item const* word = units.need("base", "base = \"si\"");
   auto const name = word ? read_word(*word, "base", base_names, reading.context) : std::nullopt;
-  Base base;
+  UnitSystem base;
   if (name) catch_errors(reading, units.place(), [&] { base = read_base(units, *name); });
   reading.base_known = reading.context.mistakes.count() == before;
   // Without a base nobody knows which keys it would have had.

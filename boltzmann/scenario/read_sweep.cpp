@@ -62,7 +62,7 @@ struct Number {
 };
 
 /// A number as it is shown; nothing if the value is none.
-std::optional<Number> number_of(Item const& item, Base const& base) {
+std::optional<Number> number_of(Item const& item, UnitSystem const& base) {
   if (item.is_number()) return Number{item.number, ""};
   if (!item.is(Item::Kind::text) || base.is_reduced()) return std::nullopt;
   try {
@@ -76,7 +76,7 @@ std::optional<Number> number_of(Item const& item, Base const& base) {
 }
 
 /// The numbers of these values; nothing if one of them has none, or another unit. Zero has any.
-bool find_numbers(std::vector<Item const*> const& values, Base const& base, SweepKey& key) {
+bool find_numbers(std::vector<Item const*> const& values, UnitSystem const& base, SweepKey& key) {
   std::vector<double> numbers;
   std::optional<std::string> known;
   for (auto const* value : values) {
@@ -94,7 +94,7 @@ bool find_numbers(std::vector<Item const*> const& values, Base const& base, Swee
 }
 
 /// The same for arrays, of which one component differs.
-void find_numbers_of_arrays(SweepValues::Key const& read, Base const& base, SweepKey& key) {
+void find_numbers_of_arrays(SweepValues::Key const& read, UnitSystem const& base, SweepKey& key) {
   std::vector<SweepKey> differing;
   std::size_t const components = read.values.front().elements.size();
   for (auto const& value : read.values)
@@ -265,7 +265,7 @@ void name_values(Section& section, SweepPlan& plan, Reading& reading) {
 
 SweepValues read_sweep_values(Item const& sweep, Mistakes& mistakes) {
   SweepValues result;
-  ReadContext context{mistakes, Base::si(), ""};
+  ReadContext context{mistakes, UnitSystem::si(), ""};
   if (Entry const* seeds = sweep.find("seeds"))
     result.seeds = read_integer(seeds->item, "seeds", 1, most_seeds, context).value_or(1);
   if (Entry const* vary = sweep.find("vary")) {
@@ -368,7 +368,7 @@ void read_sweep(Section& document, Reading& reading) {
     reading.mistake(section.place("seeds"), "seeds: counted up from run.seed they get too large");
   if (!section.has("vary") && !section.has("seeds"))
     reading.mistake(table->place, "[sweep] has neither 'vary' nor 'seeds'; add e.g. seeds = 4");
-  Base const& base = reading.context.base;
+  UnitSystem const& base = reading.context.base;
   for (auto const& read : values.keys) {
     SweepKey key;
     key.path = read.path;

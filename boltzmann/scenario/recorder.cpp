@@ -134,7 +134,7 @@ void Recorder::limit(Value& value, double low, double high, bool low_excluded) {
   value.limited = true;
 }
 
-void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, Base const& base) {
+void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& base) {
   bool const pure = dimension == dimensions::none || base.is_reduced();
   Value* value = find(item, pure ? "number" : "quantity");
   if (!value) return;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 
@@ -23,7 +23,7 @@ class Recorder {
 
   // What a reader wants of a value; if several have read it, the last one counts. Of an array that is told of its
   // elements.
-  void number(Item const& item, Dimension dimension, NumberRange const& range, Base const& base);
+  void number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& base);
   void integer(Item const& item, std::int64_t low, std::int64_t high);
   void word(Item const& item, std::vector<std::string> const& words);
   void plain(Item const& item, std::string_view kind);  ///< "text", "boolean"

@@ -114,7 +114,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
 
   Recorder recorder(document, text);
-  Reading reading{{mistakes, Base::si(), files.empty() ? folder : files, &recorder, overrides.by_page},
+  Reading reading{{mistakes, UnitSystem::si(), files.empty() ? folder : files, &recorder, overrides.by_page},
                   std::make_unique<ScenarioSimulation>(),
                   true,
                   0,

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/dissipation/dissipation.hpp>
 #include <boltzmann/pictures/picture.hpp>
@@ -45,7 +45,7 @@ struct OutputPlan {
 /// A scenario that is ready to run. Owns everything.
 struct ScenarioSimulation {
   std::string name, title, description;
-  Base base;
+  UnitSystem base;
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
   std::vector<std::unique_ptr<Scheme>> schemes;  ///< one or more, whose influences add up

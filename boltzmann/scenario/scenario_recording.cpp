@@ -16,8 +16,9 @@ std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::str
   recording->planned(scenario.steps);
   if (scenario.stop_when) recording->stop_when(scenario.stop, scenario.stop_when);
   auto const& output = scenario.output;
-  if (output.diagnoses > 0 && !scenario.diagnoses.empty())
-    recording->diagnoses(static_cast<std::uint64_t>(output.diagnoses), std::move(scenario.diagnoses));
+  if (output.diagnoses > 0)
+    for (auto& diagnosis : scenario.diagnoses)
+      recording->diagnose(static_cast<std::uint64_t>(output.diagnoses), std::move(diagnosis));
   if (output.trajectory > 0) recording->trajectory(static_cast<std::uint64_t>(output.trajectory));
   if (output.mesh > 0) recording->mesh(static_cast<std::uint64_t>(output.mesh));
   if (output.checkpoint > 0) recording->checkpoint(static_cast<std::uint64_t>(output.checkpoint));

@@ -12,7 +12,7 @@ namespace boltzmann {
 namespace {
 
 /// "a number or a text with a unit of length is needed (e.g. "1.5 m")".
-std::string wanted(Dimension dimension, Base const& base) {
+std::string wanted(Dimension dimension, UnitSystem const& base) {
   if (dimension == dimensions::none || base.is_reduced()) return "a number is needed";
   auto const units = example_units(dimension);
   return fmt::format("a number or a text with a unit of {} is needed{}", name_of(dimension),

@@ -5,7 +5,7 @@
 #include <boltzmann/core/dimension.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number_range.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/words.hpp>
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/scenario/recorder.hpp>
@@ -22,7 +22,7 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  Base base;                     ///< of the numbers to come
+  UnitSystem base;               ///< of the numbers to come
   std::string folder;            ///< of the scenario file: where its other files are
   Recorder* recorder = nullptr;  ///< notes what has been read; null: nobody does
   bool confined = false;         ///< overrides name only files in `folder`

@@ -9,7 +9,7 @@ namespace boltzmann {
 
 std::function<bool(std::int64_t, std::span<double const>)> stop_condition(std::string_view text,
                                                                           std::vector<Column> const& columns,
-                                                                          Base const& base) {
+                                                                          UnitSystem const& base) {
   MeasuredNames names{{"step", "time"}, {dimensions::none, dimensions::time}, base};
   for (auto const& column : columns) {
     names.names.push_back(column.name);

@@ -1,7 +1,7 @@
 // Stop conditions: when a run has found what it looks for, in the words of its diagnoses.
 #pragma once
 
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 
 #include <cstdint>
@@ -17,6 +17,6 @@ namespace boltzmann {
 /// step, the time and the values of the columns, all in the base: for Recording::stop_when. FormulaError, one line, if
 /// the text is none, names what is no column, compares different dimensions, or says neither true nor false.
 std::function<bool(std::int64_t step, std::span<double const> values)> stop_condition(
-    std::string_view text, std::vector<Column> const& columns, Base const& base);
+    std::string_view text, std::vector<Column> const& columns, UnitSystem const& base);
 
 }  // namespace boltzmann

@@ -43,8 +43,8 @@ class StoredScheme final : public Scheme {
  public:
   using Scheme::Scheme;
   void add_influences(double /*time*/) override {}
-  Measures measure(double /*time*/) override {
-    Measures measures;
+  EnergyAndVirial measure(double /*time*/) override {
+    EnergyAndVirial measures;
     measures.unknown = "a stored run of a program";
     measures.no_virial = "a stored run of a program has no laws";
     return measures;
@@ -73,9 +73,9 @@ struct RunReader {
     if (auto const read = section.quantity(word, dimensions::none)) number = *read;
   }
 
-  Base base(Section& top) {
+  UnitSystem base(Section& top) {
     Item const* table = find_table(top, "units");
-    if (!table) return Base::reduced();
+    if (!table) return UnitSystem::reduced();
     Section section(*table, "[units]", context);
     std::array<double, 5> units{};
     std::size_t k = 0;
@@ -83,7 +83,7 @@ struct RunReader {
       units[k++] = section.need_quantity(key, dimensions::none, "length = 1e-10", positive).value_or(1);
     bool const reduced = section.boolean("reduced");
     section.finish();
-    if (reduced) return Base::reduced();
+    if (reduced) return UnitSystem::reduced();
     return {Quantity<dimensions::length>{units[0]}, Quantity<dimensions::mass>{units[1]},
             Quantity<dimensions::time>{units[2]}, Quantity<dimensions::temperature>{units[3]},
             Quantity<dimensions::charge>{units[4]}};
@@ -222,7 +222,7 @@ std::unique_ptr<ScenarioSimulation> load_program_run(std::string const& path) {
   auto run = std::make_unique<ScenarioSimulation>();
   Item const document = parse_document(read_text(path), mistakes);
   check_letters(document, mistakes);
-  ReadContext context{mistakes, Base::reduced(), "", nullptr};
+  ReadContext context{mistakes, UnitSystem::reduced(), "", nullptr};
   if (mistakes.none()) RunReader{context}.read(document, *run);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   return run;

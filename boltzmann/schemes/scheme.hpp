@@ -3,7 +3,7 @@
 
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/threads.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/fused_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -18,7 +18,7 @@
 namespace boltzmann {
 
 /// Energies and virial of a state, summed over everything a scheme supervises.
-struct Measures {
+struct EnergyAndVirial {
   double potential = 0;                           ///< of the influences between particles
   double external = 0;                            ///< in the external fields
   double internal = 0;                            ///< of the particles themselves (smooth particles, mesoparticles)
@@ -72,7 +72,7 @@ class Scheme {
   /// state as it stands: observers see these. It changes nothing that the next step depends on.
   virtual void complete(double /*time*/) {}
   /// Energies and virial of the state as it stands.
-  virtual Measures measure(double time = 0) = 0;
+  virtual EnergyAndVirial measure(double time = 0) = 0;
   /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise.
   /// They live until the next call.
   virtual std::vector<MeshField const*> mesh_fields() { return {}; }
@@ -113,11 +113,11 @@ class Scheme {
   void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
   int threads() const { return threads_; }
   /// The units of what it says (Simulation::speak_in); plain numbers until then.
-  void speak_in(Base const& base) { base_ = base; }
-  Base const& spoken_base() const { return base_; }
+  void speak_in(UnitSystem const& base) { base_ = base; }
+  UnitSystem const& spoken_units() const { return base_; }
 
  private:
-  Base base_ = Base::reduced();
+  UnitSystem base_ = UnitSystem::reduced();
   Box box_;
   std::vector<AnyEnsemble*> ensembles_;
   int threads_ = default_threads();

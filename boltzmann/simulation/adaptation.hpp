@@ -2,7 +2,7 @@
 // are.
 #pragma once
 
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 
 #include <span>
 #include <string>
@@ -17,7 +17,7 @@ class Adaptation {
   /// just been done.
   virtual void change() = 0;
   /// One line about what was done so far, for the end of a run; empty: nothing to say.
-  virtual std::string report(Base const&) const { return ""; }
+  virtual std::string report(UnitSystem const&) const { return ""; }
   /// What it remembers, for checkpoints. restore() takes it back; Error if it does not fit.
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(std::span<double const>) {}

@@ -49,7 +49,7 @@ std::string name_of_energy(Conserved const& start, Conserved const& end) {
 Conserved conserved(Simulation const& simulation) {
   Conserved total;
   auto const& ensembles = simulation.ensembles();
-  Measures const measures = simulation.measure();
+  EnergyAndVirial const measures = simulation.measure();
   total.isolated = measures.external == 0;
   total.work = measures.work;
   total.heat = measures.heat;
@@ -87,7 +87,7 @@ Conserved conserved(Simulation const& simulation) {
   return total;
 }
 
-std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base) {
+std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& base) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));
   auto const part = [](double change, double scale) { return scale > 0 ? change / scale : change; };

@@ -1,7 +1,7 @@
 // What a run conserves: energy, momentum and angular momentum of a state, where they are defined.
 #pragma once
 
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <array>
@@ -33,6 +33,6 @@ Conserved conserved(Simulation const& simulation);
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
 /// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to
 /// what was given if that is more); momenta: relative to their scales, since totals are often zero.
-std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, Base const& base);
+std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& base);
 
 }  // namespace boltzmann

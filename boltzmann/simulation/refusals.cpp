@@ -8,7 +8,7 @@ namespace boltzmann {
 
 std::vector<std::string> refusals(Simulation& simulation, std::span<std::unique_ptr<Diagnosis> const> diagnoses) {
   std::vector<std::string> lines(diagnoses.size());
-  std::optional<Measures> measures;
+  std::optional<EnergyAndVirial> measures;
   for (std::size_t d = 0; d < diagnoses.size(); ++d) {
     if (!diagnoses[d]->needs_energies() && !diagnoses[d]->needs_virial()) continue;
     if (!measures) {

@@ -25,7 +25,7 @@ void Rezoner::change() {
   done_.angular_momentum_lost += now.angular_momentum_lost;
 }
 
-std::string Rezoner::report(Base const& base) const {
+std::string Rezoner::report(UnitSystem const& base) const {
   auto const& lost = done_.angular_momentum_lost;
   int const dimension = ensemble_->dimension();
   std::string line = fmt::format("'{}': {}, {}, {} now", ensemble_->name(), count(done_.splits, "split"),

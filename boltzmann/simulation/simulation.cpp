@@ -361,11 +361,11 @@ double Simulation::shorter_step(AnyEnsemble const& ensemble, std::size_t i, doub
   return std::min({dt, tenth / before, std::sqrt(tenth / std::sqrt(acceleration2))});
 }
 
-Base const& Simulation::base() const { return schemes_.front()->spoken_base(); }
+UnitSystem const& Simulation::base() const { return schemes_.front()->spoken_units(); }
 
 std::string Simulation::told_time(double number) const { return base().text(number, dimensions::time); }
 
-void Simulation::speak_in(Base const& base) {
+void Simulation::speak_in(UnitSystem const& base) {
   for (auto* scheme : schemes_) scheme->speak_in(base);
 }
 
@@ -526,10 +526,10 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (kept_) kept_checksum_ = checksum();
 }
 
-Measures Simulation::measure() const {
-  Measures total;
+EnergyAndVirial Simulation::measure() const {
+  EnergyAndVirial total;
   for (auto* scheme : schemes_) {
-    Measures part = scheme->measure(time());
+    EnergyAndVirial part = scheme->measure(time());
     total.potential += part.potential;
     total.external += part.external;
     total.internal += part.internal;

@@ -82,7 +82,7 @@ class Simulation {
   std::uint64_t seed() const { return seed_; }
   void seed(std::uint64_t seed) { seed_ = seed; }
   /// The units in which failures and advice are told; plain numbers without it. A Recording says it.
-  void speak_in(Base const& base);
+  void speak_in(UnitSystem const& base);
   void threads(int count);
 
   std::vector<Scheme*> const& schemes() const { return schemes_; }
@@ -91,7 +91,7 @@ class Simulation {
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   Method method(AnyEnsemble const& ensemble) const;
   /// Energies and virial of the present state, over all schemes and dissipations.
-  Measures measure() const;
+  EnergyAndVirial measure() const;
 
   /// What, besides the particles, determines the bits of the next step.
   std::vector<double> state() const;
@@ -130,7 +130,7 @@ class Simulation {
   void move_walls(double time);
   void check_moves(Part const& part) const;
   double shorter_step(AnyEnsemble const& ensemble, std::size_t i, double moved, double allowed) const;
-  Base const& base() const;
+  UnitSystem const& base() const;
   std::string told_time(double number) const;
   void observe_now() const;
   void adapt_now();

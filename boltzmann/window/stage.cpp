@@ -73,7 +73,7 @@ double number_or(json const& object, char const* key, double otherwise) {
   return found->get<double>();
 }
 
-Stage::Stage(Simulation& simulation, Base const& base, std::string title, std::string folder)
+Stage::Stage(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder)
     : simulation_(simulation), base_(base), title_(std::move(title)), folder_(std::move(folder)) {}
 
 std::vector<AnyEnsemble*> Stage::ensembles() const {

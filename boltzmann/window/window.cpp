@@ -16,7 +16,7 @@ struct Window::State {
   Clients clients;
   std::optional<Announcement> announcement;
 
-  State(Simulation& simulation, Base const& base, Recording* the_recording, WindowOptions the_options,
+  State(Simulation& simulation, UnitSystem const& base, Recording* the_recording, WindowOptions the_options,
         std::string title, std::string folder)
       : recording(the_recording),
         options(std::move(the_options)),
@@ -33,7 +33,7 @@ Window::Window(Recording& recording, WindowOptions options) {
                                    recording.folder());
 }
 
-Window::Window(Simulation& simulation, Base const& base, WindowOptions options) {
+Window::Window(Simulation& simulation, UnitSystem const& base, WindowOptions options) {
   std::string const title = options.title;
   state_ = std::make_unique<State>(simulation, base, nullptr, std::move(options), title, "");
 }

@@ -18,7 +18,7 @@ constexpr char const* program = R"cpp(
   using namespace boltzmann;
 
   int main() try {
-    Base const base(units::angstrom, units::amu, units::picosecond);
+    UnitSystem const base(units::angstrom, units::amu, units::picosecond);
     double const r0 = base(2.551 * units::angstrom);
     Ensemble<Newton<2>> atoms("atoms");
     block_load(atoms, Lattice::triangular, r0, {16, 16}, {20, 20}, true);

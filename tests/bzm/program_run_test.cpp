@@ -74,7 +74,7 @@ struct Beads {
   }
 };
 
-Base const base(units::angstrom, units::amu, units::picosecond);
+UnitSystem const base(units::angstrom, units::amu, units::picosecond);
 
 template <int D>
 void plan(Recording& recording) {
@@ -239,7 +239,7 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
                   .bins = 34};
   AnyEnsemble* const ensembles[] = {&beads};
   Picture const plain, pictures[] = {plain, picture};
-  for (Base const& units : {base, Base::reduced()}) {
+  for (UnitSystem const& units : {base, UnitSystem::reduced()}) {
     auto const text = run_file_text("\"T\"\n2", units, 1e-3, box, ensembles, pictures);
     write_text(folder / "run.toml", text);
     auto const back = load_stored_run(folder.string());

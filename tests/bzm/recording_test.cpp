@@ -64,7 +64,7 @@ TEST(Conserved, NoAngularMomentumOnPeriodicAxesAndWallsAreNamed) {
   EXPECT_FALSE(conserved(periodic.simulation).angular_momentum);
   auto const total = conserved(walls.simulation);
   EXPECT_FALSE(total.isolated);
-  EXPECT_NE(conserved_table(total, total, Base::reduced()).back().find("walls"), std::string::npos);
+  EXPECT_NE(conserved_table(total, total, UnitSystem::reduced()).back().find("walls"), std::string::npos);
 }
 
 TEST(Conserved, TheTableShowsTheDrift) {
@@ -72,17 +72,17 @@ TEST(Conserved, TheTableShowsTheDrift) {
   start.energy = -2.0;
   end.energy = -2.002;
   start.energy_scale = end.energy_scale = 5;
-  auto const lines = conserved_table(start, end, Base::reduced());
+  auto const lines = conserved_table(start, end, UnitSystem::reduced());
   EXPECT_NE(lines[1].find("-1.00e-03  of itself"), std::string::npos) << lines[1];
   start.energy = 0.0;
   end.energy = 0.01;
-  EXPECT_NE(conserved_table(start, end, Base::reduced())[1].find("2.00e-03  of kinetic"), std::string::npos);
+  EXPECT_NE(conserved_table(start, end, UnitSystem::reduced())[1].find("2.00e-03  of kinetic"), std::string::npos);
 }
 
 TEST(QuantityText, MultipliesUnitsThatAreNumbers) {
-  EXPECT_EQ(Base::reduced().text(1.5, dimensions::time), "1.5");
-  EXPECT_EQ(Base::si().text(1.5, dimensions::time), "1.5 s");
-  Base const thesis(1.804 * units::angstrom, 5.275e-26 * units::gram, 3.273 * units::femtosecond);
+  EXPECT_EQ(UnitSystem::reduced().text(1.5, dimensions::time), "1.5");
+  EXPECT_EQ(UnitSystem::si().text(1.5, dimensions::time), "1.5 s");
+  UnitSystem const thesis(1.804 * units::angstrom, 5.275e-26 * units::gram, 3.273 * units::femtosecond);
   EXPECT_EQ(thesis.text(20, dimensions::time), "65.46 fs");
 }
 
@@ -90,7 +90,7 @@ TEST(Recording, LeavesFilesThatGoOnWhereTheyEnded) {
   Folder folder;
   auto const record = [&](std::string const& name, std::uint64_t steps, bool resume) {
     Pair pair;
-    Recording recording(pair.simulation, Base::reduced(), folder / name);
+    Recording recording(pair.simulation, UnitSystem::reduced(), folder / name);
     recording.diagnoses(5, {"energies", "momentum"});
     recording.trajectory(10);
     recording.picture({.drawing = "phase-space", .x = "position.x", .y = "position.y", .trace = true});
@@ -119,13 +119,13 @@ TEST(Recording, TheDestructorFinishesAndNothingIsWrittenBeforeTheRun) {
   Folder folder;
   {
     Pair pair;
-    Recording recording(pair.simulation, Base::reduced(), folder / "out");
+    Recording recording(pair.simulation, UnitSystem::reduced(), folder / "out");
     EXPECT_FALSE(fs::exists(folder / "out"));
     pair.simulation.run(7);
     EXPECT_EQ(recording.checkpoint_step(), 0);
   }
   Pair pair;
-  Recording recording(pair.simulation, Base::reduced(), folder / "out");
+  Recording recording(pair.simulation, UnitSystem::reduced(), folder / "out");
   recording.resume();
   EXPECT_EQ(pair.simulation.step(), 7);
 }
@@ -135,7 +135,7 @@ TEST(Recording, RefusesPlansThatCannotBe) {
   Pair pair;
   auto const plan = [&](std::function<void(Recording&)> const& say) {
     return message([&] {
-      Recording recording(pair.simulation, Base::reduced(), folder / "out");
+      Recording recording(pair.simulation, UnitSystem::reduced(), folder / "out");
       say(recording);
       recording.check();
     });
@@ -165,12 +165,12 @@ TEST(Recording, RefusesPlansThatCannotBe) {
 TEST(Pictures, OverTimeCanBeLogarithmic) {
   Folder folder;
   Pair pair;
-  Recording recording(pair.simulation, Base::reduced(), folder / "out");
+  Recording recording(pair.simulation, UnitSystem::reduced(), folder / "out");
   recording.diagnoses(5, {"energies"});
   run_with_progress(recording, 20, {.quiet = true});
   auto const drawn = [&](bool logarithmic) {
     return draw({.drawing = "time-series", .y = "kinetic energy", .logarithmic = logarithmic},
-                {pair.simulation, Base::reduced(), "", 20, 0.02, folder / "out"});
+                {pair.simulation, UnitSystem::reduced(), "", 20, 0.02, folder / "out"});
   };
   EXPECT_TRUE(drawn(true).y_axis().logarithmic);
   EXPECT_FALSE(drawn(true).x_axis().logarithmic);
@@ -189,7 +189,8 @@ TEST(Pictures, ParticlesHaveTheColoursOfTheirEnsembles) {
   pair.atoms.appearance.colour = "seagreen";
   pair.simulation.check();
   for (auto const* drawing : {"cartesian", "phase-space"}) {
-    Canvas const canvas = draw({.drawing = drawing}, {pair.simulation, Base::reduced(), "", 0, 0.0, folder.string()});
+    Canvas const canvas =
+        draw({.drawing = drawing}, {pair.simulation, UnitSystem::reduced(), "", 0, 0.0, folder.string()});
     ASSERT_EQ(canvas.clouds().size(), 1U) << drawing;
     EXPECT_EQ(canvas.clouds()[0].count(), 2U) << drawing;
     EXPECT_EQ(with_alpha(canvas.clouds()[0].colour, 1), colour_named("seagreen")) << drawing;
@@ -199,7 +200,7 @@ TEST(Pictures, ParticlesHaveTheColoursOfTheirEnsembles) {
 TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
   Folder folder;
   Pair pair;
-  Recording recording(pair.simulation, Base::reduced(), folder / "out");
+  Recording recording(pair.simulation, UnitSystem::reduced(), folder / "out");
   recording.diagnoses(1, {"energies"});
   recording.picture({});
   pair.simulation.observe(1, [&](Simulation const& now) {

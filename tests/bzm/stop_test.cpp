@@ -165,9 +165,9 @@ TEST(Hours, LeaveRoomForTheLongestStep) {
 TEST(Stop, IsForPrograms) {
   Folder folder;
   Pair pair;
-  Recording recording(pair.simulation, Base::reduced(), (folder / "out").string());
+  Recording recording(pair.simulation, UnitSystem::reduced(), (folder / "out").string());
   recording.diagnoses(10, {"energies"});
-  recording.stop_when("time > 0.05", stop_condition("time > 0.05", recording.columns(), Base::reduced()));
+  recording.stop_when("time > 0.05", stop_condition("time > 0.05", recording.columns(), UnitSystem::reduced()));
   auto const report = run_with_progress(recording, 1000, {.quiet = true});
   EXPECT_EQ(report.condition, "time > 0.05");
   EXPECT_EQ(report.steps, 60);
@@ -175,7 +175,7 @@ TEST(Stop, IsForPrograms) {
   EXPECT_EQ(read_csv((folder / "out/diagnoses.csv").string()).column("step").back(), 60);
 
   Pair other;
-  Recording none(other.simulation, Base::reduced(), (folder / "none").string());
+  Recording none(other.simulation, UnitSystem::reduced(), (folder / "none").string());
   none.stop_when("never", [](std::int64_t, std::span<double const>) { return false; });
   EXPECT_THROW(run_with_progress(none, 10, {.quiet = true}), Error);
 }

@@ -2,7 +2,7 @@
 // text.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>
 #include <tests/message.hpp>
 
@@ -127,7 +127,7 @@ TEST(Quantities, ConstantSquareRootsAreThoseOfTheLibrary) {
 
 // Appendix C.18 of the 1990 thesis (values as printed there: the tolerance is the rounding of its time).
 TEST(Units, AreThoseOfThe1990Table) {
-  auto const cgs = Base::cgs();
+  auto const cgs = UnitSystem::cgs();
   EXPECT_EQ(cgs(units::centimeter), 1);
   EXPECT_EQ(cgs(units::gram), 1);
   EXPECT_EQ(cgs(units::second), 1);
@@ -200,7 +200,7 @@ TEST(Constants, AreCodata2018) {
 
 // Section 2.3 of the 1990 thesis: in this base an electronvolt is about 1.
 TEST(Bases, The1990ExampleMakesAnElectronvoltOne) {
-  Base const base(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s);
+  UnitSystem const base(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s);
   double const by_hand = 1.602176634e-12 / 5.275e-26 / (1.804e-8 * 1.804e-8) * (3.273e-15 * 3.273e-15);  // 0.9997877...
   EXPECT_NEAR(by_hand, 0.99979, 1e-5);
   EXPECT_NEAR(base(1_eV), by_hand, 1e-12);
@@ -216,20 +216,20 @@ TEST(Bases, The1990ExampleMakesAnElectronvoltOne) {
 }
 
 TEST(Bases, AreShownInUnitsThatPeopleKnow) {
-  Base const base(1.804e-8 * units::centimeter, 5.275e-26 * units::gram, 3.273e-15 * units::second);
+  UnitSystem const base(1.804e-8 * units::centimeter, 5.275e-26 * units::gram, 3.273e-15 * units::second);
   EXPECT_EQ(base.display(dimensions::length).unit, "angstrom");
   EXPECT_NEAR(base.display(dimensions::length).factor, 1.804, 1e-12);
   EXPECT_EQ(base.display(dimensions::time).unit, "fs");
   EXPECT_NEAR(base.display(dimensions::time).factor, 3.273, 1e-12);
   EXPECT_EQ(base.display(dimensions::energy).unit, "eV");
   EXPECT_NEAR(base.display(dimensions::energy).factor, 1.00021, 1e-5);
-  EXPECT_EQ(Base::si().display(dimensions::energy).unit, "J");
-  EXPECT_EQ(Base::si().display(dimensions::energy).factor, 1);
-  EXPECT_EQ(Base::reduced().display(dimensions::energy).unit, "");
+  EXPECT_EQ(UnitSystem::si().display(dimensions::energy).unit, "J");
+  EXPECT_EQ(UnitSystem::si().display(dimensions::energy).factor, 1);
+  EXPECT_EQ(UnitSystem::reduced().display(dimensions::energy).unit, "");
 }
 
 TEST(Bases, CgsHasACoulombConstantOfOne) {
-  auto const cgs = Base::cgs();
+  auto const cgs = UnitSystem::cgs();
   EXPECT_NEAR(cgs(constants::coulomb), 1, 1e-9);
   expect_near_relative(cgs(constants::elementary_charge), 4.80320471e-10, 1e-8);
   EXPECT_EQ(cgs.unit_name(dim::velocity), "cm/s");
@@ -240,13 +240,13 @@ TEST(Bases, CgsHasACoulombConstantOfOne) {
 }
 
 TEST(Bases, SiIsTheDefault) {
-  EXPECT_EQ(Base(), Base::si());
-  EXPECT_EQ(Base::si()(1_eV), 1.602176634e-19);
-  EXPECT_EQ(Base::si().unit_name(dim::pressure), "Pa");
-  EXPECT_EQ(Base::si().unit_name(dim::frequency), "1/s");
-  EXPECT_EQ(Base::si().unit_name(dim::thermal_conductivity), "kg m/(s^3 K)");
-  EXPECT_EQ(Base::si().unit_name(dim::angular_momentum), "kg m^2/s");
-  Base const metal(1_angstrom, 1_amu, 1_ps);
+  EXPECT_EQ(UnitSystem(), UnitSystem::si());
+  EXPECT_EQ(UnitSystem::si()(1_eV), 1.602176634e-19);
+  EXPECT_EQ(UnitSystem::si().unit_name(dim::pressure), "Pa");
+  EXPECT_EQ(UnitSystem::si().unit_name(dim::frequency), "1/s");
+  EXPECT_EQ(UnitSystem::si().unit_name(dim::thermal_conductivity), "kg m/(s^3 K)");
+  EXPECT_EQ(UnitSystem::si().unit_name(dim::angular_momentum), "kg m^2/s");
+  UnitSystem const metal(1_angstrom, 1_amu, 1_ps);
   EXPECT_EQ(metal.unit_name(dim::energy), "amu angstrom^2/ps^2");
   EXPECT_EQ(metal.unit_name(dim::velocity), "angstrom/ps");
   EXPECT_EQ(metal.unit_name(dim::charge), "e");
@@ -256,7 +256,7 @@ TEST(Bases, SiIsTheDefault) {
 TEST(Bases, LennardJonesArgon) {
   auto const epsilon = 119.8_K * constants::boltzmann;
   auto const mass = 39.948_amu;
-  auto const argon = Base::lennard_jones(3.405_angstrom, epsilon, mass);
+  auto const argon = UnitSystem::lennard_jones(3.405_angstrom, epsilon, mass);
   EXPECT_NEAR(argon(3.405_angstrom), 1, 1e-14);
   EXPECT_NEAR(argon(epsilon), 1, 1e-14);
   EXPECT_NEAR(argon(mass), 1, 1e-14);
@@ -271,7 +271,8 @@ TEST(Bases, LennardJonesArgon) {
 
 TEST(Bases, PlasmaHasUnitFrequencyDebyeLengthAndThermalVelocity) {
   auto const n0 = 1e18 / pow<3>(units::meter);
-  auto const base = Base::electrostatic_plasma(n0, -1.0 * units::elementary_charge, constants::electron_mass, 10000_K);
+  auto const base =
+      UnitSystem::electrostatic_plasma(n0, -1.0 * units::elementary_charge, constants::electron_mass, 10000_K);
   // 1e18 electrons per cubic metre: wp = 5.641e10 / s, and lambda = 69 m sqrt(T / n) = 6.9e-6 m (handbook values).
   expect_near_relative(1 / base.scale().time, 56.4146e9, 1e-5);
   expect_near_relative(base.scale().length, 69.01e-7, 1e-3);
@@ -289,19 +290,19 @@ TEST(Bases, PlasmaHasUnitFrequencyDebyeLengthAndThermalVelocity) {
 }
 
 TEST(Bases, GravitationalHasGOne) {
-  auto const base = Base::gravitational(1_AU, 1_Msun);
+  auto const base = UnitSystem::gravitational(1_AU, 1_Msun);
   EXPECT_NEAR(base(constants::gravitation), 1, 1e-13);
   // Kepler: one revolution at 1 AU takes 2 pi units of time, which is the Gaussian year of 365.2569 days.
   expect_near_relative(2 * std::numbers::pi * base.scale().time / units::day.si, 365.256898, 1e-6);
 }
 
 TEST(Bases, GravitationalIsToldInUnitsOfTheSky) {
-  auto const planets = Base::gravitational(1_AU, 1_Msun);
+  auto const planets = UnitSystem::gravitational(1_AU, 1_Msun);
   EXPECT_EQ(planets.text(1, dim::velocity), "29.78 km/s");
   EXPECT_EQ(planets.text(1, dim::time), "0.1592 yr");
   EXPECT_EQ(planets.text(1, dim::length), "1 AU");
   EXPECT_EQ(planets.text(1, dim::energy), "887.1 Msun km^2/s^2");
-  auto const galaxy = Base::gravitational(1000_pc, 1e6 * 1_Msun);
+  auto const galaxy = UnitSystem::gravitational(1000_pc, 1e6 * 1_Msun);
   EXPECT_EQ(galaxy.text(1, dim::velocity), "2.074 km/s");
   EXPECT_EQ(galaxy.display(dim::mass).unit, "Msun");
   for (Dimension const d : {dim::velocity, dim::energy, dim::momentum, dim::time, dim::density, dim::acceleration})
@@ -328,12 +329,12 @@ TEST(Bases, RoundTripsKeepTheNumber) {
                            pow(dim::volume, -5),
                            dim::thermal_conductivity,
                            dim::electric_field};
-  Base const bases[] = {Base::si(),
-                        Base::cgs(),
-                        Base::reduced(),
-                        Base(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s),
-                        Base::lennard_jones(3.405_angstrom, 119.8_K * constants::boltzmann, 39.948_amu),
-                        Base::gravitational(1_pc, 1_Msun)};
+  UnitSystem const bases[] = {UnitSystem::si(),
+                              UnitSystem::cgs(),
+                              UnitSystem::reduced(),
+                              UnitSystem(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s),
+                              UnitSystem::lennard_jones(3.405_angstrom, 119.8_K * constants::boltzmann, 39.948_amu),
+                              UnitSystem::gravitational(1_pc, 1_Msun)};
   for (auto const& base : bases)
     for (auto d : all) {
       for (double const x : {1.0, -2.5, 3.7e-12}) {
@@ -352,19 +353,19 @@ TEST(Bases, RoundTripsKeepTheNumber) {
       EXPECT_EQ(quantity.dimension, d) << name;
       expect_near_relative(quantity.si, base.to_si(1, d), 6e-6, name);
     }
-  EXPECT_TRUE(std::isnan(Base::cgs().from_si(NAN, dim::length)));
+  EXPECT_TRUE(std::isnan(UnitSystem::cgs().from_si(NAN, dim::length)));
 }
 
 TEST(Bases, RefuseUnitsThatAreNotPositiveAndFinite) {
-  EXPECT_NE(message([] { Base(0_m, 1_kg, 1_s); }).find("length"), std::string::npos);
-  EXPECT_NE(message([] { Base(1_m, -1_kg, 1_s); }).find("mass"), std::string::npos);
-  EXPECT_NE(message([] { Base(1_m, 1_kg, Time{NAN}); }).find("time"), std::string::npos);
-  EXPECT_NE(message([] { Base(1_m, 1_kg, 1_s, Quantity<dim::temperature>{INFINITY}); }).find("temperature"),
+  EXPECT_NE(message([] { UnitSystem(0_m, 1_kg, 1_s); }).find("length"), std::string::npos);
+  EXPECT_NE(message([] { UnitSystem(1_m, -1_kg, 1_s); }).find("mass"), std::string::npos);
+  EXPECT_NE(message([] { UnitSystem(1_m, 1_kg, Time{NAN}); }).find("time"), std::string::npos);
+  EXPECT_NE(message([] { UnitSystem(1_m, 1_kg, 1_s, Quantity<dim::temperature>{INFINITY}); }).find("temperature"),
             std::string::npos);
-  EXPECT_NE(message([] { Base(1_m, 1_kg, 1_s, 1_K, 0_C); }).find("charge"), std::string::npos);
-  EXPECT_NE(message([] { Base::lennard_jones(1_angstrom, 0_eV, 1_amu); }).find("epsilon"), std::string::npos);
-  EXPECT_THROW(Base::electrostatic_plasma(1 / pow<3>(1_m), 0_C, 1_kg, 1_K), Error);
-  EXPECT_THROW(Base::gravitational(1_m, 0_kg), Error);
+  EXPECT_NE(message([] { UnitSystem(1_m, 1_kg, 1_s, 1_K, 0_C); }).find("charge"), std::string::npos);
+  EXPECT_NE(message([] { UnitSystem::lennard_jones(1_angstrom, 0_eV, 1_amu); }).find("epsilon"), std::string::npos);
+  EXPECT_THROW(UnitSystem::electrostatic_plasma(1 / pow<3>(1_m), 0_C, 1_kg, 1_K), Error);
+  EXPECT_THROW(UnitSystem::gravitational(1_m, 0_kg), Error);
 }
 
 TEST(Texts, GoodOnesAreRead) {
@@ -505,7 +506,7 @@ TEST(Texts, BadOnesAreRefusedInOneLine) {
 }
 
 TEST(Texts, DimensionsAreChecked) {
-  auto const refusal = [](char const* text, Dimension wanted, Base const& base = Base::cgs()) {
+  auto const refusal = [](char const* text, Dimension wanted, UnitSystem const& base = UnitSystem::cgs()) {
     return message([&] { in_base(text, wanted, base); });
   };
   EXPECT_EQ(refusal("2.551 angstrom", dim::mass), "'2.551 angstrom' is a length, a mass is needed (e.g. 'kg', 'amu')");
@@ -521,12 +522,13 @@ TEST(Texts, DimensionsAreChecked) {
   EXPECT_EQ(
       refusal("5 kg^2", pow(dim::charge, 2)),
       "'5 kg^2' is a quantity of dimension mass^2, a quantity of dimension charge^2 is needed (e.g. 'C^2', 'esu^2')");
-  EXPECT_NE(refusal("5 m", dim::length, Base::reduced()).find("computes in reduced units"), std::string::npos);
-  EXPECT_NE(refusal("1e300 m", dim::length, Base(1e-20_m, 1_kg, 1_s)).find("beyond the range"), std::string::npos);
+  EXPECT_NE(refusal("5 m", dim::length, UnitSystem::reduced()).find("computes in reduced units"), std::string::npos);
+  EXPECT_NE(refusal("1e300 m", dim::length, UnitSystem(1e-20_m, 1_kg, 1_s)).find("beyond the range"),
+            std::string::npos);
 }
 
 TEST(Texts, BecomePlainNumbersOfTheBase) {
-  auto const cgs = Base::cgs();
+  auto const cgs = UnitSystem::cgs();
   EXPECT_NEAR(in_base("2.551 angstrom", dim::length, cgs), 2.551e-8, 1e-22);
   EXPECT_EQ(in_base("2 m", dim::length, cgs), 200);
   EXPECT_EQ(in_base("5", dim::length, cgs), 5);  // already in the base's units
@@ -534,8 +536,8 @@ TEST(Texts, BecomePlainNumbersOfTheBase) {
   EXPECT_NEAR(in_base("180 degrees", dim::angle, cgs), std::numbers::pi, 1e-15);
   EXPECT_NEAR(in_base("9.81 m/s^2", dim::acceleration, cgs), 981, 1e-12);
   EXPECT_EQ(in_base("-3 K", dim::temperature, cgs), -3);
-  EXPECT_EQ(in_base("7.5", dim::pressure, Base::reduced()), 7.5);
-  EXPECT_NEAR(in_base("90 degree", dim::angle, Base::reduced()), std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(in_base("7.5", dim::pressure, UnitSystem::reduced()), 7.5);
+  EXPECT_NEAR(in_base("90 degree", dim::angle, UnitSystem::reduced()), std::numbers::pi / 2, 1e-15);
 }
 
 TEST(UnitTable, EveryNameIsReadOnceAndMeansItsUnit) {

@@ -249,7 +249,7 @@ class Waving final : public Scheme {
   Waving(Box const& box, std::vector<std::size_t> const& cells) : Scheme(box), fields_(box, cells) {}
   void add_influences(double time) override { time_ = time; }
   void calculate(double time) override { Scheme::calculate(time); }
-  Measures measure(double) override { return {}; }
+  EnergyAndVirial measure(double) override { return {}; }
   double length_scale(AnyEnsemble const&) const override { return std::numeric_limits<double>::infinity(); }
   std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
   void make_reversible(double) override {}
@@ -302,7 +302,7 @@ void records(std::vector<std::size_t> const& cells) {
   TemporaryFolder const folder;
   Flight<D> run(cells);
   {
-    Recording recording(run.simulation, Base::reduced(), folder / "run");
+    Recording recording(run.simulation, UnitSystem::reduced(), folder / "run");
     record(recording, true);
     run.simulation.run(26);
     recording.finish();
@@ -333,7 +333,7 @@ TEST(MeshRecords, FramesColumnsAndPictures) {
 TEST(MeshPictures, ShowNodesWhereTheyAre) {
   // The clock stands at 0: potential 2 cos(3 pi x/2) on nodes at 0, 0.5, ...
   Flight<1> line({8});
-  auto const base = Base::reduced();
+  auto const base = UnitSystem::reduced();
   PictureContext const context{line.simulation, base, "", 0, 0, "", {}};
   Canvas const curve = draw({.drawing = "mesh"}, context);
   ASSERT_EQ(curve.curves().size(), 1U);
@@ -371,7 +371,7 @@ TEST(MeshPictures, WaveSpectrumWithItsCurves) {
     look(waves, fields, n * 0.125);
   }
   Flight<1> line({8});
-  auto const base = Base::reduced();
+  auto const base = UnitSystem::reduced();
   PictureContext const context{line.simulation, base, "", 0, 0, "", {&waves}};
   Canvas const canvas = draw({.drawing = "wave-spectrum", .curves = {{3, 0}, {4, 1}}}, context);
   auto const& image = canvas.images().at(0);
@@ -403,13 +403,13 @@ TEST(MeshRecords, ContinueAfterACheckpointToTheSameFiles) {
   std::vector<double> waves;
   {
     Flight<1> run({16});
-    Recording recording(run.simulation, Base::reduced(), folder / "whole");
+    Recording recording(run.simulation, UnitSystem::reduced(), folder / "whole");
     record(recording, false);
     run.simulation.run(30);
   }
   {
     Flight<1> run({16});
-    Recording recording(run.simulation, Base::reduced(), folder / "parts");
+    Recording recording(run.simulation, UnitSystem::reduced(), folder / "parts");
     record(recording, false);
     run.simulation.run(17);
     // The power fails here: the checkpoint is that of step 10, frames after it are there already.
@@ -419,7 +419,7 @@ TEST(MeshRecords, ContinueAfterACheckpointToTheSameFiles) {
   fs::remove(folder / "cut/mesh.pvd");
   {
     Flight<1> run({16});
-    Recording recording(run.simulation, Base::reduced(), folder / "cut");
+    Recording recording(run.simulation, UnitSystem::reduced(), folder / "cut");
     record(recording, false);
     recording.resume();
     EXPECT_EQ(run.simulation.step(), 10);
@@ -436,15 +436,15 @@ TEST(MeshRecords, NeedAMesh) {
   scheme.add(ions);
   Simulation simulation(scheme, 0.1);
   simulation.integrate(ions, Method::leap_frog);
-  Recording recording(simulation, Base::reduced(), folder / "run");
+  Recording recording(simulation, UnitSystem::reduced(), folder / "run");
   EXPECT_EQ(message([&] { recording.diagnoses(1, {"field-energy"}); }), "there is no mesh in this simulation");
   EXPECT_NE(message([&] { recording.mesh(0); }).find("every 1 or more"), std::string::npos);
   recording.picture({.drawing = "mesh"});
   EXPECT_EQ(message([&] { recording.check(); }), "there is no mesh in this simulation");
-  Recording frames(simulation, Base::reduced(), folder / "run");
+  Recording frames(simulation, UnitSystem::reduced(), folder / "run");
   frames.mesh(1);
   EXPECT_EQ(message([&] { frames.check(); }), "mesh frames can't be recorded: there is no mesh in this simulation");
-  Recording waves(simulation, Base::reduced(), folder / "run");
+  Recording waves(simulation, UnitSystem::reduced(), folder / "run");
   waves.picture({.drawing = "wave-spectrum"});
   EXPECT_NE(message([&] { waves.check(); }).find("needs the diagnosis wave-spectrum"), std::string::npos);
 }

@@ -94,9 +94,9 @@ TEST(Measures, AnIdealGasHasThePressureNkTOverV) {
   maxwellian_load(heavy, t, k, test_seed(1), {.exact_temperature = true});
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 2, 3});
   std::vector<AnyEnsemble*> const both{&light, &heavy};
-  EXPECT_NEAR(pressure(both, Measures{}, box) / (1500 * k * t / 6), 1, 1e-12);
+  EXPECT_NEAR(pressure(both, EnergyAndVirial{}, box) / (1500 * k * t / 6), 1, 1e-12);
   EXPECT_NEAR(temperature(both, k).total, t, 1e-9);
-  Tensor3 const tensor = pressure_tensor(both, Measures{}, box);
+  Tensor3 const tensor = pressure_tensor(both, EnergyAndVirial{}, box);
   EXPECT_NEAR(tensor[1][1] / (1500 * k * t / 6), 1, 0.15);
   EXPECT_DOUBLE_EQ(tensor[0][1], tensor[1][0]);
   EXPECT_LT(std::abs(tensor[0][1]) / (1500 * k * t / 6), 0.1);
@@ -117,7 +117,7 @@ TEST(Measures, LennardJonesPairHasTheVirialOfItsForce) {
   atoms[0].velocity = {0.5, 0};
   PairScheme scheme(Box(Vector<2>{0, 0}, Vector<2>{4, 5}));
   scheme.internal(atoms, LennardJones{depth, r0});
-  Measures const measures = scheme.measure();
+  EnergyAndVirial const measures = scheme.measure();
   // phi'(r) = depth (-12 r0^12 / r^13 + 12 r0^6 / r^7); r . F = -r phi' along the pair
   double const virial = 12 * depth * (std::pow(r0 / r, 12) - std::pow(r0 / r, 6));
   EXPECT_NEAR(measures.potential, depth * (std::pow(r0 / r, 12) - 2 * std::pow(r0 / r, 6)), 1e-13);
@@ -141,7 +141,7 @@ TEST(Measures, AStretchedHarmonicCrystalPullsWithItsSprings) {
     return Interaction{r * (k * (length - a0) / length), 0.5 * k * (length - a0) * (length - a0)};
   });
   scheme.connect(chain, {{0, n - 1, 1}, {0, n - 1, n - 1}}, spring);
-  Measures const measures = scheme.measure();
+  EnergyAndVirial const measures = scheme.measure();
   EXPECT_NEAR(measures.potential, n * 0.5 * k * 0.01, 1e-12);
   EXPECT_NEAR(pressure(chain, measures, scheme.box()), -k * (a - a0), 1e-12);
   // Squeezed instead, and warm: k (a0 - a) + N k T / L
@@ -205,7 +205,7 @@ TEST(Measures, OfNothing) {
     EXPECT_EQ(momentum(of), (Triple{0, 0, 0}));
     EXPECT_TRUE(std::isnan(temperature(of, 1).total));
     EXPECT_TRUE(std::isnan(temperature(of, 1, true).total));
-    EXPECT_EQ(pressure(of, Measures{}, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1})), 0);
+    EXPECT_EQ(pressure(of, EnergyAndVirial{}, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1})), 0);
   }
   EXPECT_TRUE(mean_velocity(none, {}).size() == 3 && std::isnan(mean_velocity(none, {})[2]));
   EXPECT_TRUE(similar_particles(none, {0, 0, 0}, 1).empty());

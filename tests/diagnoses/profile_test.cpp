@@ -29,7 +29,7 @@ struct Four {
   Ensemble<Meso<2>> lumps{"lumps", 3};
   Ensemble<Newton<2>> atoms{"atoms", 1};
   List all{&lumps, &atoms};
-  Measures measures;
+  EnergyAndVirial measures;
 
   Four() {
     lumps[0] = {{{{0.5, 1.0}}, 2, {3.0, 0.0}}, 7, 100};
@@ -135,7 +135,7 @@ TEST(Profile, FastGasHasItsTemperatureAndPressure) {
     if (p.position[0] > 1) p.velocity *= 2;
     p.velocity[1] += 1e6 * p.mass;
   }
-  Measures nothing;
+  EnergyAndVirial nothing;
   nothing.per_particle = {std::vector<double>(gas.size(), 0)};
   nothing.virial_per_particle = {std::vector<double>(9 * gas.size(), 0)};
   List const all{&gas};
@@ -160,7 +160,7 @@ TEST(Profile, BinsAddUpToThePressureTensor) {
   maxwellian_load(atoms, 0.3, 1, test_seed(3));
   PairScheme scheme(box);
   scheme.internal(atoms, LennardJones{1, 1}, 2.5);
-  Measures const measures = scheme.measure();
+  EnergyAndVirial const measures = scheme.measure();
   List const all{&atoms};
   MassiveParticles const bodies(all, &measures);
   Tensor3 const whole = pressure_tensor(atoms, measures, box);
@@ -223,7 +223,7 @@ TEST(Profile, AsAPicture) {
   scheme.internal(gas, LennardJones{0, 1}, 1);
   Simulation simulation(scheme, 0.1);
   simulation.integrate(gas, Method::leap_frog);
-  Base const base = Base::reduced();
+  UnitSystem const base = UnitSystem::reduced();
   PictureContext const context{simulation, base, "two halves", 0, 0, "", {}};
   Canvas const canvas =
       draw({.drawing = "profile", .x = "position.x", .y = "density, kinetic-temperature.y", .bins = 20}, context);

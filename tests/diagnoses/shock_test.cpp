@@ -168,7 +168,7 @@ struct Made {
   std::vector<AnyEnsemble*> all{&lumps};
   std::vector<AnyEnsemble const*> available{&lumps};
   std::vector<double> start;
-  Measures measures;
+  EnergyAndVirial measures;
   double extra_energy = 0;  // behind the front, per mass: 0 closes
 
   explicit Made(double sign = 1)
@@ -425,7 +425,7 @@ TEST(Shock, InAGasOfHardDiscs) {
   Shock shock({&gas}, {.since = 40, .margin = 20, .near = 25});
   Values v;
   simulation.observe(10, [&](Simulation const& s) {
-    Measures const measures = s.measure();
+    EnergyAndVirial const measures = s.measure();
     v = look(shock, Sample{scheme.ensembles(), scheme.box(), &measures, 1, s.time(), s.step()});
   });
   simulation.run(6500);

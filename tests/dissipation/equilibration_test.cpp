@@ -169,13 +169,13 @@ TEST(Equilibration, AResumedRunDoesNotRepeatIt) {
   {
     Crystal begun;
     begun.simulation.equilibrate(begun.bath(), 20);
-    Recording recording(begun.simulation, Base::reduced(), folder / "run");
+    Recording recording(begun.simulation, UnitSystem::reduced(), folder / "run");
     recording.checkpoint(10);
     begun.simulation.run(13);
   }
   Crystal resumed;
   resumed.simulation.equilibrate(resumed.bath(), 20);
-  Recording recording(resumed.simulation, Base::reduced(), folder / "run");
+  Recording recording(resumed.simulation, UnitSystem::reduced(), folder / "run");
   recording.checkpoint(10);
   recording.resume();
   EXPECT_EQ(resumed.simulation.step(), 13);

@@ -122,12 +122,12 @@ TEST(PairDissipation, TheSameBitsAfterACheckpoint) {
     whole.simulation.run(60);
     {
       Gas begun(kind);
-      Recording recording(begun.simulation, Base::reduced(), folder / "run");
+      Recording recording(begun.simulation, UnitSystem::reduced(), folder / "run");
       recording.checkpoint(10);
       begun.simulation.run(35);
     }
     Gas resumed(kind);
-    Recording recording(resumed.simulation, Base::reduced(), folder / "run");
+    Recording recording(resumed.simulation, UnitSystem::reduced(), folder / "run");
     recording.checkpoint(10);
     recording.resume();
     ASSERT_EQ(resumed.simulation.step(), 35);

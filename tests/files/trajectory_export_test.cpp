@@ -1,7 +1,7 @@
 // Exported trajectories: the texts as their formats define them, and in the hands of the programs they are for.
 #include <gtest/gtest.h>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory_export.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace literals;
 
-TrajectoryOptions options_of(Base const& base) {
+TrajectoryOptions options_of(UnitSystem const& base) {
   TrajectoryOptions options;
   if (!base.is_reduced()) {
     options.unit_name = [base](Dimension d) { return base.display(d).unit; };
@@ -40,7 +40,7 @@ BoxEdges box_of(int dimension) {
 
 // Three frames; ion 0 is at x = 0, 0.5, 1; an ion and the dust come in the second frame.
 template <int D>
-void write_run(std::string const& path, Base const& base) {
+void write_run(std::string const& path, UnitSystem const& base) {
   Ensemble<Coulomb<D>> ions("heavy ions", 1);
   Ensemble<Newton<D>> dust("dust", 0);
   AnyEnsemble const* const list[] = {&ions, &dust};
@@ -60,7 +60,7 @@ void write_run(std::string const& path, Base const& base) {
   }
 }
 
-Base const atomic(1_angstrom, 1_amu, 1_ps);
+UnitSystem const atomic(1_angstrom, 1_amu, 1_ps);
 
 std::string exported(TemporaryFolder const& folder, std::string const& name, ExportOptions const& options = {}) {
   TrajectoryReader const reader(folder / "t.h5");
@@ -95,7 +95,7 @@ TEST(TrajectoryExport, IsALammpsDump) {
 
 TEST(TrajectoryExport, IsCsvWithTheFieldsOfAllEnsembles) {
   TemporaryFolder const folder;
-  write_run<1>(folder / "t.h5", Base::reduced());
+  write_run<1>(folder / "t.h5", UnitSystem::reduced());
   EXPECT_EQ(exported(folder, "a.csv", {.frames = {0, 2}}),
             "step,time,ensemble,number,position,mass,velocity,charge\n"
             "0,0,heavy ions,0,0,1,0.25,1\n"
@@ -104,7 +104,7 @@ TEST(TrajectoryExport, IsCsvWithTheFieldsOfAllEnsembles) {
 
 TEST(TrajectoryExport, ChangesUnits) {
   TemporaryFolder const folder;
-  write_run<3>(folder / "t.h5", Base(2.5_angstrom, 39.948_amu, 1_fs));
+  write_run<3>(folder / "t.h5", UnitSystem(2.5_angstrom, 39.948_amu, 1_fs));
   auto const lines = [&](ExportOptions const& options, std::string const& name) {
     std::string const text = exported(folder, name, options);
     return text.substr(text.rfind("dust"));
@@ -144,7 +144,7 @@ TEST(TrajectoryExport, ChoosesFramesAsPythonDoes) {
 TEST(TrajectoryExport, TellsWhatIsWrongInOneLine) {
   TemporaryFolder const folder;
   write_run<2>(folder / "t.h5", atomic);
-  write_run<2>(folder / "reduced.h5", Base::reduced());
+  write_run<2>(folder / "reduced.h5", UnitSystem::reduced());
   TrajectoryReader const reader(folder / "t.h5"), reduced(folder / "reduced.h5");
   auto const wrong = [&](std::string const& name, ExportOptions const& options = {}) {
     return message([&] { export_trajectory(reader, folder / name, options); });

@@ -119,7 +119,7 @@ std::string file_of_run(std::string const& name) {
   static std::string const place = [] {
     std::string path = folder() + "/run";
     Pair pair;
-    Recording recording(pair.simulation, Base::reduced(), path, true);
+    Recording recording(pair.simulation, UnitSystem::reduced(), path, true);
     recording.diagnoses(5, {"momentum"});
     recording.trajectory(5);
     recording.picture({.colour = "speed"});
@@ -205,7 +205,7 @@ void read_message(std::string const& text) {
     Clients clients;
     Gallery gallery{folder()};
     GallerySource list{gallery, clients};
-    Stage stage{pair.simulation, Base::reduced(), "two", ""};
+    Stage stage{pair.simulation, UnitSystem::reduced(), "two", ""};
     LiveRun live{stage, clients, nullptr};
     Shows() { pair.simulation.check(), stage.add_usual(); }
   };

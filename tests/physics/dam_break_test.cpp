@@ -109,7 +109,7 @@ TEST(DamBreak, BeginsAsPotentialTheoryHasIt) {
 TEST(DamBreak, FrontRunsAsInTheExperiment) {
   Dam dam(false);
   auto const energy = [&] {
-    Measures const m = dam.scheme->measure();
+    EnergyAndVirial const m = dam.scheme->measure();
     return dam.kinetic() + m.internal + m.external;
   };
   double const start = energy();
@@ -137,7 +137,7 @@ TEST(DamBreak, ScenarioRuns) {
   auto const run = shipped("dam-break");
   AnyEnsemble const& water = ensemble(*run, "water");
   auto const total = [&] {
-    Measures const m = run->simulation->measure();
+    EnergyAndVirial const m = run->simulation->measure();
     return kinetic_energy(*run) + m.internal + m.external;
   };
   run->simulation->run(0);

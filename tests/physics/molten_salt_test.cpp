@@ -26,7 +26,7 @@ TEST(MoltenSalt, BeginsAsACrystalAndMelts) {
   double const cell = 25.49037 / 4, neighbours = cell * std::sqrt(3) / 4;
 
   // Madelung's constant of zinc blende, and of each Lennard-Jones law its shells to 9 angstrom less what is left there.
-  Base const& base = run->base;
+  UnitSystem const& base = run->base;
   double const electronvolt = base(units::electronvolt);
   double const coulomb = -1.638055053389 * 14.3996454 * electronvolt / neighbours;  // of a pair; e^2 in eV angstrom
   auto const phi = [&](double r, double r0, double depth) {

@@ -37,7 +37,7 @@ inline double kinetic_energy(ScenarioSimulation const& run) {
 }
 
 inline double total_energy(ScenarioSimulation const& run) {
-  Measures const m = run.simulation->measure();
+  EnergyAndVirial const m = run.simulation->measure();
   return kinetic_energy(run) + m.potential + m.external;
 }
 

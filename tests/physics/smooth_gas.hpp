@@ -39,7 +39,7 @@ double kinetic_energy(Ensemble<Smooth<D>> const& gas) {
 /// The total energy of a scheme with one gas.
 template <int D>
 double total_energy(SmoothScheme& scheme, Ensemble<Smooth<D>> const& gas) {
-  Measures const measures = scheme.measure();
+  EnergyAndVirial const measures = scheme.measure();
   return kinetic_energy(gas) + measures.internal + measures.external;
 }
 

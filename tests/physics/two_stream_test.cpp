@@ -4,7 +4,7 @@
 #include <tests/physics/shipped.hpp>
 #include <tests/physics/waves.hpp>
 
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 
 // Appendix A.4, in cgs: 2000 sheets in 1e6 cm, each for ten electrons per square centimeter.
 struct Thesis {
-  Base base = Base::cgs();
+  UnitSystem base = UnitSystem::cgs();
   double length = 1e6, per_sheet = 10, sheets = 2000;
   double charge = base(constants::elementary_charge), mass = base(constants::electron_mass);
   double energy = base(constants::boltzmann) * 16000;

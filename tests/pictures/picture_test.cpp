@@ -29,7 +29,7 @@ struct Atoms {
   Ensemble<Newton<D>> atoms{"atoms"}, others{"others"};
   PairScheme scheme;
   Simulation simulation;
-  Base base = Base::reduced();
+  UnitSystem base = UnitSystem::reduced();
 
   explicit Atoms(Boundary boundary = Boundary::periodic, bool two = false)
       : scheme(box(boundary)), simulation(scheme, 0.1) {
@@ -254,8 +254,8 @@ TEST(PhaseSpacePictures, EnsemblesWithoutTheFieldAreNamed) {
   scheme.add(ions);
   scheme.add(atoms);
   Simulation simulation(scheme, 0.1);
-  Canvas const canvas =
-      draw({.drawing = "phase-space", .x = "charge", .y = "velocity.x"}, {simulation, Base::reduced(), "", 0, 0, ""});
+  Canvas const canvas = draw({.drawing = "phase-space", .x = "charge", .y = "velocity.x"},
+                             {simulation, UnitSystem::reduced(), "", 0, 0, ""});
   ASSERT_EQ(canvas.clouds().size(), 1U);
   EXPECT_EQ(canvas.clouds()[0].ensemble, "ions");
   EXPECT_EQ(canvas.notes(), std::vector<std::string>{"atoms has no charge"});
@@ -387,7 +387,7 @@ void look_at(System& system, std::vector<Picture> const& pictures, std::uint64_t
   System alone, watched;
   watched.simulation.observe(1, [&](Simulation const&) {
     auto& now = watched.simulation;
-    for (auto const& picture : pictures) draw(picture, {now, Base::reduced(), "", now.step(), now.time(), ""});
+    for (auto const& picture : pictures) draw(picture, {now, UnitSystem::reduced(), "", now.step(), now.time(), ""});
   });
   alone.simulation.observe(1, [](Simulation const&) {});
   alone.simulation.run(steps);
@@ -402,7 +402,8 @@ void look_at(System& system, std::vector<Picture> const& pictures, std::uint64_t
   for (std::uint64_t s = 0; s < steps; ++s) {
     parts.simulation.run(1);
     for (auto const& picture : pictures)
-      draw(picture, {parts.simulation, Base::reduced(), "", parts.simulation.step(), parts.simulation.time(), ""});
+      draw(picture,
+           {parts.simulation, UnitSystem::reduced(), "", parts.simulation.step(), parts.simulation.time(), ""});
   }
   auto const again = bits(parts);
   for (auto const& [name, values] : before)
@@ -516,7 +517,7 @@ void look_at_tracks(std::string const& y, std::uint64_t steps) {
   std::filesystem::remove_all(folder);
   {
     System stored;
-    Recording recording(stored.simulation, Base::reduced(), folder.string(), true);
+    Recording recording(stored.simulation, UnitSystem::reduced(), folder.string(), true);
     recording.trajectory(steps / 4);
     run_with_progress(recording, steps, {.quiet = true});
   }
@@ -528,7 +529,7 @@ void look_at_tracks(std::string const& y, std::uint64_t steps) {
   alone.simulation.observe(1, [](Simulation const&) {});
   watched.simulation.observe(1, [&](Simulation const&) {
     auto& now = watched.simulation;
-    Canvas const canvas = draw(here, {now, Base::reduced(), "", now.step(), now.time(), folder.string()});
+    Canvas const canvas = draw(here, {now, UnitSystem::reduced(), "", now.step(), now.time(), folder.string()});
     nodes = canvas.curves().at(0).x.size();
   });
   alone.simulation.run(steps);
@@ -553,10 +554,10 @@ TEST(Looking, TracksThatAreLostAreTold) {
     scheme.add(gas);
     Simulation simulation(scheme, 1);
     simulation.integrate(gas, Method::leap_frog);
-    Recording recording(simulation, Base::reduced(), folder, true);
+    Recording recording(simulation, UnitSystem::reduced(), folder, true);
     recording.trajectory(every);
     run_with_progress(recording, 20, {.quiet = true});
-    Canvas const canvas = draw({.trace = true}, {simulation, Base::reduced(), "", 20, 20, folder});
+    Canvas const canvas = draw({.trace = true}, {simulation, UnitSystem::reduced(), "", 20, 20, folder});
     bool const told = std::any_of(canvas.notes().begin(), canvas.notes().end(),
                                   [](auto const& note) { return note.starts_with("tracks: some go further"); });
     EXPECT_EQ(told, every == 10);

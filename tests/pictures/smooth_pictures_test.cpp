@@ -1,6 +1,6 @@
 // Pictures of smooth fields: maps, contours and bands of what particles carry.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
@@ -21,7 +21,7 @@ struct Matter {
   Ensemble<P> particles{"matter"};
   PairScheme scheme;
   Simulation simulation;
-  Base base = Base::reduced();
+  UnitSystem base = UnitSystem::reduced();
 
   explicit Matter(Boundary boundary = Boundary::periodic) : scheme(box(boundary)), simulation(scheme, 0.1) {
     int const count = D == 1 ? 20 : D == 2 ? 400 : 8000;

@@ -306,7 +306,7 @@ TEST(Dissipation, EnergyBalanceIsTheFirstColumnLessTheOthers) {
                                  "[[diagnoses]]\nkind = \"energy-balance\"\n"));
   ASSERT_EQ(run->diagnoses.size(), 1U);
   run->simulation->run(20);
-  Measures const measures = run->simulation->measure();
+  EnergyAndVirial const measures = run->simulation->measure();
   std::vector<double> values;
   run->diagnoses[0]->measure({run->simulation->ensembles(), run->box(), &measures, 1, 0, 20}, values);
   ASSERT_EQ(values.size(), run->diagnoses[0]->columns().size());

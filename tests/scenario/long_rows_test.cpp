@@ -129,7 +129,7 @@ std::vector<double> results(PairScheme& scheme, std::initializer_list<AnyEnsembl
   for (auto const* ensemble : ensembles)
     all.insert(all.end(), ensemble->influence(0),
                ensemble->influence(0) + ensemble->size() * ensemble->influence_size());
-  Measures const measures = scheme.measure();
+  EnergyAndVirial const measures = scheme.measure();
   for (auto const& energies : measures.per_particle) all.insert(all.end(), energies.begin(), energies.end());
   for (auto const& virials : measures.virial_per_particle) all.insert(all.end(), virials.begin(), virials.end());
   all.push_back(measures.external);

@@ -44,7 +44,7 @@ void expect_same_bits(AnyEnsemble const& a, AnyEnsemble const& b) {
 
 std::string reports(Simulation const& simulation) {
   std::string all;
-  for (auto const* adaptation : simulation.adaptations()) all += adaptation->report(Base::si()) + '\n';
+  for (auto const* adaptation : simulation.adaptations()) all += adaptation->report(UnitSystem::si()) + '\n';
   return all;
 }
 

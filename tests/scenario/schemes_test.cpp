@@ -75,7 +75,7 @@ TEST_P(SchemesIn, AddUpOnTheSameParticles) {
     EXPECT_EQ(sum.influence(i)[dimension], a.influence(i)[dimension]) << "what heats it is no gravity";
   }
   EXPECT_GT(largest, 1e-3);
-  Measures const measured = both->simulation->measure();
+  EnergyAndVirial const measured = both->simulation->measure();
   EXPECT_NEAR(measured.potential, heavy->simulation->measure().potential, 1e-13);
   EXPECT_NEAR(measured.internal, pressed->simulation->measure().internal, 1e-13);
 }
@@ -153,7 +153,7 @@ TEST(Schemes, HoldAStarInBalance) {
   double total = 0;
   for (std::size_t i = 0; i < gas.size(); ++i) total += gas.row(i)[mass];
   EXPECT_NEAR(total, 1, 0.01);
-  Measures const start = star->simulation->measure();
+  EnergyAndVirial const start = star->simulation->measure();
   EXPECT_NEAR(start.potential, -0.75, 0.02);
   EXPECT_NEAR(start.internal, 0.25, 0.01);
 
@@ -170,7 +170,7 @@ TEST(Schemes, HoldAStarInBalance) {
   EXPECT_NEAR(left / weights, 0, 0.02);
 
   star->simulation->run(60);  // 0.6 of its dynamical time, in which it would fall together without pressure
-  Measures const end = star->simulation->measure();
+  EnergyAndVirial const end = star->simulation->measure();
   double moving = 0;
   for (std::size_t i = 0; i < gas.size(); ++i)
     for (int a = 0; a < 3; ++a) moving += 0.5 * gas.row(i)[mass] * square(gas.row(i)[velocity + a]);

@@ -19,11 +19,11 @@ std::vector<Column> const columns{
     {"kinetic energy", dimensions::energy},   {"total energy", dimensions::energy},
     {"temperature", dimensions::temperature}, {"atoms x-velocity", dimensions::velocity},
     {"energy", dimensions::energy},           {"energy of mode (3, 0)", dimensions::energy}};
-Base const base(1_angstrom, 1_amu, 1_ps);
+UnitSystem const base(1_angstrom, 1_amu, 1_ps);
 
 /// At step 30 and time 2.
 bool holds(std::string const& text, std::array<double, 6> const& values = {1, 200, 10, -3, 5, 7},
-           Base const& of = base) {
+           UnitSystem const& of = base) {
   std::vector<double> row{2};
   row.insert(row.end(), values.begin(), values.end());
   return stop_condition(text, columns, of)(30, row);
@@ -59,9 +59,9 @@ TEST(StopCondition, UnderstandsUnits) {
 }
 
 TEST(StopCondition, InPureNumbersHasNoUnits) {
-  EXPECT_TRUE(holds("temperature < 10.5", {1, 1, 10, 1, 1, 1}, Base::reduced()));
+  EXPECT_TRUE(holds("temperature < 10.5", {1, 1, 10, 1, 1, 1}, UnitSystem::reduced()));
   try {
-    holds("temperature < 10 K", {}, Base::reduced());
+    holds("temperature < 10 K", {}, UnitSystem::reduced());
     ADD_FAILURE();
   } catch (FormulaError const& error) {
     EXPECT_NE(std::string(error.what()).find("without units"), std::string::npos) << error.what();

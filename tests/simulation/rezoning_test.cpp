@@ -252,7 +252,7 @@ TEST_P(RezonedRecording, GoesOnWithTheBitsOfARunWithoutAStop) {
     auto burst = std::make_unique<Burst>(14, method, vary, true, 0.08);
     burst->simulation.adapt(5, Rezoner(burst->gas, burst->scheme.box(), Burst::policy()));
     burst->simulation.adapt(15, Rezoner(burst->air, burst->scheme.box(), Burst::policy()));
-    Recording recording(burst->simulation, Base::reduced(), folder / name);
+    Recording recording(burst->simulation, UnitSystem::reduced(), folder / name);
     recording.diagnoses(5, {"energies", "momentum"});
     recording.trajectory(5);
     recording.checkpoint(10);
@@ -278,7 +278,8 @@ TEST_P(RezonedRecording, GoesOnWithTheBitsOfARunWithoutAStop) {
   EXPECT_EQ(parts_checkpoint.state, whole_checkpoint.state);
   auto const reports = [](Burst const& burst) {
     std::string all;
-    for (auto const* adaptation : burst.simulation.adaptations()) all += adaptation->report(Base::reduced()) + '\n';
+    for (auto const* adaptation : burst.simulation.adaptations())
+      all += adaptation->report(UnitSystem::reduced()) + '\n';
     return all;
   };
   EXPECT_EQ(reports(*whole), reports(*resumed));
@@ -306,7 +307,7 @@ TEST_P(RezonedRecording, GoesOnWithTheBitsOfARunWithoutAStop) {
   a.load(0, resumed->air);
   EXPECT_EQ(resumed->gas.size() + resumed->air.size(), 196U);
   Picture const picture{.colour = "density"};
-  Canvas const first = draw(picture, {resumed->simulation, Base::reduced(), "first", 0, 0, folder / "parts"});
+  Canvas const first = draw(picture, {resumed->simulation, UnitSystem::reduced(), "first", 0, 0, folder / "parts"});
   std::size_t drawn = 0;
   for (auto const& cloud : first.clouds()) drawn += cloud.count();
   EXPECT_EQ(drawn, 196U);
@@ -330,7 +331,7 @@ TEST(RezonedRecording, EndsWithWhatWasDone) {
   auto owned = std::make_unique<Rezoner>(burst.gas, burst.scheme.box(), Burst::policy());
   Rezoner const& rezoner = *owned;
   burst.simulation.adapt(5, std::move(owned));
-  Recording recording(burst.simulation, Base::reduced(), folder / "out");
+  Recording recording(burst.simulation, UnitSystem::reduced(), folder / "out");
   testing::internal::CaptureStdout();
   auto const report = run_with_progress(recording, 40, {});
   std::string const text = testing::internal::GetCapturedStdout();
@@ -347,23 +348,23 @@ TEST(RezonedRecording, EndsWithWhatWasDone) {
   expect("\n196 particles at the start, " + std::to_string(burst.gas.size()) + " at the end, 40 steps to step 40");
   expect("'gas': " + std::to_string(done.splits) + " splits, " + std::to_string(done.merges) + " merges, " +
          std::to_string(burst.gas.size()) + " particles now; angular momentum lost: " +
-         Base::reduced().text(done.angular_momentum_lost[2], dimensions::angular_momentum));
+         UnitSystem::reduced().text(done.angular_momentum_lost[2], dimensions::angular_momentum));
 }
 
 TEST(Rezoning, RefusesWhatNeedsNumbersThatStay) {
   TemporaryFolder const folder;
   Burst burst(6, Method::leap_frog);
   burst.simulation.adapt(5, Rezoner(burst.gas, burst.scheme.box(), Burst::policy()));
-  Recording tracks(burst.simulation, Base::reduced(), folder / "tracks");
+  Recording tracks(burst.simulation, UnitSystem::reduced(), folder / "tracks");
   tracks.trajectory(5);
   tracks.picture({.trace = true});
   EXPECT_EQ(message([&] { tracks.check(); }),
             "a picture with tracks needs particles that keep their numbers; here some come and go between steps");
-  Recording group(burst.simulation, Base::reduced(), folder / "group");
+  Recording group(burst.simulation, UnitSystem::reduced(), folder / "group");
   DiagnosisParameters parameters;
   parameters.available = {&burst.gas};
   parameters.particles = {3, 30};
-  group.diagnoses(5, make_diagnosis("mean-velocity", parameters));
+  group.diagnose(5, make_diagnosis("mean-velocity", parameters));
   EXPECT_EQ(message([&] { group.check(); }),
             "the diagnosis of 'gas mean velocity x' follows particles by their numbers, which change where particles "
             "come and go between steps");

@@ -52,7 +52,7 @@ struct Atoms {
 class Running {
  public:
   Running(Simulation& simulation, std::uint64_t steps, WindowOptions options = {})
-      : window(simulation, Base::reduced(), quiet(options)) {
+      : window(simulation, UnitSystem::reduced(), quiet(options)) {
     start(steps);
   }
   Running(Recording& recording, std::uint64_t steps, WindowOptions options = {}) : window(recording, quiet(options)) {
@@ -128,7 +128,7 @@ TEST(LiveRun, SaysWhatThereIsToSee) {
 TEST(LiveRun, BeginsWithWhatAPictureSays) {
   Folder folder;
   Atoms<3> system;
-  Recording recording(*system.simulation, Base::reduced(), folder.path.string());
+  Recording recording(*system.simulation, UnitSystem::reduced(), folder.path.string());
   recording.picture({.vectors = "velocity", .file = "arrows.png", .projection = {10, 60}});
   recording.picture({.drawing = "contours", .file = "lines.png", .levels = {0.5, 1}, .cells = 50});
   Running running(recording, 100);
@@ -303,7 +303,7 @@ TEST(LiveRun, TellsTheFieldsOfAParticle) {
 
 TEST(LiveRun, DrawsTheUsersOwnDiagnosis) {
   Atoms<2> system;
-  Window window(*system.simulation, Base::reduced(), {.quiet = true});
+  Window window(*system.simulation, UnitSystem::reduced(), {.quiet = true});
   window.install("Kinetic", [](Canvas& canvas, auto const& scheme) {
     auto const& ensemble = *scheme.ensembles()[0];
     canvas.axes({"number", ""}, {"x", ""});
@@ -387,7 +387,7 @@ TEST(LiveRun, SeveralPagesLookAtOneRun) {
 TEST(LiveRun, RecordsAsARunWithoutAWindow) {
   Folder const folder;
   auto const record = [&](Atoms<2>& system, std::string const& name, bool in_window) {
-    Recording recording(*system.simulation, Base::reduced(), (folder.path / name).string(), true);
+    Recording recording(*system.simulation, UnitSystem::reduced(), (folder.path / name).string(), true);
     recording.diagnoses(5, {"energies"});
     recording.trajectory(10);
     recording.picture({.colour = "speed"});
@@ -434,7 +434,7 @@ TEST(LiveRun, RecordsAsARunWithoutAWindow) {
 TEST(LiveRun, QuitBeforeTheFirstStepLeavesARunToResume) {
   Folder const folder;
   Atoms<2> system;
-  Recording recording(*system.simulation, Base::reduced(), folder.path.string(), true);
+  Recording recording(*system.simulation, UnitSystem::reduced(), folder.path.string(), true);
   recording.trajectory(10);
   Running running(recording, 40);
   PageReader page(running.window.address());

@@ -38,7 +38,7 @@ class ReplayTest : public testing::Test {
  protected:
   void SetUp() override {
     fs::remove_all(folder_);
-    recording_ = std::make_unique<Recording>(run_.simulation, Base::reduced(), folder_, true);
+    recording_ = std::make_unique<Recording>(run_.simulation, UnitSystem::reduced(), folder_, true);
     recording_->trajectory(10);
     recording_->diagnoses(5, {"temperature"});
     run_with_progress(*recording_, 200, {.quiet = true});
@@ -56,7 +56,7 @@ class ReplayTest : public testing::Test {
     Replay replay;
     std::thread thread;
     explicit Shown(std::string const& folder)
-        : stage(stored.simulation, Base::reduced(), "balls", folder), replay(stage, clients, "balls", "") {
+        : stage(stored.simulation, UnitSystem::reduced(), "balls", folder), replay(stage, clients, "balls", "") {
       stored.simulation.check();
       stage.add_usual();
       thread = std::thread([this] { replay.run(); });
@@ -154,7 +154,7 @@ TEST_F(ReplayTest, GrowsWhileTheRunGoesOn) {
   std::string const other = folder_ + "-growing";
   Balls growing;
   {
-    Recording recording(growing.simulation, Base::reduced(), other, true);
+    Recording recording(growing.simulation, UnitSystem::reduced(), other, true);
     recording.trajectory(10);
     growing.simulation.run(30);
     Shown shown(other);
@@ -197,7 +197,7 @@ TEST_F(ReplayTest, StopsBeforeADamagedFrame) {
 TEST_F(ReplayTest, NeedsFrames) {
   Balls stored;
   Clients clients;
-  Stage nowhere(stored.simulation, Base::reduced(), "", folder_ + "-missing");
+  Stage nowhere(stored.simulation, UnitSystem::reduced(), "", folder_ + "-missing");
   EXPECT_THROW(Replay(nowhere, clients, "", ""), Error);
 }
 

@@ -28,7 +28,7 @@ void run_program(std::string const& folder, bool frames) {
   scheme.internal(atoms, [](auto const& p, auto const& q) { return q.position - p.position; });
   Simulation simulation(scheme, 0.01);
   simulation.integrate(atoms, Method::leap_frog);
-  Recording recording(simulation, Base::reduced(), folder);
+  Recording recording(simulation, UnitSystem::reduced(), folder);
   recording.title("Two atoms");
   if (frames) recording.trajectory(5);
   recording.picture({.file = "first.png"});

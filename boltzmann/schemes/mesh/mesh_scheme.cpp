@@ -278,8 +278,8 @@ std::vector<MeshField const*> MeshScheme::mesh_fields() {
   return {&work.density, &work.potential, &work.field};
 }
 
-Measures MeshScheme::measure(double time) {
-  Measures measures;
+EnergyAndVirial MeshScheme::measure(double time) {
+  EnergyAndVirial measures;
   if (!pairs_.ensembles().empty()) measures = pairs_.measure(time);
   Work& work = this->work();
   deposit(work);
@@ -318,7 +318,8 @@ Measures MeshScheme::measure(double time) {
   return measures;
 }
 
-void MeshScheme::add_virial(MeshField const&, MeshField const&, MeshField const& field, Measures& measures) const {
+void MeshScheme::add_virial(MeshField const&, MeshField const&, MeshField const& field,
+                            EnergyAndVirial& measures) const {
   // Maxwell's stress of a periodic field: the integral of (E^2/2 delta_ab - E_a E_b) / C. In finite differences it
   // belongs to the energy of E as it is there, not quite to half the strengths times potentials: on waves of some cells
   // the two differ.

@@ -120,7 +120,7 @@ class MeshScheme : public Scheme {
   void calculate(double time = 0) override;
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
-  Measures measure(double time = 0) override;
+  EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
@@ -136,7 +136,7 @@ class MeshScheme : public Scheme {
   void solve_by(std::vector<std::size_t> cells, int order, GreensFunction green);
   /// Adds the virial of what the mesh gives, or says why it can't be had.
   virtual void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
-                          Measures& measures) const;
+                          EnergyAndVirial& measures) const;
   /// From now on assignment(), form() and boundary() are refused.
   void chosen_by_accuracy() { chosen_by_accuracy_ = true; }
 

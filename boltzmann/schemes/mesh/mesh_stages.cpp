@@ -50,7 +50,7 @@ void MeshScheme::assign_density(MeshField& density) {
     AssignTask task = task_for(work, *loaded);
     task.per_strength = per_strength;
     std::vector<AssignResult> results((size + mesh_grain - 1) / mesh_grain);
-    work.tallies.count(size, mesh_grain, size < mesh_worth_threads ? 1 : threads(),
+    work.tallies.count(size, mesh_grain, threads_for(size, 1, threads()),
                        [&](std::size_t begin, std::size_t end, std::int64_t* counts) {
                          AssignTask mine = task;
                          mine.counts = counts;
@@ -179,7 +179,7 @@ void MeshScheme::gather(Work& work, Loaded& loaded, bool potential, double* resu
   task.overwrite = overwrite;
   AssignKernels const kernels =
       for_instruction_set([&](auto set) { return assign_kernels<decltype(set)::value>().of[D - 1][order_ - 1]; });
-  for_ranges(ensemble.size(), mesh_grain, ensemble.size() < mesh_worth_threads ? 1 : threads(),
+  for_ranges(ensemble.size(), mesh_grain, threads_for(ensemble.size(), 1, threads()),
              [&](std::size_t begin, std::size_t end) {
                AssignResult ignored;
                kernels.interpolate(task, ignored, begin, end);

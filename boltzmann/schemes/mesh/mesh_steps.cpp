@@ -261,7 +261,7 @@ class MeshSteps final : public FusedSteps {
       task.velocity[a] = columns.velocity[a].data();
     }
     std::vector<StepResult> results((columns.size + mesh_grain - 1) / mesh_grain);
-    int const threads = columns.size < mesh_worth_threads ? 1 : scheme_.threads();
+    int const threads = threads_for(columns.size, 1, scheme_.threads());
     if (counts) {
       tallies_.count(columns.size, mesh_grain, threads, [&](std::size_t begin, std::size_t end, std::int64_t* density) {
         StepTask<Real> mine = task;
@@ -302,9 +302,9 @@ class MeshSteps final : public FusedSteps {
       throw PhysicsFailure(fmt::format(
           "particle {} of '{}' moved {} in one step, further than the length {} of "
           "the box; take a step below {}",
-          columns.order[who], name, scheme_.spoken_base().text(moved, dimensions::length),
-          scheme_.spoken_base().text(allowed, dimensions::length),
-          scheme_.spoken_base().text(std::abs(dt_) * std::sqrt(0.1 * allowed / moved), dimensions::time, 3)));
+          columns.order[who], name, scheme_.spoken_units().text(moved, dimensions::length),
+          scheme_.spoken_units().text(allowed, dimensions::length),
+          scheme_.spoken_units().text(std::abs(dt_) * std::sqrt(0.1 * allowed / moved), dimensions::time, 3)));
     // It was put on the low edge, so that it could do no harm.
     for (std::size_t i = 0; i < columns.size; ++i)
       for (int a = 0; a < dimension_; ++a)
@@ -432,7 +432,7 @@ class MeshSteps final : public FusedSteps {
       task.position[a] = columns.position[a].data();
       task.velocity[a] = columns.velocity[a].data();
     }
-    for_ranges(columns.size, mesh_grain, columns.size < mesh_worth_threads ? 1 : scheme_.threads(),
+    for_ranges(columns.size, mesh_grain, threads_for(columns.size, 1, scheme_.threads()),
                [&](std::size_t begin, std::size_t end) {
                  AlignedArray<Real> finished[3];
                  StepTask<Real> mine = task;

@@ -1,4 +1,5 @@
 // Arrays on the nodes of a mesh, and how finely strengths are counted there.
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ double counts_per_strength(double greatest, std::size_t particles) {
 void MeshScheme::Loaded::refresh(int threads) {
   strengths.resize(ensemble->size());
   for_ranges(
-      ensemble->size(), mesh_grain, ensemble->size() < mesh_worth_threads ? 1 : threads,
+      ensemble->size(), mesh_grain, threads_for(ensemble->size(), 1, threads),
       [&](std::size_t begin, std::size_t end) { kind.strengths(ensemble->row(0), begin, end, strengths.data()); });
 }
 

@@ -43,7 +43,7 @@ double counts_per_strength(double greatest, std::size_t particles);
 void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
          int threads);
 
-/// Particles of one range of a loop, and from how many on threads are worth it.
-inline constexpr std::size_t mesh_grain = 1U << 14U, mesh_worth_threads = 1U << 13U;
+/// Particles of one range of a loop.
+inline constexpr std::size_t mesh_grain = 1U << 14U;
 
 }  // namespace boltzmann

@@ -168,7 +168,7 @@ void P3MScheme::add_influences(double time) {
 }
 
 void P3MScheme::add_virial(MeshField const& density, MeshField const& potential, MeshField const&,
-                           Measures& measures) const {
+                           EnergyAndVirial& measures) const {
   // Of each wave's energy E_k = C |rho_k|^2 exp(-k^2/4 alpha^2) / (2 k^2 V) with the waves and the volume that a strain
   // changes (Essmann et al. 1995, eq. 2.7): E_k (delta_ab - 2 (1/k^2 + 1/4 alpha^2) k_a k_b). Density and potential are
   // transformed as one complex field F: rho_k phi_-k + rho_-k phi_k = Im(F_k F_-k).
@@ -224,11 +224,11 @@ void P3MScheme::add_virial(MeshField const& density, MeshField const& potential,
     for (int b = 0; b < grid.dimension; ++b) measures.virial[a][b] += sums[a][b].value();
 }
 
-Measures P3MScheme::measure(double time) {
+EnergyAndVirial P3MScheme::measure(double time) {
   tune();
-  Measures measures = MeshScheme::measure(time);
+  EnergyAndVirial measures = MeshScheme::measure(time);
   copy_particles();
-  Measures const near = near_->scheme.measure(time);
+  EnergyAndVirial const near = near_->scheme.measure(time);
   P3mSystem const system = this->system();
   // A part goes with the square of each strength; with the background, the other with each strength times their sum.
   double const constant = p3m_energy_constant(system, parameters_);

@@ -28,7 +28,7 @@ class P3MScheme final : public MeshScheme {
 
   std::vector<MeshField const*> mesh_fields() override;
   void add_influences(double time) override;
-  Measures measure(double time = 0) override;
+  EnergyAndVirial measure(double time = 0) override;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
   std::string summary() const override { return MeshScheme::summary() + ", and near pairs (P3M)"; }
@@ -39,7 +39,7 @@ class P3MScheme final : public MeshScheme {
 
  protected:
   void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
-                  Measures& measures) const override;
+                  EnergyAndVirial& measures) const override;
 
  private:
   struct Near;

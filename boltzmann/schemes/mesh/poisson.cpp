@@ -1,363 +1,33 @@
 // Poisson's equation axis by axis: every axis has modes in which the Laplacian is a factor, and a transform of its own.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/fourier.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/open_kernel.hpp>
-#include <boltzmann/schemes/mesh/poisson.hpp>
+#include <boltzmann/schemes/mesh/poisson_lines.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 
 namespace boltzmann {
+
+using namespace poisson;
+
 namespace {
-
-// ---- Axes ----
-
-enum class Kind { single, periodic, dirichlet, neumann, dirichlet_neumann, neumann_dirichlet, open };
-
-/// The mesh has three slots: rows along x, planes of rows, and the last axis, that of the planes. In 2D y is the last
-/// axis and a plane has a single row.
-struct Axis {
-  Kind kind = Kind::single;
-  std::size_t nodes = 1, cells = 1;
-  std::size_t first = 0, samples = 1;  ///< the nodes that are transformed
-  std::size_t modes = 1;               ///< also the length of the transform
-  double spacing = 1;
-  double scale = 1;                ///< 1 / (what a transform there and back multiplies with)
-  std::vector<double> eigenvalue;  ///< of -d^2/dx^2, for each mode
-  std::vector<double> slope;       ///< of -d/dx: see Lines::slope
-
-  bool complex() const { return kind == Kind::periodic || kind == Kind::open; }
-  /// Of modes that differ in their sign only, the number of the positive one.
-  std::size_t folded(std::size_t mode) const { return complex() ? std::min(mode, modes - mode) : mode; }
-  std::size_t folded_modes() const { return complex() ? modes / 2 + 1 : modes; }
-};
-
-Kind kind_of(FieldEnds const& ends, char name) {
-  using enum FieldBoundary;
-  for (FieldBoundary const both : {periodic, open})
-    if ((ends.low == both) != (ends.high == both))
-      throw Error(fmt::format("mesh: axis {} is {} at its low end and {} at its high end; {} must be both or none",
-                              name, to_string(ends.low), to_string(ends.high), to_string(both)));
-  if (ends.low == periodic) return Kind::periodic;
-  if (ends.low == open) return Kind::open;
-  if (ends.low == dirichlet) return ends.high == dirichlet ? Kind::dirichlet : Kind::dirichlet_neumann;
-  return ends.high == dirichlet ? Kind::neumann_dirichlet : Kind::neumann;
-}
-
-/// The axis without its tables.
-Axis make_axis(MeshGrid const& grid, FieldEnds const& ends, int a) {
-  char const name = "xyz"[a];
-  Axis axis;
-  axis.kind = kind_of(ends, name);
-  if (grid.periodic[a] != (axis.kind == Kind::periodic))
-    throw Error(fmt::format("mesh: axis {} of the mesh is {}periodic, but the potential's ends are {} and {}", name,
-                            grid.periodic[a] ? "" : "not ", to_string(ends.low), to_string(ends.high)));
-  std::size_t const least = axis.kind == Kind::dirichlet ? 2 : 1;
-  if (grid.nodes[a] < 1 || grid.cells(a) < least)
-    throw Error(fmt::format("mesh: axis {} has {} cell(s); with the ends {} and {} it needs {} or more", name,
-                            grid.nodes[a] < 1 ? 0 : grid.cells(a), to_string(ends.low), to_string(ends.high), least));
-  if (!(grid.spacing[a] > 0 && std::isfinite(grid.spacing[a])))
-    throw Error(fmt::format("mesh: the spacing along {} is {}; it must be finite and > 0", name, grid.spacing[a]));
-  axis.nodes = grid.nodes[a];
-  std::size_t const n = axis.cells = grid.cells(a);
-  axis.spacing = grid.spacing[a];
-  axis.samples = axis.modes = n;
-  std::size_t logical = 2 * n;
-  switch (axis.kind) {
-    case Kind::dirichlet:
-      axis.samples = axis.modes = n - 1;
-      axis.first = 1;
-      break;
-    case Kind::neumann:
-      axis.samples = axis.modes = n + 1;
-      break;
-    case Kind::dirichlet_neumann:
-      axis.first = 1;
-      break;
-    case Kind::open:
-      axis.samples = n + 1;
-      axis.modes = logical = fast_even_length(2 * n + 2);
-      break;
-    case Kind::periodic:
-      logical = n;
-      break;
-    default:
-      break;
-  }
-  axis.scale = 1 / static_cast<double>(logical);
-  return axis;
-}
-
-void fill_tables(Axis& axis, PoissonForm form) {
-  axis.eigenvalue.assign(axis.modes, 0);
-  axis.slope.assign(axis.modes, 0);
-  std::size_t const n = axis.modes;
-  double const length = static_cast<double>(axis.cells) * axis.spacing;
-  for (std::size_t j = 0; j < n; ++j) {
-    double k = 0;
-    switch (axis.kind) {
-      case Kind::single:
-        return;
-      case Kind::open:
-        axis.slope[j] = j == 0 || 2 * j == n ? 0 : 2 * j < n ? 1 : -1;
-        continue;
-      case Kind::periodic:
-        k = 2 * pi * static_cast<double>(axis.folded(j)) / length;
-        axis.slope[j] = 2 * j == n ? 0 : 2 * j < n ? -k : k;
-        break;
-      case Kind::dirichlet:
-        k = pi * static_cast<double>(j + 1) / length;
-        axis.slope[j] = -k;
-        break;
-      case Kind::neumann:
-        k = pi * static_cast<double>(j) / length;
-        axis.slope[j] = k;
-        break;
-      case Kind::dirichlet_neumann:
-      case Kind::neumann_dirichlet:
-        k = pi * (static_cast<double>(j) + 0.5) / length;
-        axis.slope[j] = axis.kind == Kind::dirichlet_neumann ? -k : k;
-        break;
-    }
-    double const difference = 2 / axis.spacing * std::sin(k * axis.spacing / 2);
-    axis.eigenvalue[j] = form == PoissonForm::spectral ? k * k : difference * difference;
-  }
-}
-
-// ---- Lines: the transforms of one axis ----
-
-constexpr std::size_t block_width = 16;  ///< doubles, two cache lines: so many columns are transformed at once
-
-enum class Layout {
-  row,              ///< one line; periodic and open: complex modes 0 .. n/2
-  complex_columns,  ///< block_width / 2 complex lines (or pairs of real ones: all that is done is linear)
-  real_columns,     ///< block_width real lines
-};
-
-/// A range of nodes; the others are zero.
-struct Nodes {
-  std::size_t first, count;
-};
-
-class Lines {
- public:
-  Lines() = default;
-  Lines(Axis const& axis, Layout layout, bool with_slope) : axis_(&axis), layout_(layout) {
-    std::size_t const n = axis.modes;
-    std::size_t count = layout == Layout::row ? 1 : block_width;
-    width_ = count;
-    using enum FourierKind;
-    switch (axis.kind) {
-      case Kind::single:
-        break;
-      case Kind::periodic:
-      case Kind::open:
-        if (layout == Layout::complex_columns) count /= 2;
-        forward_ = {layout == Layout::row               ? real_to_complex
-                    : layout == Layout::complex_columns ? complex_forward
-                                                        : real_to_halfcomplex,
-                    n, count};
-        backward_ = {layout == Layout::row               ? complex_to_real
-                     : layout == Layout::complex_columns ? complex_backward
-                                                         : halfcomplex_to_real,
-                     n, count};
-        if (with_slope) slope_ = backward_;
-        break;
-      case Kind::dirichlet:
-        forward_ = backward_ = {sine, n, count};
-        if (with_slope) slope_ = {cosine, n + 2, count};
-        break;
-      case Kind::neumann:
-        forward_ = backward_ = {cosine, n, count};
-        if (with_slope && n > 2) slope_ = {sine, n - 2, count};
-        break;
-      case Kind::dirichlet_neumann:
-        forward_ = {sine_to_halves, n, count};
-        backward_ = {halves_to_sine, n, count};
-        if (with_slope) slope_ = {halves_to_cosine, n, count};
-        break;
-      case Kind::neumann_dirichlet:
-        forward_ = {cosine_to_halves, n, count};
-        backward_ = {halves_to_cosine, n, count};
-        if (with_slope) slope_ = {halves_to_sine, n, count};
-        break;
-    }
-  }
-
-  /// Doubles that each of the two arrays of a call must have.
-  static std::size_t buffer_size(Axis const& axis, Layout layout) {
-    return (axis.modes + 2) * (layout == Layout::row ? 1 : block_width);
-  }
-
-  /// Samples in `a` to modes in `b`. Either array is destroyed by what reads it.
-  void forward(double* a, double* b) const {
-    if (!forward_) return copy(a, b);
-    if (axis_->kind == Kind::open) std::fill(a + axis_->samples * width_, a + axis_->modes * width_, 0.0);
-    forward_.execute(a, b);
-  }
-  /// Modes in `b` to samples in `a`, not divided by anything.
-  Nodes backward(double* b, double* a) const {
-    if (backward_)
-      backward_.execute(b, a);
-    else
-      copy(b, a);
-    return {axis_->first, axis_->samples};
-  }
-  /// Modes in `b` to factor (-d/dx) at nodes. The derivative of exp(i k x) is i k exp(i k x), that of a sine series is
-  /// a cosine series and the other way around; along an open axis the modes are those of the slope already, without
-  /// their i and sign.
-  Nodes slope(double* b, double* a, double factor) const {
-    std::size_t const n = axis_->modes, w = width_;
-    double const* const slope = axis_->slope.data();
-    Nodes nodes{0, n};
-    switch (axis_->kind) {
-      case Kind::single:
-        std::fill_n(a, w, 0.0);
-        return {0, 1};
-      case Kind::periodic:
-      case Kind::open:
-        nodes.count = axis_->nodes;
-        if (layout_ == Layout::real_columns)
-          rotate_halfcomplex(b, factor);
-        else
-          rotate_complex(b, factor);
-        break;
-      case Kind::dirichlet:
-        nodes.count = n + 2;
-        std::fill_n(b + (n + 1) * w, w, 0.0);
-        for (std::size_t j = n; j-- > 0;)
-          for (std::size_t c = 0; c < w; ++c) b[(j + 1) * w + c] = factor * slope[j] * b[j * w + c];
-        std::fill_n(b, w, 0.0);
-        break;
-      case Kind::neumann:
-        nodes = {1, n - 2};
-        for (std::size_t j = 1; j + 1 < n; ++j)
-          for (std::size_t c = 0; c < w; ++c) b[(j - 1) * w + c] = factor * slope[j] * b[j * w + c];
-        if (n == 2) return nodes;
-        break;
-      case Kind::dirichlet_neumann:
-      case Kind::neumann_dirichlet:
-        nodes.first = axis_->kind == Kind::neumann_dirichlet ? 1 : 0;
-        for (std::size_t j = 0; j < n; ++j)
-          for (std::size_t c = 0; c < w; ++c) b[j * w + c] *= factor * slope[j];
-        break;
-    }
-    slope_.execute(b, a);
-    return nodes;
-  }
-
- private:
-  void copy(double const* from, double* to) const { std::copy_n(from, axis_->modes * width_, to); }
-
-  void rotate_complex(double* b, double factor) const {
-    std::size_t const rows = layout_ == Layout::row ? axis_->modes / 2 + 1 : axis_->modes;
-    std::size_t const pairs = layout_ == Layout::row ? 1 : width_ / 2;
-    for (std::size_t j = 0; j < rows; ++j) {
-      double const f = factor * axis_->slope[j];
-      for (std::size_t c = 0; c < pairs; ++c, b += 2) {
-        double const real = b[0];
-        b[0] = -f * b[1];
-        b[1] = f * real;
-      }
-    }
-  }
-  void rotate_halfcomplex(double* b, double factor) const {
-    std::size_t const n = axis_->modes, w = width_;
-    std::fill_n(b, w, 0.0);
-    if (n % 2 == 0) std::fill_n(b + n / 2 * w, w, 0.0);
-    for (std::size_t j = 1; 2 * j < n; ++j)
-      for (std::size_t c = 0; c < w; ++c) {
-        double const f = factor * axis_->slope[j], real = b[j * w + c];
-        b[j * w + c] = -f * b[(n - j) * w + c];
-        b[(n - j) * w + c] = f * real;
-      }
-  }
-
-  Axis const* axis_ = nullptr;
-  Layout layout_ = Layout::row;
-  std::size_t width_ = 1;
-  LineTransform forward_, backward_, slope_;
-};
 
 struct Scratch {
   Scratch(std::size_t block, std::size_t row) : a(block), b(block), c(row) {}
   FourierArray a, b, c;  ///< c: a second row of modes, for its slope
 };
 
-/// Columns of an array to a block, and back.
-void load(double const* from, std::size_t stride, std::size_t rows, std::size_t columns, double* block) {
-  if (columns == block_width) {
-    for (std::size_t j = 0; j < rows; ++j)
-      std::memcpy(block + j * block_width, from + j * stride, sizeof(double[block_width]));
-    return;
-  }
-  for (std::size_t j = 0; j < rows; ++j) {
-    std::copy_n(from + j * stride, columns, block + j * block_width);
-    std::fill_n(block + j * block_width + columns, block_width - columns, 0.0);
-  }
-}
-void store(double const* block, std::size_t rows, std::size_t columns, double* to, std::size_t stride) {
-  if (columns == block_width) {
-    for (std::size_t j = 0; j < rows; ++j)
-      std::memcpy(to + j * stride, block + j * block_width, sizeof(double[block_width]));
-    return;
-  }
-  for (std::size_t j = 0; j < rows; ++j) std::copy_n(block + j * block_width, columns, to + j * stride);
-}
-/// The nodes of an axis that a block or row has; zero at the others.
-void store_nodes(double const* block, Nodes nodes, std::size_t all, std::size_t columns, double* to,
-                 std::size_t stride) {
-  for (std::size_t j = 0; j < nodes.first; ++j) std::fill_n(to + j * stride, columns, 0.0);
-  store(block, nodes.count, columns, to + nodes.first * stride, stride);
-  for (std::size_t j = nodes.first + nodes.count; j < all; ++j) std::fill_n(to + j * stride, columns, 0.0);
-}
-void store_row(double const* values, Nodes nodes, std::size_t all, double* to) {
-  std::fill_n(to, nodes.first, 0.0);
-  std::copy_n(values, nodes.count, to + nodes.first);
-  std::fill(to + nodes.first + nodes.count, to + all, 0.0);
-}
-
 /// A potential on the nodes, with gaps between rows and planes.
 struct View {
   double const* data;
   std::size_t row, plane;
 };
-
-/// E at a node from at most three nodes of its line.
-struct Difference {
-  std::array<std::size_t, 3> node{};
-  std::array<double, 3> weight{};
-  int terms = 2;
-};
-
-Difference difference_at(Axis const& axis, std::size_t j) {
-  std::size_t const last = axis.nodes - 1;
-  double const w = 1 / (2 * axis.spacing);
-  if (axis.kind == Kind::periodic) return {{j == 0 ? last : j - 1, j == last ? 0 : j + 1}, {w, -w}};
-  if (j > 0 && j < last) return {{j - 1, j + 1}, {w, -w}};
-  double const sign = j == 0 ? 1 : -1;
-  auto const inward = [&](std::size_t steps) { return j == 0 ? steps : last - steps; };
-  switch (axis.kind) {
-    case Kind::open:
-      if (last < 2) return {{inward(0), inward(1)}, {2 * sign * w, -2 * sign * w}};
-      return {{inward(0), inward(1), inward(2)}, {3 * sign * w, -4 * sign * w, sign * w}, 3};
-    case Kind::dirichlet:
-    case Kind::dirichlet_neumann:
-    case Kind::neumann_dirichlet:
-      if (axis.kind == Kind::dirichlet || (axis.kind == Kind::dirichlet_neumann) == (j == 0))
-        return {{inward(1), inward(1)}, {-sign * w, -sign * w}};
-      [[fallthrough]];
-    default:
-      return {{j, j}, {0, 0}};
-  }
-}
 
 // ---- Sizes ----
 
@@ -415,7 +85,7 @@ struct Memory {
   std::size_t held, most;
 };
 
-int threads_for(MeshGrid const& grid, int threads) { return grid.size() < 16384 ? 1 : std::max(threads, 1); }
+int threads_on(MeshGrid const& grid, int threads) { return threads_for(grid.size(), 0.5, std::max(threads, 1)); }
 
 std::size_t row_scratch(Shape const& shape, PoissonForm form) {
   return form == PoissonForm::spectral ? Lines::buffer_size(shape.axis[0], Layout::row) : 0;
@@ -423,7 +93,7 @@ std::size_t row_scratch(Shape const& shape, PoissonForm form) {
 
 Memory memory(Shape const& shape, MeshGrid const& grid, PoissonForm form, int threads, bool green) {
   bool const slopes = form == PoissonForm::spectral;
-  std::size_t const used = threads_for(grid, threads);
+  std::size_t const used = threads_on(grid, threads);
   std::size_t tables = green ? shape.table_size() : 0, making = 0;
   if (shape.any_open) {
     tables = shape.table_size() * (slopes ? 1 + shape.open_axes.size() : 1);
@@ -461,7 +131,7 @@ struct PoissonSolver::Plans {
       : shape(make_shape(g, ends, green != nullptr)),
         grid(g),
         form(f),
-        threads(threads_for(g, t)),
+        threads(threads_on(g, t)),
         memory(boltzmann::memory(shape, g, f, t, green != nullptr)) {
     for (Axis& axis : shape.axis) {
       fill_tables(axis, form);
@@ -847,7 +517,7 @@ Words<PoissonForm> const& poisson_form_words() {
   return all;
 }
 
-void PoissonSolver::threads(int count) { plans_->threads = threads_for(plans_->grid, count); }
+void PoissonSolver::threads(int count) { plans_->threads = threads_on(plans_->grid, count); }
 
 std::size_t PoissonSolver::bytes() const { return plans_->memory.held; }
 

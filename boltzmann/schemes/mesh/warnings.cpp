@@ -41,7 +41,7 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, MeshKind const& kind,
 
 std::vector<std::string> MeshScheme::warnings(double step_size) {
   std::vector<std::string> lines;
-  auto const time = [&](double number) { return spoken_base().text(number, dimensions::time, 3); };
+  auto const time = [&](double number) { return spoken_units().text(number, dimensions::time, 3); };
   MeshGrid const grid = make_grid(box(), cells_);
   double widest = 0, particles = 0, frequency2 = 0, crossing = 0;
   for (int a = 0; a < box().dimension(); ++a) widest = std::max(widest, grid.spacing[a]);

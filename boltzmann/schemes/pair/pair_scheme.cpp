@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t particle_grain = 256;     // particles of one range of a list
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
 // Below, one thread is faster than the start of two (some us, and some 50 if the others have gone to sleep).
-constexpr std::size_t pairs_worth_threads = 1U << 16U;
+constexpr double pair_work = 0.125;
 constexpr char const* axis_name = "xyz";
 
 }  // namespace
@@ -213,13 +213,13 @@ void PairScheme::calculate(double time, bool overwrite) {
     PairKernel const kernel = near->all_pairs() ? near->kernels.all
                               : quantum_ > 0    ? near->kernels.list_reversible
                                                 : near->kernels.list;
-    for_ranges(task.targets, near->grain(), worth(near->pairs, pairs_worth_threads),
+    for_ranges(task.targets, near->grain(), threads_for(near->pairs, pair_work, threads()),
                [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
   }
   for (auto* ensemble : clear) ensemble->clear_influence();
   for (auto const& connected : connected_) {
     PairTask const task = connected->task(box());
-    for_ranges(task.targets, 4 * particle_grain, worth(connected->list.index.size(), pairs_worth_threads),
+    for_ranges(task.targets, 4 * particle_grain, threads_for(connected->list.index.size(), pair_work, threads()),
                [&](std::size_t begin, std::size_t end) {
                  connected->kernels.connected(connected->law.get(), task, begin, end);
                });
@@ -227,7 +227,7 @@ void PairScheme::calculate(double time, bool overwrite) {
   for (auto const& external : external_) {
     ExternalTask const task = external->task(time);
     if (external->taken) continue;
-    for_ranges(external->count(), 8 * particle_grain, worth(external->count(), particles_worth_threads),
+    for_ranges(external->count(), 8 * particle_grain, threads_for(external->count(), 1, threads()),
                [&](std::size_t begin, std::size_t end) {
                  external->kernels.influence(external->law.get(), task, begin, end);
                });
@@ -250,8 +250,8 @@ Scheme::SmallSystem PairScheme::small_system() {
           &only};
 }
 
-Measures PairScheme::measure(double time) {
-  Measures measures;
+EnergyAndVirial PairScheme::measure(double time) {
+  EnergyAndVirial measures;
   neighbourhood_.refresh(threads());
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
@@ -270,7 +270,7 @@ Measures PairScheme::measure(double time) {
                        void const* law) {
     task.energy = measures.per_particle[number(target)].data();
     task.virial = virial[number(target)].data();
-    for_ranges(task.targets, grain, worth(task.targets, particles_worth_threads / 4),
+    for_ranges(task.targets, grain, threads_for(task.targets, 4, threads()),
                [&](std::size_t begin, std::size_t end) { kernel(law, task, begin, end); });
   };
   for (auto const& near : near_) {
@@ -294,7 +294,7 @@ Measures PairScheme::measure(double time) {
     ExternalTask task = external->task(time);
     task.energy = field[number(external->ensemble)].data();
     for_ranges(
-        external->count(), 8 * particle_grain, worth(external->count(), particles_worth_threads),
+        external->count(), 8 * particle_grain, threads_for(external->count(), 1, threads()),
         [&](std::size_t begin, std::size_t end) { external->kernels.measure(external->law.get(), task, begin, end); });
   }
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -401,7 +401,7 @@ std::size_t PairScheme::bytes() const {
 
 std::vector<std::string> PairScheme::warnings(double step_size) {
   constexpr double most = 0.25;  // of the law's length in one step
-  auto const told = [&](double number, Dimension unit) { return spoken_base().text(number, unit, 3); };
+  auto const told = [&](double number, Dimension unit) { return spoken_units().text(number, unit, 3); };
   std::vector<std::string> lines;
   for (auto const& near : near_) {
     double const length = near->traits.length_scale;

@@ -96,7 +96,7 @@ class PairScheme final : public Scheme {
   void calculate(double time = 0) override;
   void add_influences(double time) override;
   SmallSystem small_system() override;
-  Measures measure(double time = 0) override;
+  EnergyAndVirial measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
   double length_scale(AnyEnsemble const& ensemble) const override;
@@ -146,7 +146,6 @@ class PairScheme final : public Scheme {
   struct External;
 
   void calculate(double time, bool overwrite);
-  int worth(std::size_t work, std::size_t least) const { return worth_threads(work, least, threads()); }
 
   double cutoff_;
   double quantum_ = 0;

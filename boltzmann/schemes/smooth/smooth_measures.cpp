@@ -58,14 +58,14 @@ Tensor<3> SmoothScheme::stress() {
   return total;
 }
 
-Measures SmoothScheme::measure(double time) {
+EnergyAndVirial SmoothScheme::measure(double time) {
   bool const all_is_pressure =
       std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
   if (all_is_pressure)
     complete(time);
   else
     find(Until::fluxes);
-  Measures measures;
+  EnergyAndVirial measures;
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -166,7 +166,7 @@ std::vector<std::string> SmoothScheme::warnings(double step_size) {
   double const longest = courant_step(), part = std::abs(step_size) / longest;
   if (!std::isfinite(longest)) return {};
   std::string const line =
-      fmt::format("the step is {:.3g} of the Courant step {}", part, spoken_base().text(longest, dimensions::time));
+      fmt::format("the step is {:.3g} of the Courant step {}", part, spoken_units().text(longest, dimensions::time));
   std::vector<std::string> lines{part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
   if (has_temperature(box()) &&
       std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; }))

@@ -16,7 +16,6 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t pass_worth_threads = 1U << 10U;  // particles: each has many neighbours
 constexpr std::size_t pair_grain = 256;
 
 template <class Particle>
@@ -166,10 +165,6 @@ std::size_t SmoothScheme::count() const {
   return count;
 }
 
-int SmoothScheme::worth(std::size_t particles) const {
-  return worth_threads(particles, particles_worth_threads, threads());
-}
-
 /// Step 1: where the particles are, and how they move.
 void SmoothScheme::take_places() {
   if (points_->size() != count()) points_->resize(count());
@@ -188,22 +183,23 @@ void SmoothScheme::take_places() {
     std::vector<Extent> extents(ensemble.size() / particle_grain + 1);
     in_dimension(box().dimension(), [&](auto d) {
       constexpr int D = d;
-      for_ranges(ensemble.size(), particle_grain, worth(ensemble.size()), [&](std::size_t begin, std::size_t end) {
-        Extent extent;
-        for (std::size_t i = begin; i < end; ++i) {
-          auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
-          auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(first + i));
-          place.position = p.position;
-          place.mass = p.mass;
-          place.velocity = p.velocity;
-          place.range = p.range;
-          bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
-          if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
-          extent.shortest = std::min(extent.shortest, p.range);
-          extent.longest = std::max(extent.longest, p.range);
-        }
-        extents[begin / particle_grain] = extent;
-      });
+      for_ranges(ensemble.size(), particle_grain, threads_for(ensemble.size(), 1, threads()),
+                 [&](std::size_t begin, std::size_t end) {
+                   Extent extent;
+                   for (std::size_t i = begin; i < end; ++i) {
+                     auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
+                     auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(first + i));
+                     place.position = p.position;
+                     place.mass = p.mass;
+                     place.velocity = p.velocity;
+                     place.range = p.range;
+                     bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
+                     if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
+                     extent.shortest = std::min(extent.shortest, p.range);
+                     extent.longest = std::max(extent.longest, p.range);
+                   }
+                   extents[begin / particle_grain] = extent;
+                 });
     });
     for (auto const& extent : extents) {
       if (extent.wrong < ensemble.size()) throw PhysicsFailure(not_usable(ensemble, extent.wrong));
@@ -286,7 +282,7 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double co
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
   task.influence = sums_.data();
-  for_ranges(task.targets, pair_grain, worth_threads(task.targets, pass_worth_threads, threads()),
+  for_ranges(task.targets, pair_grain, threads_for(task.targets, 8, threads()),
              [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
 }
 
@@ -295,7 +291,7 @@ void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
     std::size_t const size = loaded->ensemble->size();
     std::vector<Found> found(size / particle_grain + 1);
     loaded->task.found = found.data();
-    for_ranges(size, particle_grain, worth(size), [&](std::size_t begin, std::size_t end) {
+    for_ranges(size, particle_grain, threads_for(size, 1, threads()), [&](std::size_t begin, std::size_t end) {
       (loaded->kernels.*kernel)(loaded->material.get(), loaded->task, begin, end);
     });
     for (auto const& part : found) {
@@ -387,7 +383,7 @@ void SmoothScheme::find(Until until) {
     run_material(&MaterialKernels::state);
   }
   if (until == Until::state) return;
-  if (!recipe.uniform) copy.refresh_images(fluid, matter, worth(copy.owned()));
+  if (!recipe.uniform) copy.refresh_images(fluid, matter, threads_for(copy.owned(), 1, threads()));
 
   // Step 3, and the fluxes of step 4.
   std::vector<std::vector<double>> aside;  // rates that nobody wants
@@ -400,7 +396,7 @@ void SmoothScheme::find(Until until) {
     run_material(&MaterialKernels::fluxes);
   }
   if (until == Until::fluxes) return;
-  if (recipe.gradients) copy.refresh_images(matter, end, worth(copy.owned()));
+  if (recipe.gradients) copy.refresh_images(matter, end, threads_for(copy.owned(), 1, threads()));
 
   // Step 5.
   run_pass(recipe.rates, recipe.uniform ? D : D + 2, &MaterialTask::rates);
@@ -414,7 +410,7 @@ void SmoothScheme::add_influences(double time) {
   for (auto const& outside : outside_) {
     ExternalTask const task = outside->task(time);
     for_ranges(
-        outside->ensemble->size(), particle_grain, worth(outside->ensemble->size()),
+        outside->ensemble->size(), particle_grain, threads_for(outside->ensemble->size(), 1, threads()),
         [&](std::size_t begin, std::size_t end) { outside->kernels.influence(outside->law.get(), task, begin, end); });
   }
 }

@@ -87,7 +87,7 @@ class SmoothScheme final : public Scheme {
 
   void add_influences(double time) override;
   void complete(double time) override;
-  Measures measure(double time = 0) override;
+  EnergyAndVirial measure(double time = 0) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override { return supervises(ensemble); }
   double length_scale(AnyEnsemble const& ensemble) const override;
   double longest_step() override { return courant_step(); }
@@ -138,7 +138,6 @@ class SmoothScheme final : public Scheme {
   void run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result);
   void run_material(MaterialKernel MaterialKernels::*kernel);
   void find_members();
-  int worth(std::size_t particles) const;
   std::size_t count() const;
 
   WeightShape shape_;

@@ -1,4 +1,4 @@
-// The base of units that a simulation computes in: quantities become plain numbers on the way in, and numbers
+// The system of units that a simulation computes in: quantities become plain numbers on the way in, and numbers
 // quantities on the way out.
 #pragma once
 
@@ -9,8 +9,8 @@
 namespace boltzmann {
 
 /// Five units, of length, mass, time, temperature and charge; every other unit follows from them. Inner loops see plain
-/// numbers in this base ("Unit Conversion", section 2.3 of the 1990 thesis).
-class Base {
+/// numbers in these base units ("Unit Conversion", section 2.3 of the 1990 thesis).
+class UnitSystem {
  public:
   /// The five units in SI: m, kg, s, K, C.
   struct Scale {
@@ -19,35 +19,36 @@ class Base {
   };
 
   /// SI.
-  Base() = default;
+  UnitSystem() = default;
 
   /// A base of the user's own. Throws Error unless each unit is positive and finite.
-  Base(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass, Quantity<dimensions::time> time,
-       Quantity<dimensions::temperature> temperature = units::kelvin,
-       Quantity<dimensions::charge> charge = units::elementary_charge);
+  UnitSystem(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass, Quantity<dimensions::time> time,
+             Quantity<dimensions::temperature> temperature = units::kelvin,
+             Quantity<dimensions::charge> charge = units::elementary_charge);
 
-  static Base si();
+  static UnitSystem si();
 
   /// cm, g, s, K, esu: the Coulomb constant is 1.
-  static Base cgs();
+  static UnitSystem cgs();
 
   /// sigma, epsilon, mass and the Boltzmann constant are 1: time in sigma sqrt(mass / epsilon), temperature in epsilon
   /// / kB, charge such that the Coulomb constant is 1.
-  static Base lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions::energy> epsilon,
-                            Quantity<dimensions::mass> mass);
+  static UnitSystem lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions::energy> epsilon,
+                                  Quantity<dimensions::mass> mass);
 
   /// For particles of one charge and mass at a density n0 and a temperature: the plasma frequency
   /// wp = sqrt(n0 charge^2 / (eps0 mass)), the Debye length sqrt(eps0 kB T / (n0 charge^2)), the thermal velocity
   /// sqrt(kB T / mass), the charge, the mass, the temperature and the Boltzmann constant are 1. eps0 is then the number
   /// of particles in a cubic Debye length. The sign of the charge doesn't matter.
-  static Base electrostatic_plasma(Quantity<dimensions::number_density> n0, Quantity<dimensions::charge> charge,
-                                   Quantity<dimensions::mass> mass, Quantity<dimensions::temperature> temperature);
+  static UnitSystem electrostatic_plasma(Quantity<dimensions::number_density> n0, Quantity<dimensions::charge> charge,
+                                         Quantity<dimensions::mass> mass,
+                                         Quantity<dimensions::temperature> temperature);
 
   /// The gravitational constant is 1: time in sqrt(length^3 / (G mass)).
-  static Base gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass);
+  static UnitSystem gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass);
 
   /// Pure numbers without units: nothing is converted, and in_base refuses a text with a unit.
-  static Base reduced();
+  static UnitSystem reduced();
   bool is_reduced() const { return reduced_; }
 
   /// The plain number of a quantity in this base.
@@ -83,7 +84,7 @@ class Base {
 
   Scale scale() const { return scale_; }
 
-  friend bool operator==(Base const&, Base const&) = default;
+  friend bool operator==(UnitSystem const&, UnitSystem const&) = default;
 
  private:
   long double unit(Dimension) const;

@@ -1,7 +1,7 @@
 // Bases of units: their construction, conversion, and the names of their units.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/core/unit_base.hpp>
+#include <boltzmann/core/unit_system.hpp>
 
 #include <fmt/format.h>
 
@@ -167,8 +167,9 @@ std::vector<std::string> example_units(Dimension d) {
   return names;
 }
 
-Base::Base(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass, Quantity<dimensions::time> time,
-           Quantity<dimensions::temperature> temperature, Quantity<dimensions::charge> charge)
+UnitSystem::UnitSystem(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass,
+                       Quantity<dimensions::time> time, Quantity<dimensions::temperature> temperature,
+                       Quantity<dimensions::charge> charge)
     : scale_{length.si, mass.si, time.si, temperature.si, charge.si} {
   check_positive(length.si, "length", "m");
   check_positive(mass.si, "mass", "kg");
@@ -177,12 +178,12 @@ Base::Base(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass,
   check_positive(charge.si, "charge", "C");
 }
 
-Base Base::si() { return {}; }
+UnitSystem UnitSystem::si() { return {}; }
 
-Base Base::cgs() { return {units::centimeter, units::gram, units::second, units::kelvin, units::esu}; }
+UnitSystem UnitSystem::cgs() { return {units::centimeter, units::gram, units::second, units::kelvin, units::esu}; }
 
-Base Base::lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions::energy> epsilon,
-                         Quantity<dimensions::mass> mass) {
+UnitSystem UnitSystem::lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions::energy> epsilon,
+                                     Quantity<dimensions::mass> mass) {
   check_positive(sigma.si, "sigma", "m");
   check_positive(epsilon.si, "epsilon", "J");
   check_positive(mass.si, "mass", "kg");
@@ -190,8 +191,9 @@ Base Base::lennard_jones(Quantity<dimensions::length> sigma, Quantity<dimensions
           sqrt(epsilon * sigma / constants::coulomb)};
 }
 
-Base Base::electrostatic_plasma(Quantity<dimensions::number_density> n0, Quantity<dimensions::charge> charge,
-                                Quantity<dimensions::mass> mass, Quantity<dimensions::temperature> temperature) {
+UnitSystem UnitSystem::electrostatic_plasma(Quantity<dimensions::number_density> n0,
+                                            Quantity<dimensions::charge> charge, Quantity<dimensions::mass> mass,
+                                            Quantity<dimensions::temperature> temperature) {
   charge = abs(charge);
   check_positive(n0.si, "number density", "1/m^3");
   check_positive(charge.si, "charge", "C");
@@ -201,42 +203,42 @@ Base Base::electrostatic_plasma(Quantity<dimensions::number_density> n0, Quantit
   return {sqrt(constants::boltzmann * temperature / stiffness), mass, sqrt(mass / stiffness), temperature, charge};
 }
 
-Base Base::gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass) {
+UnitSystem UnitSystem::gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass) {
   check_positive(length.si, "length", "m");
   check_positive(mass.si, "mass", "kg");
   return {length, mass, length * sqrt(length / (constants::gravitation * mass))};
 }
 
-Base Base::reduced() {
-  Base base;
+UnitSystem UnitSystem::reduced() {
+  UnitSystem base;
   base.reduced_ = true;
   return base;
 }
 
 // In long double, whose range of exponents no product of units leaves.
-long double Base::unit(Dimension d) const {
+long double UnitSystem::unit(Dimension d) const {
   return integer_power(scale_.length, d.length) * integer_power(scale_.mass, d.mass) *
          integer_power(scale_.time, d.time) * integer_power(scale_.temperature, d.temperature) *
          integer_power(scale_.charge, d.charge);
 }
 
-double Base::from_si(double si, Dimension d) const { return static_cast<double>(si / unit(d)); }
+double UnitSystem::from_si(double si, Dimension d) const { return static_cast<double>(si / unit(d)); }
 
-double Base::to_si(double number, Dimension d) const { return static_cast<double>(number * unit(d)); }
+double UnitSystem::to_si(double number, Dimension d) const { return static_cast<double>(number * unit(d)); }
 
-std::string Base::unit_name(Dimension d) const {
+std::string UnitSystem::unit_name(Dimension d) const {
   auto const [unit, factor] = display(d);
   if (factor == 1) return unit;
   std::string const number = fmt::format("{:.6g}", factor);
   return number + (unit.starts_with("1/") ? unit.substr(1) : " " + unit);
 }
 
-std::string Base::text(double number, Dimension d, int digits) const {
+std::string UnitSystem::text(double number, Dimension d, int digits) const {
   auto const [unit, factor] = display(d);
   return fmt::format("{:.{}g}{}{}", number * factor, digits, unit.empty() ? "" : " ", unit);
 }
 
-Base::Display Base::display(Dimension d) const {
+UnitSystem::Display UnitSystem::display(Dimension d) const {
   if (reduced_ || d == dimensions::none) return {};
   double const size = to_si(1, d);
   if (auto name = exact_name(size, d)) return {*name};
