@@ -30,7 +30,7 @@ struct Melt {
   template <class Law>
   explicit Melt(Law const& law) {
     LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {16, 16, 16}};
-    block_load(atoms, block, true);
+    block_load(atoms, block);
     maxwellian_load(atoms, 1.44, 1, 1);
     for (std::size_t i = 0; i < atoms.size(); ++i) {
       atoms[i].position += 0.06 * atoms[i].velocity;

@@ -104,7 +104,7 @@ struct Crystal {
       : length(repeat_lengths(block, 2)),
         scheme(Box(Vector{0.0, 0.0}, Vector{length[0], length[1]}, Boundary::periodic), range),
         dpd(scheme, k) {
-    block_load(beads, block, true);
+    block_load(beads, block);
     for (auto& p : beads) p.mass = mass;
     maxwellian_load(beads, 2 * temperature, k, 1, {.remove_drift = true});  // half of it goes into the bonds
     internal_energy_load(beads, StateLaw(capacity), temperature, k, 1);

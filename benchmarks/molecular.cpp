@@ -29,7 +29,7 @@ struct Run {
 template <int D>
 void run(Run const& r) {
   Ensemble<Newton<D>> atoms("atoms");
-  block_load(atoms, r.block, true);
+  block_load(atoms, r.block);
   for (auto& atom : atoms) atom.mass = 1;
   maxwellian_load(atoms, r.temperature, 1, 1, {.remove_drift = true, .exact_temperature = true});
   if (r.knock_on_energy > 0) {

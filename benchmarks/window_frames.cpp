@@ -107,7 +107,7 @@ struct Liquid {
   explicit Liquid(std::size_t count) : atoms("atoms", count) {
     auto const side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(count))));
     double const length = 1.1 * static_cast<double>(side);
-    block_load(atoms, Lattice::square, 1.1, {side, side}, {0.5, 0.5}, true);
+    block_load(atoms, Lattice::square, 1.1, {side, side}, {0.5, 0.5});
     maxwellian_load(atoms, 1, 1, 1);
     scheme = std::make_unique<PairScheme>(Box(Vector{0.0, 0.0}, Vector{length, length}, Boundary::periodic), 2.5);
     scheme->internal(atoms, LennardJones{1, 1});

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
     double const density = 2, temperature = 0.7, rate = 0.04;
 
     Ensemble<Smooth<2>> square("liquid", 0);
-    block_load(square, Lattice::square, 1, {100, 100}, {-49.5, -49.5}, true);
+    block_load(square, Lattice::square, 1, {100, 100}, {-49.5, -49.5});
     jitter(square, 0.05, 1);
     for (auto& p : square) {
       p.mass = density;

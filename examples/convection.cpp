@@ -26,12 +26,11 @@ int main(int argc, char** argv) try {
   box.wall(1, Box::End::low, {.slips = false, .temperature = 1 + difference / 2});
   box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
 
-  Ensemble<Smooth<2>> particles("fluid", 0);
-  block_load(particles, Lattice::square, spacing, {80, 20}, {spacing / 2, spacing / 2}, true);
+  Ensemble<Smooth<2>> particles("fluid");
+  fill_load(particles, box, {.spacing = spacing, .density = 1});
   double const k = std::numbers::pi, stir = 0.3 * free_fall;  // two pairs of rolls, turning gently
   for (auto& p : particles) {
     double const x = p.position[0], y = p.position[1];
-    p.mass = spacing * spacing;
     p.range = 3 * spacing;
     p.specific_energy = cv * (1 + difference * (0.5 - y)) + fluid.stiffness;  // density 1
     p.velocity = {-stir * std::sin(k * x) * std::cos(k * y), stir * std::cos(k * x) * std::sin(k * y)};

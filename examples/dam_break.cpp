@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     box.open_end(1, Box::End::high);
 
     Ensemble<Smooth<2>> column("water", 0);
-    block_load(column, Lattice::square, spacing, {20, 40}, {spacing / 2, spacing / 2}, true);
+    block_load(column, Lattice::square, spacing, {20, 40}, {spacing / 2, spacing / 2});
     for (auto& p : column) {
       double const pressure = gravity * (height - p.position[1]);
       p.density = std::pow(1 + pressure / water.stiffness(), 1 / water.gamma);

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     double const side = 256, sound_time = side, step = 0.8;  // the speed of sound is 1 at the start
     Box const box(Vector{0.0, 0.0}, Vector{side, side}, Boundary::periodic);
     Ensemble<Smooth<2>> gas("gas", 0);
-    block_load(gas, Lattice::square, 1, {128, 128}, {side / 4 + 0.5, side / 4 + 0.5}, true);
+    block_load(gas, Lattice::square, 1, {128, 128}, {side / 4 + 0.5, side / 4 + 0.5});
     jitter(gas, 0.1, 1);
     for (auto& p : gas) {
       p.mass = 1;

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     for (double const range : {4.0, 8.0, 16.0}) {
       Box const box(Vector{0.0}, Vector{length}, Boundary::mirror);
       Ensemble<Smooth<1>> gas("gas", 0);
-      block_load(gas, Lattice::square, 1, {n, 1, 1}, {length / 4 + 0.5}, true);
+      block_load(gas, Lattice::square, 1, {n, 1, 1}, {length / 4 + 0.5});
       jitter(gas, 0.1, 1);
       for (auto& p : gas) {
         p.mass = 1;

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     for (std::size_t const n : {24, 48, 96}) {
       double const spacing = 1 / static_cast<double>(n), middle = 0.5 * (spacing - 1);
       Ensemble<Smooth<2>> gas("gas", 0);
-      block_load(gas, Lattice::square, spacing, {n, n}, {middle, middle}, true);
+      block_load(gas, Lattice::square, spacing, {n, n}, {middle, middle});
       auto const exact = [](Vector<2> const& x) {
         return Vector{-x[1], x[0]} * (swirl(magnitude(x)) / magnitude(x));  // no particle is at the centre
       };

@@ -25,7 +25,7 @@ int main() try {
     auto const square = lattice_density_extremes(2, WeightShape::lucy, range);
 
     Ensemble<Smooth<2>> sheared("sheared", 0);
-    block_load(sheared, Lattice::square, 1, {31, 31}, {-15, -15}, true);
+    block_load(sheared, Lattice::square, 1, {31, 31}, {-15, -15});
     for (auto& p : sheared) {
       p.mass = 1;
       p.range = range;

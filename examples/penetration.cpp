@@ -16,8 +16,8 @@ int main(int argc, char** argv) {
     Elastic<StiffenedGas> const soft{compression, pressure(80), pressure(0.5), pressure(2)};
 
     Ensemble<Solid<2>> rod("rod", 0), plate("plate", 0);
-    block_load(rod, Lattice::square, spacing, {30, 10}, {-1.475, -0.225}, true);
-    block_load(plate, Lattice::square, spacing, {20, 100}, {0.025, -2.475}, true);
+    block_load(rod, Lattice::square, spacing, {30, 10}, {-1.475, -0.225});
+    block_load(plate, Lattice::square, spacing, {20, 100}, {0.025, -2.475});
     for (auto* solid : {&rod, &plate}) {
       for (auto& p : *solid) {
         p.mass = density * spacing * spacing;

@@ -8,13 +8,12 @@ using namespace boltzmann;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/sedov-cpp", [](Program& program) {
-    std::size_t const n = 64;
-    double const spacing = 1.0 / n, energy = 1, duration = 0.5;
-    Ensemble<Smooth<2>> gas("gas", 0);
-    block_load(gas, Lattice::square, spacing, {n, n}, {spacing / 2, spacing / 2}, true);
+    double const spacing = 1.0 / 64, energy = 1, duration = 0.5;
+    Box const box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::mirror);
+    Ensemble<Smooth<2>> gas("gas");
+    fill_load(gas, box, {.spacing = spacing, .density = 1});
     double sum = 0;
     for (auto& p : gas) {
-      p.mass = spacing * spacing;
       p.range = 3 * spacing;
       p.specific_energy = weight_at(WeightShape::lucy, 2, magnitude(p.position), 8 * spacing).value;
       sum += p.mass * p.specific_energy;
@@ -22,7 +21,7 @@ int main(int argc, char** argv) {
     for (auto& p : gas) p.specific_energy = p.specific_energy / sum * energy / 4 + 1e-6;
     gas.appearance.diameter = spacing;
 
-    SmoothScheme scheme(Box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::mirror));
+    SmoothScheme scheme(box);
     scheme.material(gas, IdealGas{1.4});
     scheme.artificial_viscosity({.alpha = 1, .beta = 2});
     scheme.heating(Heating::own);  // shared, cold particles beside hot ones would pay for these
@@ -39,7 +38,7 @@ int main(int argc, char** argv) {
     program.run_for(recording, duration);
 
     // The front: where the mean radial velocity of rings is half its maximum.
-    std::vector<double> velocity(2 * n), number(2 * n);
+    std::vector<double> velocity(128), number(128);
     for (auto const& p : gas) {
       double const r = magnitude(p.position);
       auto const ring = static_cast<std::size_t>(2 * r / spacing);

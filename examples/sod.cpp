@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   return run_program(argc, argv, "results/sod-cpp", [](Program& program) {
     double const gamma = 1.4, duration = 0.2, spacing = 1.0 / 400;
     Ensemble<Smooth<1>> gas("gas", 0);
-    block_load(gas, Lattice::square, spacing, {400, 1, 1}, {-0.5 + spacing / 2}, true);
+    block_load(gas, Lattice::square, spacing, {400, 1, 1}, {-0.5 + spacing / 2});
     for (auto& p : gas) {
       bool const left = p.position[0] < 0;
       double const density = left ? 1 : 0.125, pressure = left ? 1 : 0.1;

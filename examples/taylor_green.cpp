@@ -18,15 +18,15 @@ int main(int argc, char** argv) {
     double last = 0;
     for (std::size_t const n : {32, 64, 128}) {
       double const spacing = 1 / static_cast<double>(n);
-      Ensemble<Smooth<2>> fluid("fluid", 0);
-      block_load(fluid, Lattice::square, spacing, {n, n}, {spacing / 2, spacing / 2}, true);
+      Box const box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::periodic);
+      Ensemble<Smooth<2>> fluid("fluid");
+      fill_load(fluid, box, {.spacing = spacing, .density = 1});
       for (auto& p : fluid) {
-        p.mass = spacing * spacing;
         p.range = 5 * spacing;
         p.velocity = vortices(p.position);
       }
       fluid.appearance.diameter = spacing;
-      SmoothScheme scheme(Box(Vector{0.0, 0.0}, Vector{1.0, 1.0}, Boundary::periodic), WeightShape::wendland);
+      SmoothScheme scheme(box, WeightShape::wendland);
       scheme.material(fluid, Newtonian<Tait>{{.reference_density = 1, .sound_speed = 10}, viscosity});
 
       Simulation simulation(scheme, 0.8 * scheme.courant_step());

@@ -130,7 +130,7 @@ void check_physics(Findings& findings) {
   double const edge = 20 * std::cbrt(4 / 0.8442);
   Ensemble<Newton<3>> atoms("atoms");
   LatticeBlock const block{Lattice::fcc, edge / 20 / std::numbers::sqrt2, {20, 20, 20}, {0, 0, 0}};
-  block_load(atoms, block, true);
+  block_load(atoms, block);
   maxwellian_load(atoms, 1.44, 1, 87287, {.remove_drift = true});
   PairScheme scheme(Box(Vector{0., 0., 0.}, Vector{edge, edge, edge}, Boundary::periodic), 2.5);
   // As scenarios do: the kernels of the instruction set in use.

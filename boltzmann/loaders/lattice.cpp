@@ -187,23 +187,53 @@ double site_volume(Filling const& filling, int dimension) {
   return volume;
 }
 
-std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block, bool resize) {
+namespace {
+
+/// An ensemble without particles gets so many.
+void make_room(AnyEnsemble& ensemble, std::size_t count, std::string const& of_what) {
+  if (ensemble.size() == 0) ensemble.resize(count);
+  if (ensemble.size() != count)
+    throw Error(fmt::format("ensemble '{}' has {} particles, the {} has {} sites", ensemble.name(), ensemble.size(),
+                            of_what, count));
+}
+
+void place_on(std::vector<Place> const& places, AnyEnsemble& ensemble) {
+  for (std::size_t k = 0; k < places.size(); ++k) std::copy_n(places[k].data(), ensemble.dimension(), ensemble.row(k));
+}
+
+}  // namespace
+
+std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block) {
   std::size_t const count = site_count(block, ensemble.dimension());
-  if (ensemble.size() != count) {
-    if (!resize)
-      throw Error(fmt::format("ensemble '{}' has {} particles, the {} lattice of {} cells has {} sites",
-                              ensemble.name(), ensemble.size(), to_string(block.kind),
-                              fmt::join(std::span(block.counts).first(ensemble.dimension()), " x "), count));
-    ensemble.resize(count);
-  }
-  auto const places = lattice_sites(block, ensemble.dimension());
-  for (std::size_t k = 0; k < count; ++k) std::copy_n(places[k].data(), ensemble.dimension(), ensemble.row(k));
+  make_room(ensemble, count,
+            fmt::format("{} lattice of {} cells", to_string(block.kind),
+                        fmt::join(std::span(block.counts).first(ensemble.dimension()), " x ")));
+  place_on(lattice_sites(block, ensemble.dimension()), ensemble);
   return count;
 }
 
 std::size_t block_load(AnyEnsemble& ensemble, Lattice kind, double spacing, std::array<std::size_t, 3> const& counts,
-                       std::array<double, 3> const& origin, bool resize) {
-  return block_load(ensemble, LatticeBlock{kind, spacing, counts, origin}, resize);
+                       std::array<double, 3> const& origin) {
+  return block_load(ensemble, LatticeBlock{kind, spacing, counts, origin});
+}
+
+std::size_t fill_load(AnyEnsemble& ensemble, Filling const& filling) {
+  std::size_t const count = filling_count(filling, ensemble.dimension());
+  if (!(filling.density >= 0) || !std::isfinite(filling.density))
+    throw Error(fmt::format("a density must be a number, zero or more; it is {}", filling.density));
+  make_room(ensemble, count, fmt::format("{} lattice that fills the block", to_string(filling.kind)));
+  place_on(filling_sites(filling, ensemble.dimension()), ensemble);
+  if (filling.density > 0) {
+    int const mass = ensemble.field("mass").offset;
+    double const share = filling.density * site_volume(filling, ensemble.dimension());
+    for (std::size_t k = 0; k < count; ++k) ensemble.row(k)[mass] = share;
+  }
+  return count;
+}
+
+std::size_t fill_load(AnyEnsemble& ensemble, Box const& box, Filling filling) {
+  for (int a = 0; a < box.dimension(); ++a) filling.low[a] = box.low(a), filling.high[a] = box.high(a);
+  return fill_load(ensemble, filling);
 }
 
 }  // namespace boltzmann

@@ -155,7 +155,7 @@ TEST(Profile, FastGasHasItsTemperatureAndPressure) {
 TEST(Profile, BinsAddUpToThePressureTensor) {
   Ensemble<Newton<2>> atoms("atoms");
   double const a = 1.05;
-  block_load(atoms, Lattice::triangular, a, {20, 12, 1}, {0.1, 0.1, 0}, true);
+  block_load(atoms, Lattice::triangular, a, {20, 12, 1}, {0.1, 0.1, 0});
   Box const box(Vector{0.0, 0.0}, Vector{20 * a, 12 * a * std::sqrt(0.75)}, Boundary::periodic);
   maxwellian_load(atoms, 0.3, 1, test_seed(3));
   PairScheme scheme(box);

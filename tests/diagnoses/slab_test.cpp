@@ -77,7 +77,7 @@ TEST(Slab, ByHandAndFollowed) {
 TEST(Slab, SqueezedCrystalHasItsDensity) {
   // Four slabs of a crystal, one of them squeezed to half its width: densities within 1 %.
   Ensemble<Newton<3>> crystal("crystal");
-  block_load(crystal, Lattice::square, 1, {40, 5, 5}, {0.5, 0.5, 0.5}, true);
+  block_load(crystal, Lattice::square, 1, {40, 5, 5}, {0.5, 0.5, 0.5});
   Box const box(Vector{0.0, 0.0, 0.0}, Vector{40.0, 5.0, 5.0},
                 {Boundary::reflecting, Boundary::periodic, Boundary::periodic});
   std::vector<AnyEnsemble*> const all{&crystal};

@@ -163,9 +163,10 @@ TEST(Lattice, RefusesWhatDoesNotFit) {
   } catch (Error const& error) {
     EXPECT_STREQ(error.what(), "ensemble 'atoms' has 10 particles, the square lattice of 3 x 4 cells has 12 sites");
   }
-  EXPECT_EQ(block_load(atoms, Lattice::square, 1, {3, 4, 1}, {}, true), 12U);
-  EXPECT_EQ(atoms.size(), 12U);
-  EXPECT_EQ(atoms[11].position, (Vector<2>{2, 3}));
+  Ensemble<Newton<2>> empty("empty");
+  EXPECT_EQ(block_load(empty, Lattice::square, 1, {3, 4, 1}), 12U);
+  EXPECT_EQ(empty.size(), 12U);
+  EXPECT_EQ(empty[11].position, (Vector<2>{2, 3}));
   EXPECT_THROW(block_load(atoms, Lattice::fcc, 1, {3, 1, 1}), Error);
   EXPECT_THROW(block_load(atoms, Lattice::square, 0, {3, 4, 1}), Error);
   EXPECT_THROW(block_load(atoms, Lattice::square, NAN, {3, 4, 1}), Error);
@@ -180,6 +181,23 @@ TEST(Lattice, RefusesWhatDoesNotFit) {
   EXPECT_EQ(lattice_words().named("bcc"), Lattice::bcc);
   EXPECT_EQ(lattice_words().named("hcp"), Lattice::hcp);
   EXPECT_THROW(lattice_words().named("hexagonal"), Error);
+}
+
+TEST(Lattice, FillsABoxWithADensity) {
+  Box const box(Vector{-1.0, 0.0}, Vector{3.0, 1.0}, Boundary::periodic);
+  Ensemble<Newton<2>> gas("gas");
+  EXPECT_EQ(fill_load(gas, box, {.spacing = 0.24, .density = 3}), 17U * 4U);
+  double mass = 0;
+  for (auto const& p : gas) mass += p.mass;
+  EXPECT_NEAR(mass, 3 * 4, 1e-13);
+  EXPECT_NEAR(gas[0].position[0], -1 + 2.0 / 17, 1e-15);
+  EXPECT_NEAR(gas[67].position[1], 1 - 0.125, 1e-15);
+  Ensemble<Newton<2>> some("some", 3);
+  EXPECT_THROW(fill_load(some, box, {.spacing = 0.24}), Error);
+  EXPECT_THROW(fill_load(gas, box, {.spacing = 0.24, .density = -1}), Error);
+  EXPECT_THROW(fill_load(gas, box, {.spacing = 0}), Error);
+  Ensemble<Tracer<2>> weightless("weightless");
+  EXPECT_THROW(fill_load(weightless, box, {.spacing = 0.24, .density = 3}), Error);
 }
 
 TEST(Fields, AreSetByName) {

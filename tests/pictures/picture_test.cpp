@@ -472,7 +472,7 @@ struct Gas {
   Simulation simulation{scheme, 0.002};
 
   Gas() {
-    block_load(gas, Lattice::square, 0.05, {20, 20}, {0.025, 0.025}, true);
+    block_load(gas, Lattice::square, 0.05, {20, 20}, {0.025, 0.025});
     for (auto& p : gas) {
       p.mass = 0.05 * 0.05;
       p.range = 0.2;

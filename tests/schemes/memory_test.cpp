@@ -32,7 +32,7 @@ TEST(Memory, ALennardJonesLiquidNeedsLessThanAKilobyteAParticle) {
   double const before = peak();
   LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {24, 24, 24}};
   Ensemble<Newton<3>> atoms("atoms");
-  block_load(atoms, block, true);
+  block_load(atoms, block);
   maxwellian_load(atoms, 1.44, 1, test_seed(1));
   auto const length = repeat_lengths(block, 3);
   PairScheme scheme(Box(Vector{0.0, 0.0, 0.0}, Vector{length[0], length[1], length[2]}, Boundary::periodic), 2.5);
@@ -58,7 +58,7 @@ TEST(Memory, ALennardJonesLiquidNeedsLessThanAKilobyteAParticle) {
 // What `bzm show` says.
 TEST(Memory, AParticleInListsTakesWhatIsSaid) {
   Ensemble<Newton<3>> atoms("atoms");
-  block_load(atoms, LatticeBlock{Lattice::fcc, 1.0, {20, 20, 20}}, true);
+  block_load(atoms, LatticeBlock{Lattice::fcc, 1.0, {20, 20, 20}});
   PairScheme scheme(Box(Vector{-1.0, -1.0, -1.0}, Vector{40.0, 40.0, 40.0}), 1.2);
   scheme.internal(atoms, LennardJones{.depth = 1, .r0 = 1});
   scheme.calculate();
