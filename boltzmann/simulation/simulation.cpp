@@ -31,6 +31,15 @@ std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
   return drift;
 }
 
+/// The ensembles of all schemes, each once.
+std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes) {
+  std::vector<AnyEnsemble*> all;
+  for (auto* scheme : schemes)
+    for (auto* ensemble : scheme->ensembles())
+      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+  return all;
+}
+
 void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
   int const velocity = ensemble.field("velocity").offset;
   for (std::size_t i = 0; i < ensemble.size(); ++i)
@@ -130,14 +139,13 @@ Method Simulation::method(AnyEnsemble const& ensemble) const {
 void Simulation::check() {
   if (checked_) return;
   small_system_ = {};
-  ensembles_.clear();
   move_walls(time());
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
       scheme->box().check(*ensemble);
       scheme->box().wrap(*ensemble);
-      if (std::find(ensembles_.begin(), ensembles_.end(), ensemble) == ensembles_.end()) ensembles_.push_back(ensemble);
     }
+  ensembles_ = supervised_by(schemes_);
   stages_ = 0;
   keeps_influences_ = false;
   bool reversible = false;
@@ -526,8 +534,29 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (kept_) kept_checksum_ = checksum();
 }
 
+namespace {
+
+/// Adds numbers of each particle that one of several schemes knows. `known` becomes false where a scheme knows none.
+void add_up(std::vector<std::vector<double>> const& part, Scheme const& scheme,
+            std::vector<AnyEnsemble*> const& ensembles, std::vector<std::vector<double>>& total, bool& known) {
+  auto const& own = scheme.ensembles();
+  known = known && part.size() == own.size();
+  if (!known) return total.clear();
+  total.resize(ensembles.size());
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    auto& sums =
+        total[static_cast<std::size_t>(std::find(ensembles.begin(), ensembles.end(), own[k]) - ensembles.begin())];
+    sums.resize(part[k].size());
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += part[k][i];
+  }
+}
+
+}  // namespace
+
 EnergyAndVirial Simulation::measure() const {
   EnergyAndVirial total;
+  bool energies = true, virials = true;  // of each particle, from every scheme
+  auto const all = supervised_by(schemes_);
   for (auto* scheme : schemes_) {
     EnergyAndVirial part = scheme->measure(time());
     total.potential += part.potential;
@@ -540,6 +569,9 @@ EnergyAndVirial Simulation::measure() const {
     if (schemes_.size() == 1) {
       total.per_particle = std::move(part.per_particle);
       total.virial_per_particle = std::move(part.virial_per_particle);
+    } else {
+      add_up(part.per_particle, *scheme, all, total.per_particle, energies);
+      add_up(part.virial_per_particle, *scheme, all, total.virial_per_particle, virials);
     }
   }
   total.work = work_;

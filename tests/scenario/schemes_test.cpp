@@ -78,6 +78,11 @@ TEST_P(SchemesIn, AddUpOnTheSameParticles) {
   EnergyAndVirial const measured = both->simulation->measure();
   EXPECT_NEAR(measured.potential, heavy->simulation->measure().potential, 1e-13);
   EXPECT_NEAR(measured.internal, pressed->simulation->measure().internal, 1e-13);
+  auto const of_field = heavy->simulation->measure().per_particle[0],
+             of_gas = pressed->simulation->measure().per_particle[0];
+  ASSERT_EQ(measured.per_particle.size(), 1U);
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    EXPECT_NEAR(measured.per_particle[0][i], of_field[i] + of_gas[i], 1e-13) << i;
 }
 
 // As a program would have it; and the same bits for one thread and several, and when a run is taken up again.
@@ -129,6 +134,9 @@ TEST(Schemes, LeaveParticlesThatAreNotSmoothToPairs) {
   EXPECT_NE(together->pairs, nullptr);
   EXPECT_EQ(one->pairs, nullptr);
   for (auto const* run : {&together, &one, &other}) (*run)->simulation->run(20);
+  auto const energies = together->simulation->measure().per_particle;
+  ASSERT_EQ(energies.size(), 2U);  // in the order of the schemes: [smooth], then pairs
+  EXPECT_EQ(energies[1], other->simulation->measure().per_particle[0]);
   for (auto const& [name, apart] : {std::pair{"gas", &one}, std::pair{"dust", &other}}) {
     AnyEnsemble const &a = ensemble(*together, name), &b = ensemble(**apart, name);
     ASSERT_EQ(a.size(), b.size());
