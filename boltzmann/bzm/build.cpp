@@ -91,17 +91,16 @@ int build(BuildOptions const& options) {
     throw Error("'" + options.program + "' would be replaced by its own program; name another with -o");
   auto const place = installation();
   char const* chosen = std::getenv("CXX");
+#ifdef BOLTZMANN_SANITIZED  // the compiler and the flag of the library, which no other links with
+  std::vector<std::string> line = words_of(chosen ? chosen : BOLTZMANN_SANITIZED);
+#else
   std::vector<std::string> line = words_of(chosen ? chosen : "g++");
+#endif
   if (line.empty()) line = {"g++"};
   if (find_program(line[0]).empty())
     throw Error("the compiler '" + line[0] + "' is not there (Debian: apt install g++)");
   for (auto const* word : {"-std=c++20", "-O3", "-DNDEBUG", "-march=native", "-Wno-psabi", "-Wall", "-Wextra"})
     line.emplace_back(word);
-#if defined(__SANITIZE_THREAD__)
-  line.emplace_back("-fsanitize=thread");
-#elif defined(__SANITIZE_ADDRESS__)
-  line.emplace_back("-fsanitize=address,undefined");
-#endif
   if (isatty(STDERR_FILENO) == 1) line.emplace_back("-fdiagnostics-color=always");  // they go through a pipe
   line.push_back("-I" + place.include);
   line.push_back(options.program);

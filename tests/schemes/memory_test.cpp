@@ -46,7 +46,7 @@ TEST(Memory, ALennardJonesLiquidNeedsLessThanAKilobyteAParticle) {
   RecordProperty("counted", std::to_string(counted));
   EXPECT_LT(counted, 1000);
   EXPECT_GT(counted, 88 + 300) << "rows, influences and lists are not all counted";
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BOLTZMANN_SANITIZED
   // What the process has really taken, scratch memory of list building included.
   double const taken = (peak() - before) / particles;
   RecordProperty("taken", std::to_string(taken));

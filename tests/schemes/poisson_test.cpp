@@ -657,7 +657,7 @@ TEST(Poisson, refusals) {
             "mesh: 4 dimensions; a mesh has 1, 2 or 3");
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BOLTZMANN_SANITIZED
 namespace {
 
 double status_bytes(std::string const& key) {
