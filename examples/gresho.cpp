@@ -20,20 +20,20 @@ int main(int argc, char** argv) {
     double const gamma = 5.0 / 3;
     double last = 0;
     for (std::size_t const n : {24, 48, 96}) {
-      double const spacing = 1 / static_cast<double>(n), middle = 0.5 * (spacing - 1);
+      double const spacing = 1 / static_cast<double>(n);
+      Box const box(Vector{-0.5, -0.5}, Vector{0.5, 0.5}, Boundary::periodic);
       Ensemble<Smooth<2>> gas("gas", 0);
-      block_load(gas, Lattice::square, spacing, {n, n}, {middle, middle});
+      fill_load(gas, box, {.spacing = spacing, .density = 1});
       auto const exact = [](Vector<2> const& x) {
         return Vector{-x[1], x[0]} * (swirl(magnitude(x)) / magnitude(x));  // no particle is at the centre
       };
       for (auto& p : gas) {
-        p.mass = spacing * spacing;
         p.range = 5 * spacing;
         p.velocity = exact(p.position);
         p.specific_energy = pressure(magnitude(p.position)) / (gamma - 1);
       }
       gas.appearance.diameter = spacing;
-      SmoothScheme scheme(Box(Vector{-0.5, -0.5}, Vector{0.5, 0.5}, Boundary::periodic), WeightShape::wendland);
+      SmoothScheme scheme(box, WeightShape::wendland);
       scheme.material(gas, IdealGas{gamma});
       scheme.artificial_viscosity({.alpha = 0.5, .beta = 1, .balsara = true});  // hardly any in shear
       scheme.heating(Heating::own);

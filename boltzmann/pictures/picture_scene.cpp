@@ -9,20 +9,9 @@
 #include <cmath>
 
 namespace boltzmann::pictures {
-namespace {
-
-std::vector<AnyEnsemble*> ensembles_of(Simulation const& simulation) {
-  std::vector<AnyEnsemble*> all;
-  for (auto* scheme : simulation.schemes())
-    for (auto* ensemble : scheme->ensembles())
-      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
-  return all;
-}
-
-}  // namespace
 
 Scene::Scene(Picture const& what, PictureContext const& where)
-    : picture(what), context(where), ensembles(ensembles_of(where.simulation)) {}
+    : picture(what), context(where), ensembles(supervised_by(where.simulation.schemes())) {}
 
 Scene::~Scene() {
   put_particles_back();

@@ -302,9 +302,13 @@ void read_equilibration(Item const& table, Reading& reading) {
                                   [](ReadEnsemble const& ensemble) { return ensemble.particles != nullptr; });
   if (!loaded) return;
   if (chosen.empty())
-    return reading.mistake(table.place,
-                           "[equilibrate]: there is no ensemble of particles with mass and velocity whose "
-                           "integrator is \"leap-frog\"");
+    return reading.mistake(
+        table.place,
+        fmt::format("[equilibrate]: there is no ensemble of particles with mass and velocity whose integrator is "
+                    "\"leap-frog\"{}",
+                    reading.smooth.wanted ? " (smooth particles have the viscosity and the conductivity of their "
+                                            "material, and no other friction)"
+                                          : ""));
   catch_errors(reading, table.place, [&] {
     for (ReadEnsemble const* ensemble : chosen) bath->on(*ensemble->particles);
     reading.equilibration = {std::move(bath), static_cast<std::uint64_t>(steps)};

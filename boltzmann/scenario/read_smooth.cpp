@@ -133,7 +133,7 @@ void read_smooth(Item const& table, Reading& reading) {
   if (smooth.from_continuity && smooth.variable)
     reading.mistake(smooth.variable_place,
                     "variable_range: ranges follow densities that are summed; with density = \"continuity\" they stay");
-  if (section.has("skin")) reading.run.skin_place = section.place("skin");
+  smooth.skin_place = section.place("skin");
   if (reading.context.mistakes.count() != before || !reading.box) return;
   catch_errors(reading, table.place, [&] {
     auto scheme = std::make_unique<SmoothScheme>(*reading.box, options.weight);

@@ -66,7 +66,7 @@ struct ReadRezone {
 struct ReadSmooth {
   bool wanted = false;  ///< there is a [smooth], with mistakes or without
   bool from_continuity = false;
-  Place heating_place;
+  Place heating_place, skin_place;
   std::optional<VariableRange> variable;
   Place variable_place;
   std::vector<ReadRezone> rezones;

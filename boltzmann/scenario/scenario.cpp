@@ -142,7 +142,8 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
 Place place_of(std::string const& message, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
     if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
-  if (message.starts_with("the skin ")) return reading.run.skin_place;
+  if (message.starts_with("the skin "))
+    return reading.smooth.wanted && !reading.run.skin ? reading.smooth.skin_place : reading.run.skin_place;
   if (message.starts_with("mesh: ")) return reading.mesh.background_place;
   return reading.run.place;
 }

@@ -19,4 +19,12 @@ bool Scheme::supervises(AnyEnsemble const& ensemble) const {
   return std::find(all.begin(), all.end(), &ensemble) != all.end();
 }
 
+std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes) {
+  std::vector<AnyEnsemble*> all;
+  for (auto* scheme : schemes)
+    for (auto* ensemble : scheme->ensembles())
+      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
+  return all;
+}
+
 }  // namespace boltzmann

@@ -123,4 +123,7 @@ class Scheme {
   int threads_ = default_threads();
 };
 
+/// The ensembles of all schemes, each once, in the order of the schemes.
+std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes);
+
 }  // namespace boltzmann

@@ -31,15 +31,6 @@ std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
   return drift;
 }
 
-/// The ensembles of all schemes, each once.
-std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes) {
-  std::vector<AnyEnsemble*> all;
-  for (auto* scheme : schemes)
-    for (auto* ensemble : scheme->ensembles())
-      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
-  return all;
-}
-
 void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
   int const velocity = ensemble.field("velocity").offset;
   for (std::size_t i = 0; i < ensemble.size(); ++i)

@@ -76,13 +76,7 @@ double number_or(json const& object, char const* key, double otherwise) {
 Stage::Stage(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder)
     : simulation_(simulation), base_(base), title_(std::move(title)), folder_(std::move(folder)) {}
 
-std::vector<AnyEnsemble*> Stage::ensembles() const {
-  std::vector<AnyEnsemble*> all;
-  for (auto* scheme : simulation_.schemes())
-    for (auto* ensemble : scheme->ensembles())
-      if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
-  return all;
-}
+std::vector<AnyEnsemble*> Stage::ensembles() const { return supervised_by(simulation_.schemes()); }
 
 std::vector<std::string> Stage::column_names() const {
   std::vector<std::string> names;

@@ -15,6 +15,7 @@
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <tests/hdf5_leaks.hpp>
 #ifdef BOLTZMANN_WITH_WINDOW
 #include <boltzmann/window/gallery_source.hpp>
 #include <boltzmann/window/live_run.hpp>
@@ -183,6 +184,7 @@ std::vector<std::string> checkpoint_seeds() { return {file_of_run("checkpoint.h5
 
 void read_trajectory(std::string const& bytes) {
   auto const path = file_of("fuzz-trajectory.h5", bytes);
+  DamagedHdf5 const uncounted;
   try {
     TrajectoryReader const reader(path);
     Ensemble<Newton<2>> atoms("atoms");

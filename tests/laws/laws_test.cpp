@@ -218,8 +218,8 @@ void expect_lane(std::vector<double> const& packs, int width, int lane, std::vec
   ASSERT_EQ(packs.size(), expected.size() * static_cast<std::size_t>(width));
   double size = 1;  // a component may cancel: the error is that of the largest, or of a typical number of the law
   for (double x : expected) size = std::max(size, std::fabs(x));
-  double const rounding = 6e-15 * conditioning * size;  // compilers contract a b + c at different places
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(packs[k * width + lane], expected[k], rounding) << k;
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(packs[k * width + lane], expected[k], 4e-15 * conditioning * size) << k;
 }
 
 template <class P, int W, class Law>

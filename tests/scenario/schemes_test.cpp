@@ -145,6 +145,72 @@ TEST(Schemes, LeaveParticlesThatAreNotSmoothToPairs) {
   }
 }
 
+// A mesh beside laws of near pairs: P3M's charges repel each other as well.
+TEST(Schemes, AddUpWithNearPairs) {
+  std::string const head =
+      "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0, 0]\nhigh = [4, 4, 4]\nboundary = \"periodic\"\n"
+      "[run]\nstep = 0.001\nsteps = 10\n";
+  std::string const ions =
+      "[[ensembles]]\nname = \"ions\"\nclass = \"Coulomb\"\nmass = 1\nintegrator = \"leap-frog\"\n"
+      "number = 150\nload = { kind = \"random\", minimum_distance = 0.4 }\nformulas = { charge = \"1 + sin(x)\" }\n";
+  std::string const field = "[mesh]\nlaw = \"coulomb\"\nk = 2\naccuracy = 1e-4\nbackground = true\n";
+  std::string const near =
+      "[[influences]]\nlaw = \"lennard-jones\"\non = \"ions\"\nr0 = 0.45\ndepth = 0.2\ncutoff = 1\n";
+  auto const both = read(head + field + ions + near), charged = read(head + field + ions),
+             pairs = read(head + ions + near);
+  AnyEnsemble const &sum = ensemble(*both, "ions"), &a = ensemble(*charged, "ions"), &b = ensemble(*pairs, "ions");
+  double far = 0, close = 0;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      double const expected = a.influence(i)[k] + b.influence(i)[k];
+      EXPECT_NEAR(sum.influence(i)[k], expected, 1e-12 * (1 + std::abs(expected))) << i;
+      far = std::max(far, std::abs(a.influence(i)[k]));
+      close = std::max(close, std::abs(b.influence(i)[k]));
+    }
+  EXPECT_GT(far, 0.1);
+  EXPECT_GT(close, 0.1);
+  EXPECT_NEAR(both->simulation->measure().potential,
+              charged->simulation->measure().potential + pairs->simulation->measure().potential, 1e-10);
+}
+
+// What a mass is called does not matter to gravity: any class with a mass falls as Kepler's stars do, to the bit.
+TEST(Schemes, LetAnyMassFallAsAStarDoes) {
+  auto const stars = read(lump(2, "open", replaced(gravity, "on = \"gas\"\n", ""), "Kepler")),
+             masses = read(lump(2, "open", gravity, "Newton"));
+  for (auto const* run : {&stars, &masses}) (*run)->simulation->run(20);
+  AnyEnsemble const &a = ensemble(*stars, "gas"), &b = ensemble(*masses, "gas");
+  ASSERT_EQ(a.size(), b.size());
+  double moved = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (char const* field : {"position", "velocity"})
+      for (int k = 0; k < 2; ++k) {
+        EXPECT_EQ(a.row(i)[a.field(field).offset + k], b.row(i)[b.field(field).offset + k]) << i;
+        moved = std::max(moved, std::abs(a.row(i)[a.field("velocity").offset + k]));
+      }
+  EXPECT_GT(moved, 1e-3);
+}
+
+// A gas in its own gravity is rezoned: its mesh has the new particles with their masses.
+TEST(Schemes, TakeParticlesThatAreRezoned) {
+  std::string const finer = replaced(
+      smooth, "\"wendland\"\n", "\"wendland\"\nrezone = { every = 5, split_above = 0.2, smallest_mass = 0.008 }\n");
+  auto const run = read(lump(2, "open", finer + gravity));
+  AnyEnsemble const& gas = ensemble(*run, "gas");
+  int const mass = gas.field("mass").offset;
+  auto const total = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < gas.size(); ++i) sum += gas.row(i)[mass];
+    return sum;
+  };
+  double const before = total(), potential = run->simulation->measure().potential;
+  std::size_t const particles = gas.size();
+  run->simulation->run(6);
+  EXPECT_GT(gas.size(), particles);
+  EXPECT_NEAR(total(), before, 1e-13);
+  EXPECT_NEAR(run->simulation->measure().potential, potential, 0.03 * std::abs(potential));
+  EXPECT_EQ(run->simulation->measure().per_particle[0].size(), gas.size());
+}
+
 // Lane and Emden's star with n = 1, M = R = G = 1: W = -3 M^2 / (5 - n) R = -3/4, and by the virial theorem 3 U = -W for
 // P = K rho^2, whose energy is that of its pressure. Nothing moves: pressure and weight cancel.
 std::unique_ptr<ScenarioSimulation> star_of(double spacing, std::vector<std::string> more) {
@@ -249,6 +315,14 @@ Mistake const rows[] = {
      lump(2, "open", smooth) + "[[dissipation]]\nkind = \"langevin\"\non = \"gas\"\ntemperature = 1\nrate = 2\n",
      "23:6",
      {"can't act on 'gas'", "viscosity"}},
+    {"a bath for gas alone",
+     lump(2, "open", smooth) + "[equilibrate]\ntemperature = 1\nrate = 2\ntime = 1\n",
+     "21:1",
+     {"there is no ensemble", "smooth particles have the viscosity"}},
+    {"two skins",
+     lump(2, "open", replaced(smooth, "\"wendland\"\n", "\"wendland\"\nskin = 1e6\n")),
+     "12:8",
+     {"the skin "}},
     {"rezoned dust",
      replaced(lump(2, "open", smooth), "\"wendland\"\n",
               "\"wendland\"\nrezone = { every = 5, on = \"dust\", split_above = 2, smallest_mass = 0.001 }\n") +

@@ -1,5 +1,6 @@
 // What a mesh scheme is told, what it refuses, and how it looks to a simulation.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 #include <boltzmann/schemes/mesh/step_task.hpp>
@@ -263,11 +264,14 @@ void MeshScheme::add_influences(double time) {
       gather(work, *loaded, false, E.data(), true);
     }
     double const rounding = 1.5 * 4503599627370496.0 * quantum_;
-    for (std::size_t i = 0; i < ensemble.size(); ++i)
-      for (std::size_t a = 0; a < components; ++a) {
-        double const e = E[i * components + a];
-        ensemble.influence(i)[a] += quantum_ > 0 ? (e + rounding) - rounding : e;
-      }
+    for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads()),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i)
+                   for (std::size_t a = 0; a < components; ++a) {
+                     double const e = E[i * components + a];
+                     ensemble.influence(i)[a] += quantum_ > 0 ? (e + rounding) - rounding : e;
+                   }
+               });
   }
 }
 

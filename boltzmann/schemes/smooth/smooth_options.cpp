@@ -83,7 +83,7 @@ OptionTable make_rezone_options() {
   OptionTable all;
   all.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
           "so many steps from one rezoning to the next");
-  all.add_said("on", "the name of an ensemble, or a list", "who is rezoned", "all");
+  all.add_said("on", "the name of an ensemble, or a list", "who is rezoned", "all that are smooth");
   all.add_of<R>(
       "by", [](R& r) -> OptionPlace { return named_value(&r.policy.by, rezone_by_words()); },
       word(rezone_by_words().names()), "density, or mass / density, the space that a particle takes");
