@@ -48,8 +48,7 @@ int main(int argc, char** argv) try {
 
   Recording recording(simulation, UnitSystem::reduced(), argc > 1 ? argv[1] : "results/convection-cpp", true);
   recording.diagnoses(10, {"energies"});
-  auto const& flux =
-      recording.diagnose(10, HeatFlux({&particles}, {.axis = 1, .conductivity = conductivity, .since = duration / 2}));
+  auto const& flux = recording.diagnose<HeatFlux>(10, {.axis = 1, .conductivity = conductivity, .since = duration / 2});
   recording.picture({.drawing = "map", .y = "temperature"});
   recording.picture({.drawing = "contours", .y = "temperature", .file = "contours.png"});
   run_with_progress(recording, static_cast<std::uint64_t>(duration / step));

@@ -6,7 +6,7 @@ using namespace boltzmann;
 using namespace boltzmann::units;
 
 // What a particle is: an atom; those at the edge are tied to the rest of the crystal.
-template <class Real>
+template <class Real = double>
 struct Atom : Newton<2, Real> {
   static constexpr char const* class_name = "Atom";
   Vector<2, Real> original;
@@ -18,7 +18,6 @@ int main(int argc, char** argv) {
     UnitSystem const base(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
     double const r0 = base(2.551 * angstrom);
     double const depth = base(0.1 * electronvolt);
-    double const kappa = base(0.2 * electronvolt / (angstrom * angstrom));
     double const side = base(100 * angstrom);
 
     // How two particles influence each other: Lennard-Jones (Eq 6.8), its force and its energy.
@@ -33,13 +32,11 @@ int main(int argc, char** argv) {
       return Interaction{r * p.kappa, 0.5 * p.kappa * dot(r, r)};
     };
 
-    Ensemble<Atom<double>> atoms("atoms", 250);
+    Ensemble<Atom<>> atoms("atoms", 250);
     block_load(atoms, Lattice::triangular, r0, {25, 10});
-    for (auto& atom : atoms) {
-      atom.mass = 2000;
-      atom.original = atom.position;
-    }
-    for (auto const i : edge_particles(atoms, 0.6 * r0)) atoms[i].kappa = kappa;
+    for (auto& atom : atoms) atom.mass = 2000, atom.original = atom.position;
+    for (auto const i : edge_particles(atoms, 0.6 * r0))
+      atoms[i].kappa = base(0.2 * electronvolt / (angstrom * angstrom));
     atoms[60].velocity = {0.4, -0.45};
     atoms.appearance.diameter = 0.8 * r0;
 

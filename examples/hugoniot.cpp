@@ -46,10 +46,9 @@ Point shock(UnitSystem const& base, std::string const& folder, double piston) {
   simulation.equilibrate(bath, 500);
 
   // Until the front has gone through nine tenths of the crystal, at a first guess of its velocity.
-  std::vector<AnyEnsemble const*> const matter{&polymer};
   auto const steps = static_cast<std::uint64_t>(0.9 * length[0] / (40 + 1.6 * piston) / simulation.step_size());
   Recording recording(simulation, base, folder + "/" + std::to_string(std::lround(100 * piston)), true);
-  auto const& measured = recording.diagnose(25, Shock(matter, {.since = 4}));
+  auto const& measured = recording.diagnose<Shock>(25, {.since = 4});
   recording.picture({.drawing = "profile", .y = "velocity.x"});
   run_with_progress(recording, steps);
   double const us = measured.line().slope.mean;

@@ -42,9 +42,8 @@ void shock(std::string const& folder, bool coupled) {
   simulation.equilibrate(bath, 1000);  // Langevin's 2 ps to 300 K
 
   Recording recording(simulation, base, folder, true);
-  std::vector<AnyEnsemble const*> const matter{&polymer};
-  recording.diagnose(50, Slab(matter, {.from = 500, .to = 550}));
-  recording.diagnose(50, Shock(matter, {.since = 3}));
+  recording.diagnose<Slab>(50, {.from = 500, .to = 550});
+  recording.diagnose<Shock>(50, {.since = 3});
   recording.diagnoses(50, {"energy-balance"});
   recording.trajectory(500);
   recording.picture({.drawing = "time-series", .y = "slab kinetic temperature x, slab internal temperature"});

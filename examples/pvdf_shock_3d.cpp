@@ -41,9 +41,8 @@ int main(int argc, char** argv) {
     bath->on(polymer);
     simulation.equilibrate(bath, 300);
 
-    std::vector<AnyEnsemble const*> const matter{&polymer};
     Recording recording = program.recording(simulation, base);
-    auto const& measured = recording.diagnose(20, Shock(matter, {.since = 0.8}));
+    auto const& measured = recording.diagnose<Shock>(20, {.since = 0.8});
     recording.diagnoses(20, {"energy-balance"});
     recording.trajectory(300);
     recording.picture({.colour = "temperature"});

@@ -8,19 +8,18 @@ using namespace boltzmann;
 
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/sod-cpp", [](Program& program) {
-    double const gamma = 1.4, duration = 0.2, spacing = 1.0 / 400;
-    Ensemble<Smooth<1>> gas("gas", 0);
-    block_load(gas, Lattice::square, spacing, {400, 1, 1}, {-0.5 + spacing / 2});
+    double const gamma = 1.4, spacing = 1.0 / 400;
+    Box const box(Vector{-0.5}, Vector{0.5}, Boundary::mirror);
+    Ensemble<Smooth<1>> gas("gas");
+    fill_load(gas, box, {.spacing = spacing});
     for (auto& p : gas) {
-      bool const left = p.position[0] < 0;
-      double const density = left ? 1 : 0.125, pressure = left ? 1 : 0.1;
-      p.mass = density * spacing;
+      p.mass = (p.position[0] < 0 ? 1 : 0.125) * spacing;
       p.range = 3 * spacing;
-      p.specific_energy = pressure / ((gamma - 1) * density);
+      p.specific_energy = (p.position[0] < 0 ? 1 : 0.8) / (gamma - 1);  // pressures 1 and 0.1
     }
     gas.appearance.diameter = spacing;
 
-    SmoothScheme scheme(Box(Vector{-0.5}, Vector{0.5}, Boundary::mirror));
+    SmoothScheme scheme(box);
     scheme.material(gas, IdealGas{gamma});
     scheme.artificial_viscosity({.alpha = 1, .beta = 2});
     scheme.heating(Heating::own);
@@ -34,7 +33,7 @@ int main(int argc, char** argv) {
     recording.trajectory(100);
     recording.picture({.drawing = "phase-space", .x = "position.x", .y = "density"});
     recording.picture({.drawing = "phase-space", .x = "position.x", .y = "velocity.x", .file = "velocity.png"});
-    program.run_for(recording, duration);
+    program.run_for(recording, 0.2);
 
     // The exact solution: between contact and shock, 0.1855 < x < 0.3504, one state.
     double pressure = 0, velocity = 0, density = 0, number = 0;

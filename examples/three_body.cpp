@@ -8,26 +8,23 @@ using namespace boltzmann;
 int main(int argc, char** argv) {
   return run_program(argc, argv, "results/three-body-cpp", [](Program& program) {
     double const period = 6.32591398;
+    Vector const start{0.97000436, -0.24308753, 0.0}, swing{-0.93240737, -0.86473146, 0.0};
     Ensemble<Kepler<3>> bodies("bodies", 3);
-    bodies[0].position = {0.97000436, -0.24308753, 0};
-    bodies[1].position = {-0.97000436, 0.24308753, 0};
-    bodies[2].velocity = {-0.93240737, -0.86473146, 0};
-    bodies[0].velocity = bodies[1].velocity = bodies[2].velocity * -0.5;
+    bodies[0].position = start, bodies[0].velocity = swing * -0.5;
+    bodies[1].position = -start, bodies[1].velocity = swing * -0.5;
+    bodies[2].velocity = swing;
     bodies.appearance.diameter = 0.1;
 
     PairScheme space(Box(Vector{-1.5, -1.0, -1.0}, Vector{1.5, 1.0, 1.0}));
     space.internal(bodies, gravity(1.0));
-
-    int const steps = 2000;
-    Simulation simulation(space, period / steps);
+    Simulation simulation(space, period / 2000);
     simulation.integrate(bodies, Method::rk4);
 
     Recording recording = program.recording(simulation);
     recording.diagnoses(20, {"energies", "angular-momentum"});
     recording.trajectory(20);
     recording.picture({.trace = true});
-    program.run(recording, steps);
-    std::printf("after one period body 0 is %.1e from where it was\n",
-                magnitude(bodies[0].position - Vector{0.97000436, -0.24308753, 0.0}));
+    program.run_for(recording, period);
+    std::printf("after one period body 0 is %.1e from where it was\n", magnitude(bodies[0].position - start));
   });
 }

@@ -19,14 +19,14 @@ double temperature_difference(Box const& box, int axis);
 
 /// Means over the whole layer of length L between walls at temperatures T0 (low end) and T1 (high end):
 ///   conductive  conductivity (T0 - T1) / L: the volume average of -conductivity dT/dx, by Gauss' theorem
-///   convective  (1 / V) Sum m v (h - <h>), v the velocity along the axis, h = e + P / rho the enthalpy per mass and
-///   <h>
+///   convective  (1 / V) Sum m v (h - <h>), v the velocity along the axis, h = e + P / rho the enthalpy per mass and <h>
 ///               its mean over the mass (what the whole layer's sloshing would carry averages out, and is not counted)
 ///   Nusselt     (conductive + convective) / conductive
 /// of all ensembles of smooth particles, and the mean and the standard deviation of Nusselt's number over the looks
 /// since a time (NaN before).
 class HeatFlux final : public Diagnosis {
  public:
+  using Options = HeatFluxOptions;
   /// Error if the conductivity is not above 0, or an ensemble is not of smooth particles in a space with that axis.
   HeatFlux(std::vector<AnyEnsemble const*> const& ensembles, HeatFluxOptions const& options);
 

@@ -70,6 +70,7 @@ struct ShockOptions {
 /// residuals of the three jumps. NaN before there is enough to know.
 class Shock final : public Diagnosis {
  public:
+  using Options = ShockOptions;
   /// Error if the options fit no ensemble or contradict each other.
   Shock(std::vector<AnyEnsemble const*> const& ensembles, ShockOptions options);
 

@@ -42,6 +42,7 @@ Layer layer_of(std::span<double const> position, std::span<double const> mass, B
 /// slabs are filled at the first look; their particles are the state in checkpoints.
 class Slab final : public Diagnosis {
  public:
+  using Options = SlabOptions;
   /// Error for options that fit no ensemble.
   Slab(std::vector<AnyEnsemble const*> const& ensembles, SlabOptions options);
   SlabOptions const& options() const { return options_; }

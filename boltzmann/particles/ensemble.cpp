@@ -11,7 +11,13 @@ AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, int dimension
       stride_(stride),
       doubles_(doubles),
       influence_size_(influence_size),
-      fields_(std::move(fields)) {}
+      fields_(std::move(fields)) {
+  for (auto const& field : fields_)
+    for (auto const* other = &fields_.front(); other != &field; ++other)
+      if (field.offset < other->offset + other->components && other->offset < field.offset + field.components)
+        throw Error("class " + class_name_ + ": its fields '" + other->name + "' and '" + field.name +
+                    "' have the same place; a particle class derives from one class alone");
+}
 
 void AnyEnsemble::attach(double* data, std::size_t size) {
   data_ = data;

@@ -88,7 +88,7 @@ class Ensemble final : public AnyEnsemble {
   /// `size` particles, every field zero (and mass one where the class has a mass).
   explicit Ensemble(std::string name, std::size_t size = 0)
       : AnyEnsemble(std::move(name), P::class_name, P::dimension, row_stride<P>, row_doubles<P>,
-                    sizeof(Influence) / sizeof(double), P::template fields<P>().fields) {
+                    sizeof(Influence) / sizeof(double), P::fields().fields) {
     resize(size);
   }
 

@@ -44,8 +44,8 @@ int offset_of(Member Class::*member) {
   return static_cast<int>((field - start) / static_cast<std::ptrdiff_t>(sizeof(double)));
 }
 
-/// A table that grows down the class hierarchy: each class adds its own fields to those of its parent.
-template <class P>
+/// A table that grows down the class hierarchy: each class adds its own fields to those of its parent. A class derives
+/// from one other, so that what stands where in the parent stands there in the child.
 struct FieldTable {
   std::vector<Field> fields;
 
@@ -53,7 +53,7 @@ struct FieldTable {
   FieldTable&& add(Member Class::*member, std::string name, Dimension dimension, std::string doc) && {
     static_assert(detail::component_count<Member> > 0, "a field is a Real, a Vector<D, Real> or a Tensor<D, Real>");
     fields.push_back(
-        {std::move(name), offset_of<P>(member), detail::component_count<Member>, dimension, std::move(doc)});
+        {std::move(name), offset_of<Class>(member), detail::component_count<Member>, dimension, std::move(doc)});
     return std::move(*this);
   }
 };

@@ -22,10 +22,8 @@ struct Coulomb : Laplace<D, Real> {
 
   Real strength() const { return charge; }
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Laplace<D, Real>::template fields<Self>().add(&Coulomb::charge, "charge", dimensions::charge,
-                                                         "electric charge");
+  static FieldTable fields() {
+    return Laplace<D, Real>::fields().add(&Coulomb::charge, "charge", dimensions::charge, "electric charge");
   }
 };
 

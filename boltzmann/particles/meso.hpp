@@ -15,9 +15,8 @@ struct Meso : Newton<D, Real> {
   Real internal_energy;
   Real temperature;  ///< of the internal degrees of freedom, as the dissipation finds it when somebody looks
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<D, Real>::fields()
         .add(&Meso::internal_energy, "internal_energy", dimensions::energy, "energy of what is inside it")
         .add(&Meso::temperature, "temperature", dimensions::temperature, "temperature of what is inside it");
   }

@@ -14,15 +14,13 @@ struct Newton : Particle<D, Real> {
   Vector<D, Real> velocity;
 
   /// Newton's law (Eq 3.5, 3.6): dr/dt = v, dv/dt = F / m.
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& force, Rate const& rate) {
+  static void equations(auto const& p, auto const& force, auto const& rate) {
     rate(&Newton::position, p.velocity);
     rate(&Newton::velocity, force * (1 / p.mass));
   }
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Particle<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Particle<D, Real>::fields()
         .add(&Newton::mass, "mass", dimensions::mass, "inertial mass")
         .add(&Newton::velocity, "velocity", dimensions::velocity, "rate of change of the position");
   }

@@ -21,12 +21,10 @@ struct Particle {
   Vector<D, Real> position;
 
   /// A particle that nothing moves.
-  template <class Self, class I, class Rate>
-  static void equations(Self const&, I const&, Rate const&) {}
+  static void equations(auto const&, auto const&, auto const&) {}
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return FieldTable<Self>{}.add(&Particle::position, "position", dimensions::length, "where the particle is");
+  static FieldTable fields() {
+    return FieldTable{}.add(&Particle::position, "position", dimensions::length, "where the particle is");
   }
 };
 

@@ -19,9 +19,8 @@ struct Pendulum : Newton<D, Real> {
   /// From the pivot to the bob: l (sin angle, -cos angle).
   Vector<2, Real> arm() const { return {length * sin(this->position[0]), -length * cos(this->position[0])}; }
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return FieldTable<Self>{}
+  static FieldTable fields() {
+    return FieldTable{}
         .add(&Pendulum::position, "position", dimensions::angle, "angle from the vertical")
         .add(&Pendulum::mass, "mass", dimensions::moment_of_inertia, "moment of inertia, bob_mass length^2")
         .add(&Pendulum::velocity, "velocity", dimensions::frequency, "angular velocity")

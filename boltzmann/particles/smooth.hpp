@@ -32,8 +32,7 @@ struct Smooth : Newton<D, Real> {
   Real sound_speed;
 
   /// Eq 1 to 3: dr/dt = v, dv/dt = F/m, de/dt = heating/m.
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& influence, Rate const& rate) {
+  static void equations(auto const& p, auto const& influence, auto const& rate) {
     auto const inverse_mass = 1 / p.mass;
     rate(&Smooth::position, p.velocity);
     rate(&Smooth::velocity, influence.force * inverse_mass);
@@ -42,9 +41,8 @@ struct Smooth : Newton<D, Real> {
     rate(&Smooth::range, influence.range_rate);
   }
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<D, Real>::fields()
         .add(&Smooth::specific_energy, "specific_energy", dimensions::velocity * dimensions::velocity,
              "internal energy per mass")
         .add(&Smooth::range, "range", dimensions::length, "radius beyond which its weight is zero")
@@ -74,17 +72,15 @@ struct Solid : Smooth<D, Real> {
   Real plastic_strain;     ///< equivalent, accumulated
   Real damage;             ///< 0 whole, 1 broken: no tension, no shear
 
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& influence, Rate const& rate) {
+  static void equations(auto const& p, auto const& influence, auto const& rate) {
     Smooth<D, Real>::equations(p, influence, rate);
     rate(&Solid::stress, influence.stress_rate);
     rate(&Solid::plastic_strain, influence.plastic_rate);
     rate(&Solid::damage, influence.damage_rate);
   }
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Smooth<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Smooth<D, Real>::fields()
         .add(&Solid::stress, "stress", dimensions::energy / pow(dimensions::length, D), "deviatoric stress")
         .add(&Solid::plastic_strain, "plastic_strain", dimensions::none, "equivalent plastic strain")
         .add(&Solid::damage, "damage", dimensions::none, "0 whole, 1 broken");

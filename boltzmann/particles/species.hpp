@@ -15,10 +15,9 @@ struct Species : Newton<D, Real> {
 
   Real species;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>().add(&Species::species, "species", dimensions::none,
-                                                        "number of its species, from 0");
+  static FieldTable fields() {
+    return Newton<D, Real>::fields().add(&Species::species, "species", dimensions::none,
+                                         "number of its species, from 0");
   }
 };
 

@@ -13,9 +13,8 @@ struct Tethered : Newton<D, Real> {
   Real stiffness;
   Vector<D, Real> anchor;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<D, Real>::fields()
         .add(&Tethered::stiffness, "stiffness", dimensions::spring_constant, "force constant of the tether")
         .add(&Tethered::anchor, "anchor", dimensions::length, "the point it is tethered to");
   }

@@ -11,10 +11,7 @@ struct Tracer : Particle<D, Real> {
   static constexpr char const* class_name = "Tracer";
 
   /// Eq 3.8: dr/dt = v, the velocity field at the particle.
-  template <class Self, class I, class Rate>
-  static void equations(Self const&, I const& velocity, Rate const& rate) {
-    rate(&Tracer::position, velocity);
-  }
+  static void equations(auto const&, auto const& velocity, auto const& rate) { rate(&Tracer::position, velocity); }
 };
 
 }  // namespace boltzmann

@@ -22,9 +22,8 @@ struct Vortex : Tracer<D, Real> {
   Vector<cross_dimension<D>, Real> vorticity;
   Real core;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Tracer<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Tracer<D, Real>::fields()
         .add(&Vortex::vorticity, "vorticity",
              D == 2 ? dimensions::circulation : dimensions::length * dimensions::circulation,
              D == 2 ? "circulation" : "vorticity times volume")
@@ -43,8 +42,7 @@ struct Inviscid<3, Real> : Vortex<3, Real> {
   static constexpr char const* class_name = "Inviscid";
   using Influence = VortexInfluence<Real>;
 
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& influence, Rate const& rate) {
+  static void equations(auto const& p, auto const& influence, auto const& rate) {
     Vortex<3, Real>::equations(p, influence.velocity, rate);
     rate(&Inviscid::vorticity, influence.stretching);
   }
@@ -58,10 +56,9 @@ struct Viscous : Inviscid<D, Real> {
 
   Real viscosity;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Inviscid<D, Real>::template fields<Self>().add(
-        &Viscous::viscosity, "viscosity", dimensions::length * dimensions::velocity, "kinematic viscosity");
+  static FieldTable fields() {
+    return Inviscid<D, Real>::fields().add(&Viscous::viscosity, "viscosity", dimensions::length * dimensions::velocity,
+                                           "kinematic viscosity");
   }
 };
 

@@ -105,13 +105,7 @@ struct Recording::State {
   std::string path(std::string const& file) const { return folder + "/" + file; }
 
   /// Also before Simulation::check() has collected them.
-  std::vector<AnyEnsemble*> ensembles() const {
-    std::vector<AnyEnsemble*> all;
-    for (auto* scheme : simulation.schemes())
-      for (auto* ensemble : scheme->ensembles())
-        if (std::find(all.begin(), all.end(), ensemble) == all.end()) all.push_back(ensemble);
-    return all;
-  }
+  std::vector<AnyEnsemble*> ensembles() const { return supervised_by(simulation.schemes()); }
 
   std::vector<MeshField const*> mesh_fields() const {
     std::vector<MeshField const*> all;
@@ -123,7 +117,8 @@ struct Recording::State {
   /// What diagnoses are made from.
   DiagnosisParameters parameters(std::string_view kind) const {
     DiagnosisParameters parameters;
-    for (auto const* ensemble : ensembles()) parameters.available.push_back(ensemble);
+    auto const all = ensembles();
+    parameters.available.assign(all.begin(), all.end());
     for (auto const& known : diagnosis_kinds())
       if (known.name == kind && known.of_mesh) parameters.mesh_fields = mesh_fields();
     return parameters;
@@ -583,6 +578,11 @@ void Recording::diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnos
                             state_->every_diagnoses, every));
   state_->every_diagnoses = interval;
   state_->list.push_back(std::move(diagnosis));
+}
+
+std::vector<AnyEnsemble const*> Recording::ensembles() const {
+  auto const all = state_->ensembles();
+  return {all.begin(), all.end()};
 }
 
 void Recording::diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds) {

@@ -48,13 +48,19 @@ class Recording {
   /// again, with the same interval. Kinds are words of the catalogue (diagnosis_kinds()), measured on the whole system.
   void diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds);
   /// The same for one that is made here, and that can be asked when the run is over: it lives as long as the recording.
-  ///   auto& shock = recording.diagnose(20, Shock({&polymer}, {.since = 4}));
+  ///   auto& front = recording.diagnose(10, Front(width, gravity));
   template <std::derived_from<Diagnosis> D>
   D& diagnose(std::uint64_t every, D diagnosis) {
     auto owned = std::make_unique<D>(std::move(diagnosis));
     D& here = *owned;
     diagnose(every, std::unique_ptr<Diagnosis>(std::move(owned)));
     return here;
+  }
+  /// The same for one of those that look at ensembles, here all that there are:
+  ///   auto& shock = recording.diagnose<Shock>(20, {.since = 4});
+  template <class D>
+  D& diagnose(std::uint64_t every, typename D::Options const& options) {
+    return diagnose(every, D(ensembles(), options));
   }
   /// For code that knows kinds only at run time.
   void diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis);
@@ -132,6 +138,8 @@ class Recording {
   std::vector<std::string> files() const;
 
  private:
+  std::vector<AnyEnsemble const*> ensembles() const;
+
   struct State;
   std::shared_ptr<State> state_;
 };

@@ -22,7 +22,7 @@ ClassVariant variant_of() {
         return std::make_unique<Ensemble<P>>(std::move(name), size);
       },
       [](AnyEnsemble& ensemble, Method method) { return make_integrator(static_cast<Ensemble<P>&>(ensemble), method); },
-      P::template fields<P>().fields,
+      P::fields().fields,
       sizeof(Row<P>) + sizeof(typename P::Influence),
       usual_method<P>(),
       mesh_kind_of<P>()};

@@ -42,7 +42,7 @@ struct BoundLaw {
 template <class P>
 bool has_rows(AnyEnsemble const& ensemble) {
   if (ensemble.dimension() != P::dimension) return false;
-  for (auto const& wanted : P::template fields<P>().fields) {
+  for (auto const& wanted : P::fields().fields) {
     Field const* field = ensemble.find_field(wanted.name);
     if (!field || field->offset != wanted.offset || field->components != wanted.components ||
         field->dimension != wanted.dimension)

@@ -170,9 +170,8 @@ TEST(Boundaries, ParticlesWithoutVelocityAreMovedAlone) {
 template <class Real>
 struct Drop : Particle<2, Real> {
   Real velocity, size;
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Particle<2, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Particle<2, Real>::fields()
         .add(&Drop::velocity, "velocity", dimensions::velocity, "of growth")
         .add(&Drop::size, "size", dimensions::length, "radius");
   }

@@ -24,9 +24,8 @@ struct Bead : Newton<D, Real> {
   Real heat;
   Vector<D, Real> spin;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<D, Real>::fields()
         .add(&Bead::heat, "heat", dimensions::energy, "kept inside \"it\"")
         .add(&Bead::spin, "spin", dimensions::velocity, "round itself");
   }

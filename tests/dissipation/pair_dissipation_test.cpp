@@ -276,10 +276,8 @@ struct HotIon : Coulomb<D, Real> {
   static constexpr char const* class_name = "HotIon";
   Real internal_energy;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Coulomb<D, Real>::template fields<Self>().add(&HotIon::internal_energy, "internal_energy",
-                                                         dimensions::energy, "");
+  static FieldTable fields() {
+    return Coulomb<D, Real>::fields().add(&HotIon::internal_energy, "internal_energy", dimensions::energy, "");
   }
 };
 

@@ -172,9 +172,8 @@ struct Grain : Newton<D, Real> {
   Vector<D, Real> dipole;
   Real roughness;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<D, Real>::fields()
         .add(&Grain::spin, "spin", dimensions::none, "")
         .add(&Grain::colour, "colour", dimensions::none, "")
         .add(&Grain::internal_energy, "internal_energy", dimensions::energy, "")

@@ -154,9 +154,8 @@ struct Rodlike : Coulomb<3, Real> {
   Real size;
   Vector<3, Real> axis;
   Real elongation() const { return size * size; }
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Coulomb<3, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Coulomb<3, Real>::fields()
         .add(&Rodlike::size, "size", dimensions::length, "how long")
         .add(&Rodlike::axis, "axis", dimensions::none, "direction");
   }

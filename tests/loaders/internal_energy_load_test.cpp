@@ -88,10 +88,9 @@ struct Lump : Newton<D, Real> {
   static constexpr char const* class_name = "Lump";
   Real internal_energy;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>().add(&Lump::internal_energy, "internal_energy", dimensions::energy,
-                                                        "energy of what is inside it");
+  static FieldTable fields() {
+    return Newton<D, Real>::fields().add(&Lump::internal_energy, "internal_energy", dimensions::energy,
+                                         "energy of what is inside it");
   }
 };
 

@@ -30,9 +30,8 @@ struct Gas : Newton<D, Real> {
   Real temperature;
   Vector<D, Real> gradient, heat_flux;
   Tensor<D, Real> stress;
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<D, Real>::fields()
         .add(&Gas::temperature, "temperature", dimensions::temperature, "temperature")
         .add(&Gas::gradient, "gradient", dimensions::none, "gradient of something even")
         .add(&Gas::heat_flux, "heat_flux", dimensions::none, "of temperature")

@@ -14,6 +14,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/message.hpp>
 #include <tests/seed.hpp>
 
 #include <cmath>
@@ -33,10 +34,9 @@ struct Grain : Newton<1, Real> {
   static constexpr char const* class_name = "Grain";
   Real internal_energy;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<1, Real>::template fields<Self>().add(&Grain::internal_energy, "internal_energy", dimensions::energy,
-                                                        "heat in the grain");
+  static FieldTable fields() {
+    return Newton<1, Real>::fields().add(&Grain::internal_energy, "internal_energy", dimensions::energy,
+                                         "heat in the grain");
   }
 };
 
@@ -46,9 +46,8 @@ struct Ion : Coulomb<2, Real> {
   Vector<2, Real> dipole;
   Real colour_charge;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Coulomb<2, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Coulomb<2, Real>::fields()
         .add(&Ion::dipole, "dipole", dimensions::charge * dimensions::length, "dipole moment")
         .add(&Ion::colour_charge, "colour_charge", dimensions::charge, "of another field");
   }
@@ -59,10 +58,8 @@ struct Dye : Tracer<D, Real> {
   static constexpr char const* class_name = "Dye";
   Real concentration;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Tracer<D, Real>::template fields<Self>().add(&Dye::concentration, "concentration", dimensions::none,
-                                                        "how much of it");
+  static FieldTable fields() {
+    return Tracer<D, Real>::fields().add(&Dye::concentration, "concentration", dimensions::none, "how much of it");
   }
 };
 
@@ -319,6 +316,23 @@ struct Quiet : Newton<3, Real> {
   Real secret;
 };
 
+template <class Real = double>
+struct Dipole {
+  Real moment;
+};
+template <class Real = double>
+struct Magnet : Newton<2, Real>, Dipole<Real> {
+  static constexpr char const* class_name = "Magnet";
+  static FieldTable fields() {
+    return Newton<2, Real>::fields().add(&Magnet::moment, "moment", dimensions::none, "magnetic moment");
+  }
+};
+TEST(Ensemble, AClassOfTwoParentsIsRefused) {
+  EXPECT_EQ(message([] { Ensemble<Magnet<>> magnets("magnets"); }),
+            "class Magnet: its fields 'position' and 'moment' have the same place; a particle class derives from one "
+            "class alone");
+}
+
 TEST(Ensemble, AClassWithoutTableOfItsOwnHasItsParentsFields) {
   Ensemble<Quiet<double>> e("e", 2);
   e[1].secret = 5;
@@ -336,8 +350,7 @@ struct Leaky : Newton<1, Real> {
   static constexpr char const* class_name = "Leaky";
   Real internal_energy, leak, clock;
 
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& force, Rate const& rate) {
+  static void equations(auto const& p, auto const& force, auto const& rate) {
     Newton<1, Real>::equations(p, force, rate);
     rate(&Leaky::internal_energy, p.position[0] - p.internal_energy * p.leak);
     rate(&Leaky::clock, 1.0);
@@ -409,14 +422,12 @@ struct Lump : Newton<3, Real> {
   using Influence = HeatFlow<Real>;
   Real temperature, capacity;
 
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& influence, Rate const& rate) {
+  static void equations(auto const& p, auto const& influence, auto const& rate) {
     Newton<3, Real>::equations(p, influence.pull, rate);
     rate(&Lump::temperature, influence.heating / p.capacity);
   }
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<3, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Newton<3, Real>::fields()
         .add(&Lump::temperature, "temperature", dimensions::temperature, "of the lump")
         .add(&Lump::capacity, "capacity", dimensions::none, "heat capacity");
   }

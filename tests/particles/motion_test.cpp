@@ -23,8 +23,7 @@ template <class Real>
 struct Decaying : Newton<2, Real> {
   static constexpr char const* class_name = "Decaying";
   Real activity;
-  template <class Self, class I, class Rate>
-  static void equations(Self const& p, I const& force, Rate const& rate) {
+  static void equations(auto const& p, auto const& force, auto const& rate) {
     Newton<2, Real>::equations(p, force, rate);
     rate(&Decaying::activity, -p.activity);
   }

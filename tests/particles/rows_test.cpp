@@ -129,7 +129,7 @@ RowClass row_class() {
           sizeof(Row<P>),
           row_stride<P>,
           row_doubles<P>,
-          P::template fields<P>().fields};
+          P::fields().fields};
 }
 template <class... P>
 std::vector<RowClass> row_classes() {

@@ -26,9 +26,8 @@ struct Weighted : Laplace<D, Real> {
 
   Real strength() const { return charge * weight; }
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Laplace<D, Real>::template fields<Self>()
+  static FieldTable fields() {
+    return Laplace<D, Real>::fields()
         .add(&Weighted::charge, "charge", dimensions::charge, "electric charge")
         .add(&Weighted::weight, "weight", dimensions::none, "particles that it stands for");
   }

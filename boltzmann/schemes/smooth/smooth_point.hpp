@@ -29,10 +29,9 @@ struct SmoothPlace : Newton<D, Real> {
   struct Influence {};
   Real range;
 
-  template <class Self>
-  static FieldTable<Self> fields() {
-    return Newton<D, Real>::template fields<Self>().add(&SmoothPlace::range, "range", dimensions::length,
-                                                        "radius beyond which its weight is zero");
+  static FieldTable fields() {
+    return Newton<D, Real>::fields().add(&SmoothPlace::range, "range", dimensions::length,
+                                         "radius beyond which its weight is zero");
   }
 };
 
