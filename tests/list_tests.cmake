@@ -1,4 +1,4 @@
-# Writes for ctest an entry for each test that a program has. -D PROGRAM= -D LIST=: the file to be written
+# Writes for ctest an entry for each test that a program has. -D PROGRAM= -D LIST=, the file to be written, -D ENVIRONMENT= of each
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_output=json:${LIST}.json OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/long.txt long)
@@ -7,7 +7,6 @@ foreach(line ${long})
     set("seconds_${CMAKE_MATCH_2}" ${CMAKE_MATCH_1})
   endif()
 endforeach()
-set(environment "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.supp:print_suppressions=0")
 # Two spaces deeper for every level: the suite's name has six, a test's name and file have ten.
 file(STRINGS ${LIST}.json lines REGEX "^(      |          )\"(name|file)\": ")
 set(text "")
@@ -24,7 +23,7 @@ foreach(line ${lines})
       set(cost " COST ${seconds_${entry}}")
     endif()
     string(APPEND text "add_test(${entry} \"${PROGRAM}\" --gtest_filter=${name})\n"
-           "set_tests_properties(${entry} PROPERTIES TIMEOUT 600${cost} ENVIRONMENT \"${environment}\"\n"
+           "set_tests_properties(${entry} PROPERTIES TIMEOUT 600${cost} ENVIRONMENT \"${ENVIRONMENT}\"\n"
            "  FAIL_REGULAR_EXPRESSION \"Running 0 tests;  SKIPPED \")\n")
   endif()
 endforeach()
