@@ -71,6 +71,13 @@ std::vector<FieldValue> read_fields(Section& section, std::vector<Field> const& 
   for (auto const& field : fields) {
     if (field.name == "position" && !with_position) continue;
     Item const* item = section.find(field.name);
+    section.explain({field.name,
+                     field.components > 1 ? option::vector(field.dimension) : option::number(field.dimension),
+                     field.doc,
+                     "",
+                     "",
+                     {}},
+                    "", field.dimension);
     if (item && reading.dimension > 0)
       if (auto value = read_field(*item, field, count, reading)) values.push_back(std::move(*value));
   }

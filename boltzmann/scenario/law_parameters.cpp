@@ -66,6 +66,9 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
     bool const is_vector = parameter.vector && (!parameter.axial || space == 3);
     Dimension const dimension = parameter.dimension.in(space);
     Item const* item = section.find(name);
+    bool const shown = !parameter.unlimited && has_default(parameter, base.is_reduced());
+    section.explain(option_of(parameter), shown ? std::string(parameter.default_text) : "",
+                    space == 0 && parameter.dimension.by_space != 0 ? std::nullopt : std::optional(dimension));
     if (!item && !has_default(parameter, base.is_reduced())) {
       reading.mistake(section.place(),
                       fmt::format("{} needs '{}', {}; add e.g. {} = {}", owner, name, parameter.doc, name,

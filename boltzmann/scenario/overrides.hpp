@@ -21,7 +21,7 @@ struct Overrides {
   std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
   bool no_sweep = false;                      ///< the scenario as if it had no [sweep]
   bool by_page = false;  ///< `set` comes from a page: it may name what [sweep] varies, since it edits the file's own
-                         ///< values, and only files in the folder of the scenario
+                         ///< values, and only files in the folder of the scenario. The page is told of all keys
 };
 
 }  // namespace boltzmann

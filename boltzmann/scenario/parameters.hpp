@@ -11,13 +11,16 @@
 
 namespace boltzmann {
 
-/// A value of a scenario's text, and what the reader that has read it allows there. There are none of [sweep].
+/// A value of a scenario's text, and what the reader that has read it allows there; or a key that one of its tables
+/// could have, too. There are none of [sweep].
 struct ScenarioParameter {
   std::string path;   ///< as --set takes it: "run.step", "ensembles.atoms.mass", "influences.0.depth"
   std::string group;  ///< the table at the top that it stands in: "run", "ensembles.atoms"; empty: at the top itself
   std::string name;   ///< the rest of the path: "step", "load.spacing"
-  std::string kind;   ///< "quantity", "integer", "number", "word", "boolean", "text" or "vector" (an array of any)
-  std::string value;  ///< as TOML, as it was written
+  /// "quantity", "integer", "number", "word", "boolean", "text" or "vector" (an array of these); of a key that is
+  /// absent also "any": `doc` says what is allowed.
+  std::string kind;
+  std::string value;  ///< as TOML, as it was written; of a key that is absent its default, empty: `otherwise` says it
   std::string unit;   ///< in which the base shows such a quantity; empty: a pure number, or none
   std::string base_unit;  ///< what a plain number counts there: "amu", "3.273 fs"; empty: a pure number, or none
   std::vector<std::string> units;  ///< some that it may be written in, that of the value first
@@ -26,6 +29,8 @@ struct ScenarioParameter {
   bool low_excluded = false;       ///< it must be above `low`
   std::vector<std::string> words;  ///< of a word, all that are allowed
   std::string comment;             ///< behind it, without the #
+  std::string doc;                 ///< what it means, one line; only of scenarios that a page has asked for
+  std::string otherwise;           ///< of a key that is absent: what holds without it, in words
 };
 
 /// What can be said of a scenario without making its particles.

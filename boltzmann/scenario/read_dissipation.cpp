@@ -4,6 +4,7 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 
 #include <fmt/format.h>
@@ -104,12 +105,10 @@ void check_method(Section& section, DissipationOptions const& options, Dissipati
   Reading& reading = all.reading;
   if (all.first_dpd) {
     for (char const* key : {"method", "corrector", "metropolis"})
-      if (section.has(key))
-        reading.mistake(
-            section.place(key),
-            fmt::format("{}: dissipations of kind \"dpd\" act together, in one way for all, which the first of them "
-                        "says (line {})",
-                        key, all.first_dpd->line));
+      section.refuse(key,
+                     fmt::format("dissipations of kind \"dpd\" act together, in one way for all, which the first of "
+                                 "them says (line {})",
+                                 all.first_dpd->line));
     return;
   }
   bool const splitting = options.method == DissipationMethod::shardlow;
@@ -125,9 +124,9 @@ void check_convention(Section& section, DissipationLaw const& dissipation, Readi
   std::string const name = to_string(dissipation.convention);
   if (dissipation.convention != constant_friction)
     section.need("temperature", reading.context.base.is_reduced() ? "temperature = 1" : "temperature = \"300 K\"");
-  else if (section.has("temperature"))
-    reading.mistake(section.place("temperature"),
-                    fmt::format("temperature: convention \"{}\" uses none but the particles' own; leave it out", name));
+  else
+    section.refuse("temperature",
+                   fmt::format("convention \"{}\" uses none but the particles' own; leave it out", name));
   if (dissipation.convention == fixed_temperature && dissipation.conduction > 0)
     reading.mistake(section.place("conduction"),
                     "conduction: with convention \"fixed-temperature\" particles have no temperatures of their own "
@@ -258,6 +257,8 @@ void read_table(Item const& table, Dissipations& all) {
   auto const kind = word ? read_word(*word, "dissipation", kinds, reading.context) : std::nullopt;
   if (!kind) return;
   section.rename(fmt::format("[[dissipation]] '{}'", *kind));
+  for (auto const& one : dissipation_kinds())
+    if (one.name == *kind) section.explain_word("kind", one.doc);
   if (*kind == "dpd")
     read_pairs(section, table, all);
   else
@@ -287,6 +288,7 @@ std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& rea
 void read_equilibration(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[equilibrate]", reading.context);
+  section.explain_said(equilibration_options());
   Item const* on = section.find("on");
   auto bath = read_bath(section, reading);
   auto const time = section.need_quantity(

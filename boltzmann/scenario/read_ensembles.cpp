@@ -34,6 +34,7 @@ class EnsembleReader {
         before_(reading.context.mistakes.count()),
         section_(table, title_of(table), reading.context) {
     ensemble_.place = table.place;
+    section_.explain_said(ensemble_options());
   }
 
   void read() {
@@ -146,9 +147,9 @@ class EnsembleReader {
       auto keys = with_temperature;
       keys.push_back({"temperature"});
       read_options(section_, ensemble_options().only(keys), &options_, {.dimension = reading_.dimension});
-      for (auto const& [key, doc, otherwise, needed, kind] : with_temperature)
-        if (section_.has(key) && !section_.has("temperature"))
-          mistake(section_.place(key), fmt::format("{}: it belongs to 'temperature', which is missing", key));
+      if (!section_.has("temperature"))
+        for (auto const& one : with_temperature)
+          section_.refuse(one.key, "it belongs to 'temperature', which is missing");
       if (section_.has("temperature") && section_.has("velocity"))
         mistake(section_.place("velocity"),
                 "velocity: 'temperature' gives the velocities; for a common one on top write 'drift'");

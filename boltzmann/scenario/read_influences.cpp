@@ -1,6 +1,7 @@
 // Reads [[influences]]: which law acts on whom.
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/scenario/tables.hpp>
 
 #include <fmt/format.h>
 
@@ -85,6 +86,8 @@ class InfluenceReader {
     if (!name) return;
     law_ = find_law(*name);
     law_place_ = item->place;
+    section_.explain_word("law", law_->doc);
+    section_.explain_said(influence_options());
     section_.rename(fmt::format("[[influences]] '{}'", *name));
   }
   bool refused_with_smooth() {

@@ -36,9 +36,7 @@ bool fits_memory(double count, ClassVariant const& variant, Place const& place, 
 
 /// The axis that a key names, from 0 on; `otherwise` if it is missing or wrong.
 int read_axis(Section& section, char const* key, int otherwise, Reading const& reading) {
-  std::vector<std::string> axes{"x", "y", "z"};
-  if (reading.dimension > 0) axes.resize(static_cast<std::size_t>(reading.dimension));
-  auto const word = section.word(key, axes);
+  auto const word = section.word(key, axis_names(reading.dimension));
   return word ? (*word)[0] - 'x' : otherwise;
 }
 
@@ -84,6 +82,7 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   if (!name) return false;
   for (auto const& one : load_kinds())
     if (one.name == *name) kind_ = &one;
+  section_.explain_word("kind", kind_->doc);
   read_options(section_, kind_->options, &options_, {.dimension = reading_.dimension});
   block_.kind = options_.lattice;
   block_.spacing = options_.spacing;

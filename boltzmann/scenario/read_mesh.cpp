@@ -17,6 +17,7 @@ namespace {
 std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
   Item const* word = section.need("law", "law = \"coulomb\"");
   auto const name = word ? read_word(*word, "law", {"coulomb", "gravity"}, reading.context) : std::nullopt;
+  section.explain(*mesh_options().find("law"));
   if (!name) {
     section.mark_used("k");
     section.mark_used("G");
@@ -133,9 +134,7 @@ void read_mesh(Item const& table, Reading& reading) {
   read_options(section, keys_but_of_the_law(), &options, {.dimension = reading.dimension});
   if (section.has("accuracy")) {
     for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"})
-      if (section.has(key))
-        reading.mistake(section.place(key),
-                        fmt::format("{}: with 'accuracy' it is chosen by the scheme; leave it out", key));
+      section.refuse(key, "with 'accuracy' it is chosen by the scheme; leave it out");
     section.finish();
     if (law && options.accuracy && reading.box)
       catch_errors(reading, section.place("accuracy"), [&] {

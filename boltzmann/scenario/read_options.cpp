@@ -43,7 +43,7 @@ class OptionReader {
   void operator()(std::string* text) const {
     using Form = OptionKind::Form;
     auto const read = kind_.form == Form::word   ? section_.word(option_.key, kind_.words)
-                      : kind_.form == Form::axis ? section_.word(option_.key, axes())
+                      : kind_.form == Form::axis ? section_.word(option_.key, axis_names(meaning_.dimension))
                                                  : section_.text(option_.key);
     if (read) *text = *read;
   }
@@ -142,11 +142,6 @@ class OptionReader {
     return std::isinf(kind_.range.high) ? std::numeric_limits<std::int64_t>::max()
                                         : static_cast<std::int64_t>(kind_.range.high);
   }
-  std::vector<std::string> axes() const {
-    std::vector<std::string> names{"x", "y", "z"};
-    if (meaning_.dimension > 0) names.resize(static_cast<std::size_t>(meaning_.dimension));
-    return names;
-  }
   void mistake(Item const& item, std::string const& what) const {
     section_.mistake(item.place, about(option_.key, what));
   }
@@ -158,10 +153,28 @@ class OptionReader {
   OptionMeaning const& meaning_;
 };
 
+/// Nothing: it is not known.
+std::optional<Dimension> dimension_in(int space, OptionKind const& kind) {
+  if (kind.by_space == 0) return kind.dimension;
+  return space > 0 ? std::optional(*kind.dimension * pow(dimensions::length, kind.by_space * space)) : std::nullopt;
+}
+
+/// The object is as it is without keys.
+void explain_options(Section& section, OptionTable const& options, void* object, int space) {
+  if (!section.explained()) return;
+  for (Option option : options) {
+    bool const in_words = !option.otherwise.empty() || !option.needed.empty();
+    std::string const value = in_words ? "" : toml_value(option, object);
+    if (option.kind.form == OptionKind::Form::axis) option.kind = option::word(axis_names(space));
+    section.explain(option, value, dimension_in(space, option.kind));
+  }
+}
+
 }  // namespace
 
 void read_options(Section& section, OptionTable const& options, void* object, OptionMeaning const& meaning) {
   using Form = OptionKind::Form;
+  explain_options(section, options, object, meaning.dimension);
   auto const read = [&](Option const& option, Dimension dimension) {
     auto const place = option.place(object);
     bool const of_scenario = option.kind.form == Form::ensembles || option.kind.form == Form::particles;
@@ -175,12 +188,9 @@ void read_options(Section& section, OptionTable const& options, void* object, Op
       std::visit(OptionReader(section, option, dimension, meaning), place);
   };
   for (auto const& option : options) {
-    auto const& kind = option.kind;
-    if (!kind.dimension) continue;
-    if (kind.by_space == 0)
-      read(option, *kind.dimension);
-    else if (meaning.dimension > 0)
-      read(option, *kind.dimension * pow(dimensions::length, kind.by_space * meaning.dimension));
+    if (!option.kind.dimension) continue;
+    if (auto const dimension = dimension_in(meaning.dimension, option.kind))
+      read(option, *dimension);
     else
       section.allow(option.key);
   }

@@ -10,6 +10,7 @@
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/stop_condition.hpp>
+#include <boltzmann/scenario/tables.hpp>
 
 #include <fmt/format.h>
 
@@ -76,6 +77,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
   section.rename(fmt::format("[[diagnoses]] '{}'", *name));
   auto const& kind = *std::find_if(diagnosis_kinds().begin(), diagnosis_kinds().end(),
                                    [&](DiagnosisKind const& k) { return k.name == *name; });
+  section.explain_word("kind", kind.doc);
   DiagnosisParameters parameters;
   read_options(section, kind.options, &parameters,
                {reading.dimension, {}, [&](Option const& option, OptionPlace const& place) {
@@ -132,6 +134,7 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
   Recorded& recorded = reading.recorded;
   if (table) {
     Section section(*table, "[output]", reading.context);
+    section.explain_said(output_options());
     auto const diagnoses = section.integer("diagnoses", 0);
     plan.diagnoses = diagnoses.value_or(0);
     auto const trajectory = section.integer("trajectory", 0);

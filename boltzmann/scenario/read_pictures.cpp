@@ -1,4 +1,5 @@
 // Reads [[output.pictures]] and [[views]]: what is drawn.
+#include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -58,9 +59,11 @@ bool read_plan(Section& section, PicturePlan& plan, std::string const& title, Re
   }
   if (section.has("drawing") || !title.empty())
     section.rename(title.empty() ? fmt::format("[[output.pictures]] '{}'", plan.drawing) : title);
+  Drawing const& drawing = drawing_named(plan.drawing);
+  section.explain_word("drawing", drawing.doc, drawing_names(), toml_text(plan.drawing));
   bool const of_ends = section.has("low") || section.has("high") || section.has("levels");
   bool const known = all_loaded(reading) && (!of_ends || mesh_known(section, plan, reading));
-  read_options(section, drawing_named(plan.drawing).options, static_cast<Picture*>(&plan),
+  read_options(section, drawing.options, static_cast<Picture*>(&plan),
                {reading.dimension, [&]() -> std::optional<Dimension> {
                   if (!known) return std::nullopt;
                   return shown_dimension(plan, particles_of(reading), sources_of(plan, reading));
@@ -103,12 +106,11 @@ void read_view(Item const& table, Reading& reading) {
 void check_picture_keys(Section& section, Picture const& picture, int dimension, Box const* box) {
   bool const of_particles = picture.drawing == "cartesian" || picture.drawing == "phase-space";
   for (char const* key : {"low", "high"})
-    if (of_particles && section.has(key) && picture.colour.empty())
-      section.mistake(key, "an end of the colours, but the picture has no 'colour'");
+    if (of_particles && picture.colour.empty())
+      section.refuse(key, "an end of the colours, but the picture has no 'colour'");
   if (dimension == 1 || dimension == 2)
     for (char const* key : {"slice", "at"})
-      if (section.has(key))
-        section.mistake(key, fmt::format("slices are of fields in 3D; in {}D the whole is shown", dimension));
+      section.refuse(key, fmt::format("slices are of fields in 3D; in {}D the whole is shown", dimension));
   if (!box) return;
   int const axis = picture.slice[0] - 'x';
   if (section.has("at") && dimension == 3 && (picture.at < box->low(axis) || picture.at > box->high(axis)))

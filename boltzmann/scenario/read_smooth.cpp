@@ -82,6 +82,7 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
   section.rename(fmt::format("material '{}'", *name));
   MaterialChoice choice;
   choice.info = find_material(*name);
+  section.explain_word("kind", choice.info->doc);
   auto const parameters =
       read_parameters(section, fmt::format("material '{}'", *name), choice.info->parameters, reading);
   if (parameters) choice.parameters = *parameters;

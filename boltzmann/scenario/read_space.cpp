@@ -61,10 +61,9 @@ UnitSystem read_base(Section& units, std::string const& name) {
 void read_wall(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[box.walls]]", reading.context);
-  std::vector<std::string> axes{"x", "y", "z"};
-  if (reading.dimension > 0) axes.resize(static_cast<std::size_t>(reading.dimension));
   Item const* axis_item = section.find("axis");
-  auto const axis = axis_item ? read_word(*axis_item, "axis", axes, reading.context) : std::nullopt;
+  auto const axis =
+      axis_item ? read_word(*axis_item, "axis", axis_names(reading.dimension), reading.context) : std::nullopt;
   WallOptions options;
   read_options(section, wall_options(), &options, {.dimension = reading.dimension});
   Wall& wall = options.wall;
@@ -73,8 +72,7 @@ void read_wall(Item const& table, Reading& reading) {
       std::copy(v->begin(), v->end(), wall.velocity.begin());
   if (options.open)
     for (char const* key : {"slips", "velocity", "temperature"})
-      if (section.has(key))
-        reading.mistake(section.place(key), fmt::format("{}: with open = true there is no wall that has one", key));
+      section.refuse(key, "with open = true there is no wall that has one");
   section.finish();
   if (!axis || reading.context.mistakes.count() != before || !reading.box) return;
   int const a = (*axis)[0] - 'x';
@@ -229,6 +227,7 @@ void read_box(Section& document, Reading& reading) {
     reading.mistake({}, "there is no [box]; add e.g. [box] low = [0, 0], high = [10, 10], boundary = \"periodic\"");
   if (!table) return;
   Section section(*table, "[box]", reading.context);
+  section.explain_said(box_options());
   std::size_t const before = reading.context.mistakes.count();
   Item const* low_item = section.need("low", "low = [0, 0]");
   Item const* high_item = section.need("high", "high = [10, 10]");

@@ -9,6 +9,8 @@
 namespace boltzmann {
 namespace {
 
+constexpr std::size_t most_absent = 10'000;  // that a page is told of
+
 bool has_tables(Item const& array) {
   return std::any_of(array.elements.begin(), array.elements.end(),
                      [](Item const& element) { return element.is(Item::Kind::table); });
@@ -71,9 +73,13 @@ bool is_unit_of(std::string const& unit, Dimension dimension) {
 
 }  // namespace
 
-Recorder::Recorder(Item& document, std::string const& text) : text_(text) { walk(document, "", "", Lines(text)); }
+Recorder::Recorder(Item& document, std::string const& text, bool with_keys) : text_(text), with_keys_(with_keys) {
+  walk(document, "", "", Lines(text));
+}
 
 void Recorder::walk(Item& table, std::string const& path, std::string const& group, Lines const& lines) {
+  table.written = static_cast<int>(tables_.size());
+  tables_.push_back({path, group, {}});
   for (auto& entry : table.entries) {
     if (entry.key.empty() || entry.key.find_first_of(".= ") != std::string::npos) continue;  // no path leads there
     if (path.empty() && entry.key == "sweep") continue;                                      // not of the simulation
@@ -117,11 +123,15 @@ void Recorder::add(Item& item, std::string const& path, std::string const& group
   values_.push_back(std::move(value));
 }
 
+Recorder::Value* Recorder::find(Item const& item) {
+  if (item.written < 0 || item.is(Item::Kind::table)) return nullptr;
+  return &values_[static_cast<std::size_t>(item.written)];
+}
+
 Recorder::Value* Recorder::find(Item const& item, std::string_view kind) {
-  if (item.written < 0) return nullptr;
-  Value& value = values_[static_cast<std::size_t>(item.written)];
-  value.parameter.kind = value.array ? "vector" : kind;
-  return &value;
+  Value* value = find(item);
+  if (value) value->parameter.kind = value->array ? "vector" : kind;
+  return value;
 }
 
 void Recorder::limit(Value& value, double low, double high, bool low_excluded) {
@@ -134,16 +144,16 @@ void Recorder::limit(Value& value, double low, double high, bool low_excluded) {
   value.limited = true;
 }
 
-void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& base) {
+void Recorder::measure(Value& value, std::string const& text, Dimension dimension, NumberRange const& range,
+                       UnitSystem const& base) {
   bool const pure = dimension == dimensions::none || base.is_reduced();
-  Value* value = find(item, pure ? "number" : "quantity");
-  if (!value) return;
+  ScenarioParameter& parameter = value.parameter;
+  parameter.kind = value.array ? "vector" : pure ? "number" : "quantity";
   if (!pure) {
-    ScenarioParameter& parameter = value->parameter;
     auto const display = base.display(dimension);
     parameter.unit = display.unit;
     parameter.base_unit = base.unit_name(dimension);
-    value->factor = display.factor;
+    value.factor = display.factor;
     std::vector<std::string> candidates = example_units(dimension);
     candidates.insert(candidates.begin(), display.unit);
     auto const known = [&](std::string const& unit) {
@@ -151,12 +161,16 @@ void Recorder::number(Item const& item, Dimension dimension, NumberRange const& 
     };
     for (auto const& unit : candidates)
       if (is_unit_of(unit, dimension) && !known(unit)) parameter.units.push_back(unit);
-    if (std::string const own = item.is(Item::Kind::text) ? unit_in(item.text) : ""; is_unit_of(own, dimension)) {
+    if (std::string const own = unit_in(text); is_unit_of(own, dimension)) {
       std::erase(parameter.units, own);
       parameter.units.insert(parameter.units.begin(), own);
     }
   }
-  limit(*value, range.low * value->factor, range.high * value->factor, range.low_excluded);
+  limit(value, range.low * value.factor, range.high * value.factor, range.low_excluded);
+}
+
+void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& base) {
+  if (Value* value = find(item)) measure(*value, item.is(Item::Kind::text) ? item.text : "", dimension, range, base);
 }
 
 void Recorder::integer(Item const& item, std::int64_t low, std::int64_t high) {
@@ -174,10 +188,49 @@ void Recorder::word(Item const& item, std::vector<std::string> const& words) {
 void Recorder::plain(Item const& item, std::string_view kind) { find(item, kind); }
 
 void Recorder::narrow(Item const& item, NumberRange const& range) {
-  if (item.written < 0) return;
-  Value& value = values_[static_cast<std::size_t>(item.written)];
-  value.limited = false;
-  limit(value, range.low * value.factor, range.high * value.factor, range.low_excluded);
+  Value* value = find(item);
+  if (!value) return;
+  value->limited = false;
+  limit(*value, range.low * value->factor, range.high * value->factor, range.low_excluded);
+}
+
+void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& base) {
+  using enum OptionKind::Form;
+  auto const& [option, value, dimension] = key;
+  if (Entry const* entry = table.find(option.key)) {
+    if (Value* present = find(entry->item)) present->parameter.doc = plain_text(option.doc);
+    return;
+  }
+  if (table.written < 0 || absent_ == most_absent) return;
+  Table& of = tables_[static_cast<std::size_t>(table.written)];
+  auto const& kind = option.kind;
+  Value told;
+  ScenarioParameter& parameter = told.parameter;
+  parameter.path = of.path + "." + option.key;
+  parameter.group = of.group.empty() ? of.path : of.group;
+  parameter.name = parameter.path.substr(parameter.group.size() + 1);
+  parameter.doc = plain_text(option.doc);
+  parameter.otherwise = option.needed.empty() ? plain_text(option.otherwise) : "needed";
+  parameter.value = value;
+  told.array = kind.form == numbers || kind.form == vector;
+  if (kind.form == flag) {
+    parameter.kind = "boolean";
+  } else if (kind.form == word) {
+    parameter.kind = "word";
+    parameter.words = kind.words;
+  } else if (kind.form == OptionKind::Form::text || kind.form == name) {
+    parameter.kind = "text";
+  } else if (kind.form == whole) {
+    parameter.kind = "integer";
+    limit(told, kind.range.low, kind.range.high, false);
+  } else if ((told.array || kind.form == OptionKind::Form::number) && dimension && kind.counted_in == 1) {
+    measure(told, "", *dimension, kind.range, base);
+  } else {
+    parameter.kind = "any";
+    parameter.doc += ": " + plain_text(allowed(option));
+  }
+  of.absent.push_back(std::move(parameter));
+  ++absent_;
 }
 
 std::vector<ScenarioParameter> Recorder::parameters() const {
@@ -185,6 +238,12 @@ std::vector<ScenarioParameter> Recorder::parameters() const {
   for (auto const& value : values_)
     if (!value.parameter.kind.empty()) read.push_back(value.parameter);
   return read;
+}
+
+std::vector<ScenarioParameter> Recorder::absent() const {
+  std::vector<ScenarioParameter> all;
+  for (auto const& table : tables_) all.insert(all.end(), table.absent.begin(), table.absent.end());
+  return all;
 }
 
 }  // namespace boltzmann

@@ -113,7 +113,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (overrides.sweep_run) choose_run(document, *overrides.sweep_run, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
 
-  Recorder recorder(document, text);
+  Recorder recorder(document, text, overrides.by_page);
   Reading reading{{mistakes, UnitSystem::si(), files.empty() ? folder : files, &recorder, overrides.by_page},
                   std::make_unique<ScenarioSimulation>(),
                   true,
@@ -130,10 +130,11 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   } catch (std::bad_alloc const&) {
     throw Error(fmt::format("{}: the scenario needs more memory than this machine has", file));
   }
-  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), recorder.absent());
   if (reading.result->sweep) reading.result->sweep->text = sweep;
   reading.result->resolved = write_document(document);
   reading.result->parameters = recorder.parameters();
+  reading.result->absent = recorder.absent();
   return std::move(reading.result);
 }
 
@@ -148,7 +149,8 @@ Place place_of(std::string const& message, Reading const& reading) {
   return reading.run.place;
 }
 
-ScenarioErrors::ScenarioErrors(std::vector<std::string> all) : Error(all_lines(all)), lines(std::move(all)) {}
+ScenarioErrors::ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> keys)
+    : Error(all_lines(all)), lines(std::move(all)), absent(std::move(keys)) {}
 
 ScenarioText read_scenario(std::string const& path) {
   namespace fs = std::filesystem;

@@ -27,8 +27,9 @@ class PairScheme;
 /// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right
 /// word`.
 struct ScenarioErrors : Error {
-  explicit ScenarioErrors(std::vector<std::string> all);
+  explicit ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> absent = {});
   std::vector<std::string> lines;
+  std::vector<ScenarioParameter> absent;  ///< as in ScenarioSimulation, as far as the tables could be read
 };
 
 /// A picture that a scenario asks for, or (by its name) a diagnosis for the window.
@@ -61,6 +62,7 @@ struct ScenarioSimulation {
   std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
   std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
   std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
+  std::vector<ScenarioParameter> absent;      ///< keys that its tables could have, too; only for a page
 
   Box const& box() const { return schemes.front()->box(); }
   /// The scheme of this kind, scheme<MeshScheme>(); null if there is none.

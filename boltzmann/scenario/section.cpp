@@ -21,6 +21,12 @@ std::string wanted(Dimension dimension, UnitSystem const& base) {
 
 }  // namespace
 
+std::vector<std::string> axis_names(int dimension) {
+  std::vector<std::string> names{"x", "y", "z"};
+  if (dimension > 0) names.resize(static_cast<std::size_t>(dimension));
+  return names;
+}
+
 std::string about(std::string_view name, std::string_view message) { return fmt::format("{}: {}", name, message); }
 
 std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,
@@ -200,10 +206,35 @@ Place Section::place(std::string_view key) const {
   return entry ? entry->item.place : table_.place;
 }
 
+void Section::explain(Option const& option, std::string value, std::optional<Dimension> dimension) {
+  bool const known =
+      std::any_of(told_.begin(), told_.end(), [&](ToldKey const& told) { return told.option.key == option.key; });
+  if (explained() && !known) told_.push_back({option, std::move(value), dimension});
+}
+
+void Section::explain_said(OptionTable const& options) {
+  for (auto const& option : options)
+    if (option.kind.form == OptionKind::Form::said) explain(option);
+}
+
+void Section::explain_word(std::string key, std::string_view doc, std::vector<std::string> words, std::string value) {
+  explain({std::move(key), option::word(std::move(words)), std::string(doc), "", "", {}}, std::move(value));
+}
+
+void Section::refuse(std::string_view key, std::string const& what) {
+  if (Item const* found = item(key)) mistake(found->place, about(key, what));
+  refused_.emplace_back(key);
+}
+
 void Section::finish() {
+  auto const in = [](std::vector<std::string> const& keys, std::string const& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  for (auto const& told : told_)
+    if (in(allowed_, told.option.key) && !in(refused_, told.option.key))
+      context_.recorder->key(table_, told, context_.base);
   for (auto const& entry : table_.entries)
-    if (std::find(allowed_.begin(), allowed_.end(), entry.key) == allowed_.end() &&
-        std::find(known_.begin(), known_.end(), entry.key) == known_.end())
+    if (!in(allowed_, entry.key) && !in(known_, entry.key))
       mistake(entry.place,
               fmt::format("unknown {} '{}' in {}; allowed are {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
                           entry.key, title_, join(allowed_), did_you_mean(entry.key, allowed_)));

@@ -50,6 +50,9 @@ std::optional<Value> read_word(Item const& item, std::string_view name, Words<Va
 }
 std::vector<std::string> read_texts(Item const& item, std::string_view name, ReadContext& context);
 
+/// x, y, z, as far as space has them; dimension = 0: it is not known.
+std::vector<std::string> axis_names(int dimension);
+
 /// "position.x: ..." -> what stands before a message about a key.
 std::string about(std::string_view name, std::string_view message);
 
@@ -98,6 +101,16 @@ class Section {
   /// At the value of a key: "key: what".
   void mistake(char const* key, std::string const& what) { mistake(place(key), about(key, what)); }
 
+  /// For whoever is told of keys: what one means here, whether it is there or not. What is said first holds. `value`:
+  /// its default as TOML.
+  void explain(Option const& option, std::string value = "", std::optional<Dimension> dimension = {});
+  /// The same of those that are read by code; of a word that chooses what the other keys are.
+  void explain_said(OptionTable const& options);
+  void explain_word(std::string key, std::string_view doc, std::vector<std::string> words = {}, std::string value = "");
+  /// A key that would mean nothing beside the others: a mistake if it is there; nobody is told of it.
+  void refuse(std::string_view key, std::string const& what);
+  bool explained() const { return context_.recorder && context_.recorder->with_keys(); }
+
   /// Reports every key that nobody asked for.
   void finish();
 
@@ -105,7 +118,8 @@ class Section {
   Item const& table_;
   std::string title_;
   ReadContext& context_;
-  std::vector<std::string> allowed_, known_;
+  std::vector<std::string> allowed_, known_, refused_;
+  std::vector<ToldKey> told_;
 };
 
 /// A table under `key` of the document: nullptr (and a mistake) if it is something else, nullptr if it is missing.

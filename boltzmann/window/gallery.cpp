@@ -128,28 +128,6 @@ json error_of(std::string const& line, ScenarioValues const& values) {
   return {{"path", nullptr}, {"message", line}};
 }
 
-json refusal(std::string const& error) { return {{"error", error}}; }
-
-json refusal(ScenarioErrors const& errors, ScenarioValues const& values) {
-  json list = json::array();
-  for (auto const& line : errors.lines) list.push_back(error_of(line, values));
-  std::string first = list.empty() ? errors.what() : list[0]["message"].get<std::string>();
-  if (list.size() > 1) first += fmt::format(" (and {} more)", list.size() - 1);
-  return {{"error", first}, {"errors", list}};
-}
-
-/// The answer of function(), or why there is none.
-template <class Function>
-json answer(ScenarioValues const& values, Function const& function) {
-  try {
-    return function();
-  } catch (ScenarioErrors const& errors) {
-    return refusal(errors, values);
-  } catch (std::exception const& error) {
-    return refusal(error.what());
-  }
-}
-
 json limit(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json json_of(ScenarioParameter const& parameter) {
@@ -165,7 +143,39 @@ json json_of(ScenarioParameter const& parameter) {
           {"high", limit(parameter.high)},
           {"low_excluded", parameter.low_excluded},
           {"words", parameter.words},
-          {"comment", parameter.comment}};
+          {"comment", parameter.comment},
+          {"doc", parameter.doc},
+          {"otherwise", parameter.otherwise}};
+}
+
+json json_of(std::vector<ScenarioParameter> const& parameters) {
+  json list = json::array();
+  for (auto const& parameter : parameters) list.push_back(json_of(parameter));
+  return list;
+}
+
+json refusal(std::string const& error) { return {{"error", error}}; }
+
+json refusal(ScenarioErrors const& errors, ScenarioValues const& values) {
+  json list = json::array();
+  for (auto const& line : errors.lines) list.push_back(error_of(line, values));
+  std::string first = list.empty() ? errors.what() : list[0]["message"].get<std::string>();
+  if (list.size() > 1) first += fmt::format(" (and {} more)", list.size() - 1);
+  json refused = {{"error", first}, {"errors", list}};
+  if (!errors.absent.empty()) refused["absent"] = json_of(errors.absent);
+  return refused;
+}
+
+/// The answer of function(), or why there is none.
+template <class Function>
+json answer(ScenarioValues const& values, Function const& function) {
+  try {
+    return function();
+  } catch (ScenarioErrors const& errors) {
+    return refusal(errors, values);
+  } catch (std::exception const& error) {
+    return refusal(error.what());
+  }
 }
 
 /// A name of a file, nothing that leads elsewhere.
@@ -259,11 +269,13 @@ json Gallery::scenario(std::string const& name) const {
                   {"description", outline.description},
                   {"text", text},
                   {"parameters", json::array()},
+                  {"absent", json::array()},
                   {"picture", one.own ? json(nullptr) : picture_of(one.name)},
                   {"own", one.own}};
     try {
-      auto const scenario = load_scenario(one.path);
-      for (auto const& parameter : scenario->parameters) reply["parameters"].push_back(json_of(parameter));
+      auto const scenario = load_scenario(one.path, overrides_of({}));
+      reply["parameters"] = json_of(scenario->parameters);
+      reply["absent"] = json_of(scenario->absent);
     } catch (ScenarioErrors const& errors) {
       reply["errors"] = refusal(errors, {})["errors"];
     }
@@ -279,8 +291,8 @@ json Gallery::check(std::string const& name, json const& set) const {
     return refusal(error.what());
   }
   return answer(values, [&]() -> json {
-    load_scenario(choice(name, folder_).path, overrides_of(values));
-    return {{"ok", true}};
+    auto const scenario = load_scenario(choice(name, folder_).path, overrides_of(values));
+    return {{"ok", true}, {"absent", json_of(scenario->absent)}};
   });
 }
 

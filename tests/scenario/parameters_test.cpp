@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -189,6 +190,132 @@ TEST(Parameters, AnOverriddenValueIsTheNewOne) {
   EXPECT_EQ(seen, (std::set<std::string>{"\"3 fs\"", "[3, 3]"}));
 }
 
+// ---- Keys that are absent ----
+
+/// What a page is told of the keys that a scenario could have, too, right or not.
+struct Absent {
+  explicit Absent(std::string const& of) {
+    Overrides page;
+    page.by_page = true;
+    try {
+      all = parse_scenario(of, "test.toml", page)->absent;
+    } catch (ScenarioErrors const& errors) {
+      all = errors.absent;
+      wrong = true;
+    }
+  }
+  bool has(std::string const& path) const {
+    return std::any_of(all.begin(), all.end(), [&](auto const& key) { return key.path == path; });
+  }
+  ScenarioParameter const& operator()(std::string const& path) const {
+    static ScenarioParameter const nothing{};
+    for (auto const& key : all)
+      if (key.path == path) return key;
+    ADD_FAILURE() << path << " is not told";
+    return nothing;
+  }
+  std::vector<ScenarioParameter> all;
+  bool wrong = false;
+};
+
+/// The text with one part of it said otherwise.
+std::string with(std::string const& old, std::string const& instead) {
+  std::string now = text;
+  auto const at = now.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return now.replace(at, old.size(), instead);
+}
+
+TEST(AbsentKeys, AreToldAsTheirTablesHaveThem) {
+  Absent const of(text);
+  EXPECT_FALSE(of.wrong);
+  auto const& skin = of("run.skin");
+  EXPECT_EQ(skin.group, "run");
+  EXPECT_EQ(skin.name, "skin");
+  EXPECT_EQ(skin.kind, "quantity");
+  EXPECT_EQ(skin.unit, "angstrom");
+  EXPECT_TRUE(std::find(skin.units.begin(), skin.units.end(), "m") != skin.units.end());
+  EXPECT_EQ(skin.low, 0);
+  EXPECT_FALSE(skin.low_excluded);
+  EXPECT_EQ(skin.value, "");
+  EXPECT_EQ(skin.otherwise, "chosen for you");
+  EXPECT_TRUE(skin.doc.starts_with("by how much neighbour lists reach further")) << skin.doc;
+  auto const& threads = of("run.threads");
+  EXPECT_EQ(threads.kind, "integer");
+  EXPECT_EQ(threads.value, "0");
+  EXPECT_EQ(threads.high, 4096);
+  // One that is read by code says in words what it may be.
+  auto const& time = of("run.time");
+  EXPECT_EQ(time.kind, "any");
+  EXPECT_EQ(time.doc, "how long: as many steps as it takes: a time, zero or more");
+  EXPECT_EQ(time.otherwise, "or steps");
+  EXPECT_EQ(of("run.stop").doc, "ends the run before its last step: a condition");
+
+  std::string const ensemble = "ensembles.Ärgon # 1.";
+  EXPECT_EQ(of(ensemble + "exact_temperature").kind, "boolean");
+  EXPECT_EQ(of(ensemble + "exact_temperature").value, "false");
+  EXPECT_EQ(of(ensemble + "load.jitter").group, "ensembles.Ärgon # 1");
+  EXPECT_EQ(of(ensemble + "load.jitter").name, "load.jitter");
+  EXPECT_EQ(of(ensemble + "load.jitter").value, "0");
+  EXPECT_EQ(of(ensemble + "load.jitter").high, 1);
+  EXPECT_EQ(of(ensemble + "velocity").kind, "vector");  // a field of the class
+  EXPECT_EQ(of(ensemble + "drift").kind, "vector");
+  EXPECT_EQ(of(ensemble + "set.0.mass").unit, "amu");
+  EXPECT_EQ(of("influences.0.between").otherwise, "on or between");
+  EXPECT_EQ(of("output.trajectory").otherwise, "none");
+  EXPECT_EQ(of("output.pictures.0.drawing").kind, "word");
+  EXPECT_EQ(of("output.pictures.0.drawing").value, "\"cartesian\"");
+  EXPECT_TRUE(of("output.pictures.0.low").doc.ends_with(": a quantity of what is shown"));
+
+  // Neither what is there, nor what would be refused beside it, nor what this class does not have.
+  for (auto const& path :
+       Texts{"run.step", "run.cutoff", ensemble + "mass", ensemble + "colour", ensemble + "load",
+             ensemble + "heat_capacity", ensemble + "material", "output.diagnoses", "output.pictures.0.slice"})
+    EXPECT_FALSE(of.has(path)) << path;
+  EXPECT_FALSE(Absent(with("temperature = \"30 K\"\nremove_drift = true\n", "")).has(ensemble + "drift"));
+  EXPECT_TRUE(Absent(with("[run]\n", "[run]\nskin = 1\n")).all.size() + 1 == of.all.size());
+}
+
+TEST(AbsentKeys, BelongToTheWordThatIsChosen) {
+  Absent const morse(with("\"lennard-jones\"", "\"morse\""));
+  EXPECT_TRUE(morse.wrong);  // it needs other parameters
+  EXPECT_EQ(morse("influences.0.a").otherwise, "needed");
+  EXPECT_FALSE(Absent(text).has("influences.0.a"));
+
+  std::string const load = "ensembles.Ärgon # 1.load.";
+  Absent const fill(with("\"block\"", "\"fill\""));
+  EXPECT_TRUE(fill.wrong);  // there are no 'counts' and no 'origin'
+  EXPECT_TRUE(fill.has(load + "where"));
+  EXPECT_FALSE(fill.has(load + "minimum_distance"));
+  EXPECT_FALSE(Absent(text).has(load + "where"));
+
+  EXPECT_TRUE(Absent(with("\"energies\"", "\"diffusion\"")).has("diagnoses.0.since"));
+  EXPECT_FALSE(Absent(text).has("diagnoses.0.since"));
+  EXPECT_TRUE(Absent(text + "drawing = \"map\"\n").has("output.pictures.0.range"));
+  EXPECT_FALSE(Absent(text).has("output.pictures.0.range"));
+}
+
+TEST(AbsentKeys, WhatIsThereIsExplained) {
+  Overrides page;
+  page.by_page = true;
+  auto const scenario = parse_scenario(text, "test.toml", page);
+  auto const doc = [&](std::string const& path) {
+    for (auto const& parameter : scenario->parameters)
+      if (parameter.path == path) return parameter.doc;
+    return std::string("?");
+  };
+  EXPECT_TRUE(doc("run.cutoff").starts_with("distance beyond which pair laws are zero")) << doc("run.cutoff");
+  EXPECT_EQ(doc("box.high"), "the upper edges");
+  EXPECT_EQ(doc("ensembles.Ärgon # 1.load.spacing"), "of nearest neighbours");
+  EXPECT_EQ(doc("ensembles.Ärgon # 1.load.kind"), "a block of crystal");
+  EXPECT_FALSE(doc("ensembles.Ärgon # 1.mass").empty());
+  EXPECT_FALSE(doc("influences.0.law").empty());
+  EXPECT_FALSE(doc("influences.0.depth").empty());
+  EXPECT_FALSE(doc("diagnoses.0.kind").empty());
+  // Who only runs it needs none of this.
+  EXPECT_TRUE(parse_scenario(text, "test.toml")->absent.empty());
+}
+
 // ---- Every shipped scenario ----
 
 class Shipped : public testing::TestWithParam<std::string> {};
@@ -211,6 +338,36 @@ TEST_P(Shipped, EachValueSetToItselfChangesNothing) {
   }
   auto const again = load_scenario(path, overrides);
   EXPECT_EQ(again->resolved, scenario->resolved);
+}
+
+TEST_P(Shipped, DefaultsOfAbsentKeysAreAcceptedAndChangeNothing) {
+  std::string const path = find_scenario(GetParam());
+  Overrides page;
+  page.by_page = true;
+  auto const scenario = load_scenario(path, page);
+  std::set<std::string> paths;
+  for (auto const& parameter : scenario->parameters) paths.insert(parameter.path);
+  Overrides defaults = page;
+  for (auto const& key : scenario->absent) {
+    EXPECT_TRUE(paths.insert(key.path).second) << key.path << " twice";
+    EXPECT_FALSE(key.doc.empty()) << key.path;
+    EXPECT_FALSE(key.kind == "word" && key.words.empty()) << key.path;
+    if (!key.value.empty()) defaults.set.push_back(key.path + "=" + key.value);
+  }
+  EXPECT_GT(defaults.set.size(), 2U);
+  auto const again = load_scenario(path, defaults);
+  EXPECT_EQ(again->steps, scenario->steps);
+  ASSERT_EQ(again->ensembles.size(), scenario->ensembles.size());
+  for (std::size_t e = 0; e < scenario->ensembles.size(); ++e) {
+    auto &before = *scenario->ensembles[e], &now = *again->ensembles[e];
+    ASSERT_EQ(now.size(), before.size());
+    for (auto const& field : before.fields())
+      for (std::size_t i = 0; i < before.size(); ++i)
+        ASSERT_EQ(std::memcmp(now.row(i) + field.offset, before.row(i) + field.offset,
+                              sizeof(double) * static_cast<std::size_t>(field.components)),
+                  0)
+            << field.name << " of particle " << i << " of " << before.name();
+  }
 }
 
 void collect(Item const& item, std::string const& path, std::vector<std::string>& values) {

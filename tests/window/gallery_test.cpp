@@ -117,13 +117,23 @@ TEST_F(GalleryTest, TellsParametersAsThePageWantsThem) {
   std::set<std::string> keys;
   for (auto const& [key, value] : step.items()) keys.insert(key);
   EXPECT_EQ(keys, (std::set<std::string>{"path", "group", "name", "kind", "value", "unit", "base_unit", "units", "low",
-                                         "high", "low_excluded", "words", "comment"}));
+                                         "high", "low_excluded", "words", "comment", "doc", "otherwise"}));
   EXPECT_EQ(step.at("group"), "run");
   EXPECT_EQ(step.at("unit"), "fs");
   EXPECT_EQ(step.at("base_unit"), "3.273 fs");  // 0.01 is 0.01 of these
   EXPECT_EQ(step.at("low"), 0);
   EXPECT_EQ(step.at("low_excluded"), true);
   EXPECT_TRUE(step.at("high").is_null());
+  EXPECT_TRUE(step.at("doc").get<std::string>().starts_with("of each step"));
+  // Keys that its tables could have, too: once each, and none that is there.
+  std::set<std::string> paths;
+  for (auto const& one : reply.at("parameters")) EXPECT_TRUE(paths.insert(one.at("path")).second);
+  for (auto const& one : reply.at("absent")) EXPECT_TRUE(paths.insert(one.at("path")).second) << one;
+  json const skin = find(reply.at("absent"), "path", "run.skin");
+  ASSERT_FALSE(skin.is_null());
+  EXPECT_EQ(skin.at("value"), "");
+  EXPECT_EQ(skin.at("otherwise"), "chosen for you");
+  EXPECT_EQ(skin.at("units")[0], "angstrom");
   // One with a mistake still has its text.
   put("wrong.toml", small("w") + "[output]\ntrajectroy = 1\n");
   json const wrong = gallery.scenario("wrong");
@@ -262,6 +272,30 @@ TEST_F(GalleryTest, APageNamesFilesOfTheScenariosFolderOnly) {
   // Who wrote the file may.
   put("far.toml", text.substr(0, at) + "load = { kind = \"file\", path = \"" + (folder / "atoms.xyz") + "\" }\n");
   EXPECT_TRUE(gallery.check("far", {{"run.steps", "5"}}).contains("ok"));
+}
+
+TEST_F(GalleryTest, TellsKeysOfTheWordsThatAreSet) {
+  std::string const range = "output.pictures.0.range";
+  EXPECT_TRUE(find(gallery.scenario("copper").at("absent"), "path", range).is_null());
+  json const right =
+      gallery.check("copper", {{"output.pictures.0.drawing", "\"map\""}, {"run.skin", "\"2 angstrom\""}});
+  EXPECT_TRUE(find(right.at("absent"), "path", "run.skin").is_null());
+  EXPECT_FALSE(find(right.at("absent"), "path", "run.threads").is_null());
+  EXPECT_FALSE(find(right.at("absent"), "path", range).is_null()) << right;
+  // One that needs others, too, is wrong; what it could have is known all the same.
+  json const wrong = gallery.check("copper", {{"influences.0.law", "\"morse\""}});
+  EXPECT_TRUE(wrong.contains("error"));
+  EXPECT_EQ(find(wrong.at("absent"), "path", "influences.0.a").at("otherwise"), "needed");
+}
+
+TEST_F(GalleryTest, AKeyThatIsSetStandsInTheSavedFileAndIsToldAsAnyOther) {
+  json const set = {{"run.skin", "\"2 angstrom\""}, {"ensembles.atoms.load.jitter", "0.01"}};
+  ASSERT_TRUE(gallery.save("copper", set, "mine", false).contains("ok"));
+  json const mine = gallery.scenario("mine");
+  for (auto const& [path, value] : set.items()) {
+    EXPECT_EQ(find(mine.at("parameters"), "path", path).at("value"), value);
+    EXPECT_TRUE(find(mine.at("absent"), "path", path).is_null());
+  }
 }
 
 TEST_F(GalleryTest, SavesNothingThatIsWrong) {

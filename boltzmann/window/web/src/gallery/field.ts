@@ -1,8 +1,11 @@
-// One parameter in the form: its input, what is allowed, what is wrong, and the way back to what the scenario has.
+// One parameter in the form: its input, what is allowed, what is wrong, and the way back to what the scenario has. One
+// that the scenario does not have is empty until it is set.
 import { h } from "../elements";
 import { limits, shown, typed, wrong, type Parameter } from "./parameter";
 
 type Input = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
+
+const longest = 24; // letters that an input or a button has room for
 
 export class Field {
   readonly element: HTMLElement;
@@ -16,10 +19,11 @@ export class Field {
   constructor(
     readonly parameter: Parameter,
     number: number,
+    private readonly absent: boolean,
     private readonly edited: (field: Field) => void,
   ) {
     const id = `parameter-${number}`;
-    this.original = shown(parameter);
+    this.original = absent ? "" : shown(parameter);
     this.input = this.makeInput(id);
     this.write(this.original);
     this.back = h("button", { type: "button", class: "gallery-back-to", click: () => this.reset() });
@@ -33,7 +37,7 @@ export class Field {
       { class: "gallery-field", "data-path": parameter.path, "data-kind": parameter.kind },
       h("div", { class: "gallery-label" }, label, this.back),
       h("div", { class: "gallery-input" }, this.input),
-      hint ? h("p", { class: "gallery-hint", id: `${id}-hint` }, hint) : null,
+      hint ? h("p", { class: "gallery-hint", id: `${id}-hint`, title: hint }, hint) : null,
       this.trouble,
     );
     this.input.addEventListener("input", () => {
@@ -72,7 +76,14 @@ export class Field {
     this.update();
   }
   focus(): void {
+    this.element.closest("details")?.setAttribute("open", "");
     this.input.focus();
+  }
+  /** What holds without it. */
+  private get otherwise(): string {
+    const { kind, value, otherwise } = this.parameter;
+    if (kind === "boolean" && value !== "") return value === "true" ? "yes" : "no";
+    return value === "" ? otherwise : shown(this.parameter);
   }
 
   private reset(): void {
@@ -85,14 +96,16 @@ export class Field {
 
   private makeInput(id: string): Input {
     const { kind, words } = this.parameter;
+    const short = this.absent && this.otherwise.length <= longest ? this.otherwise : "";
+    const choice = (labels: Record<string, string>, ...values: string[]) =>
+      h("select", { id }, ...values.map((value) => h("option", { value }, labels[value] ?? value)));
+    const none = short ? `default: ${short}` : "not set";
+    if (kind === "boolean" && this.absent) return choice({ "": none, true: "yes", false: "no" }, "", "true", "false");
     if (kind === "boolean") return h("input", { type: "checkbox", id });
-    if (kind === "word" && words.length > 0) {
-      const known = words.includes(this.original) ? words : [this.original, ...words];
-      return h("select", { id }, ...known.map((word) => h("option", { value: word }, word)));
-    }
+    if (kind === "word" && words.length > 0) return choice({ "": none }, ...(words.includes(this.original) ? [] : [this.original]), ...words);
     if (this.original.includes("\n")) return h("textarea", { id, rows: Math.min(8, this.original.split("\n").length + 1), spellcheck: "false" });
     const mode = kind === "integer" ? "numeric" : "text";
-    return h("input", { type: "text", id, inputmode: mode, autocomplete: "off", spellcheck: "false", autocapitalize: "off" });
+    return h("input", { type: "text", id, inputmode: mode, placeholder: short, autocomplete: "off", spellcheck: "false", autocapitalize: "off" });
   }
 
   private write(text: string): void {
@@ -100,11 +113,12 @@ export class Field {
     else this.input.value = text;
   }
 
-  /** The comment of the scenario, the limits, the units. */
+  /** The comment of the scenario, what the key means, the limits, the units, and a default that has no room in the input. */
   private hint(): string {
-    const { comment, units, kind } = this.parameter;
+    const { comment, doc, units, kind } = this.parameter;
     const allowed = kind === "vector" ? "" : limits(this.parameter);
-    return [comment, allowed, units.length > 0 ? `in ${units.join(", ")}` : ""].filter(Boolean).join(" · ");
+    const otherwise = this.absent && this.otherwise.length > longest ? `default: ${this.otherwise}` : "";
+    return [comment, doc, allowed, units.length > 0 ? `in ${units.join(", ")}` : "", otherwise].filter(Boolean).join(" · ");
   }
 
   private update(): void {
@@ -112,8 +126,9 @@ export class Field {
     const trouble = this.wrong || this.told;
     this.element.dataset.changed = String(changed);
     this.back.hidden = !changed;
-    const short = this.original.length > 24 ? `${this.original.slice(0, 22).trimEnd()} …` : this.original;
-    this.back.textContent = this.parameter.kind === "boolean" ? (this.original === "true" ? "back to yes" : "back to no") : `back to ${short || "nothing"}`;
+    const short = this.original.length > longest ? `${this.original.slice(0, longest - 2).trimEnd()} …` : this.original;
+    const before = this.parameter.kind === "boolean" ? (this.original === "true" ? "yes" : "no") : short || "nothing";
+    this.back.textContent = this.absent ? "leave out" : `back to ${before}`;
     this.trouble.textContent = trouble;
     this.input.setAttribute("aria-invalid", String(trouble !== ""));
   }

@@ -6,8 +6,8 @@ export interface Parameter {
   path: string;
   group: string;
   name: string;
-  kind: "quantity" | "integer" | "number" | "word" | "boolean" | "text" | "vector";
-  /** As TOML. */
+  kind: "quantity" | "integer" | "number" | "word" | "boolean" | "text" | "vector" | "any";
+  /** As TOML; of a key that is absent its default, "" where `otherwise` says it. */
   value: string;
   /** What the simulation shows such a quantity in, and its limits here; "" for pure numbers. */
   unit: string;
@@ -20,6 +20,10 @@ export interface Parameter {
   /** Allowed words; empty: any text. */
   words: string[];
   comment: string;
+  /** What it means. */
+  doc: string;
+  /** Of a key that is absent: what holds without it. */
+  otherwise: string;
 }
 
 /** The TOML value as a field shows it. */
@@ -32,12 +36,14 @@ export function shown({ kind, value }: Parameter): string {
 export function typed({ kind, value }: Parameter, text: string): string {
   switch (kind) {
     case "boolean":
-      return text;
+    case "any": // TOML, and what is none is a text
+      return text.trim();
     case "word":
     case "text":
       return quoted(text);
     case "vector": {
-      if (elements(value) === null) return text; // an array of arrays: shown and typed as TOML
+      // An array of arrays is shown and typed as TOML.
+      if ((value !== "" && elements(value) === null) || /^\s*\[\s*\[/.test(text)) return text;
       const inside = text.trim().replace(/^\[([^]*)\]$/, "$1").trim();
       const parts = inside === "" ? [] : inside.split(",").map((part) => part.trim().replace(/^(["'])([^]*)\1$/, "$2"));
       return `[${parts.map(scalar).join(", ")}]`;
@@ -75,7 +81,7 @@ function measure(text: string): { number: number; unit: string } | null {
 /** What the page itself sees to be wrong with a text, at once; the window knows the rest: units, words that depend. */
 export function wrong(parameter: Parameter, text: string): string {
   const { kind, low, high, low_excluded, unit } = parameter;
-  if (kind === "word" || kind === "text" || kind === "boolean" || kind === "vector") return "";
+  if (!["quantity", "integer", "number"].includes(kind)) return "";
   if (text.trim() === "") return "a value is needed";
   const found = measure(text);
   if (!found) return kind === "quantity" ? "" : "a number is needed"; // a quantity may be a formula

@@ -5,6 +5,7 @@ import type { Reply } from "../protocol";
 import { facts, picture, type Entry } from "./cards";
 import { paragraphs } from "./description";
 import { Field } from "./field";
+import { More } from "./more";
 import type { Parameter } from "./parameter";
 
 export type Say = (message: Words) => Promise<Reply>;
@@ -16,6 +17,8 @@ export interface Scenario {
   description: string;
   text: string;
   parameters: Parameter[];
+  /** Keys that its tables could have, too. */
+  absent: Parameter[];
   /** Of a saved one: what is wrong with it as it stands. */
   errors?: Trouble[];
 }
@@ -30,14 +33,16 @@ interface Trouble {
 
 const pause = 400; // milliseconds without typing before the window is asked
 
-/** "ensembles.atoms" as a heading; what stands in no table is of the scenario itself. */
-function heading(group: string): string {
-  return group === "" ? "title and text" : group.replace(/_/g, " ").replace(/\./g, " · ");
+/** "ensembles.atoms" as a heading. */
+function heading(table: string): string {
+  return table.replace(/_/g, " ").replace(/\./g, " · ");
 }
 
 export class ScenarioPage {
   readonly element: HTMLElement;
-  private readonly fields: Field[];
+  private readonly present: Field[];
+  private readonly groups = new Map<string, HTMLElement>();
+  private readonly more = new Map<string, More>();
   private readonly form = h("form", { class: "gallery-form", novalidate: true });
   private readonly general = h("p", { class: "gallery-trouble", id: "gallery-trouble", role: "alert" });
   private readonly state = h("p", { class: "gallery-state", id: "gallery-state", role: "status" });
@@ -45,6 +50,8 @@ export class ScenarioPage {
   private readonly runButton = h("button", { type: "submit", id: "gallery-run", class: "gallery-main" }, "RUN");
   private readonly saveButton = h("button", { type: "button", id: "gallery-save", "aria-expanded": "false", "aria-controls": "gallery-saving" }, "SAVE AS …");
   private readonly allBack = h("button", { type: "button", id: "gallery-all-back", class: "gallery-back-to" }, "all back");
+  private readonly results = this.makeResults();
+  private made = 0;
   private timer = 0;
   private asked = 0;
   private errors = 0;
@@ -57,19 +64,18 @@ export class ScenarioPage {
     private readonly edits: Edits,
     private readonly saved: () => void,
   ) {
-    const { name, title, description, text, parameters } = scenario;
-    this.fields = parameters.map((parameter, number) => new Field(parameter, number, () => this.edited()));
-    for (const field of this.fields) {
-      const before = edits.get(field.parameter.path);
-      if (before !== undefined) field.restore(before);
-    }
-    this.form.append(...this.groups(), this.results());
+    const { name, title, description, text, parameters, absent } = scenario;
+    this.form.append(this.results);
+    this.present = parameters.map((parameter) => this.field(parameter, false));
+    for (const { element, parameter } of this.present) this.group(parameter.group).querySelector(".gallery-fields")!.append(element);
+    this.offer(absent);
     this.form.addEventListener("submit", (event) => {
       event.preventDefault();
       void this.run();
     });
     this.allBack.addEventListener("click", () => {
       for (const field of this.fields) field.restore(field.original);
+      this.edits.clear();
       this.edited();
       this.fields[0]?.focus();
     });
@@ -118,24 +124,48 @@ export class ScenarioPage {
     return this.fields.filter((field) => field.wrong !== "");
   }
 
-  private groups(): HTMLElement[] {
-    const groups = new Map<string, Field[]>();
-    for (const field of this.fields) {
-      const { group } = field.parameter;
-      groups.set(group, [...(groups.get(group) ?? []), field]);
-    }
-    const shown = [...groups].sort(([a], [b]) => Number(a === "") - Number(b === "")); // title and text are last
-    return shown.map(([group, fields]) =>
-      h(
-        "fieldset",
-        { "data-group": group },
-        h("legend", {}, heading(group)),
-        h("div", { class: "gallery-fields" }, ...fields.map((field) => field.element)),
-      ),
-    );
+  private get fields(): Field[] {
+    return [...this.present, ...[...this.more.values()].flatMap(({ fields }) => fields)];
   }
 
-  private results(): HTMLElement {
+  /** As a user had it before, if the page was left. */
+  private field(parameter: Parameter, absent: boolean): Field {
+    const field = new Field(parameter, this.made++, absent, () => this.edited());
+    const before = this.edits.get(parameter.path);
+    if (before !== undefined) field.restore(before);
+    return field;
+  }
+
+  /** The part of the form for a table at the top; title and text are behind all tables. */
+  private group(name: string): HTMLElement {
+    const known = this.groups.get(name);
+    if (known) return known;
+    const made = h("fieldset", { "data-group": name }, h("legend", {}, heading(name) || "title and text"), h("div", { class: "gallery-fields" }));
+    this.groups.set(name, made);
+    this.form.insertBefore(made, (name !== "" && this.groups.get("")) || this.results);
+    return made;
+  }
+
+  /** The keys that tables could have, too; those of tables of which nothing is said stay as they are. */
+  private offer(absent: Parameter[]): void {
+    const tables = new Map<string, Parameter[]>();
+    for (const key of absent) {
+      const table = key.path.slice(0, key.path.lastIndexOf("."));
+      tables.set(table, [...(tables.get(table) ?? []), key]);
+    }
+    for (const [table, keys] of tables) {
+      let more = this.more.get(table);
+      if (!more) {
+        const { group } = keys[0];
+        more = new More(table, heading(table.slice(group.length + 1)));
+        this.more.set(table, more);
+        this.group(group).append(more.element);
+      }
+      more.offer(keys, (key) => this.field(key, true));
+    }
+  }
+
+  private makeResults(): HTMLElement {
     return h(
       "fieldset",
       {},
@@ -225,8 +255,10 @@ export class ScenarioPage {
   }
 
   private edited(): void {
-    this.edits.clear();
-    for (const field of this.changed) this.edits.set(field.parameter.path, field.text);
+    for (const field of this.fields)
+      if (field.changed) this.edits.set(field.parameter.path, field.text);
+      else this.edits.delete(field.parameter.path);
+    for (const more of this.more.values()) more.tell();
     clearTimeout(this.timer);
     ++this.asked; // an answer that is under way is of something else
     this.element.dataset.checked = "waiting";
@@ -243,9 +275,12 @@ export class ScenarioPage {
     this.state.textContent = "checking …";
     const reply = await this.say({ do: "check", name: this.scenario.name, set: this.set });
     if (this.gone || number !== this.asked) return;
+    const before = this.changed.length;
+    if (Array.isArray(reply.absent)) this.offer(reply.absent as Parameter[]);
     this.show(reply);
     this.element.dataset.checked = reply.error ? "errors" : "ok";
     this.tellState();
+    if (this.changed.length > before) this.edited(); // a key that had been set before is offered again
   }
 
   /** Puts the errors of an answer where they belong. */
