@@ -255,7 +255,7 @@ void read_run(Section& document, Reading& reading) {
   run.step_place = section.place("step");
   if (Item const* step = section.find("step")) read_step(*step, run, reading);
   Item const *steps = section.find("steps"), *time = section.find("time");
-  if (time && steps) reading.mistake(time->place, "time: 'steps' say how long the run is, too; leave one out");
+  if (time || steps) section.refuse(steps ? "time" : "steps", "'steps' say how long the run is, too; leave one out");
   if (time) {
     run.time_place = time->place;
     run.time = read_quantity(*time, "time", dimensions::time, reading.context, not_negative);

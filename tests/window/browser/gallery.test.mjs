@@ -125,6 +125,88 @@ test("the form shows every value of the file, checks while one types, and goes b
   await checked(page, "ok");
 });
 
+test("keys that a table could have, too, are folded away; one is set, checked, saved and left out", async (t) => {
+  const { run, page } = await gallery(t);
+  await choose(page, "copper");
+  const more = (table) => page.locator(`.gallery-more[data-table="${table}"]`);
+  const line = (table) => more(table).locator("summary").textContent();
+  assert.equal(await page.locator(".gallery-more[open]").count(), 0);
+  assert.equal(await line("ensembles.atoms.load"), "2 more keys of load");
+  const [, count] = /^(\d+) more keys$/.exec(await line("run"));
+  assert.equal(await more("run").locator("[data-path]").count(), Number(count));
+  assert.ok(!(await input(page, "run.skin").isVisible()));
+
+  // What it means, what it may be, and what holds without it.
+  await more("run").locator("summary").click();
+  assert.equal(await input(page, "run.skin").inputValue(), "");
+  assert.equal(await input(page, "run.skin").getAttribute("placeholder"), "chosen for you");
+  assert.match(await field(page, "run.skin").locator(".gallery-hint").textContent(), /neighbour lists.* · at least 0 · in angstrom/);
+  assert.match(await field(page, "run.cutoff").locator(".gallery-hint").textContent(), /^3 r0 · distance beyond which/); // the comment first
+  assert.match(await page.textContent("#gallery-state"), /as it stands/);
+
+  await input(page, "run.skin").fill("-1");
+  assert.match(await trouble(page, "run.skin"), /at least 0/);
+  await input(page, "run.skin").fill("2 kg");
+  await until(async () => /mass|length/.test(await trouble(page, "run.skin")), "an error at the skin");
+  await input(page, "run.skin").fill("2 angstrom");
+  await checked(page, "ok");
+  assert.equal(await line("run"), `${count} more keys1 set`);
+  for (const table of ["ensembles.atoms.load", "ensembles.atoms"]) await more(table).locator("summary").click();
+  await input(page, "ensembles.atoms.load.jitter").fill("0.01");
+  await input(page, "ensembles.atoms.velocity").fill("1 m/s, 2 m/s");
+  await checked(page, "ok");
+  assert.match(await page.textContent("#gallery-state"), /3 changed/);
+  await keep(page, "gallery-more");
+
+  await page.click("#gallery-save");
+  await page.fill("#gallery-as", "more");
+  await page.press("#gallery-as", "Enter");
+  const file = join(run.cwd, "more.toml");
+  await until(async () => (await page.textContent("#gallery-answer")).includes(file), "the path of the file");
+  assert.match(readFileSync(file, "utf8"), /^skin = "2 angstrom"$/m);
+  assert.match(readFileSync(file, "utf8"), /^load = \{.*, jitter = 0\.01 \}/m);
+  assert.match(readFileSync(file, "utf8"), /^velocity = \["1 m\/s", "2 m\/s"\]$/m);
+  execFileSync(process.env.BZM, ["check", file]);
+
+  // Left out again.
+  await field(page, "run.skin").getByRole("button", { name: "leave out" }).click();
+  await input(page, "ensembles.atoms.velocity").fill("");
+  await checked(page, "ok");
+  assert.equal(await line("run"), `${count} more keys`);
+  assert.match(await page.textContent("#gallery-state"), /1 changed/);
+  await page.click("#gallery-all-back");
+  await checked(page, "ok");
+  assert.equal(await input(page, "ensembles.atoms.load.jitter").inputValue(), "");
+});
+
+test("another word brings its own keys; what is set among them is there again after a run", async (t) => {
+  const { page } = await gallery(t);
+  await choose(page, "copper");
+  const of = "output.pictures.1";
+  assert.equal(await field(page, `${of}.bins`).count(), 0);
+  assert.equal(await field(page, `${of}.logarithmic`).count(), 1);
+  await input(page, `${of}.drawing`).selectOption("profile");
+  await input(page, `${of}.y`).fill("density");
+  await until(async () => (await field(page, `${of}.bins`).count()) === 1, "the bins of a profile");
+  await page.locator(`.gallery-more[data-table="${of}"] summary`).click();
+  await input(page, `${of}.bins`).fill("20");
+  await input(page, "run.steps").fill("5");
+  await checked(page, "ok");
+  assert.match(await page.textContent("#gallery-state"), /4 changed/);
+  await page.click("#gallery-run");
+  await page.waitForSelector("#play:visible");
+  await page.click("#quit");
+  await page.getByRole("dialog").getByRole("button", { name: /quit/i }).click();
+  await page.waitForSelector('.gallery-scenario[data-name="copper"]');
+  await checked(page, "ok");
+  await until(async () => (await field(page, `${of}.bins`).count()) === 1, "the bins again");
+  assert.equal(await input(page, `${of}.bins`).inputValue(), "20");
+  assert.equal(await page.locator(`.gallery-more[data-table="${of}"][open]`).count(), 1);
+  await input(page, `${of}.bins`).fill("");
+  await input(page, `${of}.drawing`).selectOption("time-series");
+  await until(async () => (await field(page, `${of}.bins`).count()) === 0, "no bins of a time series");
+});
+
 test("a changed scenario is saved as a file that the command takes; another file is not overwritten unasked", async (t) => {
   const { run, page } = await gallery(t);
   await choose(page, "copper");
