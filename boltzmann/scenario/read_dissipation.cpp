@@ -71,13 +71,13 @@ bool taken(std::vector<DissipatingPair>& list, ReadEnsemble const* a, ReadEnsemb
 
 /// `on` one ensemble or `between` two; nothing, and a mistake, if there is neither.
 std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& reading) {
+  section.explain_said(dissipation_pair_options());
   Item const *on = section.find("on"), *between = section.find("between");
-  if ((on == nullptr) == (between == nullptr)) {
-    reading.mistake(between ? between->place : section.place(),
-                    between ? "between: 'on' says on whom, too; leave one out"
-                            : "[[dissipation]] does not say on whom: add on = \"atoms\" or between = [\"a\", \"b\"]");
-    return {};
-  }
+  if (on || between) section.refuse(on ? "between" : "on", "'on' says on whom, too; leave one out");
+  if (!on && !between)
+    reading.mistake(section.place(),
+                    "[[dissipation]] does not say on whom: add on = \"atoms\" or between = [\"a\", \"b\"]");
+  if ((on == nullptr) == (between == nullptr)) return {};
   if (on) {
     ReadEnsemble* one = reading.ensemble(*on, "on");
     return {one, one};
@@ -235,6 +235,7 @@ std::unique_ptr<LangevinBath> read_bath(Section& section, Reading& reading) {
 void read_langevin(Section& section, Dissipations& all) {
   Reading& reading = all.reading;
   std::size_t const before = reading.context.mistakes.count();
+  section.explain_said(dissipation_pair_options());
   Item const* on = section.need("on", "on = \"atoms\"");
   ReadEnsemble const* ensemble = on ? reading.ensemble(*on, "on") : nullptr;
   auto bath = read_bath(section, reading);

@@ -34,7 +34,6 @@ class EnsembleReader {
         before_(reading.context.mistakes.count()),
         section_(table, title_of(table), reading.context) {
     ensemble_.place = table.place;
-    section_.explain_said(ensemble_options());
   }
 
   void read() {
@@ -87,6 +86,8 @@ class EnsembleReader {
     auto const name = item ? read_word(*item, "class", names, reading_.context) : std::nullopt;
     ensemble_.kind = kind_ = name ? find_class(*name) : nullptr;
     if (!kind_) return;
+    section_.explain_word("class", kind_->doc);
+    section_.explain_said(ensemble_options());
     variant_ = kind_->in(reading_.dimension);
     if (!variant_ && reading_.dimension > 0) {
       std::vector<std::string> spaces;
@@ -205,12 +206,13 @@ class EnsembleReader {
   /// [[ensembles.set]]: other values for some of them.
   void read_set(Item const& table) {
     Section set(table, "[[ensembles.set]]", reading_.context);
+    SetOptions options;
+    read_options(set, set_options(), &options, {.dimension = reading_.dimension});
     auto const which = read_particles(set, particles_, reading_);
     if (!set.has("particles") && !set.has("where"))
       mistake(
           set.place(),
           "[[ensembles.set]] has no 'particles'; add e.g. particles = [0], \"edge\" or \"all\", or where = \"x < 1\"");
-    bool const freeze = set.boolean("freeze");
     if (!kind_) return;
     refuse_found(set, *kind_, reading_);
     auto const given = given_fields(*kind_, reading_.dimension);
@@ -228,7 +230,7 @@ class EnsembleReader {
       if (!apply(formula, *particles_, *which, reading_)) break;
     if (density_gives_mass() && gives(set, "density") && !gives(set, "mass"))
       set_masses(*particles_, *volume(), *which);
-    if (freeze) frozen_.insert(frozen_.end(), which->begin(), which->end());
+    if (options.freeze) frozen_.insert(frozen_.end(), which->begin(), which->end());
   }
 
   /// Whether the class can be advanced that way is known without particles, too.

@@ -134,16 +134,15 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
   Recorded& recorded = reading.recorded;
   if (table) {
     Section section(*table, "[output]", reading.context);
-    section.explain_said(output_options());
-    auto const diagnoses = section.integer("diagnoses", 0);
-    plan.diagnoses = diagnoses.value_or(0);
-    auto const trajectory = section.integer("trajectory", 0);
-    plan.trajectory = trajectory.value_or(0);
-    plan.mesh = section.integer("mesh", 0).value_or(0);
+    constexpr std::int64_t not_read = -1;
+    OutputOptions options{.diagnoses = not_read, .trajectory = section.has("trajectory") ? not_read : 0};
+    read_options(section, output_options(), &options, {.dimension = reading.dimension});
+    plan.diagnoses = std::max<std::int64_t>(0, options.diagnoses);
+    plan.trajectory = std::max<std::int64_t>(0, options.trajectory);
+    plan.checkpoint = options.checkpoint;
+    plan.mesh = options.mesh;
     if (plan.mesh > 0) find_mesh_fields(reading, section.place("mesh"), "mesh: a series of frames");
-    plan.checkpoint = section.integer("checkpoint", 0).value_or(0);
-    // What could not be read has been told of.
-    recorded = {plan.trajectory > 0 || (section.has("trajectory") && !trajectory), diagnoses != 0};
+    recorded = {options.trajectory != 0, options.diagnoses != 0};  // what could not be read has been told of
     for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);
     section.finish();
   }

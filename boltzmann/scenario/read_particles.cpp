@@ -53,13 +53,12 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   Item const* margin_item = section.find("margin");
   auto const margin = section.quantity("margin", dimensions::length, not_negative);
   Item const* item = section.find("particles");
-  if (Item const* where = section.find("where")) {
-    if (item) reading.mistake(where->place, "where: 'particles' says which, too; leave one out");
-    return item || !ensemble ? std::nullopt : particles_where(*where, *ensemble, reading);
-  }
+  Item const* where = section.find("where");
+  if (item) section.refuse("where", "'particles' says which, too; leave one out");
+  if (where) return item || !ensemble ? std::nullopt : particles_where(*where, *ensemble, reading);
   if (!item) return std::nullopt;
   bool const edge = item->is(Item::Kind::text) && item->text == "edge";
-  if (margin_item && !edge) reading.mistake(margin_item->place, "margin: it belongs to particles = \"edge\"");
+  if (!edge) section.refuse("margin", "it belongs to particles = \"edge\"");
   if (item->is(Item::Kind::array)) return numbered_particles(*item, ensemble, reading);
   if (!item->is(Item::Kind::text)) {
     reading.mistake(item->place, fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}",

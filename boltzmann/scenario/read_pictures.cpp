@@ -124,7 +124,7 @@ void read_picture(Item const& table, Reading& reading) {
   Section section(table, "[[output.pictures]]", reading.context);
   PicturePlan plan;
   if (!read_plan(section, plan, "", reading)) return;
-  if (auto const file = section.text("file")) plan.file = *file;
+  read_options(section, picture_options().only({{"file"}}), static_cast<Picture*>(&plan), {});
   section.finish();
   for (auto const& other : reading.result->output.pictures)
     if (other.file == plan.file)

@@ -204,19 +204,17 @@ std::array<Boundary, 3> read_boundaries(Item const* item, Reading& reading) {
 
 void read_region(Item const& table, Reading& reading) {
   Section region(table, "[[box.regions]]", reading.context);
-  Item const* first = region.need("low", "low = [2, 2]");
-  Item const* second = region.need("high", "high = [4, 4]");
-  Item const* side_item = region.need("side", "side = \"keep-out\"");
-  auto const side = side_item ? read_word(*side_item, "side", {"keep-out", "keep-in"}, reading.context) : std::nullopt;
+  std::size_t const before = reading.context.mistakes.count();
+  RegionOptions options;
+  read_options(region, region_options(), &options, {.dimension = reading.dimension});
+  bool const right = reading.context.mistakes.count() == before;
   region.finish();
+  Item const *first = region.item("low"), *second = region.item("high");
   if (!first || !second || reading.dimension == 0) return;
   auto const from = read_vector(*first, "low", reading.dimension, dimensions::length, reading.context);
   auto const to = read_vector(*second, "high", reading.dimension, dimensions::length, reading.context);
-  if (from && to && side && reading.box)
-    catch_errors(reading, region.place(), [&] {
-      reading.box->install(
-          {wide(*from), wide(*to), *side == "keep-in" ? Region::Side::keep_in : Region::Side::keep_out});
-    });
+  if (from && to && right && reading.box)
+    catch_errors(reading, region.place(), [&] { reading.box->install({wide(*from), wide(*to), options.side}); });
 }
 
 }  // namespace

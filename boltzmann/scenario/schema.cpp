@@ -3,7 +3,6 @@
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
-#include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -193,21 +192,20 @@ ScenarioTable const& table_named(std::string_view name) {
 }
 
 std::string ensembles() {
-  auto properties = properties_of(ensemble_options());
+  auto properties = properties_of(ensemble_options()), set = properties_of(set_options());
   std::vector<std::string> classes;
   std::string class_docs;
   for (auto const& one : particle_classes()) {
     classes.push_back(one.name);
     class_docs += (class_docs.empty() ? "" : "; ") + one.name + ": " + one.doc;
-    for (auto const& field : one.variants.back().fields)
-      if (field.name != "position" && !ensemble_options().find(field.name))
-        replace(properties, field.name, something(fmt::format("a field, {}: {}", name_of(field.dimension), field.doc)));
+    for (auto const& field : one.variants.back().fields) {
+      auto const said = something(fmt::format("a field, {}: {}", name_of(field.dimension), field.doc));
+      if (field.name != "position" && !ensemble_options().find(field.name)) replace(properties, field.name, said);
+      replace(set, field.name, said);
+    }
   }
+  replace(properties, "set", tables(table(set, true)));
   replace(properties, "class", words(classes, class_docs));
-  std::string methods;
-  for (auto const& word : method_words())
-    methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", word.name, word.doc);
-  replace(properties, "integrator", words(method_words().names(), methods));
   std::vector<KindOf> loads;
   for (auto const& kind : load_kinds()) loads.push_back({kind.name, kind.doc, &kind.options});
   replace(properties, "load", kinds("kind", loads, {}));
@@ -254,16 +252,14 @@ std::string scenario_schema() {
       {"units", table({{"base", words({"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"},
                                       "the units in which the simulation counts")}},
                       false, "what plain numbers mean, and the units of the results")},
-      {"box", closed("box", {{"walls", tables(closed("box.walls"))}})},
+      {"box", closed("box", {{"walls", tables(closed("box.walls"))}, {"regions", tables(closed("box.regions"))}})},
       {"run", closed("run")},
       {"ensembles", ensembles()},
       {"influences", influences()},
-      {"dissipation", tables(kinds("kind", dissipations,
-                                   {{"on", something("an ensemble, for the pairs within it")},
-                                    {"between", something("two ensembles, for the pairs of one of each")}}))},
+      {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
-      {"output", closed("output", {{"pictures", of_pictures({{"file", object({{"type", quoted_text("string")}})}})}})},
+      {"output", closed("output", {{"pictures", of_pictures(properties_of(picture_options().only({{"file"}})))}})},
       {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},
       {"sweep", table({}, false, "the same scenario for several values of its keys, and with several seeds")}};
   for (auto const& scheme : scheme_entries()) {

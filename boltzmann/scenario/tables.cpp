@@ -47,8 +47,7 @@ OptionTable make_box_options() {
     kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   all.add_said("boundary", "a word, or a list with one for each axis", kinds, "`\"open\"`");
   all.add_said("walls", "tables, `[[box.walls]]`", "of [mirror and reflecting axes](#boxwalls)", "none");
-  all.add_said("regions", "tables, `[[box.regions]]`",
-               "blocks inside the space with elastic faces: `low`, `high`, `side = \"keep-out\"` or `\"keep-in\"`",
+  all.add_said("regions", "tables, `[[box.regions]]`", "[blocks](#boxregions) inside the space with elastic faces",
                "none");
   all.at("low").needed = "[0, 0]";
   all.at("high").needed = "[10, 10]";
@@ -141,15 +140,52 @@ OptionTable make_influence_options() {
 
 OptionTable make_output_options() {
   OptionTable all;
-  all.add_said("diagnoses", "a whole number, 0 or more", "steps between two rows of `diagnoses.csv`", "200 rows");
-  all.add_said("trajectory", "a whole number, 0 or more", "steps between two frames of `trajectory.h5`", "none");
-  all.add_said("checkpoint", "a whole number, 0 or more", "steps between two checkpoints",
-               "at the start and at the end");
-  all.add_said("mesh", "a whole number, 0 or more",
-               "steps between two frames of density, potential and field: `mesh/000000100.vti`, ... and `mesh.pvd`, "
-               "which ParaView opens as a time series",
-               "none");
+  OptionKind const steps = whole(0, std::numeric_limits<double>::infinity());
+  all.add("diagnoses", &OutputOptions::diagnoses, steps, "steps between two rows of `diagnoses.csv`", "200 rows");
+  all.add("trajectory", &OutputOptions::trajectory, steps, "steps between two frames of `trajectory.h5`", "none");
+  all.add("checkpoint", &OutputOptions::checkpoint, steps, "steps between two checkpoints",
+          "at the start and at the end");
+  all.add("mesh", &OutputOptions::mesh, steps,
+          "steps between two frames of density, potential and field: `mesh/000000100.vti`, ... and `mesh.pvd`, which "
+          "ParaView opens as a time series",
+          "none");
   all.add_said("pictures", "tables, `[[output.pictures]]`", "pictures of the last state", "none");
+  return all;
+}
+
+OptionTable make_region_options() {
+  using Side = Region::Side;
+  static Words<Side> const sides{"side", {{Side::keep_out, "keep-out", ""}, {Side::keep_in, "keep-in", ""}}};
+  OptionTable all;
+  all.add_said("low", "a list of lengths, one for each axis", "the lower edges of the block");
+  all.add_said("high", "a list of lengths, one for each axis", "the upper edges");
+  all.add_of<RegionOptions>(
+      "side", [](RegionOptions& r) -> OptionPlace { return named_value(&r.side, sides); }, word(sides.names()),
+      "nothing gets in, or nothing that is inside gets out");
+  all.at("low").needed = "[2, 2]";
+  all.at("high").needed = "[4, 4]";
+  all.at("side").needed = "\"keep-out\"";
+  return all;
+}
+
+OptionTable make_set_options() {
+  OptionTable all;
+  all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`", "which ones, numbered from 0 in the order of loading",
+               "`particles` or `where`");
+  all.add_said("margin", "a length",
+               "with `particles = \"edge\"`: those nearer than this to a face of the block that encloses all",
+               "needed by `\"edge\"`");
+  all.add_said("where", "a [formula](#formulas)", "those for which it is true: `\"x < 0.1 && mass > 1\"`",
+               "`particles` or `where`");
+  all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
+  all.add("freeze", &SetOptions::freeze, flag(), "they stay where they are");
+  return all;
+}
+
+OptionTable make_dissipation_pair_options() {
+  OptionTable all;
+  all.add_said("on", "the name of an ensemble", "for the pairs within it", "`on` or `between`");
+  all.add_said("between", "the names of two ensembles", "for the pairs of one of each", "`on` or `between`");
   return all;
 }
 
@@ -207,6 +243,18 @@ OptionTable const& wall_options() {
   static OptionTable const all = make_wall_options();
   return all;
 }
+OptionTable const& region_options() {
+  static OptionTable const all = make_region_options();
+  return all;
+}
+OptionTable const& set_options() {
+  static OptionTable const all = make_set_options();
+  return all;
+}
+OptionTable const& dissipation_pair_options() {
+  static OptionTable const all = make_dissipation_pair_options();
+  return all;
+}
 OptionTable const& equilibration_options() {
   static OptionTable const all = make_equilibration_options();
   return all;
@@ -219,10 +267,14 @@ std::vector<ScenarioTable> make_tables() {
   static RunOptions run;
   static BathOptions bath;
   static EnsembleOptions ensemble;
+  static RegionOptions region;
+  static SetOptions set;
+  static OutputOptions output;
   std::vector<ScenarioTable> all = {
       {"box", "[box]", "the space", &box_options(), nullptr},
       {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of reflecting ones",
        &wall_options(), &wall},
+      {"box.regions", "[[box.regions]]", "a block with elastic faces inside the space", &region_options(), &region},
       {"run", "[run]", "how long, in which steps", &run_options(), &run}};
   for (auto const& scheme : scheme_entries()) {
     all.push_back(scheme.told);
@@ -230,8 +282,10 @@ std::vector<ScenarioTable> make_tables() {
   }
   all.insert(all.end(),
              {{"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
+              {"ensembles.set", "[[ensembles.set]]",
+               "other values for some particles, beside the fields of their class", &set_options(), &set},
               {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
-              {"output", "[output]", "what is written, and how often", &output_options(), nullptr},
+              {"output", "[output]", "what is written, and how often", &output_options(), &output},
               {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath}});
   return all;
 }

@@ -31,6 +31,12 @@ struct WallOptions {
 };
 OptionTable const& wall_options();
 
+/// [[box.regions]]; the corners are read by code.
+struct RegionOptions {
+  Region::Side side = Region::Side::keep_out;
+};
+OptionTable const& region_options();
+
 /// [[ensembles]]; the class, how it is loaded and the fields are read by code.
 struct EnsembleOptions {
   std::string name;
@@ -43,14 +49,26 @@ struct EnsembleOptions {
 };
 OptionTable const& ensemble_options();
 
+/// [[ensembles.set]]; who is meant and the fields are read by code.
+struct SetOptions {
+  bool freeze = false;
+};
+OptionTable const& set_options();
+
 /// [equilibrate]: a heat bath for a while.
 OptionTable const& equilibration_options();
 
-/// [box], [[influences]] and [output], which are read by code of their own; beside these keys, influences have
-/// parameters.
+/// [output]: steps between two.
+struct OutputOptions {
+  std::int64_t diagnoses = 0, trajectory = 0, checkpoint = 0, mesh = 0;
+};
+OptionTable const& output_options();
+
+/// [box] and [[influences]], which are read by code of their own; beside these keys, influences have parameters.
 OptionTable const& box_options();
 OptionTable const& influence_options();
-OptionTable const& output_options();
+/// Of [[dissipation]] between pairs, beside the keys of its kind.
+OptionTable const& dissipation_pair_options();
 
 struct ScenarioTable {
   std::string name;     ///< "smooth.rezone"

@@ -261,7 +261,10 @@ TEST(AbsentKeys, AreToldAsTheirTablesHaveThem) {
   EXPECT_EQ(of(ensemble + "drift").kind, "vector");
   EXPECT_EQ(of(ensemble + "set.0.mass").unit, "amu");
   EXPECT_EQ(of("influences.0.between").otherwise, "on or between");
+  EXPECT_EQ(of(ensemble + "set.0.freeze").value, "false");
   EXPECT_EQ(of("output.trajectory").otherwise, "none");
+  EXPECT_EQ(of("output.trajectory").kind, "integer");
+  EXPECT_EQ(of("output.pictures.0.file").value, "\"picture.png\"");
   EXPECT_EQ(of("output.pictures.0.drawing").kind, "word");
   EXPECT_EQ(of("output.pictures.0.drawing").value, "\"cartesian\"");
   EXPECT_TRUE(of("output.pictures.0.low").doc.ends_with(": a quantity of what is shown"));
@@ -269,7 +272,8 @@ TEST(AbsentKeys, AreToldAsTheirTablesHaveThem) {
   // Neither what is there, nor what would be refused beside it, nor what this class does not have.
   for (auto const& path :
        Texts{"run.step", "run.time", "run.cutoff", ensemble + "mass", ensemble + "colour", ensemble + "load",
-             ensemble + "heat_capacity", ensemble + "material", "output.diagnoses", "output.pictures.0.slice"})
+             ensemble + "heat_capacity", ensemble + "material", "output.diagnoses", "output.pictures.0.slice",
+             ensemble + "set.0.where", ensemble + "set.0.margin"})
     EXPECT_FALSE(of.has(path)) << path;
   EXPECT_FALSE(Absent(with("temperature = \"30 K\"\nremove_drift = true\n", "")).has(ensemble + "drift"));
   EXPECT_FALSE(Absent(with("steps = 1_000", "time = \"2 ps\"")).has("run.steps"));

@@ -62,6 +62,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
   std::map<std::string, std::vector<std::string>> const texts{
       {"box", {units + box + wrong + run + atoms}},
       {"box.walls", {units + box + mirror + "[[box.walls]]\naxis = \"x\"\nend = \"low\"\n" + wrong + run + atoms}},
+      {"box.regions", {units + box + "[[box.regions]]\n" + wrong + run + atoms}},
       {"run", {start + wrong + atoms}},
       {"mesh",
        {start + "[mesh]\nlaw = \"coulomb\"\nk = 1\ncells = 8\n" + wrong + ensemble("Coulomb"),
@@ -71,6 +72,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"equilibrate", {start + "[equilibrate]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
       {"ensembles",
        {start + atoms + wrong, start + ensemble("Meso") + wrong, start + "[smooth]\n" + ensemble("Smooth") + wrong}},
+      {"ensembles.set", {start + atoms + "[[ensembles.set]]\nparticles = \"all\"\n" + wrong}},
       {"influences",
        {start + atoms + "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1\n" + wrong,
         start + atoms + "[[influences]]\nlaw = \"drag\"\non = \"a\"\nfriction = 1\n" + wrong}},
