@@ -144,6 +144,17 @@ test("keys that a table could have, too, are folded away; one is set, checked, s
   assert.match(await field(page, "run.cutoff").locator(".gallery-hint").textContent(), /^3 r0 · distance beyond which/); // the comment first
   assert.match(await page.textContent("#gallery-state"), /as it stands/);
 
+  // Long help is whole where the keyboard is, and moves nothing: a click would miss what it was meant for.
+  const help = field(page, "run.cutoff").locator(".gallery-hint > span");
+  const lines = () => help.evaluate((one) => ({ shown: one.clientHeight, needed: one.scrollHeight }));
+  const place = () => more("run").locator("summary").evaluate((one) => one.offsetTop);
+  const [before, cut] = [await place(), await lines()];
+  assert.ok(cut.shown < cut.needed, JSON.stringify(cut));
+  await input(page, "run.cutoff").focus();
+  const whole = await lines();
+  assert.equal(whole.shown, whole.needed);
+  assert.equal(await place(), before);
+
   await input(page, "run.skin").fill("-1");
   assert.match(await trouble(page, "run.skin"), /at least 0/);
   await input(page, "run.skin").fill("2 kg");

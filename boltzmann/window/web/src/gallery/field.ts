@@ -37,8 +37,8 @@ export class Field {
       { class: "gallery-field", "data-path": parameter.path, "data-kind": parameter.kind },
       h("div", { class: "gallery-label" }, label, this.back),
       h("div", { class: "gallery-input" }, this.input),
-      hint ? h("p", { class: "gallery-hint", id: `${id}-hint`, title: hint }, hint) : null,
       this.trouble,
+      hint ? h("p", { class: "gallery-hint", id: `${id}-hint`, title: hint }, h("span", {}, hint)) : null,
     );
     this.input.addEventListener("input", () => {
       this.told = "";
