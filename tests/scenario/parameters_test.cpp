@@ -352,14 +352,18 @@ TEST_P(Shipped, DefaultsOfAbsentKeysAreAcceptedAndChangeNothing) {
   std::set<std::string> paths;
   for (auto const& parameter : scenario->parameters) paths.insert(parameter.path);
   Overrides defaults = page;
+  ScenarioValues values;
   for (auto const& key : scenario->absent) {
     EXPECT_TRUE(paths.insert(key.path).second) << key.path << " twice";
     EXPECT_FALSE(key.doc.empty()) << key.path;
     EXPECT_FALSE(key.kind == "word" && key.words.empty()) << key.path;
-    if (!key.value.empty()) defaults.set.push_back(key.path + "=" + key.value);
+    if (key.value.empty()) continue;
+    defaults.set.push_back(key.path + "=" + key.value);
+    values.emplace_back(key.path, key.value);
   }
   EXPECT_GT(defaults.set.size(), 2U);
   auto const again = load_scenario(path, defaults);
+  EXPECT_NO_THROW(with_values(file_text(path), values));
   EXPECT_EQ(again->steps, scenario->steps);
   ASSERT_EQ(again->ensembles.size(), scenario->ensembles.size());
   for (std::size_t e = 0; e < scenario->ensembles.size(); ++e) {
