@@ -354,6 +354,8 @@ for (const dark of [false, true])
     await keep(page, `gallery-phone-${dark ? "dark" : "light"}`);
     await choose(page, "copper");
     await noWiderThan(page, 360);
+    for (const summary of await page.locator(".gallery-more summary").all()) await summary.click();
+    await noWiderThan(page, 360);
     await page.locator('[data-path="run.step"]').scrollIntoViewIfNeeded();
     await keep(page, `gallery-form-phone-${dark ? "dark" : "light"}`);
     // Paper and ink differ enough to be read (WCAG: 7 to 1 is the best class).
