@@ -1,6 +1,7 @@
 // Wrapping, reflecting and mirroring, where moving walls are, and the refusals of particles that can't be where they
 // are.
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -44,25 +45,6 @@ void reflect(double wall, double* x, double* v) {
 constexpr std::array<Box::End, 2> both_ends{Box::End::low, Box::End::high};
 char const* word(Box::End end) { return end == Box::End::low ? "low" : "high"; }
 
-/// Images at walls where a quantity is `at[k]`, one after the other: x -> 2 at[0] - x -> 2 at[1] - (2 at[0] - x) ...;
-/// the mean of all orders, which is each of them where the walls agree: even numbers of walls leave x, odd ones turn it
-/// about the walls' mean.
-class OddImages {
- public:
-  void beyond(double at) {
-    sum_ += at;
-    ++count_;
-  }
-  ImageMap map() const {
-    if (count_ % 2 == 0) return {};
-    return {-1, 2 * sum_ / count_};
-  }
-
- private:
-  double sum_ = 0;
-  int count_ = 0;
-};
-
 }  // namespace
 
 Words<Boundary> const& boundary_words() {
@@ -100,6 +82,13 @@ bool Box::any_periodic() const {
   for (int a = 0; a < dimension_; ++a)
     if (periodic(a)) return true;
   return false;
+}
+
+Box::Edges Box::edges() const {
+  Edges edges{};
+  std::copy_n(low_.begin(), dimension_, edges.begin());
+  std::copy_n(high_.begin(), dimension_, edges.begin() + 3);
+  return edges;
 }
 
 double Box::volume() const {
@@ -182,26 +171,6 @@ void Box::move_walls(double time) {
   time_ = time;
 }
 
-ImageMap Box::velocity_image(std::array<int, 3> const& side, int component) const {
-  OddImages odd;
-  for (int a = 0; a < dimension_; ++a) {
-    if (side[a] == 0) continue;
-    int const end = side[a] < 0 ? 0 : 1;
-    if (a == component || !walls_[a][end].slips) odd.beyond(wall_velocity(a, end, component));
-  }
-  return odd.map();
-}
-
-ImageMap Box::temperature_image(std::array<int, 3> const& side) const {
-  OddImages odd;
-  for (int a = 0; a < dimension_; ++a) {
-    if (side[a] == 0) continue;
-    Wall const& wall = walls_[a][side[a] < 0 ? 0 : 1];
-    if (!std::isnan(wall.temperature)) odd.beyond(wall.temperature);
-  }
-  return odd.map();
-}
-
 void Box::check_dimension(int of_region) const {
   if (of_region != dimension_)
     throw Error(fmt::format("region: it has {} dimensions, the box has {}", of_region, dimension_));
@@ -280,13 +249,13 @@ class Box::Reflection {
     double work = 0;
     for (std::size_t i = begin; i < end; ++i) {
       double const* x = particles_.row(i);
-      std::array<int, 3> mirrored{};
+      Turns mirrored{};
       for (int a = 0; a < box_.dimension_; ++a)
         if (!(x[a] >= low_[a] && x[a] < high_[a]) && box_.boundary(a) != Boundary::open)
           work += bring_back(i, a, mirrored);
-      if (!box_.any_wall_ || !velocity_ || mirrored == std::array<int, 3>{}) continue;
+      if (!box_.any_wall_ || !velocity_ || mirrored == Turns{}) continue;
       double* v = particles_.row(i) + velocity_->offset;
-      for (int c = 0; c < box_.dimension_; ++c) v[c] = box_.velocity_image(mirrored, c)(v[c]);
+      for (int c = 0; c < box_.dimension_; ++c) v[c] = image_map(box_, {ImageRule::velocity, c}, mirrored)(v[c]);
     }
     return work;
   }
@@ -312,20 +281,20 @@ class Box::Reflection {
   }
 
   /// The work done on the particle; in the frame of the wall it is an elastic reflection.
-  double push_off(std::size_t i, int a, int end) const {
+  double push_off(std::size_t i, int a, End end) const {
     double const u = box_.wall_velocity(a, end, a);
-    reflect(end == 0 ? box_.low_[a] : box_.high_[a], particles_.row(i) + a, nullptr);
+    reflect(end == End::low ? box_.low_[a] : box_.high_[a], particles_.row(i) + a, nullptr);
     if (!velocity_) return 0.0;
     double& v = particles_.row(i)[velocity_->offset + a];
     double const before = v;
     if (u == 0)
       v = -v;
-    else if (((end == 0) != box_.backwards_) ? v < u : v > u)
+    else if (((end == End::low) != box_.backwards_) ? v < u : v > u)
       v = 2 * u - v;
     return u != 0 && mass_ ? 0.5 * particles_.row(i)[mass_->offset] * (v - before) * (v + before) : 0;
   }
 
-  double bring_back(std::size_t i, int a, std::array<int, 3>& mirrored) const {
+  double bring_back(std::size_t i, int a, Turns& mirrored) const {
     double const low = box_.low_[a], high = box_.high_[a], length = high - low;
     double* x = particles_.row(i) + a;
     double const before = *x;
@@ -342,10 +311,10 @@ class Box::Reflection {
     } else if (box_.boundary(a) == Boundary::mirror) {
       if (*x != high) {
         mirrored[a] = *x < low ? -1 : 1;
-        *x = 2 * (*x < low ? low : high) - *x;
+        *x = Images(box_).at(a, mirrored[a], *x);
       }
     } else if (*x != high) {
-      work = push_off(i, a, *x < low ? 0 : 1);
+      work = push_off(i, a, *x < low ? End::low : End::high);
     }
     if (!(*x >= low && *x <= high)) fail(i, a, before);
     return work;

@@ -39,13 +39,6 @@ struct Wall {
   double temperature = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What a number of a particle is in an image: sign * x + shift; as it stands, a zero's sign included, unless said
-/// otherwise.
-struct ImageMap {
-  double sign = 1, shift = -0.0;
-  double operator()(double x) const { return sign * x + shift; }
-};
-
 /// An axis-aligned block inside the space whose faces reflect particles elastically.
 struct Region {
   enum class Side { keep_out, keep_in };
@@ -56,6 +49,8 @@ struct Region {
 class Box {
  public:
   enum class End { low, high };
+  /// Low x y z, high x y z.
+  using Edges = std::array<double, 6>;
 
   /// A box from `low` to `high` with the same boundary kind on every axis, or one kind per axis.
   /// Error if low is not below high on some axis, or an edge is not finite.
@@ -71,6 +66,8 @@ class Box {
   double low(int axis) const { return low_[axis]; }
   double high(int axis) const { return high_[axis]; }
   double length(int axis) const { return high_[axis] - low_[axis]; }
+  /// As walls stand now; 0 behind the box's dimension.
+  Edges edges() const;
   Boundary boundary(int axis) const { return boundaries_[axis]; }
   bool periodic(int axis) const { return boundaries_[axis] == Boundary::periodic; }
   bool any_periodic() const;
@@ -100,11 +97,10 @@ class Box {
   /// While held, walls stand still where they are, and reflect so (a body is brought to a temperature before its run).
   void hold_walls(bool held) { held_ = held; }
 
-  /// What a particle's velocity component (temperature) is in its image beyond the given ends: side[a] is -1 for the
-  /// wall at the low end of axis a, 1 for that at the high end, else 0. Beyond several walls the images are composed;
-  /// where these walls differ, so that the order would matter, it is the mean of all orders.
-  ImageMap velocity_image(std::array<int, 3> const& side, int component) const;
-  ImageMap temperature_image(std::array<int, 3> const& side) const;
+  /// A component of the wall's velocity: 0 while walls are held.
+  double wall_velocity(int axis, End end, int component) const {
+    return held_ ? 0 : walls_[axis][static_cast<int>(end)].velocity[component];
+  }
 
   /// Installs a region. Error if it is not a block of this space.
   void install(Region const& region);
@@ -158,10 +154,6 @@ class Box {
   void check_dimension(int of_region) const;
   void check_has_walls(int axis) const;
   void find_moving_walls();
-  /// Component of the wall's velocity: none while walls are held.
-  double wall_velocity(int axis, int end, int component) const {
-    return held_ ? 0 : walls_[axis][end].velocity[component];
-  }
 
   int dimension_;
   std::array<double, 3> low_, high_;

@@ -31,9 +31,9 @@ std::vector<SmoothColumn> velocity_columns(SmoothField const& field) {
   for (auto const& component : columns)
     for (std::size_t i = 0; i < squares.values.size(); ++i) squares.values[i] += square(component.values[i]);
   if (field.box().any_wall())
-    squares.image = [velocity = columns](double, std::size_t i, std::array<int, 3> const& side) {
+    squares.image = [velocity = columns](double, std::size_t i, Turns const& walls) {
       double v2 = 0;
-      for (auto const& component : velocity) v2 += square(component.image(component.values[i], i, side));
+      for (auto const& component : velocity) v2 += square(component.image(component.values[i], i, walls));
       return v2;
     };
   columns.push_back(std::move(squares));

@@ -85,14 +85,24 @@ SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothin
                     largest_range_, images, most_images));
   mean_range_ = size_ > 0 ? sum_of_ranges / static_cast<double>(size_) : 0;
   sources_.reserve(static_cast<std::size_t>(images) + size_ / 8);
+  Images const seen(box);
   std::uint32_t particle = 0;
   for (auto const* ensemble : ensembles_) {
     Ranges const ranges(*ensemble, smoothing.range);
     Field const* mass = ensemble->find_field("mass");
     for (std::size_t i = 0; i < ensemble->size(); ++i, ++particle) {
       double const* row = ensemble->row(i);
-      if (std::all_of(row, row + D, [](double x) { return std::isfinite(x); }))
-        add_images(row, mass ? row[mass->offset] : 1.0, ranges.of(row), particle);
+      if (!std::all_of(row, row + D, [](double x) { return std::isfinite(x); })) continue;
+      std::array<double, 3> home{};
+      for (int a = 0; a < D; ++a) home[a] = box.periodic(a) ? box.wrapped(row[a], a) : row[a];
+      double const range = ranges.of(row);
+      // The images whose weight reaches into the box.
+      seen.each(home.data(), range, [&](Turns const& turns, std::array<double, 3> const& at) {
+        sources_.push_back({at, mass ? row[mass->offset] : 1.0, range, 1 / range});
+        auto& walls = origins_.emplace_back(Origin{particle, {}}).walls;
+        for (int a = 0; a < D; ++a)
+          if (!box.periodic(a)) walls[a] = static_cast<signed char>(turns[a]);
+      });
     }
   }
   if (sources_.empty()) return;
@@ -107,47 +117,15 @@ SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothin
   origins_ = sorted(origins_);
 }
 
-// The images whose weight reaches into the box; along open and reflecting axes a particle is where it is.
-void SmoothField::add_images(double const* position, double mass, double range, std::uint32_t particle) {
-  struct Image {
-    double at;
-    signed char side = 0;
-  };
-  std::array<std::vector<Image>, 3> along{{{{0}}, {{0}}, {{0}}}};
-  for (int a = 0; a < dimension(); ++a) {
-    double const low = box_.low(a), high = box_.high(a), length = box_.length(a);
-    auto& images = along[a];
-    images = {{position[a]}};
-    if (box_.periodic(a)) {
-      images.clear();
-      double const home = box_.wrapped(position[a], a);
-      auto const far = static_cast<int>(std::ceil(range / length));
-      for (int k = -far; k <= far; ++k)
-        if (double const at = home + k * length; at >= low - range && at <= high + range) images.push_back({at});
-    }
-    if (box_.boundary(a) != Boundary::mirror) continue;
-    if (double const at = 2 * low - position[a]; box_.walled(a, Box::End::low) && at >= low - range)
-      images.push_back({at, -1});
-    if (double const at = 2 * high - position[a]; box_.walled(a, Box::End::high) && at <= high + range)
-      images.push_back({at, 1});
-  }
-  for (auto const& z : along[2])
-    for (auto const& y : along[1])
-      for (auto const& x : along[0]) {
-        sources_.push_back({{x.at, y.at, z.at}, mass, range, 1 / range});
-        origins_.push_back({particle, {x.side, y.side, z.side}});
-      }
-}
-
 std::vector<double> SmoothField::of_sources(SmoothColumn const& column) const {
   if (column.values.size() != size_)
     throw Error(fmt::format("a smooth field of {} particles can't be made of {} numbers", size_, column.values.size()));
   std::vector<double> values(sources_.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     auto const& [particle, side] = origins_[k];
+    Turns const walls{side[0], side[1], side[2]};
     values[k] = column.values[particle];
-    if (column.image && (side[0] != 0 || side[1] != 0 || side[2] != 0))
-      values[k] = column.image(values[k], particle, {side[0], side[1], side[2]});
+    if (column.image && walls != Turns{}) values[k] = column.image(values[k], particle, walls);
   }
   return values;
 }
@@ -291,41 +269,33 @@ SmoothColumn SmoothField::column(std::string_view name) const {
   };
   SmoothColumn column{of(name)};
   if (!box_.any_wall()) return column;
-  using Side = std::array<int, 3>;
   if (name == "speed" || name == "kinetic-energy") {
     std::array<std::vector<double>, 3> velocity;
     for (int a = 0; a < dimension(); ++a) velocity[a] = of(std::string("velocity.") + "xyz"[a]);
     std::vector<double> const mass = name == "speed" ? std::vector<double>{} : of("mass");
-    column.image = [box = box_, velocity, mass](double, std::size_t i, Side const& side) {
+    column.image = [box = box_, velocity, mass](double, std::size_t i, Turns const& walls) {
       double v2 = 0;
-      for (int a = 0; a < box.dimension(); ++a) v2 += square(box.velocity_image(side, a)(velocity[a][i]));
+      for (int a = 0; a < box.dimension(); ++a)
+        v2 += square(image_map(box, {ImageRule::velocity, a}, walls)(velocity[a][i]));
       return mass.empty() ? std::sqrt(v2) : 0.5 * mass[i] * v2;
     };
     return column;
   }
-  if (name == "temperature") {
-    column.image = [box = box_](double own, std::size_t, Side const& side) { return box.temperature_image(side)(own); };
-    return column;
-  }
   auto const dot = name.rfind('.');
   bool const along_line = dimension() == 1 && (name == "velocity" || name == "position");
-  if (dot == std::string_view::npos && !along_line) return column;
-  std::string const vector(name.substr(0, dot)), letters(along_line ? "x" : name.substr(dot + 1));
-  auto const axis = static_cast<std::size_t>(letters[0] - 'x');
-  if (vector == "velocity")
-    column.image = [box = box_, axis](double own, std::size_t, Side const& side) {
-      return box.velocity_image(side, static_cast<int>(axis))(own);
-    };
-  else if (vector == "position")
-    column.image = [box = box_, axis](double own, std::size_t, Side const& side) {
-      int const a = static_cast<int>(axis);
-      return side[axis] == 0 ? own : 2 * (side[axis] < 0 ? box.low(a) : box.high(a)) - own;
-    };
-  else
-    column.image = [letters](double own, std::size_t, Side const& side) {
-      for (char const letter : letters)
-        if (letter >= 'x' && letter <= 'z' && side[static_cast<std::size_t>(letter - 'x')] != 0) own = -own;
-      return own;
+  std::string_view const field = name.substr(0, dot);
+  std::string_view const letters = along_line ? "x" : dot == std::string_view::npos ? "" : name.substr(dot + 1);
+  ImageRule const rule = field == "velocity"   ? ImageRule::velocity
+                         : field == "position" ? ImageRule::position
+                                               : ImageRule::normal_vector;
+  std::vector<ImageComponent> rules;
+  if (name == "temperature") rules = {{ImageRule::temperature}};
+  for (char const letter : letters)
+    if (letter >= 'x' && letter <= 'z') rules.push_back({rule, letter - 'x'});
+  if (!rules.empty())
+    column.image = [box = box_, rules](double value, std::size_t, Turns const& walls) {
+      for (auto const& each : rules) value = image_map(box, each, walls)(value);
+      return value;
     };
   return column;
 }

@@ -2,6 +2,7 @@
 // SPAM). Any class of particles will do, atoms too.
 #pragma once
 
+#include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
@@ -43,9 +44,8 @@ struct FieldValues {
 /// One number for each particle, from which a field is made.
 struct SmoothColumn {
   std::vector<double> values;  ///< ensemble after ensemble
-  /// The number of a particle's image beyond walls (`side` as in Box::velocity_image), of the particle's own number.
-  /// None: the same.
-  std::function<double(double own, std::size_t particle, std::array<int, 3> const& side)> image = {};
+  /// The number of a particle's image beyond these walls, of the particle's own number. None: the same.
+  std::function<double(double own, std::size_t particle, Turns const& walls)> image = {};
 };
 
 /// The particles of an ensemble, or of several, spread over space by a weight w: with their masses m (1 each in a class
@@ -66,9 +66,8 @@ class SmoothField {
 
   int dimension() const { return box_.dimension(); }
   Box const& box() const { return box_; }
-  /// The number of particles, and the largest and the mean range.
+  /// The number of particles, and their mean range.
   std::size_t size() const { return size_; }
-  double largest_range() const { return largest_range_; }
   double mean_range() const { return mean_range_; }
 
   FieldValues density(std::span<double const> points, Derivatives derivatives = Derivatives::none) const;
@@ -107,7 +106,7 @@ class SmoothField {
   /// Whose image it is, and beyond which walls.
   struct Origin {
     std::uint32_t particle;
-    std::array<signed char, 3> side;
+    std::array<signed char, 3> walls;
   };
 
   template <class Shape, int D>
@@ -116,7 +115,6 @@ class SmoothField {
   using Sum = void (SmoothField::*)(double const* point, double const* const* columns, std::size_t count,
                                     Derivatives derivatives, double* sums) const;
   Sum sum_of_weight() const;
-  void add_images(double const* position, double mass, double range, std::uint32_t particle);
   std::vector<double> of_sources(SmoothColumn const& column) const;
 
   Box box_;

@@ -224,7 +224,7 @@ void Neighbourhood::restore(std::span<double const> state, int threads) {
   if (stale_ || lists_.empty()) return;
   double const reach = longest_cutoff() + skin();
   for (auto& copy : copies_) {
-    SortedCopy::Edges edges;
+    Box::Edges edges;
     std::ranges::copy(next(edges.size()), edges.begin());
     copy.build(reach, next(copy.ensemble().size() * box_->dimension()), edges);
     std::vector<std::uint32_t> row_of(copy.owned()), rows;

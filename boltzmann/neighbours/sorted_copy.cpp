@@ -42,7 +42,11 @@ std::int32_t opposite(std::int32_t steps) {
 }  // namespace
 
 SortedCopy::SortedCopy(AnyEnsemble const& ensemble, Box const& box, std::size_t extra_blocks)
-    : ensemble_(&ensemble), box_(&box), extra_blocks_(extra_blocks), components_(row_block * all_blocks()) {
+    : ensemble_(&ensemble),
+      box_(&box),
+      images_(box),
+      extra_blocks_(extra_blocks),
+      components_(row_block * all_blocks()) {
   for (auto const& [name, rule] : {std::pair{"position", ImageRule::position}, {"velocity", ImageRule::velocity}}) {
     Field const* field = ensemble.find_field(name);
     if (!field || field->components != box.dimension()) continue;  // a class' own, of another meaning
@@ -60,7 +64,7 @@ void SortedCopy::components(std::vector<ImageComponent> components) {
         throw Error(fmt::format("images of '{}': a rule names axis {}, the box has {} (from 0)", ensemble_->name(),
                                 axis, box_->dimension()));
   components_ = std::move(components);
-  if (!reference_map_.empty()) find_image_maps();
+  if (!turns_.empty()) find_image_maps();
 }
 
 void SortedCopy::build(double reach, int threads) {
@@ -78,10 +82,10 @@ void SortedCopy::build(double reach, int threads) {
 }
 
 void SortedCopy::build(double reach, std::span<double const> references, int threads) {
-  build(reach, references, edges(), threads);
+  build(reach, references, box_->edges(), threads);
 }
 
-void SortedCopy::build(double reach, std::span<double const> references, Edges const& edges, int threads) {
+void SortedCopy::build(double reach, std::span<double const> references, Box::Edges const& edges, int threads) {
   for (int a = 0; a < box_->dimension(); ++a)
     if (box_->boundary(a) == Boundary::mirror && box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) &&
         reach > edges[3 + a] - edges[a])
@@ -103,9 +107,10 @@ void SortedCopy::build(double reach, std::span<double const> references, Edges c
   if (images >= static_cast<double>(most_rows)) too_many_rows(images);
   reach_ = reach;
   built_edges_ = edges;
+  images_ = Images(*box_, edges);
   moved_.clear();
   built_.clear();
-  images_.clear();
+  moved_images_.clear();
   free_.clear();
   sort(reach, references, threads);
   add_ghosts(threads);
@@ -147,116 +152,22 @@ void SortedCopy::sort(double reach, std::span<double const> references, int thre
   });
 }
 
-SortedCopy::Edges SortedCopy::edges() const {
-  Edges edges{};
-  for (int a = 0; a < box_->dimension(); ++a) {
-    edges[a] = box_->low(a);
-    edges[3 + a] = box_->high(a);
-  }
-  return edges;
-}
-
-std::array<int, 3> SortedCopy::max_images() const {
-  std::array<int, 3> most{0, 0, 0};
-  for (int a = 0; a < box_->dimension(); ++a)
-    if (box_->periodic(a))
-      most[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
-    else if (box_->boundary(a) == Boundary::mirror)
-      most[a] = 1;
+Turns SortedCopy::max_images() const {
+  Turns most{};
+  for (int a = 0; a < box_->dimension(); ++a) most[a] = images_.most(a, reach_);
   return most;
 }
 
-template <class Function>
-void SortedCopy::each_image(double const* x, Function const& function) const {
-  std::array<int, 3> first{0, 0, 0}, last{0, 0, 0};
-  for (int a = 0; a < box_->dimension(); ++a) {
-    double const low = built_edges_[a] + reach_, high = built_edges_[3 + a] - reach_;
-    if (box_->periodic(a)) {
-      if (x[a] <= low || x[a] >= high) last[a] = static_cast<int>(std::ceil(reach_ / box_->length(a)));
-      first[a] = -last[a];
-    } else if (box_->boundary(a) == Boundary::mirror) {
-      if (box_->walled(a, Box::End::low) && x[a] <= low) first[a] = -1;
-      if (box_->walled(a, Box::End::high) && x[a] >= high) last[a] = 1;
-    }
-  }
-  std::array<int, 3> turns{};
-  std::array<double, 3> at{};
-  auto const along = [&](int a, int n) {
-    turns[a] = n;
-    if (a < box_->dimension()) at[a] = image_of(a, n, x[a]);
-    return n == 0 || (at[a] >= built_edges_[a] - reach_ && at[a] <= built_edges_[3 + a] + reach_);
-  };
-  for (int k = first[2]; k <= last[2]; ++k) {
-    if (!along(2, k)) continue;
-    for (int j = first[1]; j <= last[1]; ++j) {
-      if (!along(1, j)) continue;
-      for (int i = first[0]; i <= last[0]; ++i)
-        if (along(0, i)) function(turns, at);
-    }
-  }
-}
-
-std::uint32_t SortedCopy::code_of(std::array<int, 3> turns) const {
+std::uint32_t SortedCopy::code_of(Turns const& turns) const {
   int const base = 2 * max_images_ + 1;
   return static_cast<std::uint32_t>(((turns[2] + max_images_) * base + turns[1] + max_images_) * base + turns[0] +
                                     max_images_);
 }
 
-/// Images of references, about the walls as they are at the build.
-void SortedCopy::find_reference_maps() {
-  auto const most = max_images();
-  max_images_ = std::max({most[0], most[1], most[2]});
-  reference_map_.assign(std::size_t{3} * (2 * max_images_ + 1), {});
-  for (int a = 0; a < box_->dimension(); ++a)
-    for (int n = -most[a]; n <= most[a]; ++n) {
-      ImageMap& map = reference_map_[a * (2 * max_images_ + 1) + n + max_images_];
-      if (box_->periodic(a))
-        map.shift = n * box_->length(a);
-      else if (n != 0)
-        map = {-1, 2 * built_edges_[n < 0 ? a : 3 + a]};
-    }
-  turns_.clear();  // in the order of code_of()
-  for (int k = -max_images_; k <= max_images_; ++k)
-    for (int j = -max_images_; j <= max_images_; ++j)
-      for (int i = -max_images_; i <= max_images_; ++i) turns_.push_back({i, j, k});
-}
-
-ImageMap SortedCopy::image_map(ImageComponent component, std::array<int, 3> const& turns) const {
-  std::array<int, 3> side{};  // of walls
-  for (int a = 0; a < box_->dimension(); ++a)
-    if (!box_->periodic(a)) side[a] = turns[a];
-  // The sign of a vector's component, or of a tensor's.
-  auto const sign = [&](auto const& changes) {
-    ImageMap map;
-    for (int a = 0; a < box_->dimension(); ++a)
-      if (side[a] != 0 && changes(a, box_->wall(a, side[a] < 0 ? Box::End::low : Box::End::high))) map.sign = -map.sign;
-    return map;
-  };
-  int const c = component.axis, d = component.axis2;
-  switch (component.rule) {
-    case ImageRule::same:
-      return {};
-    case ImageRule::position:
-      if (side[c] != 0) return {-1, 2 * (side[c] < 0 ? box_->low(c) : box_->high(c))};
-      return turns[c] == 0 ? ImageMap{} : ImageMap{1, turns[c] * box_->length(c)};
-    case ImageRule::velocity:
-      return box_->velocity_image(side, c);
-    case ImageRule::temperature:
-      return box_->temperature_image(side);
-    case ImageRule::normal_vector:
-      return sign([&](int a, Wall const&) { return a == c; });
-    case ImageRule::heat_flux:
-      return sign([&](int a, Wall const& wall) { return (a == c) == std::isnan(wall.temperature); });
-    case ImageRule::tensor:
-      return sign([&](int a, Wall const& wall) { return wall.slips && (a == c) != (a == d); });
-  }
-  return {};
-}
-
 /// Images of rows, about the walls as they are now.
 void SortedCopy::find_image_maps() {
-  int const m = max_images_, base = 2 * m + 1;
   auto const most = max_images();
+  auto const base = static_cast<std::size_t>(2 * max_images_ + 1);
   // Behind the last number that changes blocks are copied.
   mapped_blocks_ = 0;
   for (std::size_t n = 0; n < components_.size(); ++n) {
@@ -265,7 +176,7 @@ void SortedCopy::find_image_maps() {
       mapped_blocks_ = n / row_block + 1;
   }
   std::size_t const numbers = row_block * mapped_blocks_;
-  image_sign_.resize(static_cast<std::size_t>(base * base * base) * numbers);
+  image_sign_.resize(base * base * base * numbers);
   image_shift_.resize(image_sign_.size());
   auto const exists = [&](int a, int n) {
     if (n == 0 || box_->boundary(a) != Boundary::mirror) return true;
@@ -275,10 +186,10 @@ void SortedCopy::find_image_maps() {
     for (int j = -most[1]; j <= most[1]; ++j)
       for (int i = -most[0]; i <= most[0]; ++i) {
         if (!exists(0, i) || !exists(1, j) || !exists(2, k)) continue;
-        std::array<int, 3> const turns{i, j, k};
+        Turns const turns{i, j, k};
         std::size_t const row = code_of(turns) * numbers;
         for (std::size_t n = 0; n < numbers; ++n) {
-          ImageMap const map = image_map(components_[n], turns);
+          ImageMap const map = image_map(*box_, components_[n], turns);
           image_sign_[row + n] = map.sign;
           image_shift_[row + n] = map.shift;
         }
@@ -298,8 +209,13 @@ double SortedCopy::walls_moved() const {
 void SortedCopy::add_ghosts(int threads) {
   ghost_source_.clear();
   ghost_turns_.clear();
-  find_reference_maps();
-  edges_ = edges();
+  auto const most = max_images();
+  max_images_ = std::max({most[0], most[1], most[2]});
+  turns_.clear();  // in the order of code_of()
+  for (int k = -max_images_; k <= max_images_; ++k)
+    for (int j = -max_images_; j <= max_images_; ++j)
+      for (int i = -max_images_; i <= max_images_; ++i) turns_.push_back({i, j, k});
+  edges_ = box_->edges();
   find_image_maps();
   if (max_images_ == 0) return;
   struct Part {
@@ -309,8 +225,8 @@ void SortedCopy::add_ghosts(int threads) {
   for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
     for (std::size_t k = begin; k < end; ++k)
-      each_image(references_.data() + 4 * k, [&](std::array<int, 3> turns, std::array<double, 3> const&) {
-        if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) return;
+      images_.each(references_.data() + 4 * k, reach_, [&](Turns const& turns, auto const&) {
+        if (turns == Turns{}) return;
         part.source.push_back(static_cast<std::uint32_t>(k));
         part.turns.push_back(code_of(turns));
       });
@@ -356,7 +272,7 @@ void SortedCopy::sort_all(int threads) {
     for (std::size_t k = begin; k < end; ++k) {
       std::size_t const source = k < owned() ? k : ghost_source_[k - owned()];
       auto const& turns = turns_[k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()]];
-      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = image_of(a, turns[a], references_[4 * source + a]);
+      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = images_.at(a, turns[a], references_[4 * source + a]);
     }
   });
   cells_ = Cells(dimension, at.data(), dimension, total(), reach_, threads);
@@ -402,7 +318,7 @@ bool SortedCopy::refresh(int threads) {
               std::sqrt(std::numeric_limits<double>::max())))
           not_finite(*ensemble_, order_[k]);
   if (box_->any_wall()) {
-    Edges const now = edges();
+    auto const now = box_->edges();
     if (now != edges_) changed = true;
     edges_ = now;
     find_image_maps();
@@ -417,7 +333,7 @@ void SortedCopy::refresh_images(std::size_t first_block, std::size_t last_block,
 }
 
 bool SortedCopy::is_current() const {
-  if (owned() != ensemble_->size() || (box_->any_wall() && edges() != edges_)) return false;
+  if (owned() != ensemble_->size() || (box_->any_wall() && box_->edges() != edges_)) return false;
   for (std::size_t k = 0; k < owned(); ++k)
     for (int a = 0; a < box_->dimension(); ++a) {
       double x = ensemble_->row(order_[k])[a];
@@ -478,7 +394,7 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
     auto const m = static_cast<std::size_t>(known - moved_.begin());
     if (known == moved_.end()) {
       // Out of the cells, with all images.
-      each_image(reference, [&](std::array<int, 3>, std::array<double, 3> const& at) {
+      images_.each(reference, reach_, [&](Turns const&, auto const& at) {
         std::size_t const cell = cells_.grid().cell_of(at.data());
         for (std::uint32_t s = cells_.start()[cell]; s < cells_.start()[cell + 1]; ++s) {
           std::size_t const row = row_of_item(item_[s]);
@@ -488,20 +404,20 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
       });
       moved_.push_back(k);
       built_.push_back({reference[0], reference[1], reference[2]});
-      images_.emplace_back();
+      moved_images_.emplace_back();
     }
-    for (auto const& image : images_[m])
+    for (auto const& image : moved_images_[m])
       if (image.row != k) free_.push_back(image.row - static_cast<std::uint32_t>(owned()) - 1);
-    images_[m].clear();
+    moved_images_[m].clear();
     for (int a = 0; a < dimension; ++a) {
       reference[a] = references[3 * n + a];
       steps_[4 * k + a] = in_steps(reference[a], reach_);
       double& x = rows_[row_block * k + a];
       if (box_->periodic(a)) x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
     }
-    each_image(reference, [&](std::array<int, 3> turns, std::array<double, 3> const& at) {
-      if (turns[0] == 0 && turns[1] == 0 && turns[2] == 0) {
-        images_[m].push_back({k, at});
+    images_.each(reference, reach_, [&](Turns const& turns, auto const& at) {
+      if (turns == Turns{}) {
+        moved_images_[m].push_back({k, at});
         return;
       }
       if (free_.empty()) {
@@ -514,14 +430,14 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
       free_.pop_back();
       ghost_source_[g] = k;
       ghost_turns_[g] = code_of(turns);
-      images_[m].push_back({static_cast<std::uint32_t>(owned() + 1 + g), at});
+      moved_images_[m].push_back({static_cast<std::uint32_t>(owned() + 1 + g), at});
       move_ghosts(0, all_blocks(), g, g + 1);
     });
   }
   for (auto& column : moved_position_) column.clear();
   moved_item_.clear();
   for (std::size_t m = 0; m < moved_.size(); ++m)
-    for (auto const& image : images_[m]) {
+    for (auto const& image : moved_images_[m]) {
       moved_item_.push_back(item_of_row(image.row));
       for (std::size_t a = 0; a < 3; ++a) moved_position_[a].push_back(in_steps(image.position[a], reach_));
     }

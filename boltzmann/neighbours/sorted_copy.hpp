@@ -2,7 +2,7 @@
 // behind the owned particles.
 #pragma once
 
-#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/neighbours/cells.hpp>
 #include <boltzmann/neighbours/near_task.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -29,25 +29,6 @@ struct AlignedAllocator {
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-/// How a number of a particle is found in its image beyond a wall. Along a periodic axis images differ in `position`
-/// alone.
-enum class ImageRule : unsigned char {
-  same,           ///< as it is: mass, density, the temperature's history, ...
-  position,       ///< reflected about the wall
-  velocity,       ///< as the wall says (Wall::slips, Wall::velocity)
-  temperature,    ///< as the wall says (Wall::temperature)
-  normal_vector,  ///< a reflected vector: its component along the wall's normal changes sign (grad of what is `same`)
-  heat_flux,  ///< of such a temperature: at an insulated wall as normal_vector; at a wall of given temperature, about
-              ///< which the image's is odd, the components along the wall change sign
-  tensor,     ///< pressure or stress of such velocities: reflected at a wall that slips; even, as it is, at one that
-              ///< does not
-};
-/// The rule for one number of a row, and which component of a vector, or which two of a tensor, it is.
-struct ImageComponent {
-  ImageRule rule = ImageRule::same;
-  int axis = 0, axis2 = 0;
-};
-
 /// Rows [0, owned) are the ensemble's particles in spatial order; row `owned` is a sentinel at no position (NaN):
 /// whatever is compared with its distance is false; rows (owned, total] are the images within reach of the box: along
 /// periodic axes those moved by whole lengths, beyond walls of mirror axes those reflected (of every particle near
@@ -57,9 +38,6 @@ struct ImageComponent {
 /// everybody.
 class SortedCopy {
  public:
-  /// The edges of a box: low x y z, high x y z.
-  using Edges = std::array<double, 6>;
-
   /// Behind the blocks of the ensemble's rows stand `extra_blocks` more, which a scheme fills (block()).
   SortedCopy(AnyEnsemble const& ensemble, Box const& box, std::size_t extra_blocks = 0);
 
@@ -75,7 +53,7 @@ class SortedCopy {
   /// The same from given references (dimension() numbers a particle, in the ensemble's order, inside periodic axes).
   void build(double reach, std::span<double const> references, int threads = 1);
   /// And with walls where they stood at an earlier build (built_edges()).
-  void build(double reach, std::span<double const> references, Edges const& edges, int threads = 1);
+  void build(double reach, std::span<double const> references, Box::Edges const& edges, int threads = 1);
 
   /// Copies the ensemble's rows of now into the sorted copy's order and moves the images along, those beyond walls as the
   /// walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the last
@@ -131,7 +109,7 @@ class SortedCopy {
   /// the same sorted copy again.
   std::vector<double> built_references() const;
   /// And where the box's edges were.
-  Edges const& built_edges() const { return built_edges_; }
+  Box::Edges const& built_edges() const { return built_edges_; }
 
   /// For the search of neighbours among this sorted copy's rows.
   NearTask near_task() const;
@@ -148,25 +126,11 @@ class SortedCopy {
   void sort_all(int threads);
   void make_room(std::size_t rows);
   std::size_t all_blocks() const { return blocks() + extra_blocks_; }
-  Edges edges() const;
-  std::array<int, 3> max_images() const;
-  void find_reference_maps();
+  Turns max_images() const;
   void find_image_maps();
-  ImageMap image_map(ImageComponent component, std::array<int, 3> const& turns) const;
-  std::uint32_t code_of(std::array<int, 3> turns) const;
+  std::uint32_t code_of(Turns const& turns) const;
   double walls_moved() const;
   void move_ghosts(std::size_t first_block, std::size_t last_block, std::size_t begin, std::size_t end);
-  /// The reference of an image along an axis.
-  double image_of(int axis, int turns, double x) const {
-    if (turns == 0) return x;
-    ImageMap const& map = reference_map_[axis * (2 * max_images_ + 1) + turns + max_images_];
-    return map(x);
-  }
-  /// Calls function(turns, position) for every image of the reference x, itself included, within reach of the box.
-  /// Turns are the lengths by which it is moved along a periodic axis, or -1 and 1 for the images at the low and high
-  /// walls of a mirror axis.
-  template <class Function>
-  void each_image(double const* x, Function const& function) const;
 
   AnyEnsemble const* ensemble_;
   Box const* box_;
@@ -177,13 +141,13 @@ class SortedCopy {
   AlignedVector<double> references_;         // of owned rows, 4 a row
   std::vector<std::uint32_t> ghost_source_;  // the owned row that each ghost is an image of
   std::vector<std::uint32_t> ghost_turns_;   // and its turns, as a code: a row of image_sign_, image_shift_
+  Images images_;                            // of references, about the edges at the build
   int max_images_ = 0;
   std::size_t extra_blocks_;
   std::vector<ImageComponent> components_;        // of each number of a row
-  Edges built_edges_{}, edges_{};                 // at the build, at the last refresh
+  Box::Edges built_edges_{}, edges_{};            // at the build, at the last refresh
   std::size_t mapped_blocks_ = 0;                 // in which images differ from their particles
-  std::vector<ImageMap> reference_map_;           // of references, for each axis and its turns
-  std::vector<std::array<int, 3>> turns_;         // of each code
+  std::vector<Turns> turns_;                      // of each code
   std::vector<double> image_sign_, image_shift_;  // of rows, for each code
   std::vector<double> largest2_;                  // of each block of rows
 
@@ -193,9 +157,9 @@ class SortedCopy {
   std::vector<std::uint32_t> item_;
 
   std::vector<std::uint32_t> moved_;
-  std::vector<std::array<double, 3>> built_;  // references that moved rows were built with
-  std::vector<std::vector<Image>> images_;    // of each moved row
-  std::vector<std::uint32_t> free_;           // ghosts that no image uses
+  std::vector<std::array<double, 3>> built_;      // references that moved rows were built with
+  std::vector<std::vector<Image>> moved_images_;  // of each moved row
+  std::vector<std::uint32_t> free_;               // ghosts that no image uses
   std::array<std::vector<std::int32_t>, 3> moved_position_;
   std::vector<std::uint32_t> moved_item_;
 };

@@ -1,6 +1,6 @@
 // The box: wrapping, reflecting, mirroring, moving walls and regions for random particles and for those exactly on the
 // edges; what is refused.
-#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -307,12 +307,12 @@ TEST(MirrorWalls, InACornerNoWallComesFirst) {
   box.apply(e);
   EXPECT_EQ(e[0].position, (Vector{0.75, 0.875}));
   EXPECT_EQ(e[0].velocity, (Vector{0.5, 0.75}));
-  EXPECT_EQ(box.temperature_image({1, 1, 0})(2.5), 2.5);
-  EXPECT_EQ(box.temperature_image({0, 1, 0})(2.5), 7.5);
-  EXPECT_EQ(box.temperature_image({1, 0, 0})(2.5), -0.5);
-  EXPECT_EQ(box.temperature_image({-1, 0, 0})(2.5), 2.5);  // insulated
-  EXPECT_EQ(box.velocity_image({0, 1, 0}, 0)(0.5), 5.5);
-  EXPECT_EQ(box.velocity_image({-1, 1, 0}, 0)(0.5), 0.5 - 3 + 0 + 3);
+  EXPECT_EQ(image_map(box, {ImageRule::temperature}, {1, 1, 0})(2.5), 2.5);
+  EXPECT_EQ(image_map(box, {ImageRule::temperature}, {0, 1, 0})(2.5), 7.5);
+  EXPECT_EQ(image_map(box, {ImageRule::temperature}, {1, 0, 0})(2.5), -0.5);
+  EXPECT_EQ(image_map(box, {ImageRule::temperature}, {-1, 0, 0})(2.5), 2.5);  // insulated
+  EXPECT_EQ(image_map(box, {ImageRule::velocity, 0}, {0, 1, 0})(0.5), 5.5);
+  EXPECT_EQ(image_map(box, {ImageRule::velocity, 0}, {-1, 1, 0})(0.5), 0.5 - 3 + 0 + 3);
 }
 
 TEST(MirrorWalls, AnOpenEndLetsGo) {

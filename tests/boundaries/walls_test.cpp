@@ -1,5 +1,5 @@
 // Walls of reflecting axes: pistons, momentum mirrors and open ends, against exact bounces and in two frames of reference.
-#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -268,12 +268,12 @@ TEST(ReflectingWalls, AreHeldWhileABodyIsPrepared) {
   lid.slips = false;
   lid.velocity = {3, 2, 0};
   mirror.wall(1, End::high, lid);
-  EXPECT_EQ(mirror.velocity_image({0, 1, 0}, 0)(0.5), 5.5);
+  EXPECT_EQ(image_map(mirror, {ImageRule::velocity, 0}, {0, 1, 0})(0.5), 5.5);
   mirror.hold_walls(true);
-  EXPECT_EQ(mirror.velocity_image({0, 1, 0}, 0)(0.5), -0.5);
-  EXPECT_EQ(mirror.velocity_image({0, 1, 0}, 1)(0.5), -0.5);
+  EXPECT_EQ(image_map(mirror, {ImageRule::velocity, 0}, {0, 1, 0})(0.5), -0.5);
+  EXPECT_EQ(image_map(mirror, {ImageRule::velocity, 1}, {0, 1, 0})(0.5), -0.5);
   mirror.hold_walls(false);
-  EXPECT_EQ(mirror.velocity_image({0, 1, 0}, 1)(0.5), 3.5);
+  EXPECT_EQ(image_map(mirror, {ImageRule::velocity, 1}, {0, 1, 0})(0.5), 3.5);
 }
 
 TEST(ReflectingWalls, MistakesAreNamed) {

@@ -1,0 +1,71 @@
+// What walls make of the numbers of a particle.
+#include <boltzmann/boundaries/images.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace boltzmann {
+namespace {
+
+/// About which value a number is odd at this wall; none: it is even there.
+std::optional<double> odd_about(Box const& box, ImageComponent of, int axis, Box::End end) {
+  Wall const& wall = box.wall(axis, end);
+  bool const along_normal = axis == of.axis;
+  auto const sign_changes = [](bool changes) { return changes ? std::optional(-0.0) : std::nullopt; };
+  switch (of.rule) {
+    case ImageRule::same:
+      return {};
+    case ImageRule::position:
+      if (!along_normal) return {};
+      return end == Box::End::low ? box.low(axis) : box.high(axis);
+    case ImageRule::velocity:
+      if (!along_normal && wall.slips) return {};
+      return box.wall_velocity(axis, end, of.axis);
+    case ImageRule::temperature:
+      if (std::isnan(wall.temperature)) return {};
+      return wall.temperature;
+    case ImageRule::normal_vector:
+      return sign_changes(along_normal);
+    case ImageRule::heat_flux:
+      return sign_changes(along_normal == std::isnan(wall.temperature));
+    case ImageRule::tensor:
+      return sign_changes(wall.slips && along_normal != (axis == of.axis2));
+  }
+  return {};
+}
+
+}  // namespace
+
+// Odd at walls at w0, w1, ...: x -> 2 w0 - x -> 2 w1 - (2 w0 - x) ...; the mean of all orders, which is each of them
+// where the walls agree: even numbers of walls leave x, odd ones turn it about the walls' mean.
+ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns) {
+  int const c = component.axis;
+  if (component.rule == ImageRule::position && box.periodic(c))
+    return turns[c] == 0 ? ImageMap{} : ImageMap{1, turns[c] * box.length(c)};
+  double sum = -0.0;
+  int walls = 0;
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (turns[a] == 0 || box.periodic(a)) continue;
+    auto const about = odd_about(box, component, a, turns[a] < 0 ? Box::End::low : Box::End::high);
+    if (about) sum += *about, ++walls;
+  }
+  return walls % 2 == 0 ? ImageMap{} : ImageMap{-1, 2 * sum / walls};
+}
+
+Images::Images(Box const& box, Box::Edges const& edges) : dimension_(box.dimension()) {
+  for (int a = 0; a < dimension_; ++a) {
+    bool const mirror = box.boundary(a) == Boundary::mirror;
+    axes_[a] = {box.periodic(a),
+                {mirror && box.walled(a, Box::End::low), mirror && box.walled(a, Box::End::high)},
+                edges[a],
+                edges[3 + a]};
+  }
+}
+
+int Images::most(int axis, double reach) const {
+  Axis const& a = axes_[axis];
+  if (a.periodic) return static_cast<int>(std::ceil(reach / (a.high - a.low)));
+  return a.mirrors[0] || a.mirrors[1] ? 1 : 0;
+}
+
+}  // namespace boltzmann

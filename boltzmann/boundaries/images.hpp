@@ -1,0 +1,101 @@
+// Images: where particles are seen again, beyond periodic ends and beyond the walls of mirror axes, and what they carry
+// there. Every image is composed here: those of sorted copies and of smooth fields, and what a mirror puts back.
+#pragma once
+
+#include <boltzmann/boundaries/box.hpp>
+
+#include <array>
+
+namespace boltzmann {
+
+/// Which image: by how many lengths it is moved along a periodic axis; along a mirror axis -1 and 1 for the wall at the
+/// low and the high end. All 0: the particle itself.
+using Turns = std::array<int, 3>;
+
+/// What a number of a particle is in an image: sign * x + shift; as it stands, a zero's sign included, unless said
+/// otherwise.
+struct ImageMap {
+  double sign = 1, shift = -0.0;
+  double operator()(double x) const { return sign * x + shift; }
+};
+
+/// How a number of a particle is found in its image beyond a wall. Along a periodic axis images differ in `position`
+/// alone.
+enum class ImageRule : unsigned char {
+  same,           ///< as it is: mass, density, the temperature's history, ...
+  position,       ///< reflected about the wall
+  velocity,       ///< as the wall says (Wall::slips, Wall::velocity)
+  temperature,    ///< as the wall says (Wall::temperature)
+  normal_vector,  ///< a reflected vector: its component along the wall's normal changes sign (grad of what is `same`)
+  heat_flux,  ///< of such a temperature: at an insulated wall as normal_vector; at a wall of given temperature, about
+              ///< which the image's is odd, the components along the wall change sign
+  tensor,     ///< pressure or stress of such velocities: reflected at a wall that slips; even, as it is, at one that
+              ///< does not
+};
+/// The rule for one number of a row, and which component of a vector, or which two of a tensor, it is.
+struct ImageComponent {
+  ImageRule rule = ImageRule::same;
+  int axis = 0, axis2 = 0;
+};
+
+/// What this number is in that image, for walls as they are now. Beyond several walls the images are composed; where
+/// these walls differ, so that the order would matter, it is the mean of all orders.
+ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns);
+
+/// Where the images of positions are, for ends and walls that stand, or stood, at these edges.
+class Images {
+ public:
+  explicit Images(Box const& box) : Images(box, box.edges()) {}
+  Images(Box const& box, Box::Edges const& edges);
+
+  /// The most turns along this axis of images within `reach` of the box.
+  int most(int axis, double reach) const;
+  /// The coordinate of an image.
+  double at(int axis, int turns, double x) const;
+  /// Calls function(turns, position) for every image of x, itself included, within reach of the box; x is inside
+  /// periodic axes.
+  template <class Function>
+  void each(double const* x, double reach, Function const& function) const;
+
+ private:
+  struct Axis {
+    bool periodic = false;
+    std::array<bool, 2> mirrors{};  // at its low and its high end
+    double low = 0, high = 0;
+  };
+  int dimension_;
+  std::array<Axis, 3> axes_{};
+};
+
+inline double Images::at(int axis, int turns, double x) const {
+  if (turns == 0) return x;
+  Axis const& a = axes_[axis];
+  return a.periodic ? x + turns * (a.high - a.low) : 2 * (turns < 0 ? a.low : a.high) - x;
+}
+
+template <class Function>
+void Images::each(double const* x, double reach, Function const& function) const {
+  Turns first{}, last{}, turns{};
+  for (int a = 0; a < dimension_; ++a) {
+    bool const near_low = x[a] <= axes_[a].low + reach, near_high = x[a] >= axes_[a].high - reach;
+    int const most = near_low || near_high ? this->most(a, reach) : 0;
+    first[a] = axes_[a].periodic || (near_low && axes_[a].mirrors[0]) ? -most : 0;
+    last[a] = axes_[a].periodic || (near_high && axes_[a].mirrors[1]) ? most : 0;
+  }
+  std::array<double, 3> position{};
+  auto const along = [&](int a, int n) {
+    turns[a] = n;
+    if (a < dimension_) position[a] = at(a, n, x[a]);
+    return n == 0 || (position[a] >= axes_[a].low - reach && position[a] <= axes_[a].high + reach);
+  };
+  for (int k = first[2]; k <= last[2]; ++k) {
+    if (!along(2, k)) continue;
+    for (int j = first[1]; j <= last[1]; ++j) {
+      if (!along(1, j)) continue;
+      for (int i = first[0]; i <= last[0]; ++i)
+        if (along(0, i)) function(turns, position);
+    }
+  }
+}
+
+}  // namespace boltzmann
