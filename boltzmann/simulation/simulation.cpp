@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace boltzmann {
@@ -57,12 +56,15 @@ void Simulation::add(Dissipation& dissipation) {
 
 void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator) {
   checked_ = false;
-  for (auto& part : parts_)
-    if (part.ensemble == &ensemble) {
-      part.integrator = std::move(integrator);
-      return;
-    }
-  parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}, nullptr});
+  if (Part* const part = part_of(ensemble))
+    part->integrator = std::move(integrator);
+  else
+    parts_.push_back({&ensemble, std::move(integrator), 0, 0, {}, nullptr});
+}
+
+Simulation::Part* Simulation::part_of(AnyEnsemble const& ensemble) {
+  auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == &ensemble; });
+  return part == parts_.end() ? nullptr : &*part;
 }
 
 void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
@@ -112,7 +114,7 @@ void Simulation::step_size(double size) {
   base_time_ = time();
   base_step_ = step_;
   step_size_ = size;
-  fresh_ = false;
+  influences_.outdated();
 }
 
 void Simulation::threads(int count) {
@@ -131,22 +133,15 @@ void Simulation::check() {
   if (checked_) return;
   small_system_ = {};
   move_walls(time());
-  for (auto* scheme : schemes_)
-    for (auto* ensemble : scheme->ensembles()) {
-      scheme->box().check(*ensemble);
-      scheme->box().wrap(*ensemble);
-    }
+  accept_particles();
   ensembles_ = supervised_by(schemes_);
   stages_ = 0;
-  keeps_influences_ = false;
-  bool reversible = false;
+  bool reversible = false, inside_step = false;
   for (auto* ensemble : ensembles_) {
     Part const& part = ready_part(*ensemble);
     Method const method = part.integrator->method();
-    keeps_influences_ = keeps_influences_ || (method == Method::leap_frog &&
-                                              std::any_of(schemes_.begin(), schemes_.end(), [&](Scheme const* scheme) {
-                                                return scheme->velocity_dependent(*ensemble);
-                                              }));
+    for (auto const* scheme : schemes_)
+      inside_step = inside_step || (method == Method::leap_frog && scheme->velocity_dependent(*ensemble));
     stages_ = std::max(stages_, part.stages);
     reversible = reversible || method == Method::reversible_leap_frog;
   }
@@ -166,16 +161,17 @@ void Simulation::check() {
                       "must not outrun it)",
                       told_time(std::abs(step_size_)), told_time(longest)));
   }
+  influences_.inside_step(inside_step);
+  influences_.outdated();
   calculate(time());
   check_influences();
-  fresh_ = true;
   checked_ = true;
 }
 
 /// The integrator of an ensemble, with its stages and with what it takes over from the schemes.
 Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
-  auto const part = std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == &ensemble; });
-  if (part == parts_.end())
+  Part* const part = part_of(ensemble);
+  if (!part)
     throw Error("ensemble '" + ensemble.name() + "' has no integrator: call integrate(ensemble, Method::...), one of " +
                 join(method_words().names()));
   part->integrator->threads(schemes_.front()->threads());
@@ -211,9 +207,8 @@ void Simulation::check_dissipations() {
   for (auto const& equilibration : equilibrations_) all.push_back(equilibration.dissipation.get());
   for (auto* dissipation : all) {
     for (auto* ensemble : dissipation->ensembles()) {
-      auto const part =
-          std::find_if(parts_.begin(), parts_.end(), [&](Part const& p) { return p.ensemble == ensemble; });
-      if (part == parts_.end())
+      auto const* part = part_of(*ensemble);
+      if (!part)
         throw Error("friction and noise act on ensemble '" + ensemble->name() +
                     "', which no scheme of the simulation supervises");
       bool const all = part->integrator->same_for_all();
@@ -263,18 +258,19 @@ void Simulation::move_walls(double time) {
     if (scheme->box().walls_move()) scheme->box().move_walls(time);
 }
 
+/// The influences on particles as they are, unless they stand there.
 void Simulation::calculate(double time) {
+  if (influences_.hold()) return;
   move_walls(time);
   if (small_system_.call) {
     small_system_.call(small_system_.data);
-    return;
-  }
-  if (schemes_.size() == 1) {
+  } else if (schemes_.size() == 1) {
     schemes_.front()->calculate(time);
-    return;
+  } else {
+    for (auto* ensemble : ensembles_) ensemble->clear_influence();
+    for (auto* scheme : schemes_) scheme->add_influences(time);
   }
-  for (auto* ensemble : ensembles_) ensemble->clear_influence();
-  for (auto* scheme : schemes_) scheme->add_influences(time);
+  influences_.calculated();
 }
 
 void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
@@ -282,20 +278,19 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
   double const start = time();
   double passed = 0;
   for (int stage = 0; stage < stages_; ++stage) {
-    if (!fresh_) calculate(start + passed * dt);
-    fresh_ = true;
+    calculate(start + passed * dt);
     for (auto& part : parts_) {
       if (stage >= part.stages) continue;
       Motion const motion = part.integrator->advance(stage, context);
       if (motion == Motion::none) continue;
-      fresh_ = false;
+      influences_.outdated();
       passed = part.time_after[stage];
       if (motion != Motion::final) continue;
       move_walls(start + passed * dt);
       work_ += part.home->box().apply(*part.ensemble, part.home->threads());
     }
   }
-  if (!dissipations.empty() && !fresh_) calculate(start + passed * dt), fresh_ = true;
+  if (!dissipations.empty()) calculate(start + passed * dt);
   for (auto* dissipation : dissipations) dissipation->advance(context);
   for (auto const& part : parts_) check_moves(part);
   for (auto const* scheme : schemes_)
@@ -373,20 +368,6 @@ void Simulation::update_derived_fields() const {
   for (auto* dissipation : dissipations_) dissipation->update_derived_fields();
 }
 
-/// Of all rows, whatever their meaning.
-std::uint64_t Simulation::checksum(bool with_influences) const {
-  std::uint64_t sum = 0;
-  auto const take = [&](double const* words, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k)
-      sum = (std::rotl(sum, 5) ^ std::bit_cast<std::uint64_t>(words[k])) * 0x9E3779B97F4A7C15U;
-  };
-  for (auto const* ensemble : ensembles_) {
-    take(ensemble->row(0), ensemble->size() * ensemble->stride());
-    if (with_influences) take(ensemble->influence(0), ensemble->size() * ensemble->influence_size());
-  }
-  return sum;
-}
-
 void Simulation::take_lengths() {
   for (auto& part : parts_) {
     double scale = std::numeric_limits<double>::infinity();
@@ -395,14 +376,19 @@ void Simulation::take_lengths() {
   }
 }
 
-/// Particles have been changed between steps.
-void Simulation::take_particles() {
+/// Puts all into the box; those that can't be there are refused.
+void Simulation::accept_particles() {
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
       scheme->box().check(*ensemble);
       scheme->box().wrap(*ensemble);
     }
-  fresh_ = kept_ = false;
+}
+
+/// Particles have been changed between steps.
+void Simulation::take_particles() {
+  accept_particles();
+  influences_.particles_changed();
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   take_lengths();
 }
@@ -417,7 +403,7 @@ void Simulation::adapt_now() {
   for (auto const& change : changes_) {
     if (step_ % change.every != 0) continue;
     if (!completed) update_derived_fields();
-    auto const before = checksum(true);
+    auto const before = rows_checksum(ensembles_, true);
     auto const sizes_before = sizes();
     try {
       change.adaptation->change();
@@ -427,7 +413,7 @@ void Simulation::adapt_now() {
           throw Error(
               fmt::format("ensemble '{}' had {} particles and has {} now, but some of them are frozen, by number",
                           parts_[k].ensemble->name(), sizes_before[k], sizes_now[k]));
-      completed = sizes_now == sizes_before && checksum(true) == before;
+      completed = sizes_now == sizes_before && rows_checksum(ensembles_, true) == before;
       if (!completed) take_particles();
     } catch (Error const& error) {
       throw Error(fmt::format("step {}: {}", step_, error.what()));
@@ -487,18 +473,12 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (direction < 0 && !changes_.empty())
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
   if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
-  if (!observed_) {
+  if (!begun_) {
     equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
-    observed_ = true;
+    begun_ = true;
     observe_now();
   }
-  // The particles may have been changed since the last run.
-  fresh_ = kept_ && checksum() == kept_checksum_;
-  running_ = true;
-  struct Ended {
-    bool& running;
-    ~Ended() { running = false; }
-  } const ended{running_};
+  auto const running = influences_.begin_run(ensembles_);
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
   std::unique_ptr<FusedSteps> const whole = steps > 0 ? fused_steps(dt) : nullptr;
@@ -521,8 +501,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   }
   if (whole) whole->store();
   update_derived_fields();
-  kept_ = fresh_ && keeps_influences_;
-  if (kept_) kept_checksum_ = checksum();
+  influences_.end_run(ensembles_);
 }
 
 namespace {
@@ -582,8 +561,8 @@ std::vector<double> Simulation::state() const {
   };
   for (auto const* scheme : schemes_) add(scheme->state());
   for (auto const* dissipation : dissipations_) add(dissipation->state());
-  if (keeps_influences_) {
-    bool const fresh = fresh_ && (running_ || (kept_ && checksum() == kept_checksum_));
+  if (influences_.inside_step()) {
+    bool const fresh = influences_.belong_to_state(ensembles_);
     state.push_back(fresh ? 1 : 0);
     for (auto const& part : parts_) {
       auto const* influence = part.ensemble->influence(0);
@@ -616,9 +595,9 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   };
   for (auto* scheme : schemes_) scheme->restore(next());
   for (auto* dissipation : dissipations_) dissipation->restore(next());
-  if (keeps_influences_ && at >= state.size()) throw misfit();
-  kept_ = keeps_influences_ && state[at++] != 0;
-  if (kept_)
+  if (influences_.inside_step() && at >= state.size()) throw misfit();
+  bool const with_influences = influences_.inside_step() && state[at++] != 0;
+  if (with_influences)
     for (auto const& part : parts_) {
       std::size_t const count = part.ensemble->size() * part.ensemble->influence_size();
       if (at + count > state.size()) throw misfit();
@@ -628,9 +607,8 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   for (auto const& change : changes_) change.adaptation->restore(next());
   take_lengths();
   update_derived_fields();
-  kept_checksum_ = checksum();
-  fresh_ = false;
-  observed_ = true;
+  influences_.restored(with_influences, ensembles_);
+  begun_ = true;
 }
 
 }  // namespace boltzmann

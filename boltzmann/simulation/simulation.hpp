@@ -5,6 +5,7 @@
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
+#include <boltzmann/simulation/freshness.hpp>
 
 #include <atomic>
 #include <concepts>
@@ -134,15 +135,15 @@ class Simulation {
   std::string told_time(double number) const;
   void observe_now() const;
   void adapt_now();
+  void accept_particles();
   void take_particles();
+  Part* part_of(AnyEnsemble const& ensemble);
   Part const& ready_part(AnyEnsemble& ensemble);
   void check_influences() const;
   void check_dissipations();
   void equilibrate_now();
   void take_lengths();
   void update_derived_fields() const;
-  std::uint64_t checksum(bool with_influences = false) const;
-  void adopt(Scheme& scheme);
   void make_reversible(FixedPoint const& grid);
   FixedPoint choose_grid() const;
 
@@ -161,10 +162,8 @@ class Simulation {
   double base_time_ = 0, work_ = 0;
   std::uint64_t seed_ = 1;
   int stages_ = 0;
-  bool checked_ = false, fresh_ = false, observed_ = false, running_ = false;
-  bool keeps_influences_ = false;  // some are of velocities inside the step, and can't be had again from its end
-  bool kept_ = false;              // influences, for rows of this checksum
-  std::uint64_t kept_checksum_ = 0;
+  Freshness influences_;
+  bool checked_ = false, begun_ = false;
   mutable bool stop_ = false;  // read and written as an atomic one: a signal or another thread may set it
   bool pause_ = false;
 };
