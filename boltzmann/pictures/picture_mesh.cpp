@@ -36,10 +36,8 @@ std::optional<Dimension> dimension_on_mesh(Question const& question) {
 }
 
 Canvas draw_mesh(Scene& scene) {
-  std::vector<MeshField const*> fields;
-  for (auto* scheme : scene.context.simulation.schemes())
-    for (auto const* field : scheme->mesh_fields()) fields.push_back(field);
-  MeshQuantity const quantity = mesh_quantity(fields, mesh_name(scene.picture));
+  MeshQuantity const quantity =
+      mesh_quantity(mesh_fields_of(scene.context.simulation.schemes()), mesh_name(scene.picture));
   MeshGrid const& grid = quantity.grid();
   auto const [unit, factor] = scene.shown_in(quantity.dimension());
   if (grid.dimension == 1) {

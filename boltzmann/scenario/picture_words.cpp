@@ -52,12 +52,9 @@ Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& word
   Section section(table, fmt::format("a picture '{}'", picture.drawing), context);
   read_options(section, drawing_named(picture.drawing).options, &picture,
                {run.box().dimension(), [&] {
-                  PictureSources sources;
                   std::vector<AnyEnsemble*> ensembles;
                   for (auto const& ensemble : run.ensembles) ensembles.push_back(ensemble.get());
-                  for (auto* scheme : run.simulation->schemes())
-                    for (auto const* field : scheme->mesh_fields()) sources.mesh_fields.push_back(field);
-                  return shown_dimension(picture, ensembles, sources);
+                  return shown_dimension(picture, ensembles, {mesh_fields_of(run.simulation->schemes()), {}});
                 }});
   section.finish();
   check_picture_keys(section, picture, run.box().dimension(), &run.box());

@@ -27,4 +27,11 @@ std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes) {
   return all;
 }
 
+std::vector<MeshField const*> mesh_fields_of(std::vector<Scheme*> const& schemes) {
+  std::vector<MeshField const*> all;
+  for (auto* scheme : schemes)
+    for (auto const* field : scheme->mesh_fields()) all.push_back(field);
+  return all;
+}
+
 }  // namespace boltzmann

@@ -125,5 +125,7 @@ class Scheme {
 
 /// The ensembles of all schemes, each once, in the order of the schemes.
 std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes);
+/// What all schemes have on meshes.
+std::vector<MeshField const*> mesh_fields_of(std::vector<Scheme*> const& schemes);
 
 }  // namespace boltzmann

@@ -109,9 +109,7 @@ void Stage::add(std::string name, Picture picture, Unfit unfit) {
 
 PictureSources Stage::sources(Picture const& picture) const {
   PictureSources all{{}, instruments_};
-  if (picture.drawing == "mesh")
-    for (auto* scheme : simulation_.schemes())
-      for (auto const* field : scheme->mesh_fields()) all.mesh_fields.push_back(field);
+  if (picture.drawing == "mesh") all.mesh_fields = mesh_fields_of(simulation_.schemes());
   return all;
 }
 
