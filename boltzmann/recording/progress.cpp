@@ -1,4 +1,5 @@
 // The progress line. The clock is read only as often as the line can change, so that it costs a small system nothing.
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/recording/progress.hpp>
 #include <boltzmann/recording/run_loop.hpp>
@@ -7,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -16,10 +16,6 @@
 
 namespace boltzmann {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // 1234567 -> "1.23 million"; what a reader takes in at a glance.
 std::string rate_text(double rate) {

@@ -1,8 +1,9 @@
 // Wall time: how long a run may take before a queue ends it.
 #pragma once
 
+#include <boltzmann/core/clock.hpp>
+
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 namespace boltzmann {
@@ -16,11 +17,10 @@ class WallTime {
   /// What is left; 0: there is no limit.
   double seconds() const {
     if (!seconds_) return 0;
-    return std::max(*seconds_ - std::chrono::duration<double>(Clock::now() - begun_).count(), 1e-9);
+    return std::max(*seconds_ - seconds_since(begun_), 1e-9);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   Clock::time_point begun_ = Clock::now();
   std::optional<double> seconds_;
 };

@@ -1,0 +1,93 @@
+// Running a recording to its end, and the table that is printed then.
+#include <boltzmann/recording/recording.hpp>
+#include <boltzmann/recording/run_loop.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace boltzmann {
+namespace {
+
+std::string large(double number) {
+  if (number >= 1e9) return fmt::format("{:.3g} billion", number / 1e9);
+  if (number >= 1e6) return fmt::format("{:.3g} million", number / 1e6);
+  return fmt::format("{:.6g}", number);
+}
+
+void print_summary(Recording const& recording, RunReport const& report, Conserved const& start, double recorded) {
+  Simulation const& simulation = recording.simulation();
+  std::size_t now = 0;
+  for (auto const* ensemble : simulation.ensembles()) now += ensemble->size();
+  bool const changed = now != static_cast<std::size_t>(report.particles);
+  fmt::print("\n{} particles{}, {} steps to step {}, time {}\n\n", report.particles,
+             changed ? fmt::format(" at the start, {} at the end", now) : "", report.steps, simulation.step(),
+             recording.base().text(simulation.time(), dimensions::time, 6));
+  if (report.steps > 0) {
+    for (auto const& line : conserved_table(start, conserved(simulation), recording.base())) fmt::print("{}\n", line);
+    double const work = std::max(report.seconds - recorded, 1e-9);
+    fmt::print("\n  speed    {} particle-steps/s, {:.3g} ns for a particle and step, {:.3g} s in all",
+               large(report.particle_steps / work), work / std::max(report.particle_steps, 1.0) * 1e9, report.seconds);
+    if (recorded > 0) fmt::print(" ({:.2g} s of it measuring and writing)", recorded);
+    fmt::print("\n");
+  }
+  for (auto const* scheme : simulation.schemes())
+    if (auto const line = scheme->report(); !line.empty()) fmt::print("  scheme   {}\n", line);
+  for (auto const* dissipation : simulation.dissipations())
+    if (auto const line = dissipation->report(); !line.empty()) fmt::print("  dissipation {}\n", line);
+  for (auto const* adaptation : simulation.adaptations())
+    if (auto const line = adaptation->report(recording.base()); !line.empty()) fmt::print("  changes  {}\n", line);
+  if (!report.condition.empty())
+    fmt::print("  stop     {}: true at step {}\n", report.condition, recording.ended_step());
+  fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressOptions const& options) {
+  Simulation& simulation = recording.simulation();
+  Interrupt const interrupt(simulation);
+  steps = recording.resume_if_asked(steps);
+  simulation.check();
+  // What the run begins with is known only when it has been equilibrated. The observer stays with the simulation.
+  auto const start = std::make_shared<Conserved>(conserved(simulation));
+  simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
+                          [start](Simulation const& now) { *start = conserved(now); });
+  double const before = recording.seconds();
+  RunReport report;
+  try {
+    report = run_loop(simulation, steps, options, interrupt, [&] { return recording.checkpoint_seconds(); });
+  } catch (PhysicsFailure const& failure) {
+    recording.give_up();
+    if (recording.checkpoint_step() < 0) throw;
+    throw PhysicsFailure(fmt::format("{}\nlast good checkpoint: {}/checkpoint.h5 (step {})", failure.what(),
+                                     recording.folder(), recording.checkpoint_step()));
+  }
+  double const recorded = recording.seconds() - before;
+  recording.finish();
+  report.signalled = interrupt.seen();
+  report.condition = recording.ended_by();
+  if (!report.condition.empty() && recording.ended_step() == simulation.step())
+    report.interrupted = report.out_of_time = false;
+  if (!options.quiet) print_summary(recording, report, *start, recorded);
+  if (report.interrupted)
+    fmt::print(stderr, "stopped by a signal after step {}; its checkpoint is written: {}/checkpoint.h5\n",
+               simulation.step(), recording.folder());
+  if (report.out_of_time)
+    fmt::print(stderr, "out of time after step {}; its checkpoint is written: {}/checkpoint.h5\n", simulation.step(),
+               recording.folder());
+  return report;
+}
+
+int report(std::exception const& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  if (dynamic_cast<Error const*>(&error)) return 2;
+  if (dynamic_cast<PhysicsFailure const*>(&error)) return 3;
+  return 1;
+}
+
+}  // namespace boltzmann

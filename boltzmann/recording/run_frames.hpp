@@ -1,0 +1,49 @@
+// Run frames: trajectory.h5 while a run writes it. Private to this room.
+#pragma once
+
+#include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace boltzmann {
+
+/// A frame every so many steps, and one of the last state. Where a run was stopped between two frames and goes on, its
+/// last frame is taken back: a run without a stop doesn't have it.
+class RunFrames {
+ public:
+  RunFrames(Simulation const& simulation, UnitSystem const& base) : simulation_(simulation), base_(base) {}
+
+  std::int64_t every = 0;  ///< steps; 0: never
+
+  void begin(std::string const& path);
+  /// Error if the file does not begin with the frames that the saved run had written.
+  void check(Checkpoint const& saved, std::string const& path) const;
+  void go_on(std::string const& path, std::int64_t step);
+  void write();
+  /// The last state, unless it has a frame.
+  void write_last();
+  /// What stands in the file, so that one of another run is not gone on with, once it is on the disk.
+  void save(Checkpoint& checkpoint);
+  /// Error if the file can't be finished.
+  void close();
+  /// The same without a word.
+  void drop() { file_.reset(); }
+
+ private:
+  TrajectoryOptions options() const;
+
+  Simulation const& simulation_;
+  UnitSystem const& base_;
+  std::string path_;
+  std::optional<Trajectory> file_;
+  std::int64_t stopped_ = -1;                          // the step of a stop between two frames, which has one; -1: none
+  std::pair<std::size_t, std::uint64_t> before_stop_;  // number and checksum of the frames before it
+};
+
+}  // namespace boltzmann
