@@ -1,5 +1,6 @@
 // bzm bench: how fast is this machine with this program? A few standard problems, run through the shipped laws.
 #include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -21,8 +21,6 @@
 
 namespace boltzmann::bzm {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A simulation that is ready to run, and how many influences of one particle on another a step of it computes.
 struct Problem {
@@ -126,7 +124,7 @@ double measure(Simulation& simulation, double seconds) {
   auto const timed = [&](std::uint64_t steps) {
     auto const since = Clock::now();
     simulation.run(steps);
-    return std::chrono::duration<double>(Clock::now() - since).count();
+    return seconds_since(since);
   };
   constexpr int batches = 5;
   timed(1);

@@ -1,13 +1,13 @@
 // bzm build: the compiler line of a user's program, printed and run.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cctype>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -112,15 +112,14 @@ int build(BuildOptions const& options) {
   fmt::print("{}\n", shell_line(line));
   std::fflush(stdout);
   if (options.dry) return 0;
-  auto const start = std::chrono::steady_clock::now();
+  auto const start = Clock::now();
   std::string messages;
   if (int const status = run_program(line, messages); status != 0) {
     fmt::print(stderr, "'{}' does not compile (the compiler's messages are above)\n", options.program);
     for (auto const& hint : hints(messages)) fmt::print(stderr, "hint: {}\n", hint);
     return status > 128 ? status : 2;
   }
-  fmt::print("{} built in {:.1f} s\n", out,
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  fmt::print("{} built in {:.1f} s\n", out, seconds_since(start));
   return 0;
 }
 

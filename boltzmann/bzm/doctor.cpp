@@ -1,6 +1,7 @@
 // bzm doctor: is this machine fit to run, and does it compute right?
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -16,8 +17,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -38,9 +37,6 @@ namespace boltzmann::bzm {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 class Findings {
  public:

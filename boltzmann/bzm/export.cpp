@@ -1,5 +1,6 @@
 // bzm export: the trajectory of a run in a format that another program opens.
 #include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/trajectory_export.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
@@ -15,7 +16,6 @@ namespace boltzmann::bzm {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 /// The trajectory of a folder, or the file itself.
 std::string trajectory_of(std::string const& folder) {

@@ -1,4 +1,5 @@
 // A sweep from its first run to its tables; runs.csv says which runs are done.
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -20,7 +20,6 @@ namespace boltzmann {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr char const* heading_of_runs = "run,folder,seed,state,reason";
 
@@ -155,7 +154,7 @@ class SweepProgress {
     simulation.observe_progress([this, first, last, next = first, begun = Clock::now()](Simulation const& now) mutable {
       if (now.step() < next) return;
       double const length = std::max<double>(1, static_cast<double>(last));
-      double const seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+      double const seconds = seconds_since(begun);
       auto const steps = static_cast<double>(now.step() - first);
       next = now.step() +
              static_cast<std::int64_t>(std::clamp(0.05 * steps / std::max(seconds, 1e-9), 1.0, std::max(steps, 1.0)));
@@ -178,7 +177,7 @@ class SweepProgress {
   }
 
  private:
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double elapsed() const { return seconds_since(start_); }
   /// `part` of the present run has been done since the start.
   std::string all(double part) const {
     auto const total = static_cast<double>(plan_.runs());

@@ -1,4 +1,5 @@
 // Who looks at what, and the messages to and fro. Browsers speak on the server's thread, which only notes it down.
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/nesting.hpp>
 #include <boltzmann/window/clients.hpp>
@@ -18,7 +19,6 @@ namespace boltzmann {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_views = 8;
 constexpr std::size_t most_requests = 256;  // of one browser, not yet answered

@@ -1,4 +1,5 @@
 // The run's own thread does everything here: it steps, and between two steps it looks whether anybody wants something.
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/files/checkpoint.hpp>
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -20,16 +20,11 @@ namespace boltzmann {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
 
 constexpr double frames_per_second = 61;   // so that 60 come, whenever steps end
 constexpr double share_of_time = 0.035;    // that drawing may take from a run at full speed
 constexpr double min_run_seconds = 10;     // seconds that a run takes at least, unless told otherwise
 constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept for REWD
-
-double seconds_between(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
 
 enum class Command { pause, play, rewind };
 
@@ -145,13 +140,11 @@ struct LiveRun::State {
   Clock::time_point afford() {
     auto const now = Clock::now();
     double const cost = seconds_between(begun_frame, now) * (1 / share_of_time - 1);
-    next_affordable = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(cost));
+    next_affordable = now + clock_time(cost);
     return next_affordable;
   }
 
-  static Clock::duration period() {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / frames_per_second));
-  }
+  static Clock::duration period() { return clock_time(1 / frames_per_second); }
 
   Command doing = Command::pause;  // what the present run() of the simulation does
   bool turned() const { return quit || command != doing || goal != bound_for || new_step_size.has_value(); }

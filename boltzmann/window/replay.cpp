@@ -1,4 +1,5 @@
 // A frame is loaded into the ensembles; then everything is drawn as if the run had just come there.
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/recording/interrupt.hpp>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -16,14 +16,9 @@ namespace boltzmann {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
 
 constexpr double fastest = 240;                                 // frames per second
 constexpr auto steps_between_clocks = std::chrono::seconds(1);  // at the file, which may grow
-
-Clock::duration seconds(double number) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(number));
-}
 
 }  // namespace
 
@@ -141,11 +136,11 @@ bool Replay::run() {
           message_ = error.what();
           ++notice_;
         }
-        next_frame = std::max(next_frame + seconds(1 / frames_per_second_), now);
+        next_frame = std::max(next_frame + clock_time(1 / frames_per_second_), now);
       }
     }
     clients_.send_updates();
-    double const idle = direction_ == 0 ? 0.1 : std::chrono::duration<double>(next_frame - Clock::now()).count();
+    double const idle = direction_ == 0 ? 0.1 : seconds_between(Clock::now(), next_frame);
     if (idle > 0) clients_.wait(std::min(idle, 0.1));
     if (direction_ == 0) next_frame = Clock::now();
   }

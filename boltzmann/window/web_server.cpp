@@ -1,11 +1,10 @@
-// The web server, on Boost.Beast: the one place that knows of sockets.
+// The web server, on Boost.Beast.
 //
 // Everything happens on one thread. Who connects is a Connection: it has asked for nothing yet, or is being answered; one
 // request a connection. Who opens a socket becomes a Browser. Each keeps a clock of its own and is closed when it runs
 // out, so that nothing that the other side does or leaves undone can hold anything for long.
-#define BOOST_ASIO_DISABLE_FENCED_BLOCK  // one thread has nobody to keep in step with
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/window/web_server.hpp>
+#include <boltzmann/window/web_browser.hpp>
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -13,21 +12,12 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/asio/basic_stream_socket.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
-#include <boost/beast/websocket/stream.hpp>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <deque>
 #include <limits>
 #include <list>
 #include <thread>
@@ -35,240 +25,6 @@
 #include <utility>
 
 namespace boltzmann {
-namespace {
-
-namespace asio = boost::asio;
-namespace http = boost::beast::http;
-namespace websocket = boost::beast::websocket;
-using boost::system::error_code;
-using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
-using tcp = asio::ip::tcp;
-// Sockets and clocks of this context only, which spares every operation an indirection.
-using Executor = asio::io_context::executor_type;
-using Socket = asio::basic_stream_socket<tcp, Executor>;
-using Acceptor = asio::basic_socket_acceptor<tcp, Executor>;
-using Timer = asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>;
-using Request = http::request<http::empty_body>;
-
-// A message leaves in frames of at most so many bytes: between two of them a pong may be sent, a browser may be let go,
-// and a slow line shows that it is alive.
-constexpr std::size_t frame_bytes = 1U << 18U;
-// Read at a time.
-constexpr std::size_t piece_bytes = 1U << 14U;
-// A closed connection may finish reading what it was told for so long, and may still say so much.
-constexpr double close_timeout = 1;
-constexpr std::size_t close_bytes = 1U << 18U;
-// At the end of the server, all browsers together.
-constexpr double end_seconds = 0.1;
-
-constexpr std::pair<char const*, char const*> common_headers[] = {
-    {"X-Content-Type-Options", "nosniff"},
-    {"Referrer-Policy", "no-referrer"},
-    {"Cache-Control", "no-store"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-};
-
-constexpr char const* policy_name = "Content-Security-Policy";
-
-/// Of scripts, those that know the nonce alone.
-std::string policy(std::string const& nonce) {
-  std::string const scripts = nonce.empty() ? "'none'" : "'nonce-" + nonce + "'";
-  return "default-src 'none'; script-src " + scripts +
-         "; style-src 'unsafe-inline'; img-src 'self' data: blob:; media-src blob:; connect-src 'self'; "
-         "base-uri 'none'; form-action 'none'; frame-ancestors http://localhost:* http://127.0.0.1:* 'self'";
-}
-
-Clock::duration clock_time(double seconds) { return std::chrono::duration_cast<Clock::duration>(Seconds(seconds)); }
-
-bool is_alphanumeric(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-std::string percent_encoded(std::string_view text) {
-  std::string result;
-  for (char const c : text) {
-    if (is_alphanumeric(c) || c == '-' || c == '.' || c == '_' || c == '~') {
-      result += c;
-    } else {
-      auto const byte = static_cast<unsigned char>(c);
-      result += {'%', "0123456789ABCDEF"[byte / 16], "0123456789ABCDEF"[byte % 16]};
-    }
-  }
-  return result;
-}
-
-int hexadecimal(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-/// Nothing if a % is not followed by two hexadecimal digits.
-std::optional<std::string> percent_decoded(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      result += text[i];
-      continue;
-    }
-    if (i + 2 >= text.size()) return {};
-    int const high = hexadecimal(text[i + 1]);
-    int const low = hexadecimal(text[i + 2]);
-    if (high < 0 || low < 0) return {};
-    result += static_cast<char>(16 * high + low);
-    i += 2;
-  }
-  return result;
-}
-
-/// The path of a request, decoded; nothing if it could lead out of the folder in which somebody looks for it.
-std::optional<std::string> clean_path(std::string_view target) {
-  auto path = percent_decoded(target.substr(0, target.find_first_of("?#")));
-  if (!path || !path->starts_with('/') || path->find("..") != std::string::npos) return {};
-  for (char const c : *path) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\') return {};
-  }
-  return path;
-}
-
-/// The value of token= in the query; nothing unless there is exactly one.
-std::optional<std::string> token_in(std::string_view target) {
-  std::optional<std::string> found;
-  target = target.substr(0, target.find('#'));
-  auto const question = target.find('?');
-  if (question == std::string_view::npos) return {};
-  std::string_view query = target.substr(question + 1);
-  while (!query.empty()) {
-    auto const end = std::min(query.find('&'), query.size());
-    if (query.substr(0, end).starts_with("token=")) {
-      if (found) return {};
-      found = percent_decoded(query.substr(6, end - 6));
-      if (!found) return {};
-    }
-    query.remove_prefix(std::min(end + 1, query.size()));
-  }
-  return found;
-}
-
-/// Takes as long for a nearly right token as for a wrong one.
-bool same_token(std::string_view right, std::string_view given) {
-  unsigned volatile difference = right.size() == given.size() ? 0 : 1;
-  for (std::size_t i = 0; i < right.size(); ++i) {
-    unsigned const byte = given.empty() ? 0U : static_cast<unsigned char>(given[i % given.size()]);
-    difference = difference | (static_cast<unsigned char>(right[i]) ^ byte);
-  }
-  return difference == 0;
-}
-
-/// Whether Host names this machine by itself; any port, because `ssh -L` may change it.
-bool is_this_machine(std::string_view host) {
-  for (std::string_view const name : {"127.0.0.1", "localhost", "[::1]"}) {
-    if (!host.starts_with(name)) continue;
-    std::string_view const rest = host.substr(name.size());
-    if (rest.empty()) return true;
-    return rest.size() >= 2 && rest.size() <= 6 && rest[0] == ':' &&
-           std::all_of(rest.begin() + 1, rest.end(), [](char c) { return c >= '0' && c <= '9'; });
-  }
-  return false;
-}
-
-std::string_view view(boost::string_view text) { return {text.data(), text.size()}; }
-
-/// What is said instead of what was asked for; empty if all is well so far.
-struct Refusal {
-  int status = 0;
-  std::string text;
-};
-
-/// Host, Origin, token and method, in this order, so that a stranger learns nothing of what is here.
-Refusal check(Request const& request, std::string_view token, bool upgrade) {
-  if (request.count(http::field::host) != 1 || !is_this_machine(view(request[http::field::host]))) {
-    return {403, "The window is at 127.0.0.1 or localhost only."};
-  }
-  auto const origins = request.count(http::field::origin);
-  if (origins > 1 || (upgrade && origins == 0) ||
-      (origins == 1 && view(request[http::field::origin]) != "http://" + std::string(request[http::field::host]))) {
-    return {403, "The window answers its own page only."};
-  }
-  auto const given = token_in(view(request.target()));
-  if (!given || !same_token(token, *given)) {
-    return {403, "The token is missing or wrong: open the whole address that was printed, with ?token=..."};
-  }
-  if (request.method() != http::verb::get) return {405, "Only GET."};
-  return {};
-}
-
-char const* status_text(int status) {
-  switch (status) {
-    case 200:
-      return "OK";
-    case 400:
-      return "Bad Request";
-    case 403:
-      return "Forbidden";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 413:
-      return "Payload Too Large";
-    case 426:
-      return "Upgrade Required";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 503:
-      return "Service Unavailable";
-    default:
-      return "Internal Server Error";
-  }
-}
-
-std::string response_head(int status, std::string_view type, std::size_t bytes, std::string const& nonce = "") {
-  std::string head = "HTTP/1.1 " + std::to_string(status) + " " + status_text(status) +
-                     "\r\nConnection: close\r\nContent-Length: " + std::to_string(bytes) + "\r\nContent-Type: ";
-  head += type;
-  head += std::string("\r\n") + policy_name + ": " + policy(nonce);
-  for (auto const& [name, value] : common_headers) head += std::string("\r\n") + name + ": " + value;
-  if (status == 405) head += "\r\nAllow: GET";
-  if (status == 426) head += "\r\nUpgrade: websocket";
-  if (status == 503) head += "\r\nRetry-After: 1";
-  return head + "\r\n\r\n";
-}
-
-constexpr char const* plain_text = "text/plain; charset=utf-8";
-
-/// Tells a connection that there is no room, and closes it, at once.
-void reject(Socket& socket) {
-  std::string const text = "Too many connections.\n";
-  std::string const answer = response_head(503, plain_text, text.size()) + text;
-  error_code ignored;
-  char heard[4096];
-  socket.non_blocking(true, ignored);
-  socket.read_some(asio::buffer(heard), ignored);  // closing over unread bytes would cut off the answer
-  socket.write_some(asio::buffer(answer), ignored);
-  socket.shutdown(Socket::shutdown_send, ignored);
-  socket.close(ignored);
-}
-
-/// At most `bytes` of UTF-8, cut between two characters.
-std::string shortened(std::string text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
-  text.resize(bytes);
-  return text;
-}
-
-/// Buffers that lie elsewhere: copied by the library as two pointers.
-struct Slice {
-  using value_type = asio::const_buffer;
-  using const_iterator = asio::const_buffer const*;
-  const_iterator first;
-  const_iterator last;
-  const_iterator begin() const { return first; }
-  const_iterator end() const { return last; }
-};
-
-}  // namespace
 
 WebPart WebPart::of(std::string text) {
   auto const owner = std::make_shared<std::string const>(std::move(text));
@@ -283,10 +39,31 @@ std::size_t WebMessage::bytes() const {
   return sum;
 }
 
+namespace web {
 namespace {
 
+namespace http = boost::beast::http;
+using Acceptor = asio::basic_socket_acceptor<tcp, Executor>;
+
+// A closed connection may still say so much.
+constexpr std::size_t close_bytes = 1U << 18U;
+// At the end of the server, all browsers together.
+constexpr double end_seconds = 0.1;
+
+/// Tells a connection that there is no room, and closes it, at once.
+void reject(Socket& socket) {
+  std::string const text = "Too many connections.\n";
+  std::string const answer = response_head(503, text_type, text.size()) + text;
+  error_code ignored;
+  char heard[4096];
+  socket.non_blocking(true, ignored);
+  socket.read_some(asio::buffer(heard), ignored);  // closing over unread bytes would cut off the answer
+  socket.write_some(asio::buffer(answer), ignored);
+  socket.shutdown(Socket::shutdown_send, ignored);
+  socket.close(ignored);
+}
+
 class Connection;
-class Browser;
 
 /// What belongs together in one server: its place, its visitors, its browsers.
 struct Server {
@@ -311,6 +88,16 @@ struct Server {
   void forget(std::uint64_t browser);
   bool room_for_browser();
   void end();
+  /// Does something with a browser, on the server's thread, if it is still there.
+  template <class Function>
+  void with(std::uint64_t browser, Function function) {
+    asio::post(context, [this, browser, function = std::move(function)]() mutable {
+      auto const found = browsers.find(browser);
+      if (found == browsers.end()) return;
+      auto const there = found->second;
+      function(*there);
+    });
+  }
 };
 
 /// A connection and its one request, until it is answered.
@@ -369,16 +156,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
     }
     if (error) return close();
 
-    Request const& request = parser_.get();
+    WebRequest const& request = parser_.get();
     bool const upgrade = request.count(http::field::upgrade) > 0;
-    Refusal const refusal = check(request, state_.token, upgrade);
+    Refusal const refusal = check_request(request, state_.token, upgrade);
     known_ = refusal.status == 0 || refusal.status == 405;
     if (refusal.status != 0) return answer(refusal.status, refusal.text);
     if (parser_.chunked()) return answer(400, "A request has no body here.");
     if (parser_.content_length() && *parser_.content_length() > 0) {
       return answer(413, "A request has no body here.");
     }
-    auto const path = clean_path(view(request.target()));
+    auto const path = clean_path(request);
     if (path == "/socket") return open_socket(request);
     if (upgrade) return answer(404, "No socket here.");
     std::optional<WebFile> file;
@@ -391,10 +178,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     send(200, file->type, file->content, file->nonce);
   }
 
-  void open_socket(Request const& request);
+  void open_socket(WebRequest const& request);
 
   void answer(int status, std::string const& text) {
-    send(status, plain_text, std::make_shared<std::string const>(text + "\n"));
+    send(status, text_type, std::make_shared<std::string const>(text + "\n"));
   }
 
   void send(int status, std::string_view type, std::shared_ptr<std::string const> content,
@@ -449,237 +236,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool closed_ = false;
 };
 
-/// A socket: what waits to be sent, and the signs of life.
-class Browser : public std::enable_shared_from_this<Browser> {
- public:
-  Browser(Server& state, std::uint64_t id, Socket socket)
-      : state_(state), id_(id), stream_(std::in_place, std::move(socket)), timer_(state.context) {
-    stream_->auto_fragment(false);
-    stream_->read_message_max(state.limits.message_bytes);
-    stream_->set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      response.set(policy_name, policy(""));
-      for (auto const& [name, value] : common_headers) response.set(name, value);
-      response.set(http::field::server, "boltzmann");
-    }));
-    stream_->control_callback([this](websocket::frame_type, boost::beast::string_view) { said_something(); });
-  }
-
-  void begin(Request const& request) {
-    tick();
-    stream_->async_accept(request, [self = shared_from_this()](error_code error) {
-      if (self->finished_) return;
-      if (error) return self->finish();
-      self->joined_ = true;
-      self->alive_ = Clock::now();
-      self->tell([&] {
-        if (self->state_.events.joined) self->state_.events.joined(self->id_);
-      });
-      if (!self->closing_) self->read();
-      if (!self->writing_ && !self->queue_.empty()) self->write();
-    });
-  }
-
-  bool leaving() const { return leaving_ || finished_; }
-  /// When it has said something last.
-  Clock::time_point spoke() const { return spoke_; }
-
-  void send(WebMessage message) {
-    if (leaving_ || finished_) return;
-    std::size_t const bytes = message.bytes();
-    if (queue_.size() + 1 > state_.limits.waiting_messages || waiting_ + bytes > state_.limits.waiting_bytes) {
-      // The message that is on its way ends in the middle: a socket may be closed between two frames.
-      queue_.resize(writing_ ? 1 : 0);
-      given_up_ = true;
-      return leave(websocket::close_code::policy_error, "too slow: what was sent is not being read", close_timeout);
-    }
-    waiting_ += bytes;
-    queue_.push_back(std::move(message));
-    if (joined_ && !writing_) write();
-  }
-
-  /// Closes after what is waiting; gives up when nothing has moved for so long.
-  void leave(websocket::close_code code, std::string reason, double seconds) {
-    if (leaving_ || finished_) return;
-    leaving_ = true;
-    reason_ = {code, shortened(std::move(reason), 120)};
-    alive_ = Clock::now();
-    grace_ = seconds;
-    if (!joined_) return finish();
-    if (!writing_) write();
-  }
-
-  void finish() {
-    if (finished_) return;
-    finished_ = true;
-    auto const self = shared_from_this();
-    timer_.cancel();
-    error_code ignored;
-    stream_->next_layer().close(ignored);
-    if (!writing_) queue_.clear();
-    state_.forget(id_);
-    if (joined_) {
-      tell([&] {
-        if (state_.events.left) state_.events.left(id_);
-      });
-    }
-    destroy_stream(16);
-  }
-
- private:
-  /// What fails in the program behind an event is that browser's end, not the server's.
-  template <class Event>
-  void tell(Event const& event) {
-    try {
-      event();
-    } catch (std::exception const&) {
-      leave(websocket::close_code::internal_error, "internal error", close_timeout);
-    }
-  }
-
-  /// A wrong frame that comes while the stream is being closed makes the library's reader and closer wait for each
-  /// other for ever (1.74), also after the socket has been closed; only the end of the stream, which owns both, ends
-  /// them. All else that was going on has found the socket closed before so many other things are done.
-  void destroy_stream(int later) {
-    asio::post(state_.context, [self = shared_from_this(), later] {
-      if (later > 0) return self->destroy_stream(later - 1);
-      self->stream_.reset();
-    });
-  }
-
-  /// Piece by piece: between two pieces of the library's own async_read a close may come, and change what it goes on
-  /// with.
-  void read() {
-    stream_->async_read_some(incoming_.prepare(piece_bytes),
-                             [self = shared_from_this()](error_code error, std::size_t bytes) {
-                               if (self->finished_ || self->closing_) return;
-                               if (error) return self->finish();
-                               self->said_something();
-                               self->incoming_.commit(bytes);
-                               if (self->stream_->is_message_done()) self->heard();
-                               if (!self->finished_ && !self->closing_) self->read();
-                             });
-  }
-
-  /// Any frame is a sign of life; but who is to leave can't put it off by talking.
-  void said_something() {
-    if (!leaving_) alive_ = Clock::now();
-  }
-
-  void heard() {
-    spoke_ = Clock::now();
-    if (!leaving_) pass_on();
-    incoming_.consume(incoming_.size());
-  }
-
-  void pass_on() {
-    if (!stream_->got_text()) return leave(websocket::close_code::unknown_data, "text only", close_timeout);
-    auto const data = incoming_.data();
-    tell([&] {
-      if (state_.events.said) state_.events.said(id_, {static_cast<char const*>(data.data()), data.size()});
-    });
-  }
-
-  /// The next frame of the message in front.
-  void write() {
-    if (queue_.empty() || (given_up_ && !writing_)) {
-      if (leaving_) close();
-      return;
-    }
-    WebMessage const& message = queue_.front();
-    slice_.clear();
-    std::size_t room = frame_bytes;
-    while (part_ < message.parts.size() && room > 0) {
-      WebPart const& part = message.parts[part_];
-      std::size_t const some = std::min(room, part.bytes - offset_);
-      if (some > 0) slice_.emplace_back(static_cast<char const*>(part.data) + offset_, some);
-      room -= some;
-      offset_ += some;
-      if (offset_ == part.bytes) {
-        ++part_;
-        offset_ = 0;
-      }
-    }
-    bool const last = part_ == message.parts.size();
-    writing_ = true;
-    stream_->binary(message.binary);
-    stream_->async_write_some(last, Slice{slice_.data(), slice_.data() + slice_.size()},
-                              [self = shared_from_this(), last](error_code error, std::size_t) {
-                                self->writing_ = false;
-                                if (self->finished_) return self->queue_.clear();
-                                if (error) return self->finish();
-                                self->written(last);
-                              });
-  }
-
-  void written(bool last) {
-    alive_ = Clock::now();
-    if (last) {
-      waiting_ -= queue_.front().bytes();
-      queue_.pop_front();
-      part_ = 0;
-      offset_ = 0;
-    }
-    write();
-  }
-
-  void close() {
-    if (closing_) return;
-    closing_ = true;
-    queue_.clear();
-    alive_ = Clock::now();
-    grace_ = std::min(grace_, close_timeout);
-    stream_->async_close(reason_, [self = shared_from_this()](error_code) { self->finish(); });
-  }
-
-  /// Looks at the clock: whether the other side still lives, whether it takes its leave.
-  void tick() {
-    auto const seconds = std::clamp(state_.limits.idle_seconds / 8, 0.01, 1.0);
-    timer_.expires_after(clock_time(seconds));
-    timer_.async_wait([self = shared_from_this()](error_code error) {
-      if (error || self->finished_) return;
-      if (self->is_over()) return self->finish();
-      self->tick();
-    });
-  }
-
-  bool is_over() {
-    double const silent = Seconds(Clock::now() - alive_).count();
-    if (!joined_) return silent > state_.limits.handshake_seconds;
-    if (leaving_) return silent > grace_;
-    // The library has closed it after a wrong frame, and now waits for the other side to close, too.
-    if (!stream_->is_open()) return std::exchange(broken_, true);
-    if (silent > state_.limits.idle_seconds) return true;
-    if (silent > state_.limits.idle_seconds / 2 && !pinging_) {
-      pinging_ = true;
-      stream_->async_ping({}, [self = shared_from_this()](error_code) { self->pinging_ = false; });
-    }
-    return false;
-  }
-
-  Server& state_;
-  std::uint64_t id_;
-  std::optional<websocket::stream<Socket, false>> stream_;
-  Timer timer_;
-  Clock::time_point alive_ = Clock::now(), spoke_ = alive_;
-  boost::beast::flat_buffer incoming_;
-  std::deque<WebMessage> queue_;
-  std::size_t waiting_ = 0;  // bytes in the queue
-  std::size_t part_ = 0;     // where the next frame begins in the message in front
-  std::size_t offset_ = 0;
-  std::vector<asio::const_buffer> slice_;  // the frame that is being written
-  websocket::close_reason reason_;
-  double grace_ = 0;
-  bool joined_ = false;
-  bool writing_ = false;
-  bool pinging_ = false;
-  bool broken_ = false;
-  bool leaving_ = false;   // nothing new is sent, nothing heard is told
-  bool given_up_ = false;  // and what waits is not sent either
-  bool closing_ = false;   // the last frame is on its way
-  bool finished_ = false;
-};
-
-void Connection::open_socket(Request const& request) {
+void Connection::open_socket(WebRequest const& request) {
   if (!websocket::is_upgrade(request)) {
     if (request.count(http::field::upgrade) > 0) return answer(400, "This is no way to open a socket.");
     return answer(426, "There is a socket here.");
@@ -693,7 +250,8 @@ void Connection::open_socket(Request const& request) {
   if (!state_.room_for_browser()) return answer(503, "Too many windows are open.");
   auto const self = shared_from_this();
   std::uint64_t const id = ++state_.last_browser;
-  auto const browser = std::make_shared<Browser>(state_, id, std::move(socket_));
+  auto const browser = std::make_shared<Browser>(id, std::move(socket_), state_.events, state_.limits,
+                                                 [&server = state_, id] { server.forget(id); });
   close();
   state_.browsers.emplace(id, browser);
   browser->begin(request);
@@ -795,8 +353,9 @@ void Server::end() {
 }
 
 }  // namespace
+}  // namespace web
 
-struct WebServer::State : Server {};
+struct WebServer::State : web::Server {};
 
 std::string random_token() {
   unsigned char bytes[16];
@@ -841,7 +400,7 @@ WebServer::WebServer(WebEvents events, std::uint16_t port, std::string token, We
 }
 
 WebServer::~WebServer() {
-  asio::post(state_->context, [&state = *state_] { state.end(); });
+  web::asio::post(state_->context, [&state = *state_] { state.end(); });
   state_->thread.join();
 }
 
@@ -854,21 +413,15 @@ std::string WebServer::address() const {
 }
 
 void WebServer::send(std::uint64_t browser, WebMessage message) {
-  asio::post(state_->context, [&state = *state_, browser, message = std::move(message)]() mutable {
-    auto const found = state.browsers.find(browser);
-    if (found == state.browsers.end()) return;
-    auto const there = found->second;
-    there->send(std::move(message));
-  });
+  state_->with(browser,
+               [message = std::move(message)](web::Browser& there) mutable { there.send(std::move(message)); });
 }
 
 void WebServer::dismiss(std::uint64_t browser, std::string reason) {
-  asio::post(state_->context, [&state = *state_, browser, reason = std::move(reason)]() mutable {
-    auto const found = state.browsers.find(browser);
-    if (found == state.browsers.end()) return;
-    auto const there = found->second;
-    there->leave(websocket::close_code::normal, std::move(reason), state.limits.handshake_seconds);
-  });
+  state_->with(browser,
+               [reason = std::move(reason), seconds = state_->limits.handshake_seconds](web::Browser& there) mutable {
+                 there.leave(web::websocket::close_code::normal, std::move(reason), seconds);
+               });
 }
 
 }  // namespace boltzmann

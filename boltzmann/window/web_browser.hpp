@@ -1,0 +1,80 @@
+// Web browser: an open socket of a page: what waits to be sent to it, and its signs of life. Private to this room.
+#pragma once
+
+#include <boltzmann/window/web_request.hpp>
+#include <boltzmann/window/web_server.hpp>
+#include <boltzmann/window/web_sockets.hpp>
+
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann::web {
+
+namespace websocket = boost::beast::websocket;
+
+/// Is closed when its clock runs out, so that nothing that the other side does or leaves undone holds anything for long.
+class Browser : public std::enable_shared_from_this<Browser> {
+ public:
+  /// `forget` is called when it has left; events and limits must outlive it.
+  Browser(std::uint64_t id, Socket socket, WebEvents const& events, WebLimits const& limits,
+          std::function<void()> forget);
+
+  /// Answers the request that opens the socket.
+  void begin(WebRequest const& request);
+  void send(WebMessage message);
+  /// Closes after what is waiting; gives up when nothing has moved for so long.
+  void leave(websocket::close_code code, std::string reason, double seconds);
+  void finish();
+
+  bool leaving() const { return leaving_ || finished_; }
+  /// When it has said something last.
+  Clock::time_point spoke() const { return spoke_; }
+
+ private:
+  template <class Event>
+  void tell(Event const& event);
+  void destroy_stream(int later);
+  void read();
+  void said_something();
+  void heard();
+  void pass_on();
+  bool next_slice();
+  void write();
+  void written(bool last);
+  void close();
+  void tick();
+  bool is_over();
+
+  std::uint64_t id_;
+  WebEvents const& events_;
+  WebLimits const& limits_;
+  std::function<void()> forget_;
+  std::optional<websocket::stream<Socket, false>> stream_;
+  Timer timer_;
+  Clock::time_point alive_ = Clock::now(), spoke_ = alive_;
+  boost::beast::flat_buffer incoming_;
+  std::deque<WebMessage> queue_;
+  std::size_t waiting_ = 0;  // bytes in the queue
+  std::size_t part_ = 0;     // where the next frame begins in the message in front
+  std::size_t offset_ = 0;
+  std::vector<asio::const_buffer> slice_;  // the frame that is being written
+  websocket::close_reason reason_;
+  double grace_ = 0;
+  bool joined_ = false;
+  bool writing_ = false;
+  bool pinging_ = false;
+  bool broken_ = false;
+  bool leaving_ = false;   // nothing new is sent, nothing heard is told
+  bool given_up_ = false;  // and what waits is not sent either
+  bool closing_ = false;   // the last frame is on its way
+  bool finished_ = false;
+};
+
+}  // namespace boltzmann::web
