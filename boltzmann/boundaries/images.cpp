@@ -52,20 +52,9 @@ ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns)
   return walls % 2 == 0 ? ImageMap{} : ImageMap{-1, 2 * sum / walls};
 }
 
-Images::Images(Box const& box, Box::Edges const& edges) : dimension_(box.dimension()) {
-  for (int a = 0; a < dimension_; ++a) {
-    bool const mirror = box.boundary(a) == Boundary::mirror;
-    axes_[a] = {box.periodic(a),
-                {mirror && box.walled(a, Box::End::low), mirror && box.walled(a, Box::End::high)},
-                edges[a],
-                edges[3 + a]};
-  }
-}
-
 int Images::most(int axis, double reach) const {
-  Axis const& a = axes_[axis];
-  if (a.periodic) return static_cast<int>(std::ceil(reach / (a.high - a.low)));
-  return a.mirrors[0] || a.mirrors[1] ? 1 : 0;
+  if (box_->periodic(axis)) return static_cast<int>(std::ceil(reach / (edges_[3 + axis] - edges_[axis])));
+  return box_->boundary(axis) == Boundary::mirror ? 1 : 0;
 }
 
 }  // namespace boltzmann

@@ -46,7 +46,7 @@ ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns)
 class Images {
  public:
   explicit Images(Box const& box) : Images(box, box.edges()) {}
-  Images(Box const& box, Box::Edges const& edges);
+  Images(Box const& box, Box::Edges const& edges) : box_(&box), edges_(edges) {}
 
   /// The most turns along this axis of images within `reach` of the box.
   int most(int axis, double reach) const;
@@ -58,35 +58,34 @@ class Images {
   void each(double const* x, double reach, Function const& function) const;
 
  private:
-  struct Axis {
-    bool periodic = false;
-    std::array<bool, 2> mirrors{};  // at its low and its high end
-    double low = 0, high = 0;
-  };
-  int dimension_;
-  std::array<Axis, 3> axes_{};
+  bool mirrors(int axis, Box::End end) const {
+    return box_->boundary(axis) == Boundary::mirror && box_->walled(axis, end);
+  }
+
+  Box const* box_;
+  Box::Edges edges_;
 };
 
 inline double Images::at(int axis, int turns, double x) const {
+  double const low = edges_[axis], high = edges_[3 + axis];
   if (turns == 0) return x;
-  Axis const& a = axes_[axis];
-  return a.periodic ? x + turns * (a.high - a.low) : 2 * (turns < 0 ? a.low : a.high) - x;
+  return box_->periodic(axis) ? x + turns * (high - low) : 2 * (turns < 0 ? low : high) - x;
 }
 
 template <class Function>
 void Images::each(double const* x, double reach, Function const& function) const {
   Turns first{}, last{}, turns{};
-  for (int a = 0; a < dimension_; ++a) {
-    bool const near_low = x[a] <= axes_[a].low + reach, near_high = x[a] >= axes_[a].high - reach;
+  for (int a = 0; a < box_->dimension(); ++a) {
+    bool const near_low = x[a] <= edges_[a] + reach, near_high = x[a] >= edges_[3 + a] - reach;
     int const most = near_low || near_high ? this->most(a, reach) : 0;
-    first[a] = axes_[a].periodic || (near_low && axes_[a].mirrors[0]) ? -most : 0;
-    last[a] = axes_[a].periodic || (near_high && axes_[a].mirrors[1]) ? most : 0;
+    if (box_->periodic(a) || (near_low && mirrors(a, Box::End::low))) first[a] = -most;
+    if (box_->periodic(a) || (near_high && mirrors(a, Box::End::high))) last[a] = most;
   }
   std::array<double, 3> position{};
   auto const along = [&](int a, int n) {
     turns[a] = n;
-    if (a < dimension_) position[a] = at(a, n, x[a]);
-    return n == 0 || (position[a] >= axes_[a].low - reach && position[a] <= axes_[a].high + reach);
+    if (a < box_->dimension()) position[a] = at(a, n, x[a]);
+    return n == 0 || (position[a] >= edges_[a] - reach && position[a] <= edges_[3 + a] + reach);
   };
   for (int k = first[2]; k <= last[2]; ++k) {
     if (!along(2, k)) continue;
