@@ -2,6 +2,7 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory_export.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
@@ -30,17 +31,6 @@ std::string trajectory_of(std::string const& folder) {
   return folder + "/trajectory.h5";
 }
 
-std::vector<std::string> separated(std::vector<std::string> const& texts) {
-  std::vector<std::string> words;
-  for (auto const& text : texts)
-    for (std::size_t from = 0; from <= text.size();) {
-      std::size_t const comma = std::min(text.find(',', from), text.size());
-      if (comma > from) words.push_back(text.substr(from, comma - from));
-      from = comma + 1;
-    }
-  return words;
-}
-
 }  // namespace
 
 int export_run(ExportRun const& options) {
@@ -48,8 +38,8 @@ int export_run(ExportRun const& options) {
   TrajectoryReader const reader(trajectory_of(options.folder));
   ExportOptions chosen;
   if (!options.frames.empty()) chosen.frames = chosen_frames(options.frames, reader.frames());
-  chosen.ensembles = separated(options.ensembles);
-  chosen.fields = separated(options.fields);
+  chosen.ensembles = split_words(join(options.ensembles), ',');
+  chosen.fields = split_words(join(options.fields), ',');
   chosen.units = options.units;
   for (auto const& text : options.species) {
     std::size_t const equals = text.find('=');

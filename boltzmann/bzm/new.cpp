@@ -73,12 +73,6 @@ y = "kinetic energy, potential energy, total energy"
 file = "energies.png"
 )toml";
 
-void write_file(std::string const& path, std::string const& text) {
-  TextFile file(path, TextFile::Mode::replace);
-  file.write(text);
-  file.close();
-}
-
 }  // namespace
 
 int new_scenario(std::string const& word) {
@@ -95,8 +89,8 @@ int new_scenario(std::string const& word) {
     text.replace(at, 5, replacement);
     at += replacement.size();
   }
-  write_file(path, text);
-  write_file((fs::path(path).parent_path() / "boltzmann.schema.json").string(), scenario_schema());
+  write_whole(path, text);
+  write_whole((fs::path(path).parent_path() / "boltzmann.schema.json").string(), scenario_schema());
   fmt::print("{} is written, and boltzmann.schema.json, with which editors complete and mark; next: bzm run {}\n", path,
              path);
   return 0;

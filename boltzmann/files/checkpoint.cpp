@@ -11,7 +11,6 @@
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
-#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstdio>

@@ -198,19 +198,25 @@ std::vector<std::string> dump_columns(ExportField const& field, int dimension) {
   if (field.name == "charge" && field.components == 1) return {"q"};
   std::string const name = word(field.name);
   if (field.components == 1) return {name};
-  std::vector<std::string> names;
-  for (int c = 0; c < field.components; ++c) {
-    if (field.components == dimension)
-      names.push_back(fmt::format("{}_{}", name, "xyz"[c]));
-    else if (field.components == dimension * dimension)
-      names.push_back(fmt::format("{}_{}{}", name, "xyz"[c / dimension], "xyz"[c % dimension]));
-    else
-      names.push_back(fmt::format("{}_{}", name, c + 1));
-  }
+  auto names = component_words(field.components, dimension, 1);
+  for (auto& component : names) component = name + "_" + component;
   return names;
 }
 
 }  // namespace
+
+std::vector<std::string> component_words(int components, int dimension, int first_number) {
+  std::vector<std::string> words;
+  for (int c = 0; c < components; ++c) {
+    if (components == dimension)
+      words.emplace_back(1, "xyz"[c]);
+    else if (components == dimension * dimension)
+      words.push_back({"xyz"[c / dimension], "xyz"[c % dimension]});
+    else
+      words.push_back(std::to_string(c + first_number));
+  }
+  return words;
+}
 
 ExportParticles export_particles(AnyEnsemble const& ensemble) {
   ExportParticles particles{ensemble.name(), ensemble.dimension(), ensemble.size(), 1, {}};

@@ -153,40 +153,27 @@ void Dataset::resize(Extents const& extents) {
   if (H5Dset_extent(id_, sizes.data()) < 0) file_->fail("can't resize " + path_);
 }
 
+template <class Call, class Number>
+void Dataset::transfer(Call call, Number* values, Extents const& start, Extents const& count, char const* what) const {
+  if (is_empty(count)) return;
+  Silence const silence;
+  hid_t const type = std::is_same_v<std::remove_const_t<Number>, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+  if (!transfer_block(id_, start, count,
+                      [&](hid_t memory, hid_t file) { return call(id_, type, memory, file, H5P_DEFAULT, values); }))
+    file_->fail(what + path_);
+}
+
 void Dataset::write(double const* values, Extents const& start, Extents const& count) {
-  if (is_empty(count)) return;
-  Silence const silence;
-  if (!transfer_block(id_, start, count, [&](hid_t memory, hid_t file) {
-        return H5Dwrite(id_, H5T_NATIVE_DOUBLE, memory, file, H5P_DEFAULT, values);
-      }))
-    file_->fail("can't write " + path_);
+  transfer(H5Dwrite, values, start, count, "can't write ");
 }
-
 void Dataset::write(std::int64_t const* values, Extents const& start, Extents const& count) {
-  if (is_empty(count)) return;
-  Silence const silence;
-  if (!transfer_block(id_, start, count, [&](hid_t memory, hid_t file) {
-        return H5Dwrite(id_, H5T_NATIVE_INT64, memory, file, H5P_DEFAULT, values);
-      }))
-    file_->fail("can't write " + path_);
+  transfer(H5Dwrite, values, start, count, "can't write ");
 }
-
 void Dataset::read(double* values, Extents const& start, Extents const& count) const {
-  if (is_empty(count)) return;
-  Silence const silence;
-  if (!transfer_block(id_, start, count, [&](hid_t memory, hid_t file) {
-        return H5Dread(id_, H5T_NATIVE_DOUBLE, memory, file, H5P_DEFAULT, values);
-      }))
-    file_->fail("can't read " + path_);
+  transfer(H5Dread, values, start, count, "can't read ");
 }
-
 void Dataset::read(std::int64_t* values, Extents const& start, Extents const& count) const {
-  if (is_empty(count)) return;
-  Silence const silence;
-  if (!transfer_block(id_, start, count, [&](hid_t memory, hid_t file) {
-        return H5Dread(id_, H5T_NATIVE_INT64, memory, file, H5P_DEFAULT, values);
-      }))
-    file_->fail("can't read " + path_);
+  transfer(H5Dread, values, start, count, "can't read ");
 }
 
 std::vector<double> Dataset::reals() const {

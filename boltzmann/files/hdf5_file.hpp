@@ -43,6 +43,9 @@ class Dataset {
 
  private:
   friend class File;
+  template <class Call, class Number>
+  void transfer(Call call, Number* values, Extents const& start, Extents const& count, char const* what) const;
+
   File const* file_ = nullptr;
   std::int64_t id_ = -1;
   std::string path_;

@@ -93,13 +93,7 @@ void MeshFrames::write_index() const {
     text += fmt::format("\" file=\"{}\"/>\n", frame_name(frame.step));
   }
   text += "</Collection>\n</VTKFile>\n";
-  std::string const path = folder_ + "/mesh.pvd";
-  TextFile file(path + ".part", TextFile::Mode::replace);
-  file.write(text);
-  file.close();
-  std::error_code error;
-  fs::rename(path + ".part", path, error);
-  if (error) throw Error(path + ": can't be written: " + error.message());
+  write_whole(folder_ + "/mesh.pvd", text);
 }
 
 }  // namespace boltzmann

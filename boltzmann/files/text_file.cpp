@@ -7,10 +7,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -115,6 +117,38 @@ std::string read_text(std::string const& path) {
   ::close(descriptor);
   text.resize(size);
   return text;
+}
+
+PartFile::~PartFile() {
+  std::error_code ignored;
+  if (!finished_) std::filesystem::remove(path_ + ".part", ignored);
+}
+
+void PartFile::finish() {
+  file_.close();
+  std::error_code error;
+  std::filesystem::rename(path_ + ".part", path_, error);
+  if (error) throw Error(path_ + ": can't be written: " + error.message());
+  finished_ = true;
+}
+
+void write_whole(std::string const& path, std::string_view text) {
+  PartFile file(path);
+  file.write(text);
+  file.finish();
+}
+
+std::vector<std::string> split_words(std::string_view text, char separator) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= text.size();) {
+    std::size_t const end = std::min(text.find(separator, at), text.size());
+    std::string_view word = text.substr(at, end - at);
+    while (word.starts_with(' ')) word.remove_prefix(1);
+    while (word.ends_with(' ')) word.remove_suffix(1);
+    if (!word.empty()) words.emplace_back(word);
+    at = end + 1;
+  }
+  return words;
 }
 
 }  // namespace boltzmann

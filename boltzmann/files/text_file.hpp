@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace boltzmann {
 
@@ -48,5 +49,30 @@ class TextFile {
 
 /// The whole content of a file; Error if it can't be read.
 std::string read_text(std::string const& path);
+
+/// A new file that is there whole or not at all: path + ".part", which gets its name when it is finished, and goes if it
+/// is not.
+class PartFile {
+ public:
+  explicit PartFile(std::string path) : path_(std::move(path)), file_(path_ + ".part", TextFile::Mode::replace) {}
+  ~PartFile();
+  PartFile(PartFile const&) = delete;
+  PartFile& operator=(PartFile const&) = delete;
+
+  void write(std::string_view text) { file_.write(text); }
+  /// Error if it can't be written.
+  void finish();
+
+ private:
+  std::string path_;
+  TextFile file_;
+  bool finished_ = false;
+};
+
+/// The same of one text.
+void write_whole(std::string const& path, std::string_view text);
+
+/// The words between separators, without blanks around them; empty ones are left out.
+std::vector<std::string> split_words(std::string_view text, char separator);
 
 }  // namespace boltzmann

@@ -1,7 +1,6 @@
 // Writing trajectories.
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/spatial.hpp>
 #include <boltzmann/files/trajectory.hpp>

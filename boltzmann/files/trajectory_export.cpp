@@ -37,16 +37,6 @@ constexpr std::array all_formats{
 };
 enum class Kind { xyz, dump, pvd, vtp, csv };
 
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  while (!text.empty()) {
-    auto const blank = std::min(text.find(' '), text.size());
-    if (blank > 0) words.emplace_back(text.substr(0, blank));
-    text.remove_prefix(std::min(blank + 1, text.size()));
-  }
-  return words;
-}
-
 Kind kind_of(std::string const& path) { return static_cast<Kind>(&export_format(path) - all_formats.data()); }
 
 // ---- Units ----
@@ -118,33 +108,6 @@ class UnitChange {
   std::optional<UnitSystem> base_;  // none: the units of the run
 };
 
-// ---- Files that are whole or not there ----
-
-class PartFile {
- public:
-  explicit PartFile(std::string path) : path_(std::move(path)), file_(path_ + ".part", TextFile::Mode::replace) {}
-  ~PartFile() {
-    std::error_code ignored;
-    if (!finished_) fs::remove(path_ + ".part", ignored);
-  }
-  PartFile(PartFile const&) = delete;
-  PartFile& operator=(PartFile const&) = delete;
-
-  void write(std::string_view text) { file_.write(text); }
-  void finish() {
-    file_.close();
-    std::error_code error;
-    fs::rename(path_ + ".part", path_, error);
-    if (error) throw Error(fmt::format("{}: can't be written: {}", path_, error.message()));
-    finished_ = true;
-  }
-
- private:
-  std::string path_;
-  TextFile file_;
-  bool finished_ = false;
-};
-
 class FrameWriter {
  public:
   FrameWriter() = default;
@@ -169,15 +132,8 @@ class TextWriter final : public FrameWriter {
 
 std::vector<std::string> component_names(ExportField const& field, int dimension) {
   if (field.components == 1) return {field.name};
-  std::vector<std::string> names;
-  for (int c = 0; c < field.components; ++c) {
-    if (field.components == dimension)
-      names.push_back(fmt::format("{}.{}", field.name, "xyz"[c]));
-    else if (field.components == dimension * dimension)
-      names.push_back(fmt::format("{}.{}{}", field.name, "xyz"[c / dimension], "xyz"[c % dimension]));
-    else
-      names.push_back(fmt::format("{}.{}", field.name, c));
-  }
+  auto names = component_words(field.components, dimension);
+  for (auto& name : names) name = field.name + "." + name;
   return names;
 }
 
@@ -406,7 +362,7 @@ ExportFormat const& export_format(std::string const& path) {
   std::string const suffix = fs::path(path).extension().string();
   std::vector<std::string> all;
   for (auto const& format : all_formats)
-    for (auto const& known : words_of(format.suffixes)) {
+    for (auto const& known : split_words(format.suffixes, ' ')) {
       if (known == suffix) return format;
       all.push_back(known);
     }

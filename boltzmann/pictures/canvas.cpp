@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 namespace boltzmann {
@@ -28,42 +27,35 @@ void Canvas::record(Kind kind, std::size_t index) {
     order_.push_back({kind, index, 1});
 }
 
+template <class Mark>
+void Canvas::add(Kind kind, std::vector<Mark>& marks, Mark mark, std::initializer_list<double> coordinates) {
+  if (!finite(coordinates)) {
+    ++not_finite_;
+    return;
+  }
+  record(kind, marks.size());
+  marks.push_back(std::move(mark));
+}
+
 void Canvas::circle(double x, double y, double radius, Colour colour, bool filled) {
   circle(Circle{x, y, radius, colour, filled});
 }
 
-void Canvas::circle(Circle const& circle) {
-  if (!finite({circle.x, circle.y, circle.z, circle.radius})) {
-    ++not_finite_;
-    return;
-  }
-  record(Kind::circle, circles_.size());
-  circles_.push_back(circle);
-  circles_.back().radius = std::abs(circle.radius);
+void Canvas::circle(Circle circle) {
+  circle.radius = std::abs(circle.radius);
+  add(Kind::circle, circles_, circle, {circle.x, circle.y, circle.z, circle.radius});
 }
 
 void Canvas::point(double x, double y, Colour colour, float size) { point(Point{x, y, size, colour}); }
 
-void Canvas::point(Point const& point) {
-  if (!finite({point.x, point.y, point.z})) {
-    ++not_finite_;
-    return;
-  }
-  record(Kind::point, points_.size());
-  points_.push_back(point);
-}
+void Canvas::point(Point const& point) { add(Kind::point, points_, point, {point.x, point.y, point.z}); }
 
 void Canvas::line(double x0, double y0, double x1, double y1, Colour colour, float width) {
   line(Line{x0, y0, x1, y1, width, colour});
 }
 
 void Canvas::line(Line const& line) {
-  if (!finite({line.x0, line.y0, line.z0, line.x1, line.y1, line.z1})) {
-    ++not_finite_;
-    return;
-  }
-  record(Kind::line, lines_.size());
-  lines_.push_back(line);
+  add(Kind::line, lines_, line, {line.x0, line.y0, line.z0, line.x1, line.y1, line.z1});
 }
 
 void Canvas::rectangle(double x0, double y0, double x1, double y1, Colour colour, float width) {
@@ -78,12 +70,7 @@ void Canvas::arrow(double x0, double y0, double x1, double y1, Colour colour, fl
 }
 
 void Canvas::arrow(Arrow const& arrow) {
-  if (!finite({arrow.x0, arrow.y0, arrow.z0, arrow.x1, arrow.y1, arrow.z1})) {
-    ++not_finite_;
-    return;
-  }
-  record(Kind::arrow, arrows_.size());
-  arrows_.push_back(arrow);
+  add(Kind::arrow, arrows_, arrow, {arrow.x0, arrow.y0, arrow.z0, arrow.x1, arrow.y1, arrow.z1});
 }
 
 void Canvas::curve(std::span<double const> x, std::span<double const> y, Colour colour, std::string label, float width,
@@ -109,14 +96,7 @@ void Canvas::text(double x, double y, std::string text, Colour colour, float siz
   this->text(Text{x, y, std::move(text), size, colour, align});
 }
 
-void Canvas::text(Text text) {
-  if (!finite({text.x, text.y, text.z})) {
-    ++not_finite_;
-    return;
-  }
-  record(Kind::text, texts_.size());
-  texts_.push_back(std::move(text));
-}
+void Canvas::text(Text const& text) { add(Kind::text, texts_, text, {text.x, text.y, text.z}); }
 
 void Canvas::image(double x0, double y0, double x1, double y1, int columns, int rows, std::span<double const> values,
                    double low, double high, ColourMap map) {

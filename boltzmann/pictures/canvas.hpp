@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -138,7 +139,7 @@ class Canvas {
   // Drawing: later ones cover earlier ones. In a space give marks as they are, with a z:
   // canvas.point({.x = 1, .y = 2, .z = 3}).
   void circle(double x, double y, double radius, Colour colour = ink, bool filled = true);
-  void circle(Circle const& circle);
+  void circle(Circle circle);
   void point(double x, double y, Colour colour = ink, float size = 4);
   void point(Point const& point);
   void line(double x0, double y0, double x1, double y1, Colour colour = ink, float width = 1.5F);
@@ -151,7 +152,7 @@ class Canvas {
              float width = 2, bool dashed = false);
   void curve(Curve curve);
   void text(double x, double y, std::string text, Colour colour = ink, float size = 20, double align = 0.5);
-  void text(Text text);
+  void text(Text const& text);
   /// `values` holds columns x rows numbers, row by row from y0 on, coloured from low to high. Throws Error if the count
   /// differs.
   void image(double x0, double y0, double x1, double y1, int columns, int rows, std::span<double const> values,
@@ -208,6 +209,8 @@ class Canvas {
 
  private:
   void record(Kind kind, std::size_t index);
+  template <class Mark>
+  void add(Kind kind, std::vector<Mark>& marks, Mark mark, std::initializer_list<double> coordinates);
 
   std::vector<Circle> circles_;
   std::vector<Point> points_;

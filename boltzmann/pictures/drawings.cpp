@@ -30,6 +30,12 @@ struct Limits {
     low = -high;
   }
   double width() const { return empty() ? 0 : high - low; }
+  /// To an axis that lacks them.
+  void give_ends(Axis& axis) const {
+    if (axis.logarithmic || !(width() > 0)) return;
+    if (!std::isfinite(axis.low)) axis.low = low;
+    if (!std::isfinite(axis.high)) axis.high = high;
+  }
 };
 
 }  // namespace
@@ -86,10 +92,7 @@ Canvas draw_spectrum(std::span<double const> frequency, std::span<double const> 
   canvas.title(std::move(title));
   y.logarithmic = log_density;
   Limits const limits(frequency);
-  if (!x.logarithmic && limits.width() > 0) {
-    if (!std::isfinite(x.low)) x.low = limits.low;
-    if (!std::isfinite(x.high)) x.high = limits.high;
-  }
+  limits.give_ends(x);
   canvas.axes(std::move(x), std::move(y));
   canvas.grid(true);
   canvas.curve(frequency, density, species_colour(0), "", 1.8F);
@@ -102,10 +105,7 @@ Canvas draw_time_series(std::span<Series const> series, Axis x, Axis y, std::str
   Limits limits;
   for (auto const& s : series)
     for (double t : s.x) limits.add(t);
-  if (!x.logarithmic && limits.width() > 0) {
-    if (!std::isfinite(x.low)) x.low = limits.low;
-    if (!std::isfinite(x.high)) x.high = limits.high;
-  }
+  limits.give_ends(x);
   canvas.axes(std::move(x), std::move(y));
   canvas.grid(true);
   for (std::size_t s = 0; s < series.size(); ++s)

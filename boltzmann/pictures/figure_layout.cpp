@@ -124,6 +124,18 @@ AxisRange logarithmic_range(Axis const& axis, Extent const& extent) {
   return {std::pow(10.0, std::max(low, -307.0)), std::pow(10.0, std::min(high, 307.0)), true};
 }
 
+/// Of all places that the axes can show.
+std::array<Extent, 2> extents(Canvas const& canvas) {
+  bool const x_log = canvas.x_axis().logarithmic, y_log = canvas.y_axis().logarithmic;
+  std::array<Extent, 2> both{Extent{.positive_only = x_log}, Extent{.positive_only = y_log}};
+  each_place(canvas, [&](double px, double py, double radius) {
+    if ((x_log && px <= 0) || (y_log && py <= 0)) return;
+    both[0].add_between(px, radius);
+    both[1].add_between(py, canvas.equal_aspect() ? radius : 0);
+  });
+  return both;
+}
+
 }  // namespace
 
 double AxisRange::place(double value) const {
@@ -137,12 +149,7 @@ std::array<AxisRange, 2> axis_ranges(Canvas const& canvas, double width_to_heigh
   auto const given = [](Axis const& axis) { return std::isfinite(axis.low) && std::isfinite(axis.high); };
   if (!x_log && !y_log && given(canvas.x_axis()) && given(canvas.y_axis()))
     return {linear_range(canvas.x_axis(), {}), linear_range(canvas.y_axis(), {})};
-  Extent x{.positive_only = x_log}, y{.positive_only = y_log};
-  each_place(canvas, [&](double px, double py, double radius) {
-    if ((x_log && px <= 0) || (y_log && py <= 0)) return;
-    x.add_between(px, radius);
-    y.add_between(py, canvas.equal_aspect() ? radius : 0);
-  });
+  auto [x, y] = extents(canvas);
   AxisRange const x_range = x_log ? logarithmic_range(canvas.x_axis(), x) : linear_range(canvas.x_axis(), x);
   bool const with_discs =
       !canvas.circles().empty() || std::any_of(canvas.clouds().begin(), canvas.clouds().end(), [](auto const& cloud) {
@@ -162,13 +169,7 @@ std::array<AxisRange, 2> axis_ranges(Canvas const& canvas, double width_to_heigh
 }
 
 std::optional<std::array<std::array<double, 2>, 2>> content_corners(Canvas const& canvas) {
-  bool const x_log = canvas.x_axis().logarithmic, y_log = canvas.y_axis().logarithmic;
-  Extent x{.positive_only = x_log}, y{.positive_only = y_log};
-  each_place(canvas, [&](double px, double py, double radius) {
-    if ((x_log && px <= 0) || (y_log && py <= 0)) return;
-    x.add_between(px, radius);
-    y.add_between(py, canvas.equal_aspect() ? radius : 0);
-  });
+  auto const [x, y] = extents(canvas);
   if (x.empty() || y.empty()) return std::nullopt;
   return std::array{std::array{x.low, y.low}, std::array{x.high, y.high}};
 }

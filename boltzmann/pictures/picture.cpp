@@ -1,5 +1,6 @@
 // Which drawing is meant, and whether it can be drawn.
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
@@ -26,7 +27,7 @@ void Question::known(char const* key, std::string const& name) const {
 void Question::need_columns() const {
   on("y", [&] {
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
-    for (auto const& word : split(picture.y))
+    for (auto const& word : split_words(picture.y, ','))
       if (std::find(columns.begin(), columns.end(), word) == columns.end())
         throw Error("no diagnosis gives a column '" + word + "'; there are " + some_of(columns) +
                     did_you_mean(word, columns));

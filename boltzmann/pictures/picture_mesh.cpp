@@ -2,7 +2,6 @@
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/pictures/drawings.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
-#include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
 

@@ -3,8 +3,6 @@
 #include <boltzmann/pictures/drawings.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

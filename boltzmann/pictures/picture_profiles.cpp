@@ -1,9 +1,8 @@
 // Profiles of matter along an axis.
 #include <boltzmann/diagnoses/profile.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/drawings.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -12,7 +11,7 @@ namespace {
 
 // The names of a profile's quantities, and its axis.
 std::vector<std::string> profile_names(Picture const& picture) {
-  auto const names = split(picture.y);
+  auto const names = split_words(picture.y, ',');
   return names.empty() ? std::vector<std::string>{"density"} : names;
 }
 int profile_axis(Picture const& picture, int dimension) {

@@ -1,7 +1,6 @@
 // Names to numbers, for pictures; and leaving the simulation as it was.
 #include <boltzmann/pictures/drawing_cartesian.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
-#include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
 
@@ -79,32 +78,29 @@ EnergyAndVirial Scene::potential_energies() {
   return measures;
 }
 
-std::vector<Values> Scene::values(std::string const& name) {
+template <class Function>
+void Scene::each_ensemble(std::string const& name, Function function) {
   meaning(ensembles, name);
   need(name);
   EnergyAndVirial const measures = name == "potential-energy" ? potential_energies() : EnergyAndVirial{};
+  for (std::size_t e = 0; e < ensembles.size(); ++e)
+    function(*ensembles[e], e < measures.per_particle.size() ? std::span<double const>(measures.per_particle[e])
+                                                             : std::span<double const>());
+}
+
+std::vector<Values> Scene::values(std::string const& name) {
   std::vector<Values> all;
-  for (std::size_t e = 0; e < ensembles.size(); ++e) {
-    std::span<double const> potential;
-    if (e < measures.per_particle.size()) potential = measures.per_particle[e];
-    if (has_quantity(*ensembles[e], name))
-      all.push_back(quantity(*ensembles[e], name, potential));
-    else
-      all.emplace_back(ensembles[e]->size(), no_value);
-  }
+  each_ensemble(name, [&](AnyEnsemble const& one, std::span<double const> potential) {
+    all.push_back(has_quantity(one, name) ? quantity(one, name, potential) : Values(one.size(), no_value));
+  });
   return all;
 }
 
 std::vector<ParticleColumn> Scene::columns(std::string const& name) {
-  meaning(ensembles, name);
-  need(name);
-  EnergyAndVirial const measures = name == "potential-energy" ? potential_energies() : EnergyAndVirial{};
   std::vector<ParticleColumn> all;
-  for (std::size_t e = 0; e < ensembles.size(); ++e) {
-    std::span<double const> potential;
-    if (e < measures.per_particle.size()) potential = measures.per_particle[e];
-    all.push_back(has_quantity(*ensembles[e], name) ? column_of(*ensembles[e], name, potential) : ParticleColumn{});
-  }
+  each_ensemble(name, [&](AnyEnsemble const& one, std::span<double const> potential) {
+    all.push_back(has_quantity(one, name) ? column_of(one, name, potential) : ParticleColumn{});
+  });
   return all;
 }
 
@@ -207,20 +203,6 @@ void explain_values(Canvas& canvas, Scene const& scene, ParticleClouds const& cl
   auto const shown = scene.shown_in(what.dimension);
   canvas.colour_bar(what.label, shown.unit, clouds.low, clouds.high, clouds.map, shown.factor);
   note_without_value(canvas, clouds.without_value);
-}
-
-std::vector<std::string> split(std::string const& text) {
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    std::size_t const end = std::min(text.find(',', at), text.size());
-    std::size_t first = text.find_first_not_of(' ', at);
-    std::size_t last = text.find_last_not_of(' ', end == 0 ? 0 : end - 1);
-    if (first < end && last != std::string::npos && last >= first)
-      words.push_back(text.substr(first, last - first + 1));
-    at = end + 1;
-  }
-  return words;
 }
 
 Heading heading(std::string const& text) {

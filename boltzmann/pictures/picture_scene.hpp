@@ -51,6 +51,9 @@ class Scene {
   std::vector<ParticleColumn> columns(std::string const& name);
   /// With those of each particle. Error if no law gives them.
   EnergyAndVirial potential_energies();
+  /// Calls function(ensemble, potential energies of its particles, if those are the quantity of this name).
+  template <class Function>
+  void each_ensemble(std::string const& name, Function function);
   /// Finds influences for the state as it stands, if the quantity is, or follows from, one.
   void need(std::string const& name);
   /// The particles have been replaced: what is needed must be found again.
@@ -82,8 +85,6 @@ void note_shown(Canvas& canvas, ParticleClouds const& clouds, bool region);
 /// The colour bar for the values of clouds.
 void explain_values(Canvas& canvas, Scene const& scene, ParticleClouds const& clouds);
 
-/// The words of a list "a, b".
-std::vector<std::string> split(std::string const& text);
 /// "kinetic energy (eV)" -> {"kinetic energy", "eV"}.
 struct Heading {
   std::string name, unit;

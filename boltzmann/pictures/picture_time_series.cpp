@@ -1,6 +1,7 @@
 // Pictures over time: columns of diagnoses.csv, and the spectrum of one.
 #include <boltzmann/diagnoses/spectrum.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/drawings.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
@@ -23,7 +24,7 @@ std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
   std::vector<std::string> names;
   for (std::size_t c = 2; c < table.header.size(); ++c) names.push_back(heading(table.header[c]).name);
   std::vector<std::size_t> columns;
-  for (auto const& word : split(scene.picture.y)) {
+  for (auto const& word : split_words(scene.picture.y, ',')) {
     auto const found = std::find(names.begin(), names.end(), word);
     if (found == names.end())
       throw Error("diagnoses.csv has no column '" + word + "'; it has " + some_of(names) + did_you_mean(word, names));

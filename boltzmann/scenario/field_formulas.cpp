@@ -1,4 +1,5 @@
 // Reads formulas of fields, and evaluates them.
+#include <boltzmann/files/export.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
@@ -8,23 +9,6 @@
 #include <cmath>
 
 namespace boltzmann {
-namespace {
-
-/// The components of a field as words: none for a number, x, y, z for a vector, xx, xy, ... for a tensor.
-std::vector<std::string> component_words(Field const& field, int dimension) {
-  std::vector<std::string> words;
-  for (int c = 0; c < field.components; ++c) {
-    if (field.components == dimension)
-      words.emplace_back(1, "xyz"[c]);
-    else if (field.components == dimension * dimension)
-      words.push_back({"xyz"[c / dimension], "xyz"[c % dimension]});
-    else
-      words.push_back(std::to_string(c));
-  }
-  return words;
-}
-
-}  // namespace
 
 FormulaNames::FormulaNames(int dimension) : dimension_(dimension) {
   for (int a = 0; a < dimension; ++a) {
@@ -47,7 +31,7 @@ FormulaNames::FormulaNames(std::vector<Field> const& fields, int dimension) : Fo
   for (auto const& field : fields) {
     if (field.components == 1) add(field, field.name, 0);
     if (field.components == 1 && field.name != "position" && field.name != "velocity") continue;
-    auto const words = component_words(field, dimension);
+    auto const words = component_words(field.components, dimension);
     for (std::size_t c = 0; c < words.size(); ++c) add(field, field.name + "." + words[c], static_cast<int>(c));
   }
   values_.resize(names_.size());

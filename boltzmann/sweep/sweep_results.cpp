@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 
 namespace boltzmann {
@@ -342,15 +341,6 @@ class Drawer {
 };
 
 }  // namespace
-
-void write_whole(std::string const& path, std::string const& text) {
-  TextFile file(path + ".part", TextFile::Mode::replace);
-  file.write(text);
-  file.close();
-  std::error_code error;
-  std::filesystem::rename(path + ".part", path, error);
-  if (error) throw Error("'" + path + "' can't be written: " + error.message());
-}
 
 std::vector<std::string> write_sweep_results(SweepPlan const& plan, std::string const& folder,
                                              std::vector<std::string> const& folders, std::string const& title,

@@ -8,9 +8,6 @@
 
 namespace boltzmann {
 
-/// Writes a file whole or not at all.
-void write_whole(std::string const& path, std::string const& text);
-
 /// From the diagnoses.csv of the runs (`folders`, one for each run; empty: it failed, and is left out) to sweep.csv,
 /// series.csv, fits.csv and the pictures in `folder`. Prints the table and the fits unless quiet. Gives the names of
 /// the files.
