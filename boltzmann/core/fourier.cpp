@@ -17,26 +17,9 @@ std::mutex& planner() {
   return mutex;
 }
 
-fftw_r2r_kind real_kind(FourierKind kind) {
-  switch (kind) {
-    case FourierKind::real_to_halfcomplex:
-      return FFTW_R2HC;
-    case FourierKind::halfcomplex_to_real:
-      return FFTW_HC2R;
-    case FourierKind::cosine:
-      return FFTW_REDFT00;
-    case FourierKind::sine:
-      return FFTW_RODFT00;
-    case FourierKind::cosine_to_halves:
-      return FFTW_REDFT01;
-    case FourierKind::halves_to_cosine:
-      return FFTW_REDFT10;
-    case FourierKind::sine_to_halves:
-      return FFTW_RODFT01;
-    default:
-      return FFTW_RODFT10;
-  }
-}
+/// From real_to_halfcomplex on, in the order of FourierKind.
+constexpr fftw_r2r_kind real_kinds[] = {FFTW_R2HC,    FFTW_HC2R,    FFTW_REDFT00, FFTW_RODFT00,
+                                        FFTW_REDFT01, FFTW_REDFT10, FFTW_RODFT01, FFTW_RODFT10};
 
 fftw_complex* as_complex(double* data) { return reinterpret_cast<fftw_complex*>(data); }
 
@@ -74,7 +57,8 @@ struct LineTransform::Plan {
                                   kind == FourierKind::complex_forward ? FFTW_FORWARD : FFTW_BACKWARD, how);
         break;
       default: {
-        fftw_r2r_kind const r2r = real_kind(kind);
+        fftw_r2r_kind const r2r =
+            real_kinds[static_cast<int>(kind) - static_cast<int>(FourierKind::real_to_halfcomplex)];
         plan = fftw_plan_many_r2r(1, &n, many, in, nullptr, many, 1, out, nullptr, many, 1, &r2r, how);
       }
     }

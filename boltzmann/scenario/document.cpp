@@ -162,28 +162,6 @@ Item item_of(toml::node const& node) {
   return item;
 }
 
-/// The first byte that is no UTF-8, if any.
-std::optional<std::size_t> not_utf8(std::string const& text) {
-  auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t i = 0; i < text.size();) {
-    unsigned char const first = byte(i);
-    std::size_t const length = first < 0x80   ? 1
-                               : first < 0xC2 ? 0
-                               : first < 0xE0 ? 2
-                               : first < 0xF0 ? 3
-                               : first < 0xF5 ? 4
-                                              : 0;
-    if (length == 0 || i + length > text.size()) return i;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((byte(i + k) & 0xC0) != 0x80) return i;
-    if ((first == 0xE0 && byte(i + 1) < 0xA0) || (first == 0xED && byte(i + 1) > 0x9F) ||
-        (first == 0xF0 && byte(i + 1) < 0x90) || (first == 0xF4 && byte(i + 1) > 0x8F))
-      return i;
-    i += length;
-  }
-  return std::nullopt;
-}
-
 Place place_at(std::string const& text, std::size_t offset) {
   Place place;
   for (std::size_t i = 0; i < offset; ++i) {
@@ -219,6 +197,27 @@ std::string syntax_message(std::string description) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> not_utf8(std::string const& text) {
+  auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size();) {
+    unsigned char const first = byte(i);
+    std::size_t const length = first < 0x80   ? 1
+                               : first < 0xC2 ? 0
+                               : first < 0xE0 ? 2
+                               : first < 0xF0 ? 3
+                               : first < 0xF5 ? 4
+                                              : 0;
+    if (length == 0 || i + length > text.size()) return i;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(i + k) & 0xC0) != 0x80) return i;
+    if ((first == 0xE0 && byte(i + 1) < 0xA0) || (first == 0xED && byte(i + 1) > 0x9F) ||
+        (first == 0xF0 && byte(i + 1) < 0x90) || (first == 0xF4 && byte(i + 1) > 0x8F))
+      return i;
+    i += length;
+  }
+  return std::nullopt;
+}
 
 Item parse_document(std::string const& text, Mistakes& mistakes) {
   if (std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); })) {

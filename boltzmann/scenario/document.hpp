@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,6 +79,9 @@ struct Entry {
 /// The tree of a TOML text. If the text is not TOML (or not UTF-8, or empty) there is one mistake, and the tree is
 /// empty.
 Item parse_document(std::string const& text, Mistakes& mistakes);
+
+/// The first byte that is no UTF-8, if any.
+std::optional<std::size_t> not_utf8(std::string const& text);
 
 /// Control characters in texts and keys are mistakes, but for tabs and ends of lines: they would reach terminals, and
 /// names of files.

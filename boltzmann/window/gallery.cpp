@@ -1,6 +1,6 @@
 // The gallery's answers.
-#include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/scenario/document.hpp>
 #include <boltzmann/window/gallery.hpp>
 
 #include <fmt/format.h>
@@ -16,7 +16,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -42,23 +41,6 @@ bool is_shipped(std::vector<std::string> const& shipped, std::string const& name
 
 std::string shipped_path(std::string const& name) { return (fs::path(scenario_folder()) / (name + ".toml")).string(); }
 
-std::string text_of(std::string const& path) {
-  need_regular_file(path);
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(fmt::format("can't read '{}': {}", path, std::strerror(errno == 0 ? EIO : errno)));
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Only that can be told in JSON.
-bool is_utf8(std::string const& text) {
-  try {
-    return !json(text).dump().empty();
-  } catch (json::exception const&) {
-    return false;
-  }
-}
-
 /// All files that may be scenarios; whether an own one is, is not known yet.
 std::vector<Choice> choices(std::string const& folder) {
   auto const shipped = shipped_scenarios();
@@ -74,7 +56,7 @@ std::vector<Choice> choices(std::string const& folder) {
         ignored)
       continue;
     std::string const stem = path.stem().string();
-    if (!is_utf8(stem)) continue;
+    if (not_utf8(stem)) continue;  // can't be told in JSON
     own.push_back({is_shipped(shipped, stem) ? stem + ".toml" : stem, path.string(), true});
   }
   std::sort(own.begin(), own.end(), [](Choice const& a, Choice const& b) { return a.name < b.name; });
@@ -242,7 +224,7 @@ json Gallery::scenarios() const {
   for (auto const& one : choices(folder_)) {
     ScenarioOutline outline;
     try {
-      outline = outline_scenario(text_of(one.path), one.path);
+      outline = outline_scenario(read_scenario(one.path).text, one.path);
     } catch (std::exception const&) {
       continue;  // another program's file, or not to be read
     }
@@ -261,7 +243,7 @@ json Gallery::scenarios() const {
 json Gallery::scenario(std::string const& name) const {
   return answer({}, [&]() -> json {
     Choice const one = choice(name, folder_);
-    std::string const text = text_of(one.path);
+    std::string const text = read_scenario(one.path).text;
     auto const outline = outline_scenario(text, one.path);
     json reply = {{"ok", true},
                   {"name", one.name},
@@ -321,7 +303,7 @@ json Gallery::save(std::string const& name, json const& set, std::string const& 
     std::error_code failure;
     if (!replace && fs::exists(fs::symlink_status(path, failure)))
       throw Error(fmt::format("there is a file '{}' already", path));
-    std::string const text = with_values(text_of(choice(name, folder_).path), values_of(set));
+    std::string const text = with_values(read_scenario(choice(name, folder_).path).text, values_of(set));
     // Once more where it will be: it may name other files.
     write_checked(path, text, replace, [&](std::string const& part) {
       try {

@@ -6,7 +6,6 @@
 #include <boltzmann/schemes/mesh/spline.hpp>
 #include <boltzmann/schemes/mesh/step_task.hpp>
 
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -366,5 +365,17 @@ template <StepPass pass, int D, int p, class Real, int W>
   result.fastest = fastest > result.fastest ? fastest : result.fastest;
   result.failed = result.failed || step.failed();
 }
+
+template <int D, int p, class Real, int W>
+constexpr StepKernels<Real> step_kernels{fused_step<StepPass::deposit, D, p, Real, W>,
+                                         fused_step<StepPass::advance, D, p, Real, W>,
+                                         fused_step<StepPass::finish, D, p, Real, W>};
+
+/// For every dimension and order.
+template <class Real, int W>
+constexpr StepKernelTable<Real> step_table{
+    {{step_kernels<1, 1, Real, W>, step_kernels<1, 2, Real, W>, step_kernels<1, 3, Real, W>},
+     {step_kernels<2, 1, Real, W>, step_kernels<2, 2, Real, W>, step_kernels<2, 3, Real, W>},
+     {step_kernels<3, 1, Real, W>, step_kernels<3, 2, Real, W>, step_kernels<3, 3, Real, W>}}};
 
 }  // namespace boltzmann::detail
