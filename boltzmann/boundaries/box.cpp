@@ -17,7 +17,6 @@
 namespace boltzmann {
 namespace {
 
-constexpr char const* axis_name = "xyz";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grain = 2048;  // particles
 
@@ -70,7 +69,7 @@ Box::Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, s
   for (int a = 0; a < dimension; ++a) {
     if (!std::isfinite(low[a]) || !std::isfinite(high[a]) || !(low[a] < high[a]))
       throw Error(
-          fmt::format("box: on axis {} the low edge {} is not below the high edge {}", axis_name[a], low[a], high[a]));
+          fmt::format("box: on axis {} the low edge {} is not below the high edge {}", "xyz"[a], low[a], high[a]));
     if (boundaries[a] != Boundary::open) all_open_ = false;
     bool const mirror = boundaries[a] == Boundary::mirror;
     if (mirror) any_wall_ = true;
@@ -101,14 +100,14 @@ void Box::check_has_walls(int axis) const {
   if (axis < 0 || axis >= dimension_)
     throw Error(fmt::format("wall: a box of {} dimensions has no axis number {}", dimension_, axis));
   if (boundaries_[axis] != Boundary::mirror && boundaries_[axis] != Boundary::reflecting)
-    throw Error(fmt::format("wall: axis {} is {}; only reflecting and mirror axes have walls", axis_name[axis],
+    throw Error(fmt::format("wall: axis {} is {}; only reflecting and mirror axes have walls", "xyz"[axis],
                             to_string(boundaries_[axis])));
 }
 
 Wall const& Box::wall(int axis, End end) const {
   check_has_walls(axis);
   if (!walled(axis, end))
-    throw Error(fmt::format("wall: the {} end of axis {} is open, there is no wall", word(end), axis_name[axis]));
+    throw Error(fmt::format("wall: the {} end of axis {} is open, there is no wall", word(end), "xyz"[axis]));
   return walls_[axis][static_cast<int>(end)];
 }
 
@@ -117,16 +116,16 @@ void Box::wall(int axis, End end, Wall const& wall) {
   for (double const u : wall.velocity)
     if (!std::isfinite(u))
       throw Error(
-          fmt::format("wall: the velocity of the {} wall of axis {} is not finite: {}", word(end), axis_name[axis], u));
+          fmt::format("wall: the velocity of the {} wall of axis {} is not finite: {}", word(end), "xyz"[axis], u));
   if (std::isinf(wall.temperature))
-    throw Error(fmt::format("wall: the temperature of the {} wall of axis {} is not finite: {}", word(end),
-                            axis_name[axis], wall.temperature));
+    throw Error(fmt::format("wall: the temperature of the {} wall of axis {} is not finite: {}", word(end), "xyz"[axis],
+                            wall.temperature));
   if (boundaries_[axis] == Boundary::reflecting) {
     auto const refused = [&](char const* what) {
       return Error(
           fmt::format("wall: the {} wall of axis {} {}: on a reflecting axis walls slip and are insulated; what "
                       "drags or heats is the wall of a mirror axis",
-                      word(end), axis_name[axis], what));
+                      word(end), "xyz"[axis], what));
     };
     if (!wall.slips) throw refused("does not slip");
     if (!std::isnan(wall.temperature)) throw refused("has a temperature");
@@ -142,7 +141,7 @@ void Box::open_end(int axis, End end) {
   check_has_walls(axis);
   auto& walled = walled_[axis];
   if (!walled[end == End::low ? 1 : 0])
-    throw Error(fmt::format("wall: no wall would be left on axis {}; make the axis open", axis_name[axis]));
+    throw Error(fmt::format("wall: no wall would be left on axis {}; make the axis open", "xyz"[axis]));
   walled[static_cast<int>(end)] = false;
   find_moving_walls();
 }
@@ -162,8 +161,8 @@ void Box::move_walls(double time) {
     if (walled(a, End::high)) high[a] += walls_[a][1].velocity[a] * time;
     if (!(low[a] < high[a]))
       throw PhysicsFailure(
-          fmt::format("the walls of axis {} have met: at time {} the low end is at {} and the high end at {}",
-                      axis_name[a], time, low[a], high[a]));
+          fmt::format("the walls of axis {} have met: at time {} the low end is at {} and the high end at {}", "xyz"[a],
+                      time, low[a], high[a]));
   }
   low_ = low;
   high_ = high;
@@ -179,7 +178,7 @@ void Box::check_dimension(int of_region) const {
 void Box::install(Region const& region) {
   for (int a = 0; a < dimension_; ++a)
     if (!(region.low[a] < region.high[a]) || !std::isfinite(region.low[a]) || !std::isfinite(region.high[a]))
-      throw Error(fmt::format("region: on axis {} the low edge {} is not below the high edge {}", axis_name[a],
+      throw Error(fmt::format("region: on axis {} the low edge {} is not below the high edge {}", "xyz"[a],
                               region.low[a], region.high[a]));
   regions_.push_back(region);
 }
@@ -200,7 +199,7 @@ void Box::check(AnyEnsemble const& particles) const {
     for (int a = 0; a < dimension_; ++a)
       if ((walled(a, End::low) && x[a] < low_[a]) || (walled(a, End::high) && x[a] > high_[a]))
         throw Error(fmt::format("{} is outside the box: {} = {}, the {} axis goes from {} to {}", who(particles, i),
-                                axis_name[a], x[a], to_string(boundary(a)), low_[a], high_[a]));
+                                "xyz"[a], x[a], to_string(boundary(a)), low_[a], high_[a]));
     for (auto const& region : regions_) {
       if (region.side == Region::Side::keep_out && strictly_inside(region, dimension_, x))
         throw Error(fmt::format("{} is inside a region that keeps particles out", who(particles, i)));
@@ -277,7 +276,7 @@ class Box::Reflection {
       throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles_, i)));
     throw PhysicsFailure(fmt::format(
         "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
-        who(particles_, i), axis_name[a], x, box_.low_[a], box_.high_[a]));
+        who(particles_, i), "xyz"[a], x, box_.low_[a], box_.high_[a]));
   }
 
   /// The work done on the particle; in the frame of the wall it is an elastic reflection.

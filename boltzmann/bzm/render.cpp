@@ -1,7 +1,6 @@
 // bzm render: pictures and movies of a finished (or running) run, from its trajectory.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
-#include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/figure_layout.hpp>

@@ -15,14 +15,11 @@
 #include <boltzmann/scenario/schema.hpp>
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
-#include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <functional>
 #include <sstream>
 
 namespace boltzmann::bzm {

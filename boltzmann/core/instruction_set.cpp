@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <kernel_sets.hpp>
-#include <string_view>
 
 namespace boltzmann {
 

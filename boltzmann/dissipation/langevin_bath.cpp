@@ -2,7 +2,6 @@
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 

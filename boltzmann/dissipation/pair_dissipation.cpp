@@ -19,7 +19,6 @@ namespace {
 constexpr double nowhere = 1e150;  // its square is finite
 constexpr double noticeable = 0.01;
 constexpr std::size_t sampled = 1000;
-constexpr char const* axis_name = "xyz";
 
 }  // namespace
 
@@ -85,12 +84,12 @@ void PairDissipation::couple(AnyEnsemble& target, AnyEnsemble& source, Dissipati
   for (int a = 0; a < box.dimension(); ++a) {
     if (box.boundary(a) == Boundary::mirror)
       throw Error(fmt::format(
-          "axis {} is a mirror: friction between pairs needs a reflecting, periodic or open axis there", axis_name[a]));
+          "axis {} is a mirror: friction between pairs needs a reflecting, periodic or open axis there", "xyz"[a]));
     if (box.periodic(a) && dissipation.range > 0.5 * box.length(a) * (1 + 1e-12))
       throw Error(
           fmt::format("the range {} of friction is longer than half of the periodic axis {}, which allows at most {}: "
                       "two particles must not meet twice",
-                      dissipation.range, axis_name[a], 0.5 * box.length(a)));
+                      dissipation.range, "xyz"[a], 0.5 * box.length(a)));
   }
   if (couplings_.size() > 200) throw Error("a dissipation has at most 100 kinds of friction");
   Member &first = member(target), &second = member(source);

@@ -1,8 +1,5 @@
 // Weights by name.
-#include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/weight.hpp>
-
-#include <algorithm>
 
 namespace boltzmann {
 namespace {

@@ -21,7 +21,6 @@ constexpr std::size_t refresh_grain = 2048;               // a multiple of it
 constexpr std::size_t most_rows = std::size_t{1} << 30U;  // items are 32 bits
 constexpr double most_lengths = 8;                        // of a periodic axis, that images are moved
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-constexpr char const* axis_name = "xyz";
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
   throw PhysicsFailure(
@@ -92,7 +91,7 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
       throw Error(fmt::format(
           "neighbours of '{}' are found up to a distance of {}, the walls of axis {} are {} apart: they must "
           "not be nearer to each other than that",
-          ensemble_->name(), reach, axis_name[a], edges[3 + a] - edges[a]));
+          ensemble_->name(), reach, "xyz"[a], edges[3 + a] - edges[a]));
   // Told before they are made: they would fill all memory.
   double images = static_cast<double>(ensemble_->size());
   for (int a = 0; a < box_->dimension(); ++a) {
@@ -101,7 +100,7 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
       throw Error(
           fmt::format("neighbours of '{}' are found up to a distance of {:.6g}; a periodic axis of {:.6g} ({}) "
                       "allows at most {:.6g}",
-                      ensemble_->name(), reach, box_->length(a), axis_name[a], most_lengths * box_->length(a)));
+                      ensemble_->name(), reach, box_->length(a), "xyz"[a], most_lengths * box_ -> length(a)));
     images *= 1 + 2 * reach / box_->length(a);
   }
   if (images >= static_cast<double>(most_rows)) too_many_rows(images);

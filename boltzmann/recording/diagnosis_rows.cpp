@@ -31,8 +31,7 @@ void DiagnosisRows::check() const {
                       diagnosis->columns().front().name));
   for (auto const& line : refusals(simulation_, list_))
     if (!line.empty()) throw Error(line);
-  if (end_.condition && every_ == 0)
-    throw Error("a run can't be ended by a condition on its diagnoses: there are none");
+  if (end.condition && every_ == 0) throw Error("a run can't be ended by a condition on its diagnoses: there are none");
 }
 
 std::vector<Diagnosis const*> DiagnosisRows::instruments() const {
@@ -104,11 +103,11 @@ bool DiagnosisRows::write() {
   seen.mesh_fields = on_nodes;
   std::vector<double> values{simulation_.time()};
   for (auto const& diagnosis : list_) diagnosis->measure(seen, values);
-  bool const ends = end_.condition && end_.condition(simulation_.step(), values);
+  bool const ends = end.condition && end.condition(simulation_.step(), values);
   if (ends) {
-    end_.met = end_.met_now = simulation_.step();
-    end_.met_by = end_.what;
-    end_.condition = {};
+    end.met = end.met_now = simulation_.step();
+    end.met_by = end.what;
+    end.condition = {};
     simulation_.pause();
   }
   if (factors_.empty()) {
@@ -122,7 +121,7 @@ bool DiagnosisRows::write() {
 }
 
 void DiagnosisRows::save(Checkpoint& checkpoint) {
-  if (end_.met) checkpoint.state["stopped"] = {static_cast<double>(*end_.met)};
+  if (end.met) checkpoint.state["stopped"] = {static_cast<double>(*end.met)};
   for (std::size_t d = 0; d < list_.size(); ++d) checkpoint.state[fmt::format("diagnosis {}", d)] = list_[d]->state();
   if (!csv_) return;
   csv_->sync();
@@ -133,8 +132,8 @@ void DiagnosisRows::restore(Checkpoint const& saved, std::string const& path) {
   for (std::size_t d = 0; d < list_.size(); ++d)
     list_[d]->restore(saved_part(saved, fmt::format("diagnosis {}", d), path));
   if (!saved.state.contains("stopped")) return;
-  end_.met = static_cast<std::int64_t>(saved_part(saved, "stopped", path).at(0));
-  end_.condition = {};
+  end.met = static_cast<std::int64_t>(saved_part(saved, "stopped", path).at(0));
+  end.condition = {};
 }
 
 }  // namespace boltzmann

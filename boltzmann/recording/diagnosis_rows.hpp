@@ -30,6 +30,8 @@ class DiagnosisRows {
     std::int64_t met_now = -1;        ///< and at which step
   };
 
+  End end;
+
   DiagnosisRows(Simulation& simulation, UnitSystem const& base) : simulation_(simulation), base_(base) {}
 
   void add(std::int64_t every, std::unique_ptr<Diagnosis> diagnosis);
@@ -42,8 +44,6 @@ class DiagnosisRows {
   std::vector<Column> columns() const;
   std::vector<std::string> header() const;
   bool follow_steps() const;
-  End& end() { return end_; }
-  End const& end() const { return end_; }
 
   void begin(std::string const& path);
   /// Goes on behind the rows of the run that was saved.
@@ -65,7 +65,6 @@ class DiagnosisRows {
   std::int64_t every_ = 0;
   std::vector<std::unique_ptr<Diagnosis>> list_;
   std::vector<Listener> listeners_;
-  End end_;
   std::optional<CsvFile> csv_;
   std::vector<double> factors_;  // from the simulation's units to those of the header
 };

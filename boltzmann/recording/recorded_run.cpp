@@ -74,12 +74,9 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   if (!report.condition.empty() && recording.ended_step() == simulation.step())
     report.interrupted = report.out_of_time = false;
   if (!options.quiet) print_summary(recording, report, *start, recorded);
-  if (report.interrupted)
-    fmt::print(stderr, "stopped by a signal after step {}; its checkpoint is written: {}/checkpoint.h5\n",
-               simulation.step(), recording.folder());
-  if (report.out_of_time)
-    fmt::print(stderr, "out of time after step {}; its checkpoint is written: {}/checkpoint.h5\n", simulation.step(),
-               recording.folder());
+  if (report.interrupted || report.out_of_time)
+    fmt::print(stderr, "{} after step {}; its checkpoint is written: {}/checkpoint.h5\n",
+               report.interrupted ? "stopped by a signal" : "out of time", simulation.step(), recording.folder());
   return report;
 }
 

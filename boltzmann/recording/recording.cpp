@@ -342,15 +342,15 @@ void Recording::title(std::string title) { state_->title = std::move(title); }
 void Recording::scenario(std::string text) { state_->scenario = std::move(text); }
 void Recording::planned(std::int64_t last_step) { state_->planned = last_step; }
 void Recording::stop_when(std::string what, std::function<bool(std::int64_t, std::span<double const>)> condition) {
-  state_->rows.end().what = std::move(what);
-  state_->rows.end().condition = std::move(condition);
+  state_->rows.end.what = std::move(what);
+  state_->rows.end.condition = std::move(condition);
 }
 void Recording::check() { state_->check(); }
 void Recording::resume() { state_->resume(); }
 std::uint64_t Recording::resume_if_asked(std::uint64_t steps) {
   if (state_->open || !state_->resume_asked()) return steps;
   state_->resume();
-  if (state_->rows.end().met) return 0;
+  if (state_->rows.end.met) return 0;
   auto const done = static_cast<std::uint64_t>(std::max<std::int64_t>(state_->simulation.step(), 0));
   return steps - std::min(steps, done);
 }
@@ -378,8 +378,8 @@ std::vector<Diagnosis const*> Recording::instruments() const { return state_->ro
 std::int64_t Recording::checkpoint_step() const { return state_->checkpoint_step; }
 double Recording::seconds() const { return state_->seconds; }
 double Recording::checkpoint_seconds() const { return state_->checkpoint_seconds; }
-std::string const& Recording::ended_by() const { return state_->rows.end().met_by; }
-std::int64_t Recording::ended_step() const { return state_->rows.end().met_now; }
+std::string const& Recording::ended_by() const { return state_->rows.end.met_by; }
+std::int64_t Recording::ended_step() const { return state_->rows.end.met_now; }
 
 std::vector<std::string> Recording::files() const {
   std::vector<std::string> files;

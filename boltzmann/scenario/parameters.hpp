@@ -2,7 +2,6 @@
 // scenarios shows of one, found from its text alone.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>

@@ -1,5 +1,4 @@
 // The words are a table of a document without a file, and read as one.
-#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/picture_words.hpp>
 #include <boltzmann/scenario/read_options.hpp>

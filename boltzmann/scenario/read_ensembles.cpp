@@ -1,5 +1,4 @@
 // Reads [[ensembles]]: which particles there are, and in what state.
-#include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>

@@ -1,5 +1,4 @@
 // Reads load = { kind = ... }: where the particles of an ensemble are.
-#include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>

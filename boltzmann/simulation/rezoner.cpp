@@ -1,5 +1,4 @@
 // What a rezoner says and remembers.
-#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 
 #include <fmt/format.h>

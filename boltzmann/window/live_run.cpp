@@ -4,7 +4,6 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/recording/recording.hpp>
-#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/live_run.hpp>
 

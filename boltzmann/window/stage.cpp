@@ -7,7 +7,6 @@
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/pictures/projection.hpp>
 #include <boltzmann/recording/recording.hpp>
-#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/window/option_json.hpp>
 #include <boltzmann/window/stage.hpp>
 #include <boltzmann/window/wire.hpp>

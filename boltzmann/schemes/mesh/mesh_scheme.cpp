@@ -16,8 +16,6 @@
 namespace boltzmann {
 namespace {
 
-constexpr char const* axis_name = "xyz";
-
 double machine_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
@@ -42,8 +40,8 @@ void check_walls(Box const& box) {
   if (box.walls_move()) throw Error("mesh: a wall moves; a mesh, and the ends of its field, stay where they are");
   for (int a = 0; a < box.dimension(); ++a)
     if (box.boundary(a) == Boundary::reflecting && !(box.walled(a, Box::End::low) && box.walled(a, Box::End::high)))
-      throw Error(fmt::format("mesh: one end of the reflecting axis {} is open; put a wall there, or open the axis",
-                              axis_name[a]));
+      throw Error(
+          fmt::format("mesh: one end of the reflecting axis {} is open; put a wall there, or open the axis", "xyz"[a]));
 }
 
 }  // namespace
@@ -79,7 +77,7 @@ MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const
       throw Error(
           fmt::format("mesh: axis {} is a mirror: particles on a mesh need a reflecting, periodic or open axis there "
                       "(mirrors are for smooth particles)",
-                      axis_name[a]));
+                      "xyz"[a]));
   check_walls(box);
   make_grid(this->box(), cells_);
   for (int a = 0; a < 3; ++a) {
@@ -96,7 +94,7 @@ void MeshScheme::boundary(int axis, FieldBoundary low, FieldBoundary high) {
   refuse_choice("boundary");
   if (axis < 0 || axis >= box().dimension())
     throw Error(fmt::format("mesh: there is no axis {}; the box has {}", axis, box().dimension()));
-  char const name = axis_name[axis];
+  char const name = "xyz"[axis];
   bool const periodic = low == FieldBoundary::periodic || high == FieldBoundary::periodic;
   if (box().periodic(axis) && !(periodic && low == high))
     throw Error(fmt::format("mesh: axis {} of the box is periodic, so its field must be, too, not {}", name,

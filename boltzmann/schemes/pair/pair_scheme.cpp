@@ -16,7 +16,6 @@ constexpr std::size_t particle_grain = 256;     // particles of one range of a l
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
 // Below, one thread is faster than the start of two (some us, and some 50 if the others have gone to sleep).
 constexpr double pair_work = 0.125;
-constexpr char const* axis_name = "xyz";
 
 }  // namespace
 
@@ -135,16 +134,16 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
       throw Error(fmt::format(
           "axis {} is a mirror: particles that interact by pairs need a reflecting, periodic or open axis there "
           "(mirrors are for smooth particles)",
-          axis_name[a]));
+          "xyz"[a]));
     if (!box().periodic(a)) continue;
     if (!std::isfinite(cutoff))
       throw Error(
           fmt::format("axis {} is periodic: a pair law needs a cut-off there (at most the axis' length {}), or the sum "
                       "over images has no end",
-                      axis_name[a], box().length(a)));
+                      "xyz"[a], box().length(a)));
     if (cutoff > box().length(a))
       throw Error(fmt::format("the cut-off {} is longer than the periodic axis {}, which allows at most {}", cutoff,
-                              axis_name[a], box().length(a)));
+                              "xyz"[a], box().length(a)));
   }
   add(target);
   add(source);
