@@ -57,4 +57,13 @@ int Images::most(int axis, double reach) const {
   return box_->boundary(axis) == Boundary::mirror ? 1 : 0;
 }
 
+bool Images::exists(Turns const& turns, double reach) const {
+  for (int a = 0; a < 3; ++a) {
+    if (turns[a] == 0) continue;
+    if (a >= box_->dimension() || std::abs(turns[a]) > most(a, reach)) return false;
+    if (!box_->periodic(a) && !mirrors(a, turns[a] < 0 ? Box::End::low : Box::End::high)) return false;
+  }
+  return true;
+}
+
 }  // namespace boltzmann

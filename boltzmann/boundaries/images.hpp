@@ -50,6 +50,8 @@ class Images {
 
   /// The most turns along this axis of images within `reach` of the box.
   int most(int axis, double reach) const;
+  /// Whether there can be such an image within `reach` of the box; there is none beyond a wall that was opened.
+  bool exists(Turns const& turns, double reach) const;
   /// The coordinate of an image.
   double at(int axis, int turns, double x) const;
   /// Calls function(turns, position) for every image of x, itself included, within reach of the box; x is inside

@@ -2,7 +2,6 @@
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
-#include <boltzmann/sweep/run_sweep.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/gallery_source.hpp>
 #include <boltzmann/window/live_run.hpp>

@@ -151,12 +151,6 @@ void SortedCopy::sort(double reach, std::span<double const> references, int thre
   });
 }
 
-Turns SortedCopy::max_images() const {
-  Turns most{};
-  for (int a = 0; a < box_->dimension(); ++a) most[a] = images_.most(a, reach_);
-  return most;
-}
-
 std::uint32_t SortedCopy::code_of(Turns const& turns) const {
   int const base = 2 * max_images_ + 1;
   return static_cast<std::uint32_t>(((turns[2] + max_images_) * base + turns[1] + max_images_) * base + turns[0] +
@@ -165,8 +159,6 @@ std::uint32_t SortedCopy::code_of(Turns const& turns) const {
 
 /// Images of rows, about the walls as they are now.
 void SortedCopy::find_image_maps() {
-  auto const most = max_images();
-  auto const base = static_cast<std::size_t>(2 * max_images_ + 1);
   // Behind the last number that changes blocks are copied.
   mapped_blocks_ = 0;
   for (std::size_t n = 0; n < components_.size(); ++n) {
@@ -175,24 +167,16 @@ void SortedCopy::find_image_maps() {
       mapped_blocks_ = n / row_block + 1;
   }
   std::size_t const numbers = row_block * mapped_blocks_;
-  image_sign_.resize(base * base * base * numbers);
+  image_sign_.resize(turns_.size() * numbers);
   image_shift_.resize(image_sign_.size());
-  auto const exists = [&](int a, int n) {
-    if (n == 0 || box_->boundary(a) != Boundary::mirror) return true;
-    return box_->walled(a, n < 0 ? Box::End::low : Box::End::high);
-  };
-  for (int k = -most[2]; k <= most[2]; ++k)
-    for (int j = -most[1]; j <= most[1]; ++j)
-      for (int i = -most[0]; i <= most[0]; ++i) {
-        if (!exists(0, i) || !exists(1, j) || !exists(2, k)) continue;
-        Turns const turns{i, j, k};
-        std::size_t const row = code_of(turns) * numbers;
-        for (std::size_t n = 0; n < numbers; ++n) {
-          ImageMap const map = image_map(*box_, components_[n], turns);
-          image_sign_[row + n] = map.sign;
-          image_shift_[row + n] = map.shift;
-        }
-      }
+  for (std::size_t code = 0; code < turns_.size(); ++code) {
+    if (!images_.exists(turns_[code], reach_)) continue;
+    for (std::size_t n = 0; n < numbers; ++n) {
+      ImageMap const map = image_map(*box_, components_[n], turns_[code]);
+      image_sign_[code * numbers + n] = map.sign;
+      image_shift_[code * numbers + n] = map.shift;
+    }
+  }
 }
 
 double SortedCopy::walls_moved() const {
@@ -208,8 +192,8 @@ double SortedCopy::walls_moved() const {
 void SortedCopy::add_ghosts(int threads) {
   ghost_source_.clear();
   ghost_turns_.clear();
-  auto const most = max_images();
-  max_images_ = std::max({most[0], most[1], most[2]});
+  max_images_ = 0;
+  for (int a = 0; a < box_->dimension(); ++a) max_images_ = std::max(max_images_, images_.most(a, reach_));
   turns_.clear();  // in the order of code_of()
   for (int k = -max_images_; k <= max_images_; ++k)
     for (int j = -max_images_; j <= max_images_; ++j)

@@ -126,7 +126,6 @@ class SortedCopy {
   void sort_all(int threads);
   void make_room(std::size_t rows);
   std::size_t all_blocks() const { return blocks() + extra_blocks_; }
-  Turns max_images() const;
   void find_image_maps();
   std::uint32_t code_of(Turns const& turns) const;
   double walls_moved() const;

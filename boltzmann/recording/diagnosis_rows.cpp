@@ -11,11 +11,11 @@
 
 namespace boltzmann {
 
-void DiagnosisRows::add(std::int64_t every, std::unique_ptr<Diagnosis> diagnosis) {
-  if (every_ != 0 && every_ != every)
+void DiagnosisRows::add(std::int64_t interval, std::unique_ptr<Diagnosis> diagnosis) {
+  if (every != 0 && every != interval)
     throw Error(fmt::format("all diagnoses share one table and so one interval: every {} steps, not also every {}",
-                            every_, every));
-  every_ = every;
+                            every, interval));
+  every = interval;
   list_.push_back(std::move(diagnosis));
 }
 
@@ -31,7 +31,7 @@ void DiagnosisRows::check() const {
                       diagnosis->columns().front().name));
   for (auto const& line : refusals(simulation_, list_))
     if (!line.empty()) throw Error(line);
-  if (end.condition && every_ == 0) throw Error("a run can't be ended by a condition on its diagnoses: there are none");
+  if (end.condition && every == 0) throw Error("a run can't be ended by a condition on its diagnoses: there are none");
 }
 
 std::vector<Diagnosis const*> DiagnosisRows::instruments() const {
@@ -63,11 +63,11 @@ bool DiagnosisRows::follow_steps() const {
 }
 
 void DiagnosisRows::begin(std::string const& path) {
-  if (every_ > 0) csv_.emplace(path, header());
+  if (every > 0) csv_.emplace(path, header());
 }
 
 void DiagnosisRows::go_on(std::string const& path, Checkpoint const& saved) {
-  if (every_ == 0) return;
+  if (every == 0) return;
   std::optional<std::uint64_t> checksum;
   if (auto const rows = saved.state.find("diagnoses.csv"); rows != saved.state.end()) checksum = whole(rows->second);
   csv_.emplace(CsvFile::append_to(path, header(), saved.step, checksum));

@@ -30,16 +30,16 @@ class DiagnosisRows {
     std::int64_t met_now = -1;        ///< and at which step
   };
 
+  std::int64_t every = 0;  ///< steps; 0: never
   End end;
 
   DiagnosisRows(Simulation& simulation, UnitSystem const& base) : simulation_(simulation), base_(base) {}
 
-  void add(std::int64_t every, std::unique_ptr<Diagnosis> diagnosis);
+  void add(std::int64_t interval, std::unique_ptr<Diagnosis> diagnosis);
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
   /// Error if two columns have one name, or a diagnosis can't be measured in this simulation.
   void check() const;
 
-  std::int64_t every() const { return every_; }  ///< 0: never
   std::vector<Diagnosis const*> instruments() const;
   std::vector<Column> columns() const;
   std::vector<std::string> header() const;
@@ -62,7 +62,6 @@ class DiagnosisRows {
 
   Simulation& simulation_;
   UnitSystem const& base_;
-  std::int64_t every_ = 0;
   std::vector<std::unique_ptr<Diagnosis>> list_;
   std::vector<Listener> listeners_;
   std::optional<CsvFile> csv_;

@@ -34,6 +34,10 @@ std::int64_t next_multiple(std::int64_t step, std::int64_t every) {
   return every > 0 ? (step / every + 1) * every : std::numeric_limits<std::int64_t>::max();
 }
 
+void put_back(std::vector<Checkpoint::Rows> const& rows, std::vector<AnyEnsemble*> const& ensembles) {
+  for (std::size_t e = 0; e < ensembles.size(); ++e) restore_rows(rows[e], *ensembles[e]);
+}
+
 /// Particles as they were at a step.
 struct RecordedState {
   std::vector<Checkpoint::Rows> rows;
@@ -42,9 +46,6 @@ struct RecordedState {
 
   explicit RecordedState(Simulation const& of) : step(of.step()), time(of.time()) {
     for (auto const* ensemble : supervised_by(of.schemes())) rows.push_back(copy_rows(*ensemble));
-  }
-  void put_back(std::vector<AnyEnsemble*> const& ensembles) const {
-    for (std::size_t e = 0; e < ensembles.size(); ++e) restore_rows(rows[e], *ensembles[e]);
   }
 };
 
@@ -79,7 +80,6 @@ struct Recording::State {
 
   /// Also before Simulation::check() has collected them.
   std::vector<AnyEnsemble*> ensembles() const { return supervised_by(simulation.schemes()); }
-  std::vector<MeshField const*> mesh_fields() const { return mesh_fields_of(simulation.schemes()); }
 
   /// What diagnoses are made from.
   DiagnosisParameters parameters(std::string_view kind) const {
@@ -87,13 +87,13 @@ struct Recording::State {
     auto const all = ensembles();
     parameters.available.assign(all.begin(), all.end());
     for (auto const& known : diagnosis_kinds())
-      if (known.name == kind && known.of_mesh) parameters.mesh_fields = mesh_fields();
+      if (known.name == kind && known.of_mesh) parameters.mesh_fields = mesh_fields_of(simulation.schemes());
     return parameters;
   }
 
   void check_what() const {
     rows.check();
-    if (every_mesh > 0 && mesh_fields().empty())
+    if (every_mesh > 0 && mesh_fields_of(simulation.schemes()).empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     std::vector<std::string> columns;
     for (auto& column : rows.columns()) columns.push_back(std::move(column.name));
@@ -101,7 +101,8 @@ struct Recording::State {
     for (auto const& picture : pictures) {
       boltzmann::check(
           picture, ensembles(), columns,
-          {picture.drawing == "mesh" ? mesh_fields() : std::vector<MeshField const*>{}, rows.instruments()});
+          {picture.drawing == "mesh" ? mesh_fields_of(simulation.schemes()) : std::vector<MeshField const*>{},
+           rows.instruments()});
       if (!files.insert(picture.file).second) throw Error("two pictures are called '" + picture.file + "'");
       if (picture.trace) check_tracks(simulation);
       if (picture.trace && frames.every == 0)
@@ -175,9 +176,9 @@ struct Recording::State {
       rows.follow();
       if (step < next) return;
       last.emplace(simulation);
-      if (due(rows.every()) && rows.write()) planned = step;  // the checkpoint that is written last says the end
+      if (due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
       if (due(frames.every)) frames.write();
-      if (due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields());
+      if (due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields_of(simulation.schemes()));
       if (first || due(every_checkpoint))
         write_checkpoint();  // the last one, so that it holds the state after all looks
     } catch (Error const& error) {
@@ -189,7 +190,7 @@ struct Recording::State {
   }
 
   std::int64_t next_look(std::int64_t step) const {
-    return std::min({next_multiple(step, rows.every()), next_multiple(step, frames.every),
+    return std::min({next_multiple(step, rows.every), next_multiple(step, frames.every),
                      next_multiple(step, every_mesh), next_multiple(step, every_checkpoint)});
   }
 
@@ -231,7 +232,7 @@ struct Recording::State {
     if (all.size() != saved.ensembles.size())
       throw Error(fmt::format("'{}' holds {} ensembles, the simulation has {}", checkpoint_path(),
                               saved.ensembles.size(), all.size()));
-    for (std::size_t e = 0; e < all.size(); ++e) restore_rows(saved.ensembles[e], *all[e]);
+    put_back(saved.ensembles, all);
     simulation.restore(saved.step, saved.step_size, saved.seed, saved_part(saved, "simulation", checkpoint_path()));
     rows.restore(saved, checkpoint_path());
     auto const& plan = saved_part(saved, "planned", checkpoint_path());
@@ -288,7 +289,7 @@ struct Recording::State {
     try {
       frames.close();
       rows.close();
-      last->put_back(ensembles());
+      put_back(last->rows, ensembles());
       draw_pictures(last->step, last->time,
                     fmt::format("The run failed after this step ({}), the last recorded one.", last->step));
     } catch (std::exception const& error) {
@@ -370,7 +371,7 @@ UnitSystem const& Recording::base() const { return state_->base; }
 std::string const& Recording::folder() const { return state_->folder.name(); }
 std::string const& Recording::title() const { return state_->title; }
 std::vector<std::string> Recording::header() const {
-  return state_->rows.every() > 0 ? state_->rows.header() : std::vector<std::string>{};
+  return state_->rows.every > 0 ? state_->rows.header() : std::vector<std::string>{};
 }
 std::vector<Column> Recording::columns() const { return state_->rows.columns(); }
 std::vector<Picture> const& Recording::pictures() const { return state_->pictures; }
@@ -384,7 +385,7 @@ std::int64_t Recording::ended_step() const { return state_->rows.end.met_now; }
 std::vector<std::string> Recording::files() const {
   std::vector<std::string> files;
   files.emplace_back(state_->scenario.empty() ? run_file : "scenario.toml");
-  if (state_->rows.every() > 0) files.emplace_back("diagnoses.csv");
+  if (state_->rows.every > 0) files.emplace_back("diagnoses.csv");
   if (state_->frames.every > 0) files.emplace_back("trajectory.h5");
   if (state_->every_mesh > 0) files.emplace_back("mesh.pvd");
   files.emplace_back("checkpoint.h5");

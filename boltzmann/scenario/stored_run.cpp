@@ -1,6 +1,5 @@
 // A program's run is ensembles that know their fields, and a scheme that knows their box.
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/laws/weight.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/document.hpp>

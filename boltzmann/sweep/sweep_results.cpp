@@ -126,23 +126,26 @@ void add_keys(std::string& row, SweepPlan const& plan, std::size_t value) {
       add(row, key.numbers[value]);
 }
 
+void add_titles(std::string& row, SweepColumn const& column) {
+  add(row, word(column.title()));
+  add(row, word(error_title(column)));
+}
+
+template <class Mean>
+void add_mean(std::string& row, Mean const& mean) {
+  add(row, mean.mean);
+  add(row, mean.error);
+}
+
 std::string sweep_table(SweepPlan const& plan, Results const& results) {
   std::string text = key_headings(plan);
   add(text, std::string("runs"));
-  for (auto const& name : plan.table) {
-    auto const& column = plan.columns[results.column(name)];
-    add(text, word(column.title()));
-    add(text, word(error_title(column)));
-  }
+  for (auto const& name : plan.table) add_titles(text, plan.columns[results.column(name)]);
   text += '\n';
   for (std::size_t v = 0; v < plan.values; ++v) {
     add_keys(text, plan, v);
     add(text, std::to_string(results.done_of(v)));
-    for (auto const& name : plan.table) {
-      auto const mean = results.of_value(v, results.column(name));
-      add(text, mean.mean);
-      add(text, mean.error);
-    }
+    for (auto const& name : plan.table) add_mean(text, results.of_value(v, results.column(name)));
     text += '\n';
   }
   return text;
@@ -152,21 +155,14 @@ std::string series_table(SweepPlan const& plan, Results const& results) {
   std::string text = key_headings(plan);
   add(text, word(plan.columns[0].title()));
   add(text, std::string("runs"));
-  for (std::size_t c = 1; c < plan.columns.size(); ++c) {
-    add(text, word(plan.columns[c].title()));
-    add(text, word(error_title(plan.columns[c])));
-  }
+  for (std::size_t c = 1; c < plan.columns.size(); ++c) add_titles(text, plan.columns[c]);
   text += '\n';
   for (std::size_t v = 0; v < plan.values; ++v)
     for (std::size_t row = 0; row < results.rows(v); ++row) {
       add_keys(text, plan, v);
       add(text, results.of_row(v, 0, row).mean);
       add(text, std::to_string(results.done_of(v)));
-      for (std::size_t c = 1; c < plan.columns.size(); ++c) {
-        auto const mean = results.of_row(v, c, row);
-        add(text, mean.mean);
-        add(text, mean.error);
-      }
+      for (std::size_t c = 1; c < plan.columns.size(); ++c) add_mean(text, results.of_row(v, c, row));
       text += '\n';
     }
   return text;
