@@ -52,14 +52,22 @@ class Box {
   /// Low x y z, high x y z.
   using Edges = std::array<double, 6>;
 
-  /// A box from `low` to `high` with the same boundary kind on every axis, or one kind per axis.
+  /// A box from `low` to `high` with the same boundary kind on every axis, or one kind per axis:
+  ///   Box({0, 0}, {side, side}, Boundary::periodic)
   /// Error if low is not below high on some axis, or an edge is not finite.
+  template <std::size_t D>
+  Box(double const (&low)[D], double const (&high)[D], Boundary boundary = Boundary::open)
+      : Box(D, widen(std::to_array(low)), widen(std::to_array(high)), {boundary, boundary, boundary}) {}
+  template <std::size_t D>
+  Box(double const (&low)[D], double const (&high)[D], std::type_identity_t<std::array<Boundary, D>> const& boundaries)
+      : Box(D, widen(std::to_array(low)), widen(std::to_array(high)), widen(boundaries, Boundary::open)) {}
+  /// The same for code that is written for any dimension.
   template <int D>
   Box(Vector<D> const& low, Vector<D> const& high, Boundary boundary = Boundary::open)
       : Box(D, widen(low), widen(high), {boundary, boundary, boundary}) {}
   template <int D>
   Box(Vector<D> const& low, Vector<D> const& high, std::type_identity_t<std::array<Boundary, D>> const& boundaries)
-      : Box(D, widen(low), widen(high), widen(boundaries)) {}
+      : Box(D, widen(low), widen(high), widen(boundaries, Boundary::open)) {}
   Box(int dimension, std::array<double, 3> low, std::array<double, 3> high, std::array<Boundary, 3> boundaries);
 
   int dimension() const { return dimension_; }
@@ -140,13 +148,12 @@ class Box {
 
   template <int D>
   static std::array<double, 3> widen(Vector<D> const& a) {
-    std::array<double, 3> wide{0, 0, 0};
-    for (int i = 0; i < D; ++i) wide[i] = a[i];
-    return wide;
+    return widen(std::to_array(a.component));
   }
-  template <std::size_t D>
-  static std::array<Boundary, 3> widen(std::array<Boundary, D> const& a) {
-    std::array<Boundary, 3> wide{Boundary::open, Boundary::open, Boundary::open};
+  template <class T, std::size_t D>
+  static std::array<T, 3> widen(std::array<T, D> const& a, T rest = {}) {
+    static_assert(D <= 3, "a box has one, two or three dimensions");
+    std::array<T, 3> wide{rest, rest, rest};
     for (std::size_t i = 0; i < D; ++i) wide[i] = a[i];
     return wide;
   }

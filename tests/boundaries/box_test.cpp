@@ -565,6 +565,21 @@ TEST(Box, ChecksWhereParticlesAre) {
 
 // ---- geometry -----------------------------------------------------------------------------------------------------
 
+TEST(Box, IsSaidByItsEdgesInAnyDimension) {
+  Box const line({-1}, {2}), plane({0, 0}, {3, 4}, Boundary::mirror);
+  Box const space({-1, 0, 1}, {2, 0.5, 5}, {Boundary::open, Boundary::periodic, Boundary::reflecting});
+  EXPECT_EQ(line.dimension(), 1);
+  EXPECT_EQ(line.low(0), -1);
+  EXPECT_EQ(line.boundary(0), Boundary::open);
+  EXPECT_EQ(plane.dimension(), 2);
+  EXPECT_EQ(plane.high(1), 4);
+  EXPECT_EQ(plane.boundary(1), Boundary::mirror);
+  EXPECT_EQ(space.dimension(), 3);
+  EXPECT_EQ(space.low(2), 1);
+  EXPECT_TRUE(space.periodic(1) && !space.periodic(0) && space.boundary(2) == Boundary::reflecting);
+  EXPECT_THROW(Box({0, 0}, {1, 0}), Error);
+}
+
 TEST(Box, LengthsVolumesAndWords) {
   EXPECT_DOUBLE_EQ(Box(Vector{-1.}, Vector{2.}).volume(), 3);
   EXPECT_DOUBLE_EQ(Box(Vector{-1., 0.}, Vector{2., 0.5}).volume(), 1.5);
