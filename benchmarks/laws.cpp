@@ -31,7 +31,7 @@ struct Melt {
   explicit Melt(Law const& law) {
     LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {16, 16, 16}};
     block_load(atoms, block);
-    maxwellian_load(atoms, 1.44, 1, 1);
+    maxwellian_load(atoms, {.temperature = 1.44});
     for (std::size_t i = 0; i < atoms.size(); ++i) {
       atoms[i].position += 0.06 * atoms[i].velocity;
       if constexpr (requires { atoms[i].charge; }) atoms[i].charge = i % 2 == 0 ? 1 : -1;

@@ -106,8 +106,10 @@ struct Crystal {
         dpd(scheme, k) {
     block_load(beads, block);
     for (auto& p : beads) p.mass = mass;
-    maxwellian_load(beads, 2 * temperature, k, 1, {.remove_drift = true});  // half of it goes into the bonds
-    internal_energy_load(beads, StateLaw(capacity), temperature, k, 1);
+    maxwellian_load(beads, {.temperature = 2 * temperature,
+                            .boltzmann_constant = k,
+                            .remove_drift = true});  // half of it goes into the bonds
+    internal_energy_load(beads, StateLaw(capacity), {.temperature = temperature, .boltzmann_constant = k});
     scheme.internal(beads, rydberg);
     dpd.state(beads, StateLaw(capacity));
     DissipationLaw d;
@@ -175,7 +177,7 @@ void fluid(std::size_t edge, unsigned steps) {
       Stream stream(1, 0, i, Purpose::position);
       for (int a = 0; a < 3; ++a) beads[i].position[a] = length * stream.uniform();
     }
-    maxwellian_load(beads, 1, 1, 1, {.remove_drift = true});
+    maxwellian_load(beads, {.temperature = 1, .remove_drift = true});
     PairScheme scheme(Box(Vector{0.0, 0.0, 0.0}, Vector{length, length, length}, Boundary::periodic), 1);
     scheme.internal(beads, Soft{.repulsion = 25, .range = 1});
     PairDissipation dpd(scheme, 1);

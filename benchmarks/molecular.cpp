@@ -31,7 +31,7 @@ void run(Run const& r) {
   Ensemble<Newton<D>> atoms("atoms");
   block_load(atoms, r.block);
   for (auto& atom : atoms) atom.mass = 1;
-  maxwellian_load(atoms, r.temperature, 1, 1, {.remove_drift = true, .exact_temperature = true});
+  maxwellian_load(atoms, {.temperature = r.temperature, .remove_drift = true, .exact_temperature = true});
   if (r.knock_on_energy > 0) {
     double const speed = std::sqrt(2 * r.knock_on_energy), angle = std::atan2(-0.45, 0.4);
     atoms[atoms.size() / 2].velocity[0] = speed * std::cos(angle);

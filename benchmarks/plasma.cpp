@@ -50,8 +50,8 @@ struct Plasma {
       electron.mass = volume / static_cast<double>(count);
       electron.charge = -electron.mass / std::sqrt(4 * pi);
     }
-    random_load(electrons, box, 1);
-    maxwellian_load(electrons, electrons[0].mass, 1, 1);  // Debye length 1: that of a cell
+    random_load(electrons, box);
+    maxwellian_load(electrons, {.temperature = electrons[0].mass});  // Debye length 1: that of a cell
     mesh = std::make_unique<MeshScheme>(box, std::vector<std::size_t>(D, cells), coulomb(1));
     mesh->add(electrons);
     mesh->background(true);

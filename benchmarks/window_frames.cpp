@@ -87,8 +87,8 @@ struct Plasma {
       electron.mass = box.volume() / static_cast<double>(count);
       electron.charge = -electron.mass / std::sqrt(4 * pi);
     }
-    random_load(electrons, box, 1);
-    maxwellian_load(electrons, electrons[0].mass, 1, 1);
+    random_load(electrons, box);
+    maxwellian_load(electrons, {.temperature = electrons[0].mass});
     mesh = std::make_unique<MeshScheme>(box, std::vector<std::size_t>{cells, cells}, coulomb(1));
     mesh->add(electrons);
     mesh->background(true);
@@ -107,8 +107,8 @@ struct Liquid {
   explicit Liquid(std::size_t count) : atoms("atoms", count) {
     auto const side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(count))));
     double const length = 1.1 * static_cast<double>(side);
-    block_load(atoms, Lattice::square, 1.1, {side, side}, {0.5, 0.5});
-    maxwellian_load(atoms, 1, 1, 1);
+    block_load(atoms, {Lattice::square, 1.1, {side, side}, {0.5, 0.5}});
+    maxwellian_load(atoms, {.temperature = 1});
     scheme = std::make_unique<PairScheme>(Box(Vector{0.0, 0.0}, Vector{length, length}, Boundary::periodic), 2.5);
     scheme->internal(atoms, LennardJones{1, 1});
     simulation = std::make_unique<Simulation>(*scheme, 0.002);

@@ -1,4 +1,5 @@
-// Everything that a program needs: particles, laws, schemes, integrators, loaders, diagnoses, recordings.
+// Everything that a program needs: particles, laws, schemes, integrators, loaders, diagnoses, recordings; and of the
+// standard library what programs calculate and print with.
 #pragma once
 
 #include <boltzmann/core/dual.hpp>
@@ -7,11 +8,15 @@
 #include <boltzmann/core/tensor.hpp>
 #include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>
+#include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
+#include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/profile.hpp>
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
+#include <boltzmann/diagnoses/smooth_field.hpp>
+#include <boltzmann/diagnoses/statistics.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
@@ -62,3 +67,11 @@
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/window/window.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>

@@ -4,28 +4,25 @@
 using namespace boltzmann;
 using namespace boltzmann::units;
 
-int main(int argc, char** argv) {
-  return run_program(argc, argv, "results/atmosphere-cpp", [](Program& program) {
-    UnitSystem const base(kilometer, amu, second);
-    double const k = base(constants::boltzmann), g = base(constants::standard_gravity), temperature = 288;
+void isothermal_atmosphere(Program& program) {
+  UnitSystem const base(kilometer, amu, second);
+  double const k = base(constants::boltzmann), g = base(constants::standard_gravity), temperature = 288;
 
-    Box const box(Vector{0.0, 0.0}, Vector{20.0, 60.0}, {Boundary::periodic, Boundary::reflecting});
-    Ensemble<Newton<2>> air("air", 4000);
-    set_field(air, "mass", base(28.97 * amu));
-    barometric_load(air, box, temperature, g, k, program.seed());
-    maxwellian_load(air, temperature, k, program.seed());
-    air.appearance.diameter = 0.2;
+  Box const box({0, 0}, {20, 60}, {Boundary::periodic, Boundary::reflecting});
+  Ensemble<Newton<2>> air("air", 4000);
+  set_field(air, "mass", base(28.97 * amu));
+  barometric_load(air, box,
+                  {.temperature = temperature, .gravity = g, .boltzmann_constant = k, .seed = program.seed()});
+  maxwellian_load(air, {.temperature = temperature, .boltzmann_constant = k, .seed = program.seed()});
+  air.appearance.diameter = 0.2;
 
-    PairScheme sky(box);
-    sky.external(air, UniformGravity<2>{{0.0, -g}});
+  PairScheme sky(box);
+  sky.external(air, UniformGravity<2>{{0, -g}});
 
-    Simulation simulation(sky, 0.5);
-    simulation.integrate(air);
-
-    Recording recording = program.recording(simulation, base);
-    recording.diagnoses(20, {"energies", "temperature"});
-    recording.trajectory(100);
-    recording.picture({.colour = "speed"});
-    program.run(recording, 400);
-  });
+  Simulation simulation(sky, 0.5);
+  Recording recording = program.recording(simulation, base);
+  recording.diagnoses(20, {"energies", "temperature"}).trajectory(100).picture({.colour = "speed"});
+  program.run(recording, 400);
 }
+
+int main(int argc, char** argv) { return run_program(argc, argv, "results/atmosphere-cpp", isothermal_atmosphere); }

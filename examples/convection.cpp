@@ -1,16 +1,12 @@
 // Rayleigh-Benard convection with smooth particles (figure 4 of Hoover and Hoover's SPAM): a fluid between a hot
 // floor and a cold ceiling, walls of odd mirror images; Nusselt's number is in diagnoses.csv.
 #include <boltzmann/boltzmann.hpp>
-#include <boltzmann/diagnoses/heat_flux.hpp>
-
-#include <cstdio>
-#include <numbers>
 
 using namespace boltzmann;
 
-int main(int argc, char** argv) try {
-  double const rayleigh = argc > 2 ? std::stod(argv[2]) : 10000, prandtl = 0.71;
+void convection(Program& program) {
   // Units: the height, the mean temperature, the gas constant and the mean density are one.
+  double const rayleigh = 10000, prandtl = 0.71;
   double const width = 4, spacing = 0.05, difference = 0.4, gamma = 1.02, cv = 1 / (gamma - 1), cp = gamma * cv;
   // P + stiffness = rho T. Only gradients of the pressure drive anything; a pressure as such makes particles
   // crystallise, and a crystal does not flow. So most of it is left out; the rest suffices to keep the fluid under
@@ -22,37 +18,33 @@ int main(int argc, char** argv) try {
   double const diffusivity = std::sqrt(gravity * (difference - gravity / cp) / (rayleigh * prandtl));
   double const viscosity = prandtl * diffusivity, conductivity = diffusivity * cp;
 
-  Box box(Vector{0.0, 0.0}, Vector{width, 1.0}, {Boundary::periodic, Boundary::mirror});
+  Box box({0, 0}, {width, 1}, {Boundary::periodic, Boundary::mirror});
   box.wall(1, Box::End::low, {.slips = false, .temperature = 1 + difference / 2});
   box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
 
   Ensemble<Smooth<2>> particles("fluid");
-  fill_load(particles, box, {.spacing = spacing, .density = 1});
-  double const k = std::numbers::pi, stir = 0.3 * free_fall;  // two pairs of rolls, turning gently
+  fill_load(particles, box, {.spacing = spacing, .density = 1, .range = 3 * spacing});
+  double const stir = 0.3 * free_fall;  // two pairs of rolls, turning gently
   for (auto& p : particles) {
-    double const x = p.position[0], y = p.position[1];
-    p.range = 3 * spacing;
-    p.specific_energy = cv * (1 + difference * (0.5 - y)) + fluid.stiffness;  // density 1
-    p.velocity = {-stir * std::sin(k * x) * std::cos(k * y), stir * std::cos(k * x) * std::sin(k * y)};
+    double const x = pi * p.position[0], y = pi * p.position[1];
+    p.specific_energy = cv * (1 + difference * (0.5 - p.position[1])) + fluid.stiffness;  // density 1
+    p.velocity = {-stir * std::sin(x) * std::cos(y), stir * std::cos(x) * std::sin(y)};
   }
-  particles.appearance.diameter = spacing;
 
   SmoothScheme scheme(box);
   scheme.material(particles, Newtonian<StiffenedGas>{fluid, viscosity, 0, conductivity});
   scheme.artificial_viscosity({.alpha = 0.05, .beta = 0, .balsara = true});  // calms particles, not the rolls
-  scheme.external(particles, UniformGravity<2>{Vector{0.0, -gravity}});
+  scheme.external(particles, UniformGravity<2>{{0, -gravity}});
 
-  double const step = 0.5 * scheme.courant_step(), duration = 40 / free_fall;
-  Simulation simulation(scheme, step);
-  simulation.integrate(particles, Method::leap_frog);
-
-  Recording recording(simulation, UnitSystem::reduced(), argc > 1 ? argv[1] : "results/convection-cpp", true);
+  double const duration = 40 / free_fall;
+  Simulation simulation(scheme, 0.5 * scheme.courant_step());
+  Recording recording = program.recording(simulation);
   recording.diagnoses(10, {"energies"});
   auto const& flux = recording.diagnose<HeatFlux>(10, {.axis = 1, .conductivity = conductivity, .since = duration / 2});
   recording.picture({.drawing = "map", .y = "temperature"});
   recording.picture({.drawing = "contours", .y = "temperature", .file = "contours.png"});
-  run_with_progress(recording, static_cast<std::uint64_t>(duration / step));
+  program.run_for(recording, duration);
   std::printf("Nusselt's number: %.2f, spread %.2f, over the second half of the run\n", flux.mean(), flux.spread());
-} catch (std::exception const& error) {
-  return report(error);
 }
+
+int main(int argc, char** argv) { return run_program(argc, argv, "results/convection-cpp", convection); }

@@ -13,44 +13,40 @@ struct Atom : Newton<2, Real> {
   Real kappa;
 };
 
-int main(int argc, char** argv) {
-  return run_program(argc, argv, "results/copper-cpp", [](Program& program) {
-    UnitSystem const base(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
-    double const r0 = base(2.551 * angstrom);
-    double const depth = base(0.1 * electronvolt);
-    double const side = base(100 * angstrom);
+void copper(Program& program) {
+  UnitSystem const base(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
+  double const r0 = base(2.551 * angstrom);
+  double const depth = base(0.1 * electronvolt);
+  double const side = base(100 * angstrom);
 
-    // How two particles influence each other: Lennard-Jones (Eq 6.8), its force and its energy.
-    auto const lennard_jones = [=](auto const& p, auto const& q) {
-      auto const r = q.position - p.position;
-      auto const inverse = 1 / dot(r, r);
-      auto const s6 = cube(r0 * r0 * inverse);
-      return Interaction{r * (-12 * depth * s6 * (s6 - 1) * inverse), depth * s6 * (s6 - 2)};
-    };
-    auto const tether = [](auto const& p) {
-      auto const r = p.original - p.position;
-      return Interaction{r * p.kappa, 0.5 * p.kappa * dot(r, r)};
-    };
+  // How two particles influence each other: Lennard-Jones (Eq 6.8), its force and its energy.
+  auto const lennard_jones = [=](auto const& p, auto const& q) {
+    auto const r = q.position - p.position;
+    auto const inverse = 1 / dot(r, r);
+    auto const s6 = cube(r0 * r0 * inverse);
+    return Interaction{r * (-12 * depth * s6 * (s6 - 1) * inverse), depth * s6 * (s6 - 2)};
+  };
+  auto const tether = [](auto const& p) {
+    auto const r = p.original - p.position;
+    return Interaction{r * p.kappa, 0.5 * p.kappa * dot(r, r)};
+  };
 
-    Ensemble<Atom<>> atoms("atoms", 250);
-    block_load(atoms, Lattice::triangular, r0, {25, 10});
-    for (auto& atom : atoms) atom.mass = 2000, atom.original = atom.position;
-    for (auto const i : edge_particles(atoms, 0.6 * r0))
-      atoms[i].kappa = base(0.2 * electronvolt / (angstrom * angstrom));
-    atoms[60].velocity = {0.4, -0.45};
-    atoms.appearance.diameter = 0.8 * r0;
+  Ensemble<Atom<>> atoms("atoms");
+  block_load(atoms, {Lattice::triangular, r0, {25, 10}});
+  for (auto& atom : atoms) atom.mass = 2000, atom.original = atom.position;
+  for (auto const i : edge_particles(atoms, 0.6 * r0))
+    atoms[i].kappa = base(0.2 * electronvolt / (angstrom * angstrom));
+  atoms[60].velocity = {0.4, -0.45};
+  atoms.appearance.diameter = 0.8 * r0;
 
-    PairScheme copper(Box(Vector{0.0, 0.0}, Vector{side, side}), 3 * r0);
-    copper.internal(atoms, antisymmetric(lennard_jones));
-    copper.external(atoms, tether);
+  PairScheme scheme(Box({0, 0}, {side, side}), 3 * r0);
+  scheme.internal(atoms, antisymmetric(lennard_jones));
+  scheme.external(atoms, tether);
 
-    Simulation simulation(copper, 0.05);
-    simulation.integrate(atoms);
-
-    Recording recording = program.recording(simulation, base);
-    recording.diagnoses(40, {"energies", "temperature"});
-    recording.trajectory(200);
-    recording.picture({.colour = "kinetic-energy"});
-    program.run(recording, 4000);
-  });
+  Simulation simulation(scheme, 0.05);
+  Recording recording = program.recording(simulation, base);
+  recording.diagnoses(40, {"energies", "temperature"}).trajectory(200).picture({.colour = "kinetic-energy"});
+  program.run(recording, 4000);
 }
+
+int main(int argc, char** argv) { return run_program(argc, argv, "results/copper-cpp", copper); }

@@ -1,9 +1,6 @@
 // How even is the density of a perfect lattice (study 3 of Hoover and Hoover's SPAM), and how right the gradient of a
 // linear field on it (Eq 18)? For ten ranges; the particles have mass and spacing 1.
 #include <boltzmann/boltzmann.hpp>
-#include <boltzmann/diagnoses/smooth_field.hpp>
-
-#include <cstdio>
 
 using namespace boltzmann;
 
@@ -17,27 +14,23 @@ struct Recorder {
   }
 };
 
-int main() try {
+void lattice_density(Program&) {
   std::printf("range   1D min       1D max       2D min       2D max       gradient/exact\n");
   for (int k = 0; k < 10; ++k) {
     double const range = 1.5 + 0.5 * k;
     auto const line = lattice_density_extremes(1, WeightShape::lucy, range);
     auto const square = lattice_density_extremes(2, WeightShape::lucy, range);
 
-    Ensemble<Smooth<2>> sheared("sheared", 0);
-    block_load(sheared, Lattice::square, 1, {31, 31}, {-15, -15});
-    for (auto& p : sheared) {
-      p.mass = 1;
-      p.range = range;
-      p.velocity = {p.position[1], 0};
-    }
+    Ensemble<Smooth<2>> sheared("sheared");
+    fill_load(sheared, {.spacing = 1, .low = {-15.5, -15.5}, .high = {15.5, 15.5}, .density = 1, .range = range});
+    for (auto& p : sheared) p.velocity = {p.position[1], 0};
     Gradients<2> gradients{};
-    SmoothScheme scheme(Box(Vector{-16.0, -16.0}, Vector{16.0, 16.0}));
+    SmoothScheme scheme(Box({-16, -16}, {16, 16}));
     scheme.material(sheared, Recorder{&gradients});
     scheme.calculate(0);
     std::printf("%4.1f %12.10f %12.10f %12.10f %12.10f  %.6f\n", range, line.least, line.greatest, square.least,
                 square.greatest, gradients.velocity[1][0]);
   }
-} catch (std::exception const& error) {
-  return report(error);
 }
+
+int main(int argc, char** argv) { return run_program(argc, argv, "results/lattice-density-cpp", lattice_density); }

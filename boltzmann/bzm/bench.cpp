@@ -82,7 +82,7 @@ Problem melt() {
   Problem problem = make("Newton", 3, site_count(block, 3), box, cutoff);
   block_load(*problem.particles, block);
   unit_masses(*problem.particles);
-  maxwellian_load(*problem.particles, 1.44, 1, 1, {.remove_drift = true, .exact_temperature = true});
+  maxwellian_load(*problem.particles, {.temperature = 1.44, .remove_drift = true, .exact_temperature = true});
   problem.scheme->skin(0.3);
   install_pairs(*problem.scheme, law_info("lennard-jones"), {{"r0", {std::pow(2.0, 1.0 / 6)}}, {"depth", {1.0}}},
                 LawUse::internal, *problem.particles, *problem.particles, cutoff);
@@ -98,7 +98,7 @@ Problem stars() {
   Box const box(Vector{-1.0, -1.0, -1.0}, Vector{1.0, 1.0, 1.0});
   Problem problem = make("Kepler", 3, count, box, no_cutoff);
   unit_masses(*problem.particles);
-  random_load(*problem.particles, box, 1);
+  random_load(*problem.particles, box);
   install_pairs(*problem.scheme, law_info("gravity"), {{"G", {1.0 / count}}, {"softening", {0.05}}}, LawUse::internal,
                 *problem.particles, *problem.particles, no_cutoff);
   start(problem, 1e-4);
@@ -111,7 +111,7 @@ Problem chain() {
   constexpr std::size_t count = 100000;
   Problem problem = make("Newton", 1, count, Box(Vector{0.0}, Vector{static_cast<double>(count)}), no_cutoff);
   unit_masses(*problem.particles);
-  block_load(*problem.particles, Lattice::square, 1.01, {count, 1, 1});
+  block_load(*problem.particles, {Lattice::square, 1.01, {count, 1, 1}});
   install_connections(*problem.scheme, law_info("spring"), {{"stiffness", {1.0}}, {"rest_length", {1.0}}},
                       *problem.particles, {{0, count - 1}});
   start(problem, 0.05);

@@ -127,7 +127,7 @@ void check_physics(Findings& findings) {
   Ensemble<Newton<3>> atoms("atoms");
   LatticeBlock const block{Lattice::fcc, edge / 20 / std::numbers::sqrt2, {20, 20, 20}, {0, 0, 0}};
   block_load(atoms, block);
-  maxwellian_load(atoms, 1.44, 1, 87287, {.remove_drift = true});
+  maxwellian_load(atoms, {.temperature = 1.44, .seed = 87287, .remove_drift = true});
   PairScheme scheme(Box(Vector{0., 0., 0.}, Vector{edge, edge, edge}, Boundary::periodic), 2.5);
   // As scenarios do: the kernels of the instruction set in use.
   install_pairs(scheme, *find_law("lennard-jones"), {{"depth", {1}}, {"r0", {std::pow(2, 1.0 / 6)}}}, LawUse::internal,

@@ -63,7 +63,7 @@ int run(RunOptions const& options) {
   if (scenario->sweep)
     return status_of(run_sweep({text, overrides, folder, options.quiet, options.force}, wall, std::move(scenario)),
                      folder);
-  auto const recording = make_recording(*scenario, folder, options.force);
+  auto const recording = make_recording(*scenario, folder, {.overwrite = options.force});
   scenario->simulation->check();
   recording->check();
   if (holds_sweep(folder)) remove_sweep(folder);
@@ -95,7 +95,7 @@ int resume(ResumeOptions const& options) {
   if (auto const stored = checkpoint.state.find("planned"); stored != checkpoint.state.end() && !stored->second.empty())
     planned = static_cast<std::int64_t>(stored->second[0]);
   if (options.steps) planned = checkpoint.step + *options.steps;
-  auto const recording = make_recording(*scenario, options.folder, true);
+  auto const recording = make_recording(*scenario, options.folder, {.overwrite = true});
   recording->resume();
   recording->planned(planned);
   std::int64_t const steps = planned - checkpoint.step;
@@ -116,7 +116,8 @@ int resume(ResumeOptions const& options) {
 int check(std::string const& name, Overrides const& overrides) {
   ScenarioText const text = read_scenario(find_scenario(name));
   auto const scenario = load_scenario(text, overrides);
-  auto const recording = make_recording(*scenario, std::filesystem::temp_directory_path().string(), true);
+  auto const recording =
+      make_recording(*scenario, std::filesystem::temp_directory_path().string(), {.overwrite = true});
   scenario->simulation->check();
   recording->check();
   std::size_t particles = 0, bytes = 0;

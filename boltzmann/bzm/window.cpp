@@ -49,7 +49,7 @@ std::string run_choice(Gallery const& gallery, GallerySource::Choice const& choi
   try {
     auto const scenario = gallery.load(choice.name, choice.set);
     std::string const folder = choice.out.empty() ? free_folder(scenario->name) : choice.out;
-    auto const recording = make_recording(*scenario, folder, false);
+    auto const recording = make_recording(*scenario, folder, {});
     scenario->simulation->check();
     recording->check();
     say(fmt::format("{} -> {}", title_of(*scenario, folder), folder));
@@ -83,7 +83,7 @@ bool show_run(std::string const& folder, Clients& clients, bool announced = fals
                 "' has no trajectory.h5 to show: the run was not asked for one (trajectory = 10 in "
                 "[output] stores a frame every 10 steps)");
   auto const scenario = load_stored_run(folder);
-  auto const recording = make_recording(*scenario, folder, true);  // only asked what it would draw
+  auto const recording = make_recording(*scenario, folder, {.overwrite = true});  // only asked what it would draw
   Stage stage(*scenario->simulation, scenario->base, title_of(*scenario, folder), folder);
   add_views(stage, *scenario);
   stage.take(*recording);

@@ -157,7 +157,7 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
     return columns;
   }
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
-    Temperature const t = temperature(of, sample.boltzmann_constant, subtract_drift_);
+    Temperature const t = temperature(of, sample.boltzmann_constant, {.subtract_drift = subtract_drift_});
     values.push_back(t.total);
     if (dimension() > 1) values.insert(values.end(), t.component.begin(), t.component.begin() + dimension());
   }

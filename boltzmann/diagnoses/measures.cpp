@@ -128,7 +128,7 @@ double kinetic_energy(Ensembles of) {
   return 0.5 * sum.value();
 }
 
-Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_drift) {
+Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options) {
   std::size_t count = 0;
   CompensatedSum mass;
   TripleSum momentum;
@@ -140,13 +140,13 @@ Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_d
     for (int a = 0; a < dimension; ++a) momentum[a] += m * velocity[a];
   });
   Triple drift{0, 0, 0};
-  if (subtract_drift)
+  if (options.subtract_drift)
     for (int a = 0; a < 3; ++a) drift[a] = momentum[a].value() / mass.value();
   TripleSum heat;
   for_each_body(of, [&](double m, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a) heat[a] += m * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
   });
-  std::size_t const lost = subtract_drift ? 1 : 0;
+  std::size_t const lost = options.subtract_drift ? 1 : 0;
   Temperature result;
   double const freedom = static_cast<double>(count) - static_cast<double>(lost);
   double sum = 0;

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace boltzmann {
@@ -49,6 +50,22 @@ bool has_velocities(AnyEnsemble const& ensemble);
 /// The field "velocity", or the influence in a class without one (Tracer); a view. Error if the class has neither.
 Velocities velocities_of(AnyEnsemble const& ensemble);
 
+/// The mean of what(p) over the particles p of an ensemble for which where(p) holds, without `where` over all of them: a
+/// number or a Vector; NaN of none.
+///   double const error = mean(gas, [&](auto const& p) { return magnitude(p.velocity - exact(p.position)); });
+template <class P, class What, class Where>
+auto mean(Ensemble<P> const& ensemble, What const& what, Where const& where) {
+  std::decay_t<decltype(what(ensemble[0]))> sum{};
+  double count = 0;
+  for (auto const& p : ensemble)
+    if (where(p)) sum += what(p), ++count;
+  return sum / count;
+}
+template <class P, class What>
+auto mean(Ensemble<P> const& ensemble, What const& what) {
+  return mean(ensemble, what, [](auto const&) { return true; });
+}
+
 // ---- The system as a whole ----
 
 std::size_t number_of_particles(Ensembles of);
@@ -67,10 +84,13 @@ struct Temperature {
   Triple component{};  ///< T_a = <m v_a^2> / k for each axis: equal in equilibrium
   double total = 0;    ///< their mean over the axes
 };
+struct TemperatureOptions {
+  bool subtract_drift = false;
+};
 /// Section 5.2.3.1. As the 1990 text has it the mean velocity is not subtracted. With subtract_drift the particles'
 /// common (mass-weighted) velocity is taken off, and the mean is over N - 1 degrees of freedom along each axis. NaN if
 /// there are no particles left to take a mean over.
-Temperature temperature(Ensembles of, double boltzmann_constant, bool subtract_drift = false);
+Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options = {});
 
 /// Sum m v_a v_b
 Tensor3 kinetic_stress(Ensembles of);

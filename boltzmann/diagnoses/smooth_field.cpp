@@ -372,7 +372,7 @@ namespace {
 /// One particle whose images are the lattice.
 class LatticePoint final : public AnyEnsemble {
  public:
-  explicit LatticePoint(int dimension) : AnyEnsemble("lattice", "lattice point", dimension, 4, 3, 0, {}) {
+  explicit LatticePoint(int dimension) : AnyEnsemble("lattice", "lattice point", typeid(void), dimension, 4, 3, 0, {}) {
     attach(row_, 1);
   }
   void resize(std::size_t) override {}

@@ -8,6 +8,7 @@
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/motion.hpp>
+#include <boltzmann/particles/smooth.hpp>
 
 #include <cmath>
 #include <memory>
@@ -431,6 +432,12 @@ extern template std::unique_ptr<Integrator> method_of<Newton<3>>(AnyEnsemble&, M
 extern template std::unique_ptr<Integrator> method_of<Tracer<1>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Tracer<2>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Tracer<3>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Smooth<1>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Smooth<2>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Smooth<3>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Solid<1>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Solid<2>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Solid<3>>(AnyEnsemble&, Method);
 
 }  // namespace detail
 
@@ -440,6 +447,10 @@ template <class P>
 constexpr Method usual_method() {
   return detail::has_viscosity<P> ? Method::random_walk : detail::has_velocity<P> ? Method::leap_frog : Method::rk4;
 }
+
+/// The same for an ensemble. Error if its class has equations of motion of its own, which no class of the library has.
+Method usual_method(AnyEnsemble const& ensemble);
+std::unique_ptr<Integrator> usual_integrator(AnyEnsemble& ensemble);
 
 /// The integrator of an ensemble. Error if its class can't be advanced that way.
 template <class P>

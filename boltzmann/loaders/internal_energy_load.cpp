@@ -6,12 +6,11 @@
 
 namespace boltzmann {
 
-void internal_energy_load(AnyEnsemble& ensemble, StateLaw const& law, double temperature, double boltzmann_constant,
-                          std::uint64_t seed) {
+void internal_energy_load(AnyEnsemble& ensemble, StateLaw const& law, InternalEnergyOptions const& options) {
   int const internal_energy = ensemble.field("internal_energy").offset;
   Field const* const own_temperature = ensemble.find_field("temperature");
-  InvariantLaw const invariant(law, temperature, boltzmann_constant);
-  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), "internal energy");
+  InvariantLaw const invariant(law, options.temperature, options.boltzmann_constant);
+  std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "internal energy");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::internal_energy);
     double const drawn = invariant.quantile(stream.uniform());

@@ -10,10 +10,11 @@
 
 namespace boltzmann {
 
-void jitter(AnyEnsemble& particles, double most, std::uint64_t seed) {
+void jitter(AnyEnsemble& particles, JitterOptions const& options) {
+  double const most = options.most;
   if (!(most >= 0) || !std::isfinite(most))
     throw Error(fmt::format("jitter: the largest move must be a length of zero or more, not {}", most));
-  std::uint64_t const own = ensemble_seed(seed, particles.name(), "jitter");
+  std::uint64_t const own = ensemble_seed(options.seed, particles.name(), "jitter");
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Stream stream(own, 0, i, Purpose::position);
     for (int a = 0; a < particles.dimension(); ++a) particles.row(i)[a] += most * (2 * stream.uniform() - 1);

@@ -1,5 +1,6 @@
 // The sites of the lattices, and particles on them.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -189,46 +191,34 @@ double site_volume(Filling const& filling, int dimension) {
 
 namespace {
 
-/// An ensemble without particles gets so many.
-void make_room(AnyEnsemble& ensemble, std::size_t count, std::string const& of_what) {
-  if (ensemble.size() == 0) ensemble.resize(count);
-  if (ensemble.size() != count)
+/// An ensemble without particles gets one for each site.
+void place_on(std::vector<Place> const& places, double spacing, AnyEnsemble& ensemble, std::string const& of_what) {
+  if (ensemble.size() == 0) ensemble.resize(places.size());
+  if (ensemble.size() != places.size())
     throw Error(fmt::format("ensemble '{}' has {} particles, the {} has {} sites", ensemble.name(), ensemble.size(),
-                            of_what, count));
-}
-
-void place_on(std::vector<Place> const& places, AnyEnsemble& ensemble) {
+                            of_what, places.size()));
+  if (ensemble.appearance.diameter == 0) ensemble.appearance.diameter = spacing;
   for (std::size_t k = 0; k < places.size(); ++k) std::copy_n(places[k].data(), ensemble.dimension(), ensemble.row(k));
 }
 
 }  // namespace
 
 std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block) {
-  std::size_t const count = site_count(block, ensemble.dimension());
-  make_room(ensemble, count,
-            fmt::format("{} lattice of {} cells", to_string(block.kind),
-                        fmt::join(std::span(block.counts).first(ensemble.dimension()), " x ")));
-  place_on(lattice_sites(block, ensemble.dimension()), ensemble);
-  return count;
-}
-
-std::size_t block_load(AnyEnsemble& ensemble, Lattice kind, double spacing, std::array<std::size_t, 3> const& counts,
-                       std::array<double, 3> const& origin) {
-  return block_load(ensemble, LatticeBlock{kind, spacing, counts, origin});
+  place_on(lattice_sites(block, ensemble.dimension()), block.spacing, ensemble,
+           fmt::format("{} lattice of {} cells", to_string(block.kind),
+                       fmt::join(std::span(block.counts).first(ensemble.dimension()), " x ")));
+  return ensemble.size();
 }
 
 std::size_t fill_load(AnyEnsemble& ensemble, Filling const& filling) {
-  std::size_t const count = filling_count(filling, ensemble.dimension());
-  if (!(filling.density >= 0) || !std::isfinite(filling.density))
-    throw Error(fmt::format("a density must be a number, zero or more; it is {}", filling.density));
-  make_room(ensemble, count, fmt::format("{} lattice that fills the block", to_string(filling.kind)));
-  place_on(filling_sites(filling, ensemble.dimension()), ensemble);
-  if (filling.density > 0) {
-    int const mass = ensemble.field("mass").offset;
-    double const share = filling.density * site_volume(filling, ensemble.dimension());
-    for (std::size_t k = 0; k < count; ++k) ensemble.row(k)[mass] = share;
-  }
-  return count;
+  for (auto const& [what, value] : {std::pair("density", filling.density), {"range", filling.range}})
+    if (!(value >= 0) || !std::isfinite(value))
+      throw Error(fmt::format("a {} must be a number, zero or more; it is {}", what, value));
+  place_on(filling_sites(filling, ensemble.dimension()), filling.spacing, ensemble,
+           fmt::format("{} lattice that fills the block", to_string(filling.kind)));
+  if (filling.density > 0) set_field(ensemble, "mass", filling.density * site_volume(filling, ensemble.dimension()));
+  if (filling.range > 0) set_field(ensemble, "range", filling.range);
+  return ensemble.size();
 }
 
 std::size_t fill_load(AnyEnsemble& ensemble, Box const& box, Filling filling) {

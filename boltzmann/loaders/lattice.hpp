@@ -56,6 +56,7 @@ struct Filling {
   double spacing = 1;
   std::array<double, 3> low{0, 0, 0}, high{1, 1, 1};
   double density = 0;  ///< fill_load: mass per length, area or volume; 0: masses stay as they are
+  double range = 0;    ///< fill_load: of each smooth particle; 0: ranges stay as they are
 };
 /// Error if it can't be filled by that lattice, the spacing is not positive or low is not below high.
 std::size_t filling_count(Filling const& filling, int dimension);
@@ -64,14 +65,15 @@ std::vector<std::array<double, 3>> filling_sites(Filling const& filling, int dim
 /// The length, area or volume that each site has.
 double site_volume(Filling const& filling, int dimension);
 
-/// Puts particle k on site k; an ensemble without particles gets one for each site. Returns how many were placed: all of
-/// the ensemble. Error if it has particles, but not as many as there are sites.
+/// Puts particle k on site k; an ensemble without particles gets one for each site, and is drawn with the diameter of the
+/// spacing unless it has one. Returns how many were placed: all of the ensemble. Error if it has particles, but not as
+/// many as there are sites.
+///   block_load(atoms, {Lattice::triangular, r0, {25, 10}})
 std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block);
-std::size_t block_load(AnyEnsemble& ensemble, Lattice kind, double spacing, std::array<std::size_t, 3> const& counts,
-                       std::array<double, 3> const& origin = {0, 0, 0});
-/// The same on the sites of a filling, with the mass of its share for each where a density is given.
+/// The same on the sites of a filling; each particle gets its share of the mass where a density is given, and the range
+/// that is given. Error for a density or range that can't be.
 std::size_t fill_load(AnyEnsemble& ensemble, Filling const& filling);
-/// The filling of a whole box: fill_load(gas, box, {.spacing = 0.05, .density = 1}).
+/// The filling of a whole box: fill_load(gas, box, {.spacing = 0.05, .density = 1, .range = 0.15}).
 std::size_t fill_load(AnyEnsemble& ensemble, Box const& box, Filling filling);
 
 }  // namespace boltzmann

@@ -16,7 +16,8 @@
 namespace boltzmann {
 namespace {
 
-void check_heat(char const* loader, double temperature, double boltzmann_constant) {
+void check_heat(char const* loader, auto const& options) {
+  double const temperature = options.temperature, boltzmann_constant = options.boltzmann_constant;
   if (!(temperature >= 0) || !std::isfinite(temperature))
     throw Error(fmt::format("{}: the temperature must not be negative, it is {}", loader, temperature));
   if (!(boltzmann_constant > 0) || !std::isfinite(boltzmann_constant))
@@ -119,14 +120,15 @@ double jamming_distance(Box const& box, std::size_t count) {
 
 }  // namespace
 
-void random_load(AnyEnsemble& ensemble, Box const& box, std::uint64_t seed, double minimum_distance) {
+void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const& options) {
+  double const minimum_distance = options.minimum_distance;
   check_dimension(ensemble, box, "random load");
   if (!(minimum_distance >= 0) || !std::isfinite(minimum_distance))
     throw Error(fmt::format("random load: the minimum distance must not be negative, it is {}", minimum_distance));
   bool const keep_apart = minimum_distance > 0;
   std::optional<Neighbourhood> placed;
   if (keep_apart) placed.emplace(ensemble, box, minimum_distance);
-  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), "random");
+  std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "random");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::position);
     std::array<double, 3> x{};
@@ -161,9 +163,9 @@ void random_field(AnyEnsemble& ensemble, std::string_view field, int component,
   }
 }
 
-void maxwellian_load(AnyEnsemble& ensemble, double temperature, double boltzmann_constant, std::uint64_t seed,
-                     MaxwellianOptions const& options) {
-  check_heat("Maxwellian load", temperature, boltzmann_constant);
+void maxwellian_load(AnyEnsemble& ensemble, MaxwellianOptions const& options) {
+  double const temperature = options.temperature, boltzmann_constant = options.boltzmann_constant;
+  check_heat("Maxwellian load", options);
   Field const& mass = ensemble.field("mass");
   int const velocity = velocity_field(ensemble).offset;
   int const dimension = ensemble.dimension();
@@ -171,7 +173,7 @@ void maxwellian_load(AnyEnsemble& ensemble, double temperature, double boltzmann
   for (int a = 0; a < dimension; ++a)
     if (!std::isfinite(options.drift[a])) throw Error("Maxwellian load: the drift is not finite");
 
-  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), "Maxwellian");
+  std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "Maxwellian");
   for (std::size_t i = 0; i < size; ++i) {
     Stream stream(key, 0, i, Purpose::velocity);
     Maxwellian const variable(temperature, positive_mass(ensemble, mass, i, "Maxwellian load"), boltzmann_constant);
@@ -211,36 +213,36 @@ void maxwellian_load(AnyEnsemble& ensemble, double temperature, double boltzmann
     for (int a = 0; a < dimension; ++a) ensemble.row(i)[velocity + a] += options.drift[a];
 }
 
-void oscillating_load(AnyEnsemble& ensemble, double temperature, double omega, double boltzmann_constant,
-                      std::uint64_t seed) {
-  check_heat("oscillating load", temperature, boltzmann_constant);
+void oscillating_load(AnyEnsemble& ensemble, OscillatingOptions const& options) {
+  double const omega = options.angular_frequency;
+  check_heat("oscillating load", options);
   if (!(omega > 0) || !std::isfinite(omega))
     throw Error(fmt::format("oscillating load: the angular frequency must be positive, it is {}", omega));
   Field const& mass = ensemble.field("mass");
-  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), "oscillating");
+  std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "oscillating");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::position);
     double const stiffness = positive_mass(ensemble, mass, i, "oscillating load") * omega * omega;
-    double const deviation = std::sqrt(boltzmann_constant * temperature / stiffness);
+    double const deviation = std::sqrt(options.boltzmann_constant * options.temperature / stiffness);
     for (int a = 0; a < ensemble.dimension(); ++a) ensemble.row(i)[a] += deviation * stream.normal();
   }
 }
 
-void barometric_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
-                     std::uint64_t seed) {
+void barometric_load(AnyEnsemble& ensemble, Box const& box, BarometricOptions const& options) {
+  double const g = options.gravity;
   check_dimension(ensemble, box, "gravity load");
-  check_heat("gravity load", temperature, boltzmann_constant);
-  if (temperature == 0)
+  check_heat("gravity load", options);
+  if (options.temperature == 0)
     throw Error("gravity load: the temperature must be positive: at 0 all particles lie on the ground");
   if (!std::isfinite(g)) throw Error("gravity load: the gravitational acceleration is not finite");
   Field const& mass = ensemble.field("mass");
   int const last = box.dimension() - 1;
-  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), "gravity");
+  std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "gravity");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::position);
     double const heights =  // the box's height in scale heights k T / m g
         positive_mass(ensemble, mass, i, "gravity load") * std::abs(g) * box.length(last) /
-        (boltzmann_constant * temperature);
+        (options.boltzmann_constant * options.temperature);
     std::array<double, 3> x{};
     int draws = 0;
     do {

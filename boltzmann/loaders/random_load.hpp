@@ -11,14 +11,20 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string_view>
 
 namespace boltzmann {
 
+struct RandomLoadOptions {
+  double minimum_distance = 0;
+  std::uint64_t seed = 1;
+};
+
 /// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in.
 /// With a minimum distance, particle i is drawn again until it is that far from particles 0..i-1 (nearest images on
 /// periodic axes). Error if no place is found: the box is too full; the message says about how far it can go.
-void random_load(AnyEnsemble& ensemble, Box const& box, std::uint64_t seed, double minimum_distance = 0);
+void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const& options = {});
 
 /// One component of a field drawn from any random variable: RandomLoad of section B.9.1, for example with Ripple on
 /// "position". Components count from 0. Error if there is no such field or component.
@@ -26,6 +32,9 @@ void random_field(AnyEnsemble& ensemble, std::string_view field, int component,
                   std::function<double(Stream&)> const& variable, std::uint64_t seed);
 
 struct MaxwellianOptions {
+  double temperature = std::numeric_limits<double>::quiet_NaN();  ///< needed
+  double boltzmann_constant = 1;
+  std::uint64_t seed = 1;
   /// Take the mean (mass-weighted) velocity off: the total momentum is then zero.
   bool remove_drift = false;
   /// Scale the velocities so that the measured temperature is the wanted one: Sum m v.v = k T times the number of
@@ -40,19 +49,30 @@ struct MaxwellianOptions {
 
 /// Velocities in equilibrium (Eq 5.1): each component normal with variance k T / m, m the particle's own mass.
 /// Error if the class has no mass or velocity, a mass is not positive, or the temperature is negative.
-void maxwellian_load(AnyEnsemble& ensemble, double temperature, double boltzmann_constant, std::uint64_t seed,
-                     MaxwellianOptions const& options = {});
+void maxwellian_load(AnyEnsemble& ensemble, MaxwellianOptions const& options);
+
+struct OscillatingOptions {
+  double temperature = std::numeric_limits<double>::quiet_NaN();        ///< needed
+  double angular_frequency = std::numeric_limits<double>::quiet_NaN();  ///< needed
+  double boltzmann_constant = 1;
+  std::uint64_t seed = 1;
+};
 
 /// Displaces particles from where they are, as small oscillations of angular frequency omega do in equilibrium
 /// (Eq 5.2): each component normal with variance k T / (m omega^2). Error as above, and if omega is not positive.
-void oscillating_load(AnyEnsemble& ensemble, double temperature, double omega, double boltzmann_constant,
-                      std::uint64_t seed);
+void oscillating_load(AnyEnsemble& ensemble, OscillatingOptions const& options);
+
+struct BarometricOptions {
+  double temperature = std::numeric_limits<double>::quiet_NaN();  ///< needed
+  double gravity = std::numeric_limits<double>::quiet_NaN();      ///< the acceleration g, needed
+  double boltzmann_constant = 1;
+  std::uint64_t seed = 1;
+};
 
 /// Positions in a gravitational field g that points down the last axis (Eq 5.3): the density falls as exp(-m g h / k T)
 /// with the height h above the box's low edge and ends at the high one; uniform along the other axes. Drawn by
 /// inversion of the truncated distribution; g = 0 is uniform, a negative g points up. Regions as in random_load. Error
 /// if the class has no mass or the temperature is not positive.
-void barometric_load(AnyEnsemble& ensemble, Box const& box, double temperature, double g, double boltzmann_constant,
-                     std::uint64_t seed);
+void barometric_load(AnyEnsemble& ensemble, Box const& box, BarometricOptions const& options);
 
 }  // namespace boltzmann

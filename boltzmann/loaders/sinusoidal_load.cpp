@@ -24,13 +24,15 @@ void check_wave(Box const& box, Wave const& wave, double amplitude, char const* 
                             wave.phase, amplitude));
 }
 
-Ripple density_of(Box const& box, Wave const& wave, double amplitude, char const* loader) {
-  check_wave(box, wave, amplitude, loader);
+Ripple density_of(Box const& box, auto const& options, char const* loader) {
+  auto const& [axis, wave_number, phase] = options.wave;
+  double const amplitude = options.amplitude;
+  check_wave(box, options.wave, amplitude, loader);
   if (std::abs(amplitude) > 1)
     throw Error(
         fmt::format("{}: the amplitude {} would make the density negative; it is between -1 and 1", loader, amplitude));
   // From 0 on, so that positions far from 0 cost no accuracy.
-  return {0, box.length(wave.axis), wave.wave_number, wave.phase, amplitude, 1};
+  return {0, box.length(axis), wave_number, phase, amplitude, 1};
 }
 
 }  // namespace
@@ -40,10 +42,10 @@ Wave wave_of_mode(Box const& box, int axis, double mode, double phase) {
   return {axis, 2 * std::numbers::pi * mode / box.length(axis), phase};
 }
 
-void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude, std::uint64_t seed) {
+void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, SinusoidalOptions const& options) {
   check_dimension(ensemble, box, "sinusoidal load");
-  Ripple const variable = density_of(box, wave, amplitude, "sinusoidal load");
-  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), "ripple");
+  Ripple const variable = density_of(box, options, "sinusoidal load");
+  std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "ripple");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::position);
     std::array<double, 3> x{};
@@ -53,35 +55,35 @@ void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, do
         throw Error(
             fmt::format("sinusoidal load: the regions leave no place for particle {} of '{}'", i, ensemble.name()));
       for (int a = 0; a < box.dimension(); ++a)
-        x[a] = a == wave.axis ? below_edge(box, a, box.low(a) + variable(stream)) : on_axis(box, a, stream.uniform());
+        x[a] = a == options.wave.axis ? below_edge(box, a, box.low(a) + variable(stream))
+                                      : on_axis(box, a, stream.uniform());
     } while (!allowed(box, x.data()));
     std::copy_n(x.data(), box.dimension(), ensemble.row(i));
   }
 }
 
-void quiet_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude) {
+void quiet_load(AnyEnsemble& ensemble, Box const& box, QuietOptions const& options) {
   check_dimension(ensemble, box, "quiet load");
-  Ripple const variable = density_of(box, wave, amplitude, "quiet load");
+  Ripple const variable = density_of(box, options, "quiet load");
   if (!box.regions().empty())
     throw Error("quiet load: the box has regions, which would leave gaps in the order; load at random");
   std::size_t const size = ensemble.size();
   for (std::size_t i = 0; i < size; ++i) {
     int direction = 0;
     for (int a = 0; a < box.dimension(); ++a) {
-      if (a != wave.axis) {
+      if (a != options.wave.axis) {
         ensemble.row(i)[a] = on_axis(box, a, quiet_fraction(i, size, direction++));
         continue;
       }
       double const fraction = (static_cast<double>(i) + 0.5) / static_cast<double>(size);
-      ensemble.row(i)[a] =
-          amplitude == 0 ? on_axis(box, a, fraction) : below_edge(box, a, box.low(a) + variable.quantile(fraction));
+      ensemble.row(i)[a] = options.amplitude == 0 ? on_axis(box, a, fraction)
+                                                  : below_edge(box, a, box.low(a) + variable.quantile(fraction));
     }
   }
 }
 
-void quiet_load(AnyEnsemble& ensemble, Box const& box) { quiet_load(ensemble, box, Wave{}, 0); }
-
-void velocity_ripple(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude, int component) {
+void velocity_ripple(AnyEnsemble& ensemble, Box const& box, VelocityRipple const& ripple) {
+  auto const& [wave, amplitude, component] = ripple;
   check_dimension(ensemble, box, "velocity ripple");
   check_wave(box, wave, amplitude, "velocity ripple");
   Field const& velocity = ensemble.field("velocity");

@@ -19,19 +19,34 @@ struct Wave {
 /// The wave with so many periods in the box. Error if the box has no such axis.
 Wave wave_of_mode(Box const& box, int axis, double mode, double phase = 0);
 
+struct SinusoidalOptions {
+  Wave wave;
+  double amplitude = 0;
+  std::uint64_t seed = 1;
+};
+
 /// Positions at random: with a density proportional to 1 + amplitude sin(...) along the wave's axis, uniform along the
 /// others; regions as in random_load. Error if |amplitude| > 1, or if the box has no such axis.
-void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude, std::uint64_t seed);
+void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, SinusoidalOptions const& options);
+
+struct QuietOptions {
+  Wave wave;
+  double amplitude = 0;
+};
 
 /// The same density without noise (quiet start): particle i stands at the quantile (i + 1/2)/N along the axis, and
 /// along the others evenly, in bit-reversed order and that of base 3. Amplitude 0 is a uniform density. Error as above,
 /// and if the box has regions.
-void quiet_load(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude);
-/// A uniform density without noise, in order along x.
-void quiet_load(AnyEnsemble& ensemble, Box const& box);
+void quiet_load(AnyEnsemble& ensemble, Box const& box, QuietOptions const& options = {});
+
+struct VelocityRipple {
+  Wave wave;
+  double amplitude = 0;
+  int component = 0;
+};
 
 /// Adds amplitude sin(...) to a component of the velocity of every particle, at its position. Error if the class has no
 /// such component or the box no such axis.
-void velocity_ripple(AnyEnsemble& ensemble, Box const& box, Wave const& wave, double amplitude, int component);
+void velocity_ripple(AnyEnsemble& ensemble, Box const& box, VelocityRipple const& ripple);
 
 }  // namespace boltzmann

@@ -3,10 +3,11 @@
 
 namespace boltzmann {
 
-AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, int dimension, std::size_t stride,
-                         std::size_t doubles, std::size_t influence_size, std::vector<Field> fields)
+AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, std::type_info const& moves_as, int dimension,
+                         std::size_t stride, std::size_t doubles, std::size_t influence_size, std::vector<Field> fields)
     : name_(std::move(name)),
       class_name_(std::move(class_name)),
+      moves_as_(moves_as),
       dimension_(dimension),
       stride_(stride),
       doubles_(doubles),

@@ -3,12 +3,14 @@
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/field.hpp>
+#include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
 namespace boltzmann {
@@ -16,7 +18,7 @@ namespace boltzmann {
 /// How an ensemble is drawn.
 struct Appearance {
   std::string colour;   ///< a name that colour_named() knows; empty: the next of the palette
-  double diameter = 0;  ///< in the simulation's length unit; 0: chosen by the drawing
+  double diameter = 0;  ///< in the simulation's length unit; 0: chosen by the drawing (on a lattice: its spacing)
 };
 
 /// An ensemble without its class: what schemes, boundaries, files and diagnoses see. Row i is particle i, always:
@@ -30,6 +32,8 @@ class AnyEnsemble {
   std::string const& name() const { return name_; }
   std::string const& class_name() const { return class_name_; }
   int dimension() const { return dimension_; }
+  /// The class whose equations of motion it has.
+  std::type_info const& moves_as() const { return moves_as_; }
   std::size_t size() const { return size_; }
 
   /// The first double of row i; the position comes first in every class.
@@ -62,13 +66,14 @@ class AnyEnsemble {
   Appearance appearance;
 
  protected:
-  AnyEnsemble(std::string name, std::string class_name, int dimension, std::size_t stride, std::size_t doubles,
-              std::size_t influence_size, std::vector<Field> fields);
+  AnyEnsemble(std::string name, std::string class_name, std::type_info const& moves_as, int dimension,
+              std::size_t stride, std::size_t doubles, std::size_t influence_size, std::vector<Field> fields);
   void attach(double* data, std::size_t size);
   std::size_t influence_bytes() const { return influence_.capacity() * sizeof(double); }
 
  private:
   std::string name_, class_name_;
+  std::type_info const& moves_as_;
   int dimension_;
   std::size_t stride_, doubles_, influence_size_, size_ = 0;
   double* data_ = nullptr;
@@ -87,8 +92,8 @@ class Ensemble final : public AnyEnsemble {
 
   /// `size` particles, every field zero (and mass one where the class has a mass).
   explicit Ensemble(std::string name, std::size_t size = 0)
-      : AnyEnsemble(std::move(name), P::class_name, P::dimension, row_stride<P>, row_doubles<P>,
-                    sizeof(Influence) / sizeof(double), P::fields().fields) {
+      : AnyEnsemble(std::move(name), P::class_name, typeid(detail::MovesAs<P>), P::dimension, row_stride<P>,
+                    row_doubles<P>, sizeof(Influence) / sizeof(double), P::fields().fields) {
     resize(size);
   }
 

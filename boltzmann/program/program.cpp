@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -91,8 +92,6 @@ Program::Program(int argc, char** argv, std::string folder) : folder_(std::move(
       throw Error(fmt::format("{} needs a value, {} {}", name, name, found->value));
     found->take(*this, *found, found->value.empty() ? "" : attached ? word.substr(name.size() + 1) : argv[++i]);
   }
-  if (play_ && !window_) throw Error("--play is for a --window");
-  if (wall_ && window_) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
   if (steps_ && !time_.empty()) throw Error("--steps and --time say the same; leave one out");
 }
 
@@ -101,12 +100,19 @@ std::uint64_t Program::seed(std::uint64_t otherwise) {
   return seed_.value_or(otherwise);
 }
 
-Recording Program::recording(Simulation& simulation, UnitSystem const& base) const {
+Recording Program::recording(Simulation& simulation, UnitSystem const& base) { return recording(simulation, "", base); }
+
+Recording Program::recording(Simulation& simulation, std::string const& part, UnitSystem const& base) {
   if (folder_.empty()) throw Error("the folder for the results has no name");
+  std::string const folder = part.empty() ? folder_ : folder_ + "/" + part;
+  if (std::find(recorded_.begin(), recorded_.end(), folder) != recorded_.end())
+    throw Error(
+        fmt::format("two runs of this program go to {}; name each: program.recording(simulation, \"part\")", folder));
+  recorded_.push_back(folder);
   if (threads_) simulation.threads(*threads_);
   if (seed_) simulation.seed(*seed_);
   if (resume_) setenv("BOLTZMANN_RESUME", "1", 1);  // which a recording asks for
-  return Recording(simulation, base, folder_, true);
+  return Recording(simulation, base, folder, {.overwrite = true});
 }
 
 namespace {
@@ -126,11 +132,16 @@ RunReport Program::run(Recording& recording, std::uint64_t steps) {
   if (seed_ && !seed_asked_ && !has_noise(recording.simulation()))
     throw Error("--seed: nothing in this program asks for a seed (Program::seed), so that it would change nothing");
   if (!time_.empty()) return run_for(recording, in_base(time_, dimensions::time, recording.base()));
+  if (signalled_) throw Stopped{130};  // after the last step of the run before
   std::uint64_t const planned = steps_.value_or(steps);
+  bool const in_window = window_ || in_window_;
+  if (play_ && !in_window) throw Error("--play is for a --window");
+  if (wall_ && in_window) throw Error("--hours is for runs without a window, where somebody may pause and go on");
   RunReport report;
-  if (window_) {
+  if (in_window) {
 #ifdef BOLTZMANN_WITH_WINDOW
     Window window(recording, {.port = static_cast<std::uint16_t>(port_), .play = play_, .quiet = quiet_});
+    if (in_window_) in_window_(window);
     report = window.run(planned);
 #else
     throw Error("this library was built without the window; install libboost-dev and nlohmann-json3-dev");
@@ -138,7 +149,9 @@ RunReport Program::run(Recording& recording, std::uint64_t steps) {
   } else {
     report = run_with_progress(recording, planned, {.quiet = quiet_, .seconds = wall_ ? wall_->seconds() : 0});
   }
-  status_ = report.interrupted ? 130 : report.out_of_time ? 4 : 0;
+  signalled_ = report.signalled;
+  if (report.interrupted) throw Stopped{130};
+  if (report.out_of_time) throw Stopped{4};
   return report;
 }
 
@@ -162,7 +175,9 @@ int run_program(int argc, char** argv, std::string const& folder, std::function<
     return 0;
   }
   function(program);
-  return program.status();
+  return 0;
+} catch (Program::Stopped const& stopped) {
+  return stopped.status;
 } catch (std::exception const& error) {
   return report(error);
 }

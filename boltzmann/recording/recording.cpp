@@ -299,8 +299,9 @@ struct Recording::State {
   }
 };
 
-Recording::Recording(Simulation& simulation, UnitSystem const& base, std::string folder, bool overwrite)
-    : state_(std::make_shared<State>(simulation, base, std::move(folder), overwrite)) {
+Recording::Recording(Simulation& simulation, UnitSystem const& base, std::string folder,
+                     RecordingOptions const& options)
+    : state_(std::make_shared<State>(simulation, base, std::move(folder), options.overwrite)) {
   open_standard_streams();
   simulation.speak_in(base);
   simulation.observe_when([state = state_](std::int64_t step) { return state->due(step); },
@@ -328,17 +329,30 @@ std::vector<AnyEnsemble const*> Recording::ensembles() const {
   return {all.begin(), all.end()};
 }
 
-void Recording::diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds) {
+Recording& Recording::diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds) {
   for (auto const* kind : kinds) diagnose(every, make_diagnosis(kind, state_->parameters(kind)));
+  return *this;
 }
 
-void Recording::trajectory(std::uint64_t every) { state_->frames.every = interval(every, "frames"); }
+Recording& Recording::trajectory(std::uint64_t every) {
+  state_->frames.every = interval(every, "frames");
+  return *this;
+}
 
-void Recording::mesh(std::uint64_t every) { state_->every_mesh = interval(every, "mesh frames"); }
+Recording& Recording::mesh(std::uint64_t every) {
+  state_->every_mesh = interval(every, "mesh frames");
+  return *this;
+}
 
-void Recording::checkpoint(std::uint64_t every) { state_->every_checkpoint = interval(every, "checkpoints"); }
+Recording& Recording::checkpoint(std::uint64_t every) {
+  state_->every_checkpoint = interval(every, "checkpoints");
+  return *this;
+}
 
-void Recording::picture(Picture picture) { state_->pictures.push_back(std::move(picture)); }
+Recording& Recording::picture(Picture picture) {
+  state_->pictures.push_back(std::move(picture));
+  return *this;
+}
 void Recording::title(std::string title) { state_->title = std::move(title); }
 void Recording::scenario(std::string text) { state_->scenario = std::move(text); }
 void Recording::planned(std::int64_t last_step) { state_->planned = last_step; }

@@ -1,9 +1,7 @@
 // Recording: the files of a run. What `bzm run` leaves in a folder, for C++ programs in a few lines:
 //
 //   Recording recording(simulation, base, "results/copper");
-//   recording.diagnoses(20, {"energies", "temperature"});
-//   recording.trajectory(100);
-//   recording.picture({.colour = "speed"});
+//   recording.diagnoses(20, {"energies", "temperature"}).trajectory(100).picture({.colour = "speed"});
 //   run_with_progress(recording, 2000);
 #pragma once
 
@@ -31,14 +29,18 @@ struct RecordingFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct RecordingOptions {
+  bool overwrite = false;  ///< in place of a run that is in the folder
+};
+
 /// Writes diagnoses.csv, trajectory.h5, checkpoint.h5 and pictures into one folder while the simulation runs. Say what
 /// is to be recorded, then run; nothing is written before the run starts. A simulation has one recording, which it must
 /// not outlive.
 class Recording {
  public:
-  /// Error when the run starts, if the folder can't be made or written, or already holds a run and `overwrite` is
-  /// false.
-  Recording(Simulation& simulation, UnitSystem const& base, std::string folder, bool overwrite = false);
+  /// Error when the run starts, if the folder can't be made or written, or already holds a run that is not to be
+  /// overwritten.
+  Recording(Simulation& simulation, UnitSystem const& base, std::string folder, RecordingOptions const& options = {});
   /// Finishes if that hasn't been done; failures go to standard error.
   ~Recording();
   Recording(Recording const&) = delete;
@@ -46,7 +48,7 @@ class Recording {
 
   /// A row of diagnoses.csv every so many steps: step, time and the columns of all these diagnoses. May be called
   /// again, with the same interval. Kinds are words of the catalogue (diagnosis_kinds()), measured on the whole system.
-  void diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds);
+  Recording& diagnoses(std::uint64_t every, std::initializer_list<char const*> kinds);
   /// The same for one that is made here, and that can be asked when the run is over: it lives as long as the recording.
   ///   auto& front = recording.diagnose(10, Front(width, gravity));
   template <std::derived_from<Diagnosis> D>
@@ -65,14 +67,14 @@ class Recording {
   /// For code that knows kinds only at run time.
   void diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis);
   /// A frame of trajectory.h5 every so many steps, and one of the last state.
-  void trajectory(std::uint64_t every);
+  Recording& trajectory(std::uint64_t every);
   /// What a mesh has on its nodes (density, potential, field) every so many steps: mesh/000000100.vti, ..., and
   /// mesh.pvd, which ParaView opens as a time series. Error when the run starts, if no scheme has a mesh.
-  void mesh(std::uint64_t every);
+  Recording& mesh(std::uint64_t every);
   /// checkpoint.h5 is written at the start and at the end, and every so many steps in between.
-  void checkpoint(std::uint64_t every);
+  Recording& checkpoint(std::uint64_t every);
   /// A picture of the last state, drawn when the run ends.
-  void picture(Picture picture);
+  Recording& picture(Picture picture);
   /// What stands above pictures; the folder's name unless told.
   void title(std::string title);
   /// Text that is stored as scenario.toml and in the checkpoint: the scenario from which the simulation was built.

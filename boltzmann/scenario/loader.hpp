@@ -52,11 +52,6 @@ class Loader {
 };
 
 /// A wave to be added to the velocities.
-struct VelocityRipple {
-  Wave wave;
-  int component = 0;
-  double amplitude = 0;
-};
 VelocityRipple read_velocity_ripple(Item const& item, Reading& reading);
 
 }  // namespace boltzmann

@@ -160,10 +160,10 @@ class EnsembleReader {
   void make_particles() {
     reading_.result->ensembles.push_back(variant_->make(ensemble_.name, count_));
     particles_ = reading_.result->ensembles.back().get();
-    particles_->appearance = options_.appearance;
     auto const all = all_indices(*particles_);
     for (auto const& value : fields_) apply(value, *particles_, all);  // loaders look at masses
     bool const loaded = catch_errors(reading_, ensemble_.load_place, [&] { loader_->load(*particles_); });
+    particles_->appearance = options_.appearance;  // after a lattice's own diameter: pictures of scenarios choose one
     for (auto const& value : fields_) apply(value, *particles_, all);
     if (smooth() && volume() && reading_.smooth.variable && !gives(section_, "range"))
       set_ranges(*particles_, *volume(), reading_.smooth.variable->spacings);
@@ -174,8 +174,10 @@ class EnsembleReader {
   /// use both.
   bool fill_fields(std::vector<std::uint32_t> const& all) {
     if (internal_temperature_ && ensemble_.state && !catch_errors(reading_, section_.place("internal_energy"), [&] {
-          internal_energy_load(*particles_, *ensemble_.state, *internal_temperature_, reading_.boltzmann_constant(),
-                               reading_.run.seed);
+          internal_energy_load(*particles_, *ensemble_.state,
+                               {.temperature = *internal_temperature_,
+                                .boltzmann_constant = reading_.boltzmann_constant(),
+                                .seed = reading_.run.seed});
         }))
       return false;
     for (bool const density : {true, false}) {
@@ -192,14 +194,14 @@ class EnsembleReader {
 
   bool fill_velocities() {
     if (options_.drift) options_.thermal.drift = *options_.drift;
-    if (options_.temperature && !catch_errors(reading_, section_.place("temperature"), [&] {
-          maxwellian_load(*particles_, *options_.temperature, reading_.boltzmann_constant(), reading_.run.seed,
-                          options_.thermal);
-        }))
+    if (options_.temperature) options_.thermal.temperature = *options_.temperature;
+    options_.thermal.boltzmann_constant = reading_.boltzmann_constant();
+    options_.thermal.seed = reading_.run.seed;
+    if (options_.temperature &&
+        !catch_errors(reading_, section_.place("temperature"), [&] { maxwellian_load(*particles_, options_.thermal); }))
       return false;
-    return !ripple_ || catch_errors(reading_, section_.place("velocity_ripple"), [&] {
-      velocity_ripple(*particles_, *reading_.box, ripple_->wave, ripple_->amplitude, ripple_->component);
-    });
+    return !ripple_ || catch_errors(reading_, section_.place("velocity_ripple"),
+                                    [&] { velocity_ripple(*particles_, *reading_.box, *ripple_); });
   }
 
   /// [[ensembles.set]]: other values for some of them.

@@ -120,16 +120,19 @@ void Loader::load(AnyEnsemble& particles) {
   if (kind == "block") {
     block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
   } else if (kind == "random") {
-    random_load(particles, *reading_.box, seed, options_.minimum_distance);
+    random_load(particles, *reading_.box, {.minimum_distance = options_.minimum_distance, .seed = seed});
   } else if (kind == "quiet") {
     quiet_load(particles, *reading_.box);
   } else if (kind == "sinusoidal" && options_.quiet) {
-    quiet_load(particles, *reading_.box, wave_, options_.amplitude);
+    quiet_load(particles, *reading_.box, {.wave = wave_, .amplitude = options_.amplitude});
   } else if (kind == "sinusoidal") {
-    sinusoidal_load(particles, *reading_.box, wave_, options_.amplitude, seed);
+    sinusoidal_load(particles, *reading_.box, {.wave = wave_, .amplitude = options_.amplitude, .seed = seed});
   } else if (kind == "barometric") {
-    barometric_load(particles, *reading_.box, options_.temperature, options_.acceleration,
-                    reading_.boltzmann_constant(), seed);
+    barometric_load(particles, *reading_.box,
+                    {.temperature = options_.temperature,
+                     .gravity = options_.acceleration,
+                     .boltzmann_constant = reading_.boltzmann_constant(),
+                     .seed = seed});
   } else if (kind == "positions" || kind == "fill") {
     for (std::size_t i = 0; i < count_; ++i)
       std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),
@@ -138,7 +141,7 @@ void Loader::load(AnyEnsemble& particles) {
     xyz_load(particles, frame_,
              {.species = options_.species, .length = options_.length, .velocity = options_.velocity});
   }
-  if (options_.jitter > 0) jitter(particles, options_.jitter * block_.spacing, seed);
+  if (options_.jitter > 0) jitter(particles, {.most = options_.jitter * block_.spacing, .seed = seed});
 }
 
 double Loader::read_block() {

@@ -9,8 +9,9 @@ std::string title_of(ScenarioSimulation const& scenario, std::string const& fold
   return scenario.title.empty() ? std::filesystem::path(folder).filename().string() : scenario.title;
 }
 
-std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder, bool overwrite) {
-  auto recording = std::make_unique<Recording>(*scenario.simulation, scenario.base, folder, overwrite);
+std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder,
+                                          RecordingOptions const& options) {
+  auto recording = std::make_unique<Recording>(*scenario.simulation, scenario.base, folder, options);
   if (!scenario.title.empty()) recording->title(scenario.title);
   recording->scenario(scenario.resolved);
   recording->planned(scenario.steps);

@@ -13,6 +13,7 @@ namespace boltzmann {
 std::string title_of(ScenarioSimulation const& scenario, std::string const& folder);
 
 /// A recording of all that the scenario asks for. Takes the scenario's diagnoses over.
-std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder, bool overwrite);
+std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder,
+                                          RecordingOptions const& options);
 
 }  // namespace boltzmann

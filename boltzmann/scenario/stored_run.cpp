@@ -20,7 +20,7 @@ class StoredEnsemble final : public AnyEnsemble {
  public:
   StoredEnsemble(std::string name, std::string class_name, int dimension, std::size_t doubles,
                  std::vector<Field> fields)
-      : AnyEnsemble(std::move(name), std::move(class_name), dimension,
+      : AnyEnsemble(std::move(name), std::move(class_name), typeid(void), dimension,
                     (doubles + row_block - 1) / row_block * row_block, doubles, 0, std::move(fields)) {
     resize(0);
   }

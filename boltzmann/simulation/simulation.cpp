@@ -126,7 +126,7 @@ void Simulation::threads(int count) {
 Method Simulation::method(AnyEnsemble const& ensemble) const {
   for (auto const& part : parts_)
     if (part.ensemble == &ensemble) return part.integrator->method();
-  throw Error("ensemble '" + ensemble.name() + "' has no integrator");
+  return usual_method(ensemble);
 }
 
 void Simulation::check() {
@@ -170,10 +170,8 @@ void Simulation::check() {
 
 /// The integrator of an ensemble, with its stages and with what it takes over from the schemes.
 Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
-  Part* const part = part_of(ensemble);
-  if (!part)
-    throw Error("ensemble '" + ensemble.name() + "' has no integrator: call integrate(ensemble, Method::...), one of " +
-                join(method_words().names()));
+  Part* part = part_of(ensemble);
+  if (!part) part = &parts_.emplace_back(Part{&ensemble, usual_integrator(ensemble), 0, 0, {}, nullptr});
   part->integrator->threads(schemes_.front()->threads());
   bool const takes = part->integrator->takes_rotations();
   std::vector<Rotation> rotations;

@@ -28,9 +28,10 @@ class Simulation {
   /// advanced by leap-frog. A run with dissipations can't go backwards.
   void add(Dissipation& dissipation);
 
-  /// How an ensemble is advanced: as its class usually is, unless told otherwise. Every ensemble needs one method.
+  /// How an ensemble is advanced, if not as its class usually is (usual_method). A class with equations of motion of its
+  /// own has no usual method.
   template <class P>
-  void integrate(Ensemble<P>& ensemble, Method method = usual_method<P>()) {
+  void integrate(Ensemble<P>& ensemble, Method method) {
     integrate(ensemble, make_integrator(ensemble, method));
   }
   void integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator);
@@ -60,7 +61,7 @@ class Simulation {
   /// temperature. Nobody observes these steps, they are not counted, and moving walls stand still.
   void equilibrate(std::shared_ptr<Dissipation> dissipation, std::uint64_t steps);
 
-  /// Makes ready and refuses what can't run: an ensemble without integrator, particles where they can't be, influences
+  /// Makes ready and refuses what can't run: an ensemble without an integrator, particles where they can't be, influences
   /// that are not finite (two particles at one place). Error with one line. run() calls it once.
   void check();
 

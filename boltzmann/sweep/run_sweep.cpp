@@ -226,14 +226,14 @@ RunReport do_run(std::string const& folder, SweepRun const& run, std::size_t num
     ended = checkpoint.state.contains("stopped");
     check_scenario(folder, run, number, checkpoint.scenario, "checkpoint.h5");
     scenario = parse_scenario(checkpoint.scenario, stored, {{}, {}, {}, threads});
-    recording = make_recording(*scenario, place, true);
+    recording = make_recording(*scenario, place, {.overwrite = true});
     recording->resume();
     first = checkpoint.step;
   } else {
     Overrides overrides{{}, {}, {}, threads};
     overrides.sweep_run = number;
     scenario = load_scenario(folder + "/sweep.toml", overrides);
-    recording = make_recording(*scenario, place, true);
+    recording = make_recording(*scenario, place, {.overwrite = true});
   }
   progress.follow(*scenario->simulation, first, scenario->steps);
   warn(*scenario->simulation, name, told);
@@ -316,7 +316,7 @@ bool same_without_chance(ScenarioSimulation const& one, ScenarioSimulation const
 
 /// The scenario of one run, whether it can be run.
 void try_run(ScenarioSimulation& scenario, std::string const& folder) {
-  auto const recording = make_recording(scenario, folder, true);
+  auto const recording = make_recording(scenario, folder, {.overwrite = true});
   scenario.simulation->check();
   recording->check();
 }
@@ -380,7 +380,8 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
   auto const plan = *scenario->sweep;
   std::string const title = title_of(*scenario, folder);
   {
-    auto const recording = make_recording(*scenario, folder, options.force);  // says if the folder can't be used
+    auto const recording =
+        make_recording(*scenario, folder, {.overwrite = options.force});  // says if the folder can't be used
     scenario->simulation->check();
     recording->check();
   }

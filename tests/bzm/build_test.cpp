@@ -21,7 +21,7 @@ constexpr char const* program = R"cpp(
     UnitSystem const base(units::angstrom, units::amu, units::picosecond);
     double const r0 = base(2.551 * units::angstrom);
     Ensemble<Newton<2>> atoms("atoms");
-    block_load(atoms, Lattice::triangular, r0, {16, 16}, {20, 20});
+    block_load(atoms, {Lattice::triangular, r0, {16, 16}, {20, 20}});
     for (auto& atom : atoms) atom.mass = base(63.546 * units::amu);
     atoms[100].velocity = {10., 5.};
 

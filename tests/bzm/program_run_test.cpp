@@ -153,13 +153,13 @@ TEST(ProgramRun, GoesOnWhereTheEnvironmentSaysSo) {
   Folder folder;
   auto const run = [&](std::string const& name, std::uint64_t steps) {
     Beads<2> beads;
-    Recording recording(beads.simulation, base, folder / name, true);
+    Recording recording(beads.simulation, base, folder / name, {.overwrite = true});
     plan<2>(recording);
     return run_with_progress(recording, steps, {.quiet = true}).steps;
   };
   auto const plainly = [&](std::string const& name) {
     Beads<2> beads;
-    Recording const recording(beads.simulation, base, folder / name, true);
+    Recording const recording(beads.simulation, base, folder / name, {.overwrite = true});
     beads.simulation.run(1);
   };
   struct Asked {
@@ -188,7 +188,7 @@ TEST(ProgramRun, DoesNotGoOnBehindItsCondition) {
   Folder folder;
   auto const run = [&] {
     Beads<2> beads;
-    Recording recording(beads.simulation, base, folder / "run", true);
+    Recording recording(beads.simulation, base, folder / "run", {.overwrite = true});
     recording.diagnoses(5, {"momentum"});
     recording.stop_when("soon", [](std::int64_t step, std::span<double const>) { return step >= 20; });
     return run_with_progress(recording, 100, {.quiet = true}).steps;

@@ -326,7 +326,7 @@ TEST(SpectrumOf, AWaveOfVelocityHasItsWaveNumber) {
   // 240 particles on a line, velocity 0.5 sin(2 pi 6 x / L): the mean square 1/8 within the peak at 6 / L.
   constexpr std::size_t n = 240;
   Ensemble<Newton<1>> plasma("plasma", n);
-  block_load(plasma, Lattice::square, 0.25, {n, 1, 1}, {3, 0, 0});
+  block_load(plasma, {Lattice::square, 0.25, {n, 1, 1}, {3, 0, 0}});
   double const length = n * 0.25;
   for (auto& p : plasma) p.velocity = {0.5 * std::sin(2 * pi * 6 * p.position[0] / length)};
   std::rotate(plasma.begin(), plasma.begin() + 50, plasma.end());  // the order of particles does not matter

@@ -37,7 +37,22 @@ TEST(Measures, OneDimensionByHand) {
   EXPECT_DOUBLE_EQ(temperature(p, 2).total, 22.0 / 2 / 2);
   EXPECT_DOUBLE_EQ(temperature(p, 2).component[0], 5.5);
   // drift 1/3: Sum m (v - u)^2 = 22 - 6/9 over one degree of freedom
-  EXPECT_DOUBLE_EQ(temperature(p, 2, true).total, (22 - 6.0 / 9) / 2);
+  EXPECT_DOUBLE_EQ(temperature(p, 2, {.subtract_drift = true}).total, (22 - 6.0 / 9) / 2);
+}
+
+TEST(Measures, MeansOverAllOrSomeParticles) {
+  Ensemble<Newton<2>> p("p", 3);
+  p[0] = {{{1.0, 0}}, 2, {3.0, 1}};
+  p[1] = {{{5.0, 0}}, 4, {-1.0, 1}};
+  p[2] = {{{6.0, 0}}, 9, {-8.0, 4}};
+  EXPECT_EQ(mean(p, [](auto const& q) { return q.mass; }), 5);
+  EXPECT_EQ(mean(p, [](auto const& q) { return q.velocity; }), (Vector{-2.0, 2.0}));
+  auto const far = [](auto const& q) { return q.position[0] > 2; };
+  EXPECT_EQ(mean(
+                p, [](auto const& q) { return q.velocity; }, far),
+            (Vector{-4.5, 2.5}));
+  EXPECT_TRUE(std::isnan(mean(
+      p, [](auto const& q) { return q.mass; }, [](auto const&) { return false; })));
 }
 
 TEST(Measures, TwoDimensionsByHand) {
@@ -63,7 +78,7 @@ TEST(Measures, ThreeDimensionsByHand) {
   // r x v = (2*6 + 3*5, 3*4 - 1*6, -1*5 - 2*4)
   EXPECT_EQ(angular_momentum(p), (Triple{54, 12, -26}));
   EXPECT_EQ(kinetic_energy(p), 77);
-  EXPECT_TRUE(std::isnan(temperature(p, 1, true).total));
+  EXPECT_TRUE(std::isnan(temperature(p, 1, {.subtract_drift = true}).total));
 }
 
 TEST(Measures, ARotatingRingHasItsAngularMomentum) {
@@ -90,8 +105,8 @@ TEST(Measures, AnIdealGasHasThePressureNkTOverV) {
   Ensemble<Newton<3>> light("light", 1000), heavy("heavy", 500);
   for (auto& p : light) p.mass = 6.6e-27;
   for (auto& p : heavy) p.mass = 2.2e-25;
-  maxwellian_load(light, t, k, test_seed(1), {.exact_temperature = true});
-  maxwellian_load(heavy, t, k, test_seed(1), {.exact_temperature = true});
+  maxwellian_load(light, {.temperature = t, .boltzmann_constant = k, .seed = test_seed(1), .exact_temperature = true});
+  maxwellian_load(heavy, {.temperature = t, .boltzmann_constant = k, .seed = test_seed(1), .exact_temperature = true});
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 2, 3});
   std::vector<AnyEnsemble*> const both{&light, &heavy};
   EXPECT_NEAR(pressure(both, EnergyAndVirial{}, box) / (1500 * k * t / 6), 1, 1e-12);
@@ -104,8 +119,12 @@ TEST(Measures, AnIdealGasHasThePressureNkTOverV) {
 
 TEST(Measures, DriftIsNoHeatIfItIsSubtracted) {
   Ensemble<Newton<2>> beam("beam", 4000);
-  maxwellian_load(beam, 1e-4, 1, test_seed(5), {.remove_drift = true, .exact_temperature = true, .drift = {1e4, 0, 0}});
-  EXPECT_NEAR(temperature(beam, 1, true).total, 1e-4, 1e-10);
+  maxwellian_load(beam, {.temperature = 1e-4,
+                         .seed = test_seed(5),
+                         .remove_drift = true,
+                         .exact_temperature = true,
+                         .drift = {1e4, 0, 0}});
+  EXPECT_NEAR(temperature(beam, 1, {.subtract_drift = true}).total, 1e-4, 1e-10);
   EXPECT_NEAR(temperature(beam, 1).component[0], 1e8, 1);
 }
 
@@ -133,7 +152,7 @@ TEST(Measures, AStretchedHarmonicCrystalPullsWithItsSprings) {
   constexpr std::size_t n = 8;
   constexpr double k = 7, a0 = 1, a = 1.1;
   Ensemble<Newton<1>> chain("chain", n);
-  block_load(chain, Lattice::square, a, {n, 1, 1});
+  block_load(chain, {Lattice::square, a, {n, 1, 1}});
   PairScheme scheme(Box(Vector<1>{0}, Vector<1>{n * a}, Boundary::periodic), 2 * a);
   auto const spring = antisymmetric([](auto const& p, auto const& q) {
     auto const r = q.position - p.position;
@@ -204,7 +223,7 @@ TEST(Measures, OfNothing) {
     EXPECT_EQ(kinetic_energy(of), 0);
     EXPECT_EQ(momentum(of), (Triple{0, 0, 0}));
     EXPECT_TRUE(std::isnan(temperature(of, 1).total));
-    EXPECT_TRUE(std::isnan(temperature(of, 1, true).total));
+    EXPECT_TRUE(std::isnan(temperature(of, 1, {.subtract_drift = true}).total));
     EXPECT_EQ(pressure(of, EnergyAndVirial{}, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1})), 0);
   }
   EXPECT_TRUE(mean_velocity(none, {}).size() == 3 && std::isnan(mean_velocity(none, {})[2]));

@@ -129,8 +129,8 @@ TEST(Profile, FastGasHasItsTemperatureAndPressure) {
   // An ideal gas with two temperatures and drifts a million times its thermal velocity.
   Box const box(Vector{0.0, 0.0, 0.0}, Vector{2.0, 1.0, 1.0}, Boundary::periodic);
   Ensemble<Newton<3>> gas("gas", 200'000);
-  random_load(gas, box, test_seed(5));
-  maxwellian_load(gas, 3, 1, test_seed(6));
+  random_load(gas, box, {.seed = test_seed(5)});
+  maxwellian_load(gas, {.temperature = 3, .seed = test_seed(6)});
   for (auto& p : gas) {
     if (p.position[0] > 1) p.velocity *= 2;
     p.velocity[1] += 1e6 * p.mass;
@@ -155,9 +155,9 @@ TEST(Profile, FastGasHasItsTemperatureAndPressure) {
 TEST(Profile, BinsAddUpToThePressureTensor) {
   Ensemble<Newton<2>> atoms("atoms");
   double const a = 1.05;
-  block_load(atoms, Lattice::triangular, a, {20, 12, 1}, {0.1, 0.1, 0});
+  block_load(atoms, {Lattice::triangular, a, {20, 12, 1}, {0.1, 0.1, 0}});
   Box const box(Vector{0.0, 0.0}, Vector{20 * a, 12 * a * std::sqrt(0.75)}, Boundary::periodic);
-  maxwellian_load(atoms, 0.3, 1, test_seed(3));
+  maxwellian_load(atoms, {.temperature = 0.3, .seed = test_seed(3)});
   PairScheme scheme(box);
   scheme.internal(atoms, LennardJones{1, 1}, 2.5);
   EnergyAndVirial const measures = scheme.measure();
@@ -215,8 +215,8 @@ TEST(Profile, AsAPicture) {
   // Twice as hot and dense on the right: the curve says so.
   Box const box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::reflecting);
   Ensemble<Newton<2>> gas("gas", 3000);
-  random_load(gas, box, test_seed(1));
-  maxwellian_load(gas, 1, 1, test_seed(2));
+  random_load(gas, box, {.seed = test_seed(1)});
+  maxwellian_load(gas, {.temperature = 1, .seed = test_seed(2)});
   for (std::size_t i = 0; i < gas.size(); ++i)
     if (i % 3 > 0 && gas[i].position[0] < 5) gas[i].position[0] += 5;
   PairScheme scheme(box);

@@ -22,8 +22,8 @@ struct Gas {
   std::vector<AnyEnsemble const*> available{&lumps};
 
   explicit Gas(double drift = 0, std::uint64_t seed = 1) {
-    random_load(lumps, box, seed);
-    maxwellian_load(lumps, 1, 1, seed);
+    random_load(lumps, box, {.seed = seed});
+    maxwellian_load(lumps, {.temperature = 1, .seed = seed});
     for (auto& lump : lumps) lump.velocity[0] += drift;
   }
   /// What the first look says, and the check before it, too.

@@ -414,8 +414,8 @@ TEST(Shock, InAGasOfHardDiscs) {
   Ensemble<Newton<2>> gas("gas");
   Filling const even{Lattice::square, 1 / std::sqrt(n0), {0, 0, 0}, {length, thickness, 0}};
   for (auto const& site : filling_sites(even, 2)) gas.add({{{site[0], site[1]}}, 1, {}});
-  jitter(gas, 0.6, test_seed(12));
-  maxwellian_load(gas, t0, 1, test_seed(12), {.remove_drift = true});
+  jitter(gas, {.most = 0.6, .seed = test_seed(12)});
+  maxwellian_load(gas, {.temperature = t0, .seed = test_seed(12), .remove_drift = true});
   PairScheme scheme(box);
   scheme.internal(gas, repulsion, 1);
   scheme.skin(0.5);

@@ -77,7 +77,7 @@ TEST(Slab, ByHandAndFollowed) {
 TEST(Slab, SqueezedCrystalHasItsDensity) {
   // Four slabs of a crystal, one of them squeezed to half its width: densities within 1 %.
   Ensemble<Newton<3>> crystal("crystal");
-  block_load(crystal, Lattice::square, 1, {40, 5, 5}, {0.5, 0.5, 0.5});
+  block_load(crystal, {Lattice::square, 1, {40, 5, 5}, {0.5, 0.5, 0.5}});
   Box const box(Vector{0.0, 0.0, 0.0}, Vector{40.0, 5.0, 5.0},
                 {Boundary::reflecting, Boundary::periodic, Boundary::periodic});
   std::vector<AnyEnsemble*> const all{&crystal};
@@ -99,7 +99,7 @@ TEST(Slab, SqueezedCrystalHasItsDensity) {
 TEST(Slab, GoesThroughAPeriodicWall) {
   Box const box(Vector{-5.0}, Vector{5.0}, Boundary::periodic);
   Ensemble<Newton<1>> gas("gas", 1000);
-  random_load(gas, box, test_seed(2));
+  random_load(gas, box, {.seed = test_seed(2)});
   std::vector<AnyEnsemble*> const all{&gas};
   Slab slab({&gas}, {.axis = 0, .from = 1, .to = 4});
   auto const before = look(slab, all, box);

@@ -34,7 +34,7 @@ struct Crystal {
                1.5),
         dpd(scheme, 1),
         simulation(scheme, 0.01) {
-    block_load(matter, Lattice::square, 1, {cells[0], cells[1], 1}, {0.5, 0.5, 0});
+    block_load(matter, {Lattice::square, 1, {cells[0], cells[1], 1}, {0.5, 0.5, 0}});
     for (std::size_t i = 0; i < matter.size(); ++i) {
       matter[i].mass = i % 3 == 0 ? 4 : 1;
       matter[i].internal_energy = 40;

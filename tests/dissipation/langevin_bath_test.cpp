@@ -18,7 +18,7 @@ namespace boltzmann::langevin_flow_test {
 namespace {
 
 template <class P>
-double mean(Ensemble<P> const& ensemble, auto const& quantity) {
+double mean_of(Ensemble<P> const& ensemble, auto const& quantity) {
   double sum = 0;
   for (std::size_t i = 0; i < ensemble.size(); ++i) sum += quantity(i, ensemble[i]);
   return sum / static_cast<double>(ensemble.size());
@@ -49,12 +49,13 @@ TEST(LangevinBath, FreeParticlesForgetTheirVelocities) {
         auto const excess = [&](auto, auto const& p) {
           return (p.velocity[a] - keep * v0) * std::sqrt(p.mass / variance);
         };
-        EXPECT_NEAR(mean(gas, excess), 0, errors) << dt << " " << step;
-        EXPECT_NEAR(mean(gas, [&](auto i, auto const& p) { return excess(i, p) * excess(i, p); }), 1,
+        EXPECT_NEAR(mean_of(gas, excess), 0, errors) << dt << " " << step;
+        EXPECT_NEAR(mean_of(gas, [&](auto i, auto const& p) { return excess(i, p) * excess(i, p); }), 1,
                     std::sqrt(2) * errors);
       }
-      EXPECT_NEAR(mean(gas, [&](auto, auto const& p) { return p.velocity[2] * (p.velocity[1] + 2 * keep) * p.mass; }),
-                  0, errors * variance);
+      EXPECT_NEAR(
+          mean_of(gas, [&](auto, auto const& p) { return p.velocity[2] * (p.velocity[1] + 2 * keep) * p.mass; }), 0,
+          errors * variance);
     }
   }
 }
@@ -71,7 +72,7 @@ TEST(LangevinBath, CorrelationsDecayWithTheRate) {
   for (std::uint64_t step = 60; step < 72; ++step) {
     bath.advance({dt, step, test_seed(3)});
     double const found =
-        mean(gas, [&](std::size_t i, auto const& p) { return p.mass * dot(p.velocity, before[i]) / 3; });
+        mean_of(gas, [&](std::size_t i, auto const& p) { return p.mass * dot(p.velocity, before[i]) / 3; });
     // The product of two normal variables with the correlation c has the variance 1 + c^2.
     double const c = std::exp(-rate * dt * static_cast<double>(step - 59));
     EXPECT_NEAR(found, c, 5 * std::sqrt((1 + c * c) / (3 * 40000.0))) << step;
@@ -109,8 +110,8 @@ TEST(LangevinBath, HarmonicParticles) {
   int samples = 0;
   simulation.observe(10, [&](Simulation const&) {
     ++samples;
-    x2 += mean(springs, [](auto, auto const& p) { return 0.5 * norm2(p.position); });
-    v2 += mean(springs, [](auto, auto const& p) { return 0.5 * norm2(p.velocity); });
+    x2 += mean_of(springs, [](auto, auto const& p) { return 0.5 * norm2(p.position); });
+    v2 += mean_of(springs, [](auto, auto const& p) { return 0.5 * norm2(p.velocity); });
   });
   simulation.run(300);
   double const right = temperature / (stiffness * (1 - stiffness / mass * dt * dt / 4));

@@ -120,7 +120,7 @@ std::string file_of_run(std::string const& name) {
   static std::string const place = [] {
     std::string path = folder() + "/run";
     Pair pair;
-    Recording recording(pair.simulation, UnitSystem::reduced(), path, true);
+    Recording recording(pair.simulation, UnitSystem::reduced(), path, {.overwrite = true});
     recording.diagnoses(5, {"momentum"});
     recording.trajectory(5);
     recording.picture({.colour = "speed"});

@@ -218,8 +218,8 @@ TEST(ByEnergy, TwoParticlesAtOnePlace) {
 template <class P, class Law>
 double drift(Law const& law, double cutoff, auto const& prepare) {
   Ensemble<P> atoms("atoms", 125);
-  block_load(atoms, Lattice::square, 1.3, {5, 5, 5});
-  maxwellian_load(atoms, 0.5, 1, test_seed(1));
+  block_load(atoms, {Lattice::square, 1.3, {5, 5, 5}});
+  maxwellian_load(atoms, {.temperature = 0.5, .seed = test_seed(1)});
   prepare(atoms);
   PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::reflecting), cutoff);
   space.internal(atoms, law);
@@ -246,7 +246,7 @@ TEST(ByEnergy, RunsConserveEnergy) {
 
 TEST(ByEnergy, GivesTheForcesOfTheSchemeByHand) {
   Ensemble<Newton<3>> atoms("atoms", 216);
-  block_load(atoms, Lattice::square, 1.1, {6, 6, 6});
+  block_load(atoms, {Lattice::square, 1.1, {6, 6, 6}});
   for (auto& p : atoms)
     for (int k = 0; k < 3; ++k) p.position[k] += uniform(-0.1, 0.1);
   auto const forces = [&](auto const& law) {

@@ -166,8 +166,8 @@ TEST(LennardJonesMixture, HasTheLawOfEveryPair) {
 
 /// A block of two species that is not at rest.
 void load(Ensemble<Species<3>>& atoms) {
-  block_load(atoms, Lattice::square, 1.2, {6, 6, 6});
-  maxwellian_load(atoms, 0.7, 1, test_seed(1));
+  block_load(atoms, {Lattice::square, 1.2, {6, 6, 6}});
+  maxwellian_load(atoms, {.temperature = 0.7, .seed = test_seed(1)});
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     atoms[i].species = i % 3 == 0 ? 1 : 0;
     atoms[i].position += 0.03 * atoms[i].velocity;

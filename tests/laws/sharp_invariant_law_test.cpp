@@ -88,7 +88,7 @@ TEST(SharpInvariantLaw, OfNextToNoHeatCapacityIsExponential) {
 TEST(SharpInvariantLaw, LoadsGrainsInSIUnits) {
   Ensemble<Meso<3>> grains("grains", 1000);
   StateLaw const law(1e-6);  // of a grain of sand, in J/K: 7e16 k
-  internal_energy_load(grains, law, 300, 1.380649e-23, test_seed(1));
+  internal_energy_load(grains, law, {.temperature = 300, .boltzmann_constant = 1.380649e-23, .seed = test_seed(1)});
   double mean = 0, square = 0;
   for (auto const& grain : grains) {
     mean += grain.temperature / 1000;

@@ -268,8 +268,8 @@ TEST(Table, RunsConserveEnergy) {
   // A coarse table too: its force is the derivative of its own energy.
   Ensemble<Newton<3>> atoms("atoms", 125);
   for (std::size_t const fineness : {8, 512}) {
-    block_load(atoms, Lattice::square, 1.2, {5, 5, 5});
-    maxwellian_load(atoms, 0.5, 1, test_seed(1));
+    block_load(atoms, {Lattice::square, 1.2, {5, 5, 5}});
+    maxwellian_load(atoms, {.temperature = 0.5, .seed = test_seed(1)});
     PairScheme space(Box(Vector{-1.0, -1.0, -1.0}, Vector{7.0, 7.0, 7.0}, Boundary::reflecting), 3);
     space.internal(atoms, Table(lennard_jones, 0.6, 3, PerOctave{fineness}));
     Simulation simulation(space, 0.002);

@@ -78,10 +78,10 @@ TEST(Filling, RefusesWhatCantBeFilled) {
 
 TEST(Jitter, MovesEachParticleByItsOwnNumbers) {
   Ensemble<Newton<3>> few("a", 5), many("a", 1000), other("b", 5), nobody("a", 0);
-  jitter(few, 0.5, test_seed(3));
-  jitter(many, 0.5, test_seed(3));
-  jitter(other, 0.5, test_seed(3));
-  jitter(nobody, 0.5, 3);
+  jitter(few, {.most = 0.5, .seed = test_seed(3)});
+  jitter(many, {.most = 0.5, .seed = test_seed(3)});
+  jitter(other, {.most = 0.5, .seed = test_seed(3)});
+  jitter(nobody, {.most = 0.5, .seed = 3});
   for (std::size_t i = 0; i < 5; ++i)
     for (int a = 0; a < 3; ++a) {
       EXPECT_EQ(few[i].position[a], many[i].position[a]);
@@ -98,10 +98,10 @@ TEST(Jitter, MovesEachParticleByItsOwnNumbers) {
 
 TEST(Jitter, OfZeroMovesNobodyAndWrongOnesAreRefused) {
   Ensemble<Newton<2>> particles("a", 2);
-  jitter(particles, 0, 3);
+  jitter(particles, {.most = 0, .seed = 3});
   EXPECT_EQ(particles[1].position[0], 0);
-  EXPECT_THROW(jitter(particles, -1, 3), Error);
-  EXPECT_THROW(jitter(particles, std::nan(""), 3), Error);
+  EXPECT_THROW(jitter(particles, {.most = -1, .seed = 3}), Error);
+  EXPECT_THROW(jitter(particles, {.most = std::nan(""), .seed = 3}), Error);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(InternalEnergyLoad, DrawsFromTheGammaLaw) {
   StateLaw const law(alpha * k);
   std::size_t const n = 100'000;
   Ensemble<Meso<2>> lumps("pvdf", n);
-  internal_energy_load(lumps, law, T0, k, test_seed(1));
+  internal_energy_load(lumps, law, {.temperature = T0, .boltzmann_constant = k, .seed = test_seed(1)});
   std::vector<double> energy = lumps.column(lumps.field("internal_energy"));
   double mean = 0, variance = 0, inverse = 0, hot = 0;
   for (double const x : energy) mean += x / n;
@@ -51,7 +51,7 @@ TEST(InternalEnergyLoad, FollowsATable) {
   StateLaw const law({100, 250, 350, 900}, {4, 6, 30, 31});
   std::size_t const n = 50'000;
   Ensemble<Meso<3>> lumps("lumps", n);
-  internal_energy_load(lumps, law, 300, 1, test_seed(5));
+  internal_energy_load(lumps, law, {.temperature = 300, .seed = test_seed(5)});
   double inverse = 0, square = 0;
   std::size_t below = 0;
   double const median = law.quantile(0.5, 300, 1);
@@ -67,10 +67,10 @@ TEST(InternalEnergyLoad, FollowsATable) {
 TEST(InternalEnergyLoad, AParticlesEnergyDependsOnNothingElse) {
   StateLaw const law(16);
   Ensemble<Meso<2>> few("lumps", 10), many("lumps", 1000), other("other", 10), again("lumps", 10);
-  internal_energy_load(few, law, 300, 1, test_seed(3));
-  internal_energy_load(many, law, 300, 1, test_seed(3));
-  internal_energy_load(other, law, 300, 1, test_seed(3));
-  internal_energy_load(again, law, 300, 1, test_seed(4));
+  internal_energy_load(few, law, {.temperature = 300, .seed = test_seed(3)});
+  internal_energy_load(many, law, {.temperature = 300, .seed = test_seed(3)});
+  internal_energy_load(other, law, {.temperature = 300, .seed = test_seed(3)});
+  internal_energy_load(again, law, {.temperature = 300, .seed = test_seed(4)});
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(few[i].internal_energy, many[i].internal_energy);
     EXPECT_NE(few[i].internal_energy, other[i].internal_energy);
@@ -78,7 +78,7 @@ TEST(InternalEnergyLoad, AParticlesEnergyDependsOnNothingElse) {
     EXPECT_GT(few[i].internal_energy, 0);
   }
   Ensemble<Meso<2>> none("none");
-  internal_energy_load(none, law, 300, 1, 3);
+  internal_energy_load(none, law, {.temperature = 300, .seed = 3});
   EXPECT_EQ(none.size(), 0U);
 }
 
@@ -97,20 +97,20 @@ struct Lump : Newton<D, Real> {
 TEST(InternalEnergyLoad, ClassesWithoutTheFields) {
   StateLaw const law(16);
   Ensemble<Lump<1>> lumps("lumps", 3);
-  internal_energy_load(lumps, law, 300, 1, test_seed(3));
+  internal_energy_load(lumps, law, {.temperature = 300, .seed = test_seed(3)});
   EXPECT_GT(lumps[2].internal_energy, 0);
   EXPECT_EQ(lumps[2].velocity[0], 0);
 
   Ensemble<Newton<2>> atoms("atoms", 3);
   try {
-    internal_energy_load(atoms, law, 300, 1, test_seed(3));
+    internal_energy_load(atoms, law, {.temperature = 300, .seed = test_seed(3)});
     FAIL() << "Newton has no internal energy";
   } catch (Error const& error) {
     EXPECT_NE(std::string(error.what()).find("internal_energy"), std::string::npos) << error.what();
   }
-  EXPECT_THROW(internal_energy_load(lumps, law, 0, 1, 3), Error);
-  EXPECT_THROW(internal_energy_load(lumps, law, 300, -1, 3), Error);
-  EXPECT_THROW(internal_energy_load(lumps, law, NAN, 1, 3), Error);
+  EXPECT_THROW(internal_energy_load(lumps, law, {.temperature = 0, .seed = 3}), Error);
+  EXPECT_THROW(internal_energy_load(lumps, law, {.temperature = 300, .boltzmann_constant = -1, .seed = 3}), Error);
+  EXPECT_THROW(internal_energy_load(lumps, law, {.seed = 3}), Error);  // a temperature is needed
 }
 
 }  // namespace

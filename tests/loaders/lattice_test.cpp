@@ -3,6 +3,7 @@
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/particles/tracer.hpp>
 
 #include <gtest/gtest.h>
@@ -111,7 +112,7 @@ TEST(Lattice, ClosePackingsDifferInTheirFurtherShells) {
 
 TEST(Lattice, SitesRunAlongXFirst) {
   Ensemble<Newton<2>> atoms("atoms", 6);
-  EXPECT_EQ(block_load(atoms, Lattice::square, 0.5, {3, 2, 1}, {10, 20, 0}), 6U);
+  EXPECT_EQ(block_load(atoms, {Lattice::square, 0.5, {3, 2, 1}, {10, 20, 0}}), 6U);
   EXPECT_EQ(atoms[0].position, (Vector<2>{10, 20}));
   EXPECT_EQ(atoms[1].position, (Vector<2>{10.5, 20}));
   EXPECT_EQ(atoms[2].position, (Vector<2>{11, 20}));
@@ -119,20 +120,20 @@ TEST(Lattice, SitesRunAlongXFirst) {
   EXPECT_EQ(atoms[5].mass, 1);
 
   Ensemble<Newton<2>> metal("metal", 250);  // the copper of the 1990 listing A.3, triangular
-  EXPECT_EQ(block_load(metal, Lattice::triangular, 2.551, {25, 10, 1}), 250U);
+  EXPECT_EQ(block_load(metal, {Lattice::triangular, 2.551, {25, 10, 1}}), 250U);
   EXPECT_DOUBLE_EQ(metal[25].position[0], 0.5 * 2.551);
   EXPECT_DOUBLE_EQ(metal[25].position[1], std::sqrt(3.0) / 2 * 2.551);
   EXPECT_DOUBLE_EQ(metal[50].position[0], 0);
 
   Ensemble<Tracer<3>> fluid("fluid", 4);  // the four sites of one fcc cube
-  block_load(fluid, Lattice::fcc, std::sqrt(0.5), {1, 1, 1});
+  block_load(fluid, {Lattice::fcc, std::sqrt(0.5), {1, 1, 1}});
   EXPECT_EQ(fluid[0].position, (Vector<3>{0, 0, 0}));
   for (int k = 1; k < 4; ++k) EXPECT_NEAR(norm2(fluid[k].position), 0.5, 1e-15);
 }
 
 TEST(Lattice, OneDimensionIgnoresFurtherCounts) {
   Ensemble<Newton<1>> chain("chain", 3);
-  EXPECT_EQ(block_load(chain, Lattice::square, 2, {3, 7, 9}), 3U);
+  EXPECT_EQ(block_load(chain, {Lattice::square, 2, {3, 7, 9}}), 3U);
   EXPECT_EQ(chain[2].position[0], 4);
 }
 
@@ -158,25 +159,25 @@ TEST(Lattice, CentredLeavesTheSameMarginOnBothSides) {
 TEST(Lattice, RefusesWhatDoesNotFit) {
   Ensemble<Newton<2>> atoms("atoms", 10);
   try {
-    block_load(atoms, Lattice::square, 1, {3, 4, 1});
+    block_load(atoms, {Lattice::square, 1, {3, 4, 1}});
     FAIL() << "a lattice of 12 sites took 10 particles";
   } catch (Error const& error) {
     EXPECT_STREQ(error.what(), "ensemble 'atoms' has 10 particles, the square lattice of 3 x 4 cells has 12 sites");
   }
   Ensemble<Newton<2>> empty("empty");
-  EXPECT_EQ(block_load(empty, Lattice::square, 1, {3, 4, 1}), 12U);
+  EXPECT_EQ(block_load(empty, {Lattice::square, 1, {3, 4, 1}}), 12U);
   EXPECT_EQ(empty.size(), 12U);
   EXPECT_EQ(empty[11].position, (Vector<2>{2, 3}));
-  EXPECT_THROW(block_load(atoms, Lattice::fcc, 1, {3, 1, 1}), Error);
-  EXPECT_THROW(block_load(atoms, Lattice::square, 0, {3, 4, 1}), Error);
-  EXPECT_THROW(block_load(atoms, Lattice::square, NAN, {3, 4, 1}), Error);
-  EXPECT_THROW(block_load(atoms, Lattice::square, 1, {3, 4, 1}, {NAN, 0, 0}), Error);
+  EXPECT_THROW(block_load(atoms, {Lattice::fcc, 1, {3, 1, 1}}), Error);
+  EXPECT_THROW(block_load(atoms, {Lattice::square, 0, {3, 4, 1}}), Error);
+  EXPECT_THROW(block_load(atoms, {Lattice::square, NAN, {3, 4, 1}}), Error);
+  EXPECT_THROW(block_load(atoms, {Lattice::square, 1, {3, 4, 1}, {NAN, 0, 0}}), Error);
   EXPECT_THROW(site_count({Lattice::square, 1, {1U << 31, 1U << 31, 1}, {}}, 2), Error);
   Ensemble<Newton<1>> chain("chain", 4);
-  EXPECT_THROW(block_load(chain, Lattice::triangular, 1, {4, 1, 1}), Error);
+  EXPECT_THROW(block_load(chain, {Lattice::triangular, 1, {4, 1, 1}}), Error);
   Ensemble<Newton<2>> none("none");
-  EXPECT_EQ(block_load(none, Lattice::triangular, 1, {0, 5, 1}), 0U);
-  EXPECT_THROW(block_load(atoms, Lattice::hcp, 1, {3, 1, 1}), Error);
+  EXPECT_EQ(block_load(none, {Lattice::triangular, 1, {0, 5, 1}}), 0U);
+  EXPECT_THROW(block_load(atoms, {Lattice::hcp, 1, {3, 1, 1}}), Error);
   EXPECT_THROW(filling_count(Filling{Lattice::hcp, 0.1, {0, 0, 0}, {1, 1, 1}}, 3), Error);
   EXPECT_EQ(lattice_words().named("bcc"), Lattice::bcc);
   EXPECT_EQ(lattice_words().named("hcp"), Lattice::hcp);
@@ -196,8 +197,29 @@ TEST(Lattice, FillsABoxWithADensity) {
   EXPECT_THROW(fill_load(some, box, {.spacing = 0.24}), Error);
   EXPECT_THROW(fill_load(gas, box, {.spacing = 0.24, .density = -1}), Error);
   EXPECT_THROW(fill_load(gas, box, {.spacing = 0}), Error);
+  EXPECT_THROW(fill_load(gas, box, {.spacing = 0.24, .range = NAN}), Error);
+  EXPECT_THROW(fill_load(gas, box, {.spacing = 0.24, .range = 1}), Error);  // no smooth particle
   Ensemble<Tracer<2>> weightless("weightless");
   EXPECT_THROW(fill_load(weightless, box, {.spacing = 0.24, .density = 3}), Error);
+}
+
+TEST(Lattice, GivesRangesAndDiametersUnlessThereAreSome) {
+  Ensemble<Smooth<2>> gas("gas"), seen("seen"), drops("drops");
+  fill_load(gas, {.spacing = 0.25, .low = {1, 1}, .high = {2, 3}, .density = 2, .range = 0.7});
+  EXPECT_EQ(gas.size(), 32U);
+  for (auto const& p : gas) {
+    EXPECT_EQ(p.range, 0.7);
+    EXPECT_NEAR(p.mass, 2.0 / 16, 1e-15);
+  }
+  EXPECT_EQ(gas.appearance.diameter, 0.25);
+  seen.appearance.diameter = 0.1;
+  seen.resize(2);
+  seen[1].range = 3;
+  block_load(seen, {Lattice::square, 0.25, {2, 1}});
+  EXPECT_EQ(seen.appearance.diameter, 0.1);
+  EXPECT_EQ(seen[1].range, 3);
+  block_load(drops, {.kind = Lattice::triangular, .spacing = 2, .counts = {2, 2}});
+  EXPECT_EQ(drops.appearance.diameter, 2);
 }
 
 TEST(Fields, AreSetByName) {
@@ -220,7 +242,7 @@ TEST(Fields, AreSetByName) {
 TEST(Fields, EdgeParticlesAreTheFrameOfABlock) {
   // The boundary atoms of A.3: within 0.6 r0 of the bounding box. On a square lattice: the outermost rows and columns.
   Ensemble<Newton<2>> atoms("atoms", 25 * 10);
-  block_load(atoms, Lattice::square, 2.551, {25, 10, 1}, {3, 4, 0});
+  block_load(atoms, {Lattice::square, 2.551, {25, 10, 1}, {3, 4, 0}});
   auto const edge = edge_particles(atoms, 0.6 * 2.551);
   EXPECT_EQ(edge.size(), 2U * 25 + 2U * 8);
   for (auto const i : edge) EXPECT_TRUE(i % 25 == 0 || i % 25 == 24 || i < 25 || i >= 225) << i;

@@ -69,8 +69,8 @@ void ripples(int axis) {
   EXPECT_NEAR(wave.wave_number, 2 * pi * 3 / 5, 1e-15);
   std::size_t const size = 40000;
   Ensemble<Coulomb<D>> random("random", size), quiet("quiet", size);
-  sinusoidal_load(random, box, wave, amplitude, test_seed(7));
-  quiet_load(quiet, box, wave, amplitude);
+  sinusoidal_load(random, box, {.wave = wave, .amplitude = amplitude, .seed = test_seed(7)});
+  quiet_load(quiet, box, {.wave = wave, .amplitude = amplitude});
   box.check(random);
   box.check(quiet);
   // Of random positions a mode has the noise 1/sqrt(N), of quiet ones none along the axis.
@@ -97,10 +97,10 @@ TEST(RippleLoad, DependsOnSeedAndNameAndNothingElse) {
   Box const box = periodic<2>();
   Wave const wave = wave_of_mode(box, 0, 1);
   Ensemble<Coulomb<2>> few("ions", 10), many("ions", 20), other("ions", 10), electrons("electrons", 10);
-  sinusoidal_load(few, box, wave, 0.5, test_seed(1));
-  sinusoidal_load(many, box, wave, 0.5, test_seed(1));
-  sinusoidal_load(other, box, wave, 0.5, test_seed(2));
-  sinusoidal_load(electrons, box, wave, 0.5, test_seed(1));
+  sinusoidal_load(few, box, {.wave = wave, .amplitude = 0.5, .seed = test_seed(1)});
+  sinusoidal_load(many, box, {.wave = wave, .amplitude = 0.5, .seed = test_seed(1)});
+  sinusoidal_load(other, box, {.wave = wave, .amplitude = 0.5, .seed = test_seed(2)});
+  sinusoidal_load(electrons, box, {.wave = wave, .amplitude = 0.5, .seed = test_seed(1)});
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(few[i].position, many[i].position);
     EXPECT_NE(few[i].position, other[i].position);
@@ -112,7 +112,7 @@ TEST(RippleLoad, KeepsOutOfRegions) {
   Box box = periodic<1>(0, 10);
   box.install(Region{{2}, {6}, Region::Side::keep_out});
   Ensemble<Coulomb<1>> ions("ions", 2000);
-  sinusoidal_load(ions, box, wave_of_mode(box, 0, 1), 0.9, test_seed(3));
+  sinusoidal_load(ions, box, {.wave = wave_of_mode(box, 0, 1), .amplitude = 0.9, .seed = test_seed(3)});
   for (auto const& ion : ions) EXPECT_TRUE(ion.position[0] <= 2 || ion.position[0] >= 6);
   EXPECT_NE(message([&] { quiet_load(ions, box); }).find("regions"), std::string::npos);
 }
@@ -155,9 +155,7 @@ void quiet_maxwellian() {
   Ensemble<Coulomb<D>> electrons("electrons", size);
   for (auto& e : electrons) e.mass = 0.5;
   quiet_load(electrons, box);
-  MaxwellianOptions options;
-  options.quiet = true;
-  maxwellian_load(electrons, 3.0, 1.5, 1, options);  // k T / m = 9
+  maxwellian_load(electrons, {.temperature = 3, .boltzmann_constant = 1.5, .quiet = true});  // k T / m = 9
   for (int a = 0; a < D; ++a) {
     auto const [mean, variance] = moments(electrons, a, 0, size);
     EXPECT_NEAR(mean, 0, 1e-13);
@@ -198,10 +196,8 @@ TEST(QuietMaxwellian, IsTheWholeDistributionInEveryCell) {
 
 TEST(QuietMaxwellian, DriftAndExactTemperatureAsAtRandom) {
   Ensemble<Coulomb<2>> beam("beam", 1000);
-  MaxwellianOptions options;
-  options.quiet = options.remove_drift = options.exact_temperature = true;
-  options.drift = {2, -1, 0};
-  maxwellian_load(beam, 0.25, 1, 1, options);
+  maxwellian_load(
+      beam, {.temperature = 0.25, .remove_drift = true, .exact_temperature = true, .drift = {2, -1, 0}, .quiet = true});
   auto const x = moments(beam, 0, 0, 1000), y = moments(beam, 1, 0, 1000);
   EXPECT_NEAR(x[0], 2, 1e-12);
   EXPECT_NEAR(y[0], -1, 1e-12);
@@ -213,11 +209,11 @@ TEST(VelocityRipple, AddsAWave) {
   Ensemble<Coulomb<2>> electrons("electrons", 3);
   electrons[0].position = {-2, 0}, electrons[1].position = {-1, 1}, electrons[2].position = {0, 5};
   for (auto& e : electrons) e.velocity = {1, 10};
-  velocity_ripple(electrons, box, wave_of_mode(box, 0, 2), 0.5, 0);  // sin(pi/2 (x + 2))
+  velocity_ripple(electrons, box, {.wave = wave_of_mode(box, 0, 2), .amplitude = 0.5});  // sin(pi/2 (x + 2))
   EXPECT_NEAR(electrons[0].velocity[0], 1, 1e-15);
   EXPECT_NEAR(electrons[1].velocity[0], 1.5, 1e-15);
   EXPECT_NEAR(electrons[2].velocity[0], 1, 1e-15);
-  velocity_ripple(electrons, box, {1, 0.5, pi / 2}, 2, 1);  // cos((y + 2)/2) on y
+  velocity_ripple(electrons, box, {.wave = {1, 0.5, pi / 2}, .amplitude = 2, .component = 1});  // cos((y + 2)/2) on y
   EXPECT_NEAR(electrons[0].velocity[1], 10 + 2 * std::cos(1.0), 1e-14);
   EXPECT_NEAR(electrons[2].velocity[1], 10 + 2 * std::cos(3.5), 1e-14);
 }
@@ -227,11 +223,9 @@ TEST(PlasmaLoads, FewParticlesAndMistakes) {
   Ensemble<Coulomb<2>> none("none", 0), one("one", 1), two("two", 2);
   Wave const wave = wave_of_mode(box, 0, 1);
   for (auto* e : {&none, &one, &two}) {
-    quiet_load(*e, box, wave, 1);
-    MaxwellianOptions options;
-    options.quiet = true;
-    maxwellian_load(*e, 1, 1, 1, options);
-    velocity_ripple(*e, box, wave, 1, 1);
+    quiet_load(*e, box, {.wave = wave, .amplitude = 1});
+    maxwellian_load(*e, {.temperature = 1, .quiet = true});
+    velocity_ripple(*e, box, {.wave = wave, .amplitude = 1, .component = 1});
     box.check(*e);
   }
   // The only quantile is the median; that of 1 + sin over one period lies below the middle.
@@ -239,12 +233,21 @@ TEST(PlasmaLoads, FewParticlesAndMistakes) {
   double const x = (one[0].position[0] + 1) / 5;
   EXPECT_NEAR(x + (1 - std::cos(2 * pi * x)) / (2 * pi), 0.5, 1e-14);
   EXPECT_EQ(one[0].position[1], 1.5);
-  EXPECT_EQ(message([&] { quiet_load(two, box, wave, 1.5); }),
+  EXPECT_EQ(message([&] { quiet_load(two, box, {.wave = wave, .amplitude = 1.5}); }),
             "quiet load: the amplitude 1.5 would make the density negative; it is between -1 and 1");
-  EXPECT_NE(message([&] { sinusoidal_load(two, box, {2, 1, 0}, 0.5, 1); }).find("no axis 2"), std::string::npos);
-  EXPECT_NE(message([&] { sinusoidal_load(two, box, {0, NAN, 0}, 0.5, 1); }).find("finite"), std::string::npos);
+  EXPECT_NE(message([&] {
+              sinusoidal_load(two, box, {.wave = {2, 1, 0}, .amplitude = 0.5});
+            }).find("no axis 2"),
+            std::string::npos);
+  EXPECT_NE(message([&] {
+              sinusoidal_load(two, box, {.wave = {0, NAN, 0}, .amplitude = 0.5});
+            }).find("finite"),
+            std::string::npos);
   EXPECT_NE(message([&] { wave_of_mode(box, -1, 1); }).find("no axis -1"), std::string::npos);
-  EXPECT_NE(message([&] { velocity_ripple(two, box, wave, 1, 2); }).find("no component 2"), std::string::npos);
+  EXPECT_NE(message([&] {
+              velocity_ripple(two, box, {.wave = wave, .amplitude = 1, .component = 2});
+            }).find("no component 2"),
+            std::string::npos);
   EXPECT_NE(message([&] { quiet_load(two, periodic<1>()); }).find("dimensions"), std::string::npos);
 }
 

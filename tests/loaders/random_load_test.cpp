@@ -48,7 +48,7 @@ TEST(Maxwellian, VelocitiesHaveTheDistributionOfEq51) {
   constexpr double k = 1.380649e-16, t = 16e3;
   Ensemble<Newton<3>> ions("ions", n);
   for (std::size_t i = 0; i < n; ++i) ions[i].mass = i % 2 == 0 ? 0.91e-27 : 1.67e-24;  // each its own mass
-  maxwellian_load(ions, t, k, test_seed(7));
+  maxwellian_load(ions, {.temperature = t, .boltzmann_constant = k, .seed = test_seed(7)});
   int const offset = ions.field("velocity").offset;
   for (int a = 0; a < 3; ++a) {
     std::vector<double> reduced;
@@ -65,7 +65,11 @@ TEST(Maxwellian, VelocitiesHaveTheDistributionOfEq51) {
 TEST(Maxwellian, ExactTemperatureWithoutDrift) {
   Ensemble<Newton<2>> atoms("atoms", 100);
   for (std::size_t i = 0; i < 100; ++i) atoms[i].mass = 1 + static_cast<double>(i % 3);
-  maxwellian_load(atoms, 0.72, 2.0, test_seed(3), {.remove_drift = true, .exact_temperature = true});
+  maxwellian_load(atoms, {.temperature = 0.72,
+                          .boltzmann_constant = 2.0,
+                          .seed = test_seed(3),
+                          .remove_drift = true,
+                          .exact_temperature = true});
   Vector<2> p{0, 0};
   double twice_kinetic = 0;
   for (auto const& atom : atoms) p += atom.mass * atom.velocity, twice_kinetic += atom.mass * norm2(atom.velocity);
@@ -73,12 +77,17 @@ TEST(Maxwellian, ExactTemperatureWithoutDrift) {
   EXPECT_NEAR(p[1], 0, 1e-12);
   EXPECT_NEAR(twice_kinetic, 2.0 * 0.72 * 2 * 99, 1e-10);
 
-  maxwellian_load(atoms, 0.72, 2.0, test_seed(3), {.exact_temperature = true});
+  maxwellian_load(atoms,
+                  {.temperature = 0.72, .boltzmann_constant = 2.0, .seed = test_seed(3), .exact_temperature = true});
   twice_kinetic = 0;
   for (auto const& atom : atoms) twice_kinetic += atom.mass * norm2(atom.velocity);
   EXPECT_NEAR(twice_kinetic, 2.0 * 0.72 * 2 * 100, 1e-10);
 
-  maxwellian_load(atoms, 0.72, 2.0, test_seed(3), {.remove_drift = true, .drift = {5, -2, 0}});
+  maxwellian_load(atoms, {.temperature = 0.72,
+                          .boltzmann_constant = 2.0,
+                          .seed = test_seed(3),
+                          .remove_drift = true,
+                          .drift = {5, -2, 0}});
   double mass = 0;
   p = {0, 0};
   for (auto const& atom : atoms) p += atom.mass * atom.velocity, mass += atom.mass;
@@ -88,13 +97,13 @@ TEST(Maxwellian, ExactTemperatureWithoutDrift) {
 
 TEST(Maxwellian, NoneOneAndCold) {
   Ensemble<Newton<2>> none("none"), one("one", 1);
-  maxwellian_load(none, 1, 1, 1, {.remove_drift = true, .exact_temperature = true});
-  maxwellian_load(one, 1, 1, test_seed(1), {.remove_drift = true});
+  maxwellian_load(none, {.temperature = 1, .remove_drift = true, .exact_temperature = true});
+  maxwellian_load(one, {.temperature = 1, .seed = test_seed(1), .remove_drift = true});
   EXPECT_EQ(norm2(one[0].velocity), 0);
-  EXPECT_THROW(maxwellian_load(one, 1, 1, 1, {.remove_drift = true, .exact_temperature = true}), Error);
-  maxwellian_load(one, 3, 1, test_seed(1), {.exact_temperature = true});
+  EXPECT_THROW(maxwellian_load(one, {.temperature = 1, .remove_drift = true, .exact_temperature = true}), Error);
+  maxwellian_load(one, {.temperature = 3, .seed = test_seed(1), .exact_temperature = true});
   EXPECT_NEAR(norm2(one[0].velocity), 6, 1e-12);
-  maxwellian_load(one, 0, 1, test_seed(1), {.exact_temperature = true});
+  maxwellian_load(one, {.temperature = 0, .seed = test_seed(1), .exact_temperature = true});
   EXPECT_EQ(norm2(one[0].velocity), 0);
 }
 
@@ -103,24 +112,27 @@ TEST(RandomLoads, RefuseWhatTheClassOrTheNumbersDontAllow) {
   Ensemble<Newton<2>> atoms("atoms", 3);
   Box const box(Vector<2>{0, 0}, Vector<2>{1, 1});
   try {
-    maxwellian_load(fluid, 1, 1, 1);
+    maxwellian_load(fluid, {.temperature = 1});
     FAIL() << "fluid particles have no mass";
   } catch (Error const& error) {
     EXPECT_NE(std::string(error.what()).find("'fluid' of class Tracer has no field 'mass'"), std::string::npos)
         << error.what();
   }
-  EXPECT_THROW(oscillating_load(fluid, 1, 1, 1, 1), Error);
-  EXPECT_THROW(barometric_load(fluid, box, 1, 1, 1, 1), Error);
-  EXPECT_THROW(maxwellian_load(atoms, -1, 1, 1), Error);
-  EXPECT_THROW(maxwellian_load(atoms, NAN, 1, 1), Error);
-  EXPECT_THROW(maxwellian_load(atoms, 1, 0, 1), Error);
-  EXPECT_THROW(oscillating_load(atoms, 1, 0, 1, 1), Error);
-  EXPECT_THROW(barometric_load(atoms, box, 0, 1, 1, 1), Error);
-  EXPECT_THROW(barometric_load(atoms, box, 1, NAN, 1, 1), Error);
-  EXPECT_THROW(random_load(atoms, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1}), 1), Error);
-  EXPECT_THROW(random_load(atoms, box, 1, -0.1), Error);
+  EXPECT_THROW(oscillating_load(fluid, {.temperature = 1, .angular_frequency = 1}), Error);
+  EXPECT_THROW(barometric_load(fluid, box, {.temperature = 1, .gravity = 1}), Error);
+  EXPECT_THROW(maxwellian_load(atoms, {.temperature = -1}), Error);
+  EXPECT_THROW(maxwellian_load(atoms, {.temperature = NAN}), Error);
+  EXPECT_THROW(maxwellian_load(atoms, {.seed = 2}), Error);  // a temperature is needed
+  EXPECT_THROW(oscillating_load(atoms, {.temperature = 1}), Error);
+  EXPECT_THROW(barometric_load(atoms, box, {.temperature = 1}), Error);
+  EXPECT_THROW(maxwellian_load(atoms, {.temperature = 1, .boltzmann_constant = 0}), Error);
+  EXPECT_THROW(oscillating_load(atoms, {.temperature = 1, .angular_frequency = 0}), Error);
+  EXPECT_THROW(barometric_load(atoms, box, {.temperature = 0, .gravity = 1}), Error);
+  EXPECT_THROW(barometric_load(atoms, box, {.temperature = 1, .gravity = NAN}), Error);
+  EXPECT_THROW(random_load(atoms, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1})), Error);
+  EXPECT_THROW(random_load(atoms, box, {.minimum_distance = -0.1}), Error);
   atoms[2].mass = 0;
-  EXPECT_THROW(maxwellian_load(atoms, 1, 1, 1), Error);
+  EXPECT_THROW(maxwellian_load(atoms, {.temperature = 1}), Error);
   EXPECT_THROW(random_field(atoms, "velocity", 2, Uniform(0, 1), 1), Error);
 }
 
@@ -128,9 +140,9 @@ TEST(RandomLoads, GiveTheSameBitsForTheSameSeedWhateverTheNumberOfOthers) {
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{2, 3, 4}, Boundary::periodic);
   auto const load = [&](std::string const& name, std::size_t n, std::uint64_t seed) {
     auto atoms = std::make_unique<Ensemble<Newton<3>>>(name, n);
-    random_load(*atoms, box, seed, 0.2);
-    oscillating_load(*atoms, 0.5, 10, 1, seed);
-    maxwellian_load(*atoms, 1, 1, seed);
+    random_load(*atoms, box, {.minimum_distance = 0.2, .seed = seed});
+    oscillating_load(*atoms, {.temperature = 0.5, .angular_frequency = 10, .seed = seed});
+    maxwellian_load(*atoms, {.temperature = 1, .seed = seed});
     return atoms;
   };
   auto const few = load("atoms", 10, 5), many = load("atoms", 200, 5);
@@ -151,7 +163,7 @@ TEST(RandomLoad, IsUniformInTheBox) {
   constexpr std::size_t n = 20000;
   Ensemble<Tracer<3>> fluid("fluid", n);
   Box const box(Vector<3>{-1, 100, 0}, Vector<3>{1, 103, 1e-3}, Boundary::periodic);
-  random_load(fluid, box, test_seed(11));
+  random_load(fluid, box, {.seed = test_seed(11)});
   box.check(fluid);
   for (int a = 0; a < 3; ++a) {
     auto const column = fluid.column(fluid.field("position"), a);
@@ -170,7 +182,7 @@ TEST(RandomLoad, KeepsTheMinimumDistanceOverPeriodicWalls) {
   for (auto const boundary : {Boundary::periodic, Boundary::reflecting}) {
     Ensemble<Newton<2>> atoms("atoms", 400);
     Box const box(Vector<2>{0, 0}, Vector<2>{20, 30}, boundary);
-    random_load(atoms, box, test_seed(2), 0.8);
+    random_load(atoms, box, {.minimum_distance = 0.8, .seed = test_seed(2)});
     double nearest = INFINITY, across = INFINITY;
     for (std::size_t i = 0; i < atoms.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -189,7 +201,7 @@ TEST(RandomLoad, KeepsTheMinimumDistanceOverPeriodicWalls) {
   // Three and one dimension, and boxes of one cell.
   Ensemble<Newton<3>> few("few", 3);
   Box const cube(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1}, Boundary::periodic);
-  random_load(few, cube, test_seed(4), 0.45);
+  random_load(few, cube, {.minimum_distance = 0.45, .seed = test_seed(4)});
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < i; ++j) {
       auto d = few[i].position - few[j].position;
@@ -198,17 +210,18 @@ TEST(RandomLoad, KeepsTheMinimumDistanceOverPeriodicWalls) {
     }
   Ensemble<Newton<1>> none("none"), one("one", 1);
   Box const line(Vector<1>{0}, Vector<1>{1}, Boundary::periodic);
-  random_load(none, line, 1, 5);
-  random_load(one, line, test_seed(1), 5);
+  random_load(none, line, {.minimum_distance = 5});
+  random_load(one, line, {.minimum_distance = 5, .seed = test_seed(1)});
   EXPECT_TRUE(one[0].position[0] > 0 && one[0].position[0] < 1);
 }
 
 TEST(RandomLoad, SaysWhenTheBoxIsFull) {
   Ensemble<Newton<1>> cars("cars", 100);
   Box const street(Vector<1>{0}, Vector<1>{100});
-  random_load(cars, street, test_seed(1), 0.6);
+  random_load(cars, street, {.minimum_distance = 0.6, .seed = test_seed(1)});
   try {
-    random_load(cars, street, test_seed(1), 0.9);  // beyond Renyi's parking constant 0.7476
+    random_load(cars, street,
+                {.minimum_distance = 0.9, .seed = test_seed(1)});  // beyond Renyi's parking constant 0.7476
     FAIL() << "placed more than random parking can";
   } catch (Error const& error) {
     EXPECT_NE(std::string(error.what()).find("well below 0.748"), std::string::npos) << error.what();
@@ -220,12 +233,12 @@ TEST(RandomLoad, RespectsRegions) {
   Box box(Vector<2>{0, 0}, Vector<2>{1, 1});
   box.install(Vector<2>{0, 0}, Vector<2>{0.5, 1}, Region::Side::keep_in);
   box.install(Vector<2>{0.2, 0.2}, Vector<2>{0.4, 0.4}, Region::Side::keep_out);
-  random_load(atoms, box, test_seed(1));
+  random_load(atoms, box, {.seed = test_seed(1)});
   EXPECT_NO_THROW(box.check(atoms));
-  barometric_load(atoms, box, 1, 1, 1, test_seed(1));
+  barometric_load(atoms, box, {.temperature = 1, .gravity = 1, .seed = test_seed(1)});
   EXPECT_NO_THROW(box.check(atoms));
   box.install(Vector<2>{-1, -1}, Vector<2>{2, 2}, Region::Side::keep_out);
-  EXPECT_THROW(random_load(atoms, box, 1), Error);
+  EXPECT_THROW(random_load(atoms, box), Error);
 }
 
 TEST(RandomField, DrawsFromAnyVariable) {
@@ -241,10 +254,11 @@ TEST(Oscillating, DisplacementsHaveTheDistributionOfEq52) {
   constexpr std::size_t n = 20000;
   constexpr double k = 0.5, t = 3, omega = 4;
   Ensemble<Newton<2>> atoms("atoms", n);
-  block_load(atoms, Lattice::square, 10, {200, 100, 1});
+  block_load(atoms, {Lattice::square, 10, {200, 100, 1}});
   std::vector<Vector<2>> before;
   for (std::size_t i = 0; i < n; ++i) before.push_back(atoms[i].position), atoms[i].mass = i < n / 2 ? 1 : 9;
-  oscillating_load(atoms, t, omega, k, test_seed(13));
+  oscillating_load(atoms,
+                   {.temperature = t, .angular_frequency = omega, .boltzmann_constant = k, .seed = test_seed(13)});
   for (int a = 0; a < 2; ++a) {
     std::vector<double> reduced;
     double potential = 0;
@@ -267,7 +281,7 @@ TEST(Gravity, HeightsHaveTheTruncatedBarometricDistribution) {
     Ensemble<Newton<3>> air("air", n);
     for (auto& p : air) p.mass = m;
     Box const box(Vector<3>{0, -1, 10}, Vector<3>{1, 1, 15}, Boundary::reflecting);
-    barometric_load(air, box, t, g, k, test_seed(21));
+    barometric_load(air, box, {.temperature = t, .gravity = g, .boltzmann_constant = k, .seed = test_seed(21)});
     box.check(air);
     auto const z = air.column(air.field("position"), 2);
     auto const distribution = [&](double x) {
@@ -291,7 +305,7 @@ TEST(Gravity, HeavyParticlesLieLower) {
   Ensemble<Newton<1>> air("air", 40000);
   for (std::size_t i = 0; i < air.size(); ++i) air[i].mass = i % 2 == 0 ? 1 : 2;
   Box const box(Vector<1>{0}, Vector<1>{1000});
-  barometric_load(air, box, 1, 1, 1, test_seed(3));
+  barometric_load(air, box, {.temperature = 1, .gravity = 1, .seed = test_seed(3)});
   double mean[2] = {0, 0};
   for (std::size_t i = 0; i < air.size(); ++i) mean[i % 2] += air[i].position[0] / 20000;
   double const errors = 5 / std::sqrt(20000.0);  // five, of heights that vary as much as their mean

@@ -11,7 +11,7 @@ int main() try {
   UnitSystem const base(units::angstrom, units::amu, units::picosecond);
   double const r0 = base(3.822 * units::angstrom);
   Ensemble<Newton<2>> atoms("atoms");
-  block_load(atoms, Lattice::triangular, r0, {16, 16}, {20, 20});
+  block_load(atoms, {Lattice::triangular, r0, {16, 16}, {20, 20}});
   for (auto& atom : atoms) atom.mass = base(39.948 * units::amu);
   atoms[100].velocity = {5., 2.5};
 

@@ -63,7 +63,7 @@ double expected_stiffness(double density) {
 double measured_stiffness(double density) {
   constexpr double amplitude = 1e-3;
   Ensemble<Smooth<2>> fluid("fluid", 0);
-  block_load(fluid, Lattice::square, 1, {40, 10, 1}, {0.5, 0.5, 0});
+  block_load(fluid, {Lattice::square, 1, {40, 10, 1}, {0.5, 0.5, 0}});
   std::vector<double> places;
   for (auto& p : fluid) {
     places.push_back(p.position[0]);
@@ -103,8 +103,8 @@ TEST(Cavitation, ExpandingLiquidTearsAtTheSpinodal) {
   constexpr std::size_t side = 60;
   constexpr double rate = 0.05, half = side / 2.0;
   Ensemble<Smooth<2>> square_of_liquid("liquid", 0);
-  block_load(square_of_liquid, Lattice::square, 1, {side, side, 1}, {0.5 - half, 0.5 - half, 0});
-  jitter(square_of_liquid, 0.02, test_seed(1));
+  block_load(square_of_liquid, {Lattice::square, 1, {side, side, 1}, {0.5 - half, 0.5 - half, 0}});
+  jitter(square_of_liquid, {.most = 0.02, .seed = test_seed(1)});
   for (auto& p : square_of_liquid) {
     p.mass = first_density;
     p.range = 4;

@@ -43,7 +43,7 @@ Beams beams(double a, double until) {
     for (auto& p : *beam) p.velocity[0] = (beam == &right ? a : -a) / k;
     mesh.add(*beam);
   }
-  velocity_ripple(right, box, wave_of_mode(box, 0, 1), 1e-5, 0);
+  velocity_ripple(right, box, {.wave = wave_of_mode(box, 0, 1), .amplitude = 1e-5});
   Simulation simulation(mesh, step);
   simulation.integrate(right, Method::leap_frog);
   simulation.integrate(left, Method::leap_frog);

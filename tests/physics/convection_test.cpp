@@ -45,7 +45,7 @@ struct Layer {
     box.wall(1, Box::End::low, {.slips = false, .temperature = 1 + difference / 2});
     box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
     StiffenedGas const gas{gamma, 0.6, cv};
-    block_load(fluid, Lattice::square, spacing, {2 * rows, rows, 1}, {spacing / 2, spacing / 2, 0});
+    block_load(fluid, {Lattice::square, spacing, {2 * rows, rows, 1}, {spacing / 2, spacing / 2, 0}});
     nudge(fluid);
     for (auto& p : fluid) {
       double const x = p.position[0], y = p.position[1], stir = 0.3 * free_fall;
@@ -123,7 +123,7 @@ TEST(Convection, HeatIsConductedFromTheWallsAsFourierHasIt) {
   box.wall(1, Box::End::low, {.slips = false, .temperature = 1 + difference / 2});
   box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
   Ensemble<Smooth<2>> fluid("fluid", rows * rows);
-  block_load(fluid, Lattice::square, spacing, {rows, rows, 1}, {spacing / 2, spacing / 2, 0});
+  block_load(fluid, {Lattice::square, spacing, {rows, rows, 1}, {spacing / 2, spacing / 2, 0}});
   for (auto& p : fluid) {
     p.mass = spacing * spacing;
     p.range = 3 * spacing;

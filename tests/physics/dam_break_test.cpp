@@ -52,7 +52,7 @@ struct Dam {
   explicit Dam(bool released) {
     Box box(Vector{0.0, 0.0}, Vector{9.0, 3.0}, Boundary::mirror);
     box.open_end(1, Box::End::high);
-    block_load(column, Lattice::square, spacing, {columns, 2 * columns, 1}, {spacing / 2, spacing / 2, 0});
+    block_load(column, {Lattice::square, spacing, {columns, 2 * columns, 1}, {spacing / 2, spacing / 2, 0}});
     nudge(column);
     for (auto& p : column) {
       double const x = p.position[0], y = p.position[1], pressure = released ? released_pressure(x, y) : 2 - y;

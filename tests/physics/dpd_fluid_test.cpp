@@ -27,8 +27,8 @@ TEST_P(DpdFluid, TemperaturePressureAndDiffusion) {
   double const side = 8, dt = 0.04;
   Ensemble<Newton<3>> fluid("fluid", 1536);
   Box const box(Vector{0.0, 0.0, 0.0}, Vector{side, side, side}, Boundary::periodic);
-  random_load(fluid, box, test_seed(2));
-  maxwellian_load(fluid, 1, 1, 2, {.remove_drift = true});
+  random_load(fluid, box, {.seed = test_seed(2)});
+  maxwellian_load(fluid, {.temperature = 1, .seed = 2, .remove_drift = true});
   PairScheme scheme(box, 1);
   scheme.internal(fluid, Soft{25, 1});
   PairDissipation dpd(scheme, 1);
@@ -50,7 +50,7 @@ TEST_P(DpdFluid, TemperaturePressureAndDiffusion) {
   for (std::size_t i = 0; i < fluid.size(); ++i) place[i] = last[i] = fluid[i].position;
   for (int look = 0; look < looks; ++look) {
     simulation.run(every);
-    temperatures.push_back(temperature(fluid, 1, true).total);
+    temperatures.push_back(temperature(fluid, 1, {.subtract_drift = true}).total);
     auto const p = pressure_tensor(fluid, simulation.measure(), box);
     pressures.push_back((p[0][0] + p[1][1] + p[2][2]) / 3);
     for (std::size_t i = 0; i < fluid.size(); ++i) {

@@ -46,7 +46,7 @@ void check_equilibrium(Case const& c, std::size_t count, double heat_capacity, d
     for (std::size_t i = 0; i < count; ++i) g.gas[i].mass = i % 3 == 0 ? 2.0 : 0.7;
   g.kinetic_temperature(1.1);
   for (auto& p : g.gas) p.internal_energy = heat_capacity * 0.9;
-  if (loaded) internal_energy_load(g.gas, StateLaw(heat_capacity), 0.9, 1, test_seed(6));
+  if (loaded) internal_energy_load(g.gas, StateLaw(heat_capacity), {.temperature = 0.9, .seed = test_seed(6)});
   g.dpd.state(g.gas, StateLaw(heat_capacity));
   g.dpd.internal(g.gas, {.convention = c.convention,
                          .friction = c.projected ? 2.0 : 1,  // of one direction of two
@@ -342,7 +342,8 @@ TEST(DpdeCrystal, AtThreeHundredKelvin) {
   std::size_t const nx = 30, ny = 32;
   pvdf::Crystal crystal(nx, ny);
   auto& molecules = crystal.molecules;
-  internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, test_seed(3));
+  internal_energy_load(molecules, StateLaw(pvdf::heat_capacity),
+                       {.temperature = 300, .boltzmann_constant = pvdf::boltzmann_constant, .seed = test_seed(3)});
   crystal.dpd.internal(molecules, pvdf::dissipation(10));
   crystal.dpd.corrector(true);
   Simulation simulation(crystal.scheme, 0.005);
@@ -357,7 +358,7 @@ TEST(DpdeCrystal, AtThreeHundredKelvin) {
   for (int sample = 0; sample < 800; ++sample) {
     simulation.run(10);
     if (sample < 100) continue;
-    kinetic.push_back(temperature(molecules, pvdf::boltzmann_constant, true).total);
+    kinetic.push_back(temperature(molecules, pvdf::boltzmann_constant, {.subtract_drift = true}).total);
     internal.push_back(harmonic_temperature(molecules));
     auto const p = pressure_tensor(molecules, simulation.measure(), crystal.scheme.box());
     pressure.push_back((p[0][0] + p[1][1]) / 2 / pvdf::newton_per_metre);
@@ -388,7 +389,8 @@ TEST(DpdeCrystal, EnergyErrorIsOfSecondOrder) {
   for (double const dt : {0.0025, 0.005, 0.01}) {
     pvdf::Crystal crystal(16, 16);
     auto& molecules = crystal.molecules;
-    internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, pvdf::boltzmann_constant, test_seed(3));
+    internal_energy_load(molecules, StateLaw(pvdf::heat_capacity),
+                         {.temperature = 300, .boltzmann_constant = pvdf::boltzmann_constant, .seed = test_seed(3)});
     crystal.dpd.internal(molecules, pvdf::dissipation());
     Simulation simulation(crystal.scheme, dt);
     simulation.seed(test_seed(1));
@@ -439,13 +441,14 @@ TEST(DpdeDeterministic, TemperaturesMeet) {
     bath->on(molecules);
     simulation.equilibrate(bath, 600);
     simulation.run(1);
-    EXPECT_NEAR(temperature(molecules, pvdf::boltzmann_constant, true).total, warm, 5 * warm / std::sqrt(256.0));
+    EXPECT_NEAR(temperature(molecules, pvdf::boltzmann_constant, {.subtract_drift = true}).total, warm,
+                5 * warm / std::sqrt(256.0));
     double const start = total_energy(simulation, molecules);
     simulation.run(5000);
     std::vector<double> kinetic, internal;
     for (int sample = 0; sample < 400; ++sample) {
       simulation.run(10);
-      kinetic.push_back(temperature(molecules, pvdf::boltzmann_constant, true).total);
+      kinetic.push_back(temperature(molecules, pvdf::boltzmann_constant, {.subtract_drift = true}).total);
       internal.push_back(harmonic_temperature(molecules));
     }
     auto const t_kin = estimate(kinetic, 10), t_int = estimate(internal, 10);

@@ -42,10 +42,8 @@ TEST(ElectronGas, WavesHaveTheEnergyOfEquilibrium) {
   Box const box(Vector{0.0, 0.0}, Vector{edge, edge}, Boundary::periodic);
   Ensemble<Coulomb<2>> electrons("electrons", 4096);
   reduced_plasma(electrons, box);
-  random_load(electrons, box, test_seed(3));
-  MaxwellianOptions options;
-  options.exact_temperature = true;
-  maxwellian_load(electrons, electrons[0].mass, 1, test_seed(3), options);
+  random_load(electrons, box, {.seed = test_seed(3)});
+  maxwellian_load(electrons, {.temperature = electrons[0].mass, .seed = test_seed(3), .exact_temperature = true});
   MeshScheme mesh(box, {cells, cells}, reduced_law());
   mesh.assignment(Assignment::tsc);
   mesh.form(PoissonForm::spectral);

@@ -29,7 +29,7 @@ struct Fourfold {
   Fourfold(std::size_t count, double range, Boundary boundary, std::uint64_t seed)
       : n(static_cast<double>(count)), box(Vector{0.0, 0.0}, Vector{2 * n, 2 * n}, boundary), scheme(box) {
     fill<2>(gas, Vector{n / 2, n / 2}, 1, {count, count});
-    jitter(gas, 0.1, test_seed(seed));
+    jitter(gas, {.most = 0.1, .seed = test_seed(seed)});
     for (auto& p : gas) p.mass = 1, p.range = range;
     scheme.material(gas, QuadraticGas{});
   }
@@ -149,7 +149,7 @@ Twofold expand_1d(std::size_t count, double range, double sound_times) {
   Box const box(Vector{0.0}, Vector{2 * n}, Boundary::mirror);
   Ensemble<Smooth<1>> gas("gas");
   fill<1>(gas, Vector{n / 2}, 1, {count});
-  jitter(gas, 0.1, test_seed(1));
+  jitter(gas, {.most = 0.1, .seed = test_seed(1)});
   for (auto& p : gas) p.mass = 1, p.range = range, p.specific_energy = 1.0 / 6;
   SmoothScheme scheme(box);
   scheme.material(gas, IdealGas{3});

@@ -35,7 +35,7 @@ State equilibrium(pvdf::Crystal& crystal, double dt, double time, std::shared_pt
     auto const measures = simulation.measure();
     stress.push_back(pressure_tensor(molecules, measures, crystal.scheme.box())[0][0]);
     energy.push_back((kinetic_energy(molecules) + measures.potential + measures.internal) / n);
-    kinetic.push_back(temperature(molecules, pvdf::boltzmann_constant, true).total);
+    kinetic.push_back(temperature(molecules, pvdf::boltzmann_constant, {.subtract_drift = true}).total);
     double inverse = 0;
     for (auto const& p : molecules) inverse += pvdf::heat_capacity / p.internal_energy / n;
     internal.push_back(1 / inverse);
@@ -51,7 +51,8 @@ TEST(Hugoniot, TheKnownPointFromStatesInEquilibrium) {
   auto const bath = [&](pvdf::Crystal& crystal, double kelvin) -> std::shared_ptr<Dissipation> {
     crystal.dpd.internal(crystal.molecules,
                          pvdf::dissipation(10));  // tenfold friction changes no state in equilibrium
-    internal_energy_load(crystal.molecules, StateLaw(pvdf::heat_capacity), kelvin, k, test_seed(3));
+    internal_energy_load(crystal.molecules, StateLaw(pvdf::heat_capacity),
+                         {.temperature = kelvin, .boltzmann_constant = k, .seed = test_seed(3)});
     auto langevin = std::make_shared<LangevinBath>(kelvin, 2, k);
     langevin->on(crystal.molecules);
     return langevin;
@@ -104,7 +105,8 @@ TEST(Hugoniot, ADrivenShockMeetsTheSamePoint) {
   dpd.state(molecules, StateLaw(pvdf::heat_capacity));
   dpd.internal(molecules, pvdf::dissipation(10));
   dpd.corrector(true);
-  internal_energy_load(molecules, StateLaw(pvdf::heat_capacity), 300, k, test_seed(3));
+  internal_energy_load(molecules, StateLaw(pvdf::heat_capacity),
+                       {.temperature = 300, .boltzmann_constant = k, .seed = test_seed(3)});
   Simulation simulation(scheme, dt);
   simulation.add(dpd);
   simulation.seed(test_seed(1));

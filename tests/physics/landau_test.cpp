@@ -42,10 +42,8 @@ Swing damped_wave(double k, double amplitude, double from, double to) {
   Box const box(Vector{0.0}, Vector{2 * std::numbers::pi / k}, Boundary::periodic);
   Ensemble<Coulomb<1>> electrons("electrons", 400000);
   reduced_plasma(electrons, box);
-  quiet_load(electrons, box, wave_of_mode(box, 0, 1), amplitude);
-  MaxwellianOptions options;
-  options.quiet = true;
-  maxwellian_load(electrons, electrons[0].mass, 1, 1, options);  // thermal velocity 1
+  quiet_load(electrons, box, {.wave = wave_of_mode(box, 0, 1), .amplitude = amplitude});
+  maxwellian_load(electrons, {.temperature = electrons[0].mass, .quiet = true});  // thermal velocity 1
   MeshScheme mesh(box, {64}, reduced_law());
   mesh.background(true);
   mesh.add(electrons);

@@ -117,11 +117,9 @@ void expect_warm(std::array<std::size_t, 3> const& cells, Vector<D> const& edges
   double const k = 2 * pi / edges[0], step = 0.1;
   Ensemble<Coulomb<D>> electrons("electrons", count);
   reduced_plasma(electrons, box);
-  quiet_load(electrons, box, wave_of_mode(box, 0, 1), 0.02);
-  MaxwellianOptions options;
-  options.quiet = true;
+  quiet_load(electrons, box, {.wave = wave_of_mode(box, 0, 1), .amplitude = 0.02});
   double const thermal = 0.2 / k;
-  maxwellian_load(electrons, electrons[0].mass * thermal * thermal, 1, 1, options);
+  maxwellian_load(electrons, {.temperature = electrons[0].mass * thermal * thermal, .quiet = true});
   MeshScheme mesh(box, std::vector<std::size_t>(cells.begin(), cells.begin() + D), reduced_law());
   mesh.background(true);
   mesh.add(electrons);

@@ -25,11 +25,15 @@ struct MesoparticleGas {
         k(k) {
     scheme.add(gas);
     scheme.skin(0.3 * range);  // ideal particles are fast
-    random_load(gas, scheme.box(), test_seed(4));
+    random_load(gas, scheme.box(), {.seed = test_seed(4)});
   }
   /// Velocities of this kinetic temperature (exactly), no momentum.
   void kinetic_temperature(double temperature) {
-    maxwellian_load(gas, temperature, k, test_seed(5), {.remove_drift = true, .exact_temperature = true});
+    maxwellian_load(gas, {.temperature = temperature,
+                          .boltzmann_constant = k,
+                          .seed = test_seed(5),
+                          .remove_drift = true,
+                          .exact_temperature = true});
   }
   double kinetic_energy() const {
     double sum = 0;

@@ -36,8 +36,9 @@ struct Bars {
   Bars(double speed_of_each, double yield, std::size_t count, double viscosity) : speed(speed_of_each) {
     double const spacing = 2.0 / static_cast<double>(count), width = 8 * spacing;
     StiffenedGas const compression{gamma, bulk / gamma};
-    block_load(bars, Lattice::square, spacing, {count, D == 2 ? 8U : 1U, 1},
-               {-1 + spacing / 2, D == 2 ? spacing / 2 : 0, 0});
+    block_load(
+        bars,
+        {Lattice::square, spacing, {count, D == 2 ? 8U : 1U, 1}, {-1 + spacing / 2, D == 2 ? spacing / 2 : 0, 0}});
     for (auto& p : bars) {
       p.mass = D == 2 ? spacing * spacing : spacing;
       p.density = 1;
@@ -157,8 +158,8 @@ struct Impact {
 
   explicit Impact(double speed) {
     StiffenedGas const compression{4, density * sound * sound / 4};
-    block_load(rod, Lattice::square, spacing, {30, 10, 1}, {-1.475, -0.225, 0});
-    block_load(plate, Lattice::square, spacing, {40, 60, 1}, {0.025, -1.475, 0});
+    block_load(rod, {Lattice::square, spacing, {30, 10, 1}, {-1.475, -0.225, 0}});
+    block_load(plate, {Lattice::square, spacing, {40, 60, 1}, {0.025, -1.475, 0}});
     nudge(rod);
     nudge(plate);
     for (auto* solid : {&rod, &plate})

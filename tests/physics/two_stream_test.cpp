@@ -63,13 +63,13 @@ TEST(TwoStream, ModesGrowAsTheoryHasIt) {
       double const weight = thesis.per_sheet * thesis.sheets / 2 / static_cast<double>(stream->size());
       for (auto& p : *stream) p.charge = -weight * thesis.charge, p.mass = weight * thesis.mass;
       quiet_load(*stream, box);
-      MaxwellianOptions options;
-      options.quiet = true;
-      options.drift[0] = (stream == &right ? 5 : -5) * thesis.thermal;
-      maxwellian_load(*stream, 16000 * weight, thesis.base(constants::boltzmann), 1, options);
+      maxwellian_load(*stream, {.temperature = 16000 * weight,
+                                .boltzmann_constant = thesis.base(constants::boltzmann),
+                                .drift = {(stream == &right ? 5 : -5) * thesis.thermal},
+                                .quiet = true});
       mesh.add(*stream);
     }
-    velocity_ripple(right, box, wave_of_mode(box, 0, mode), 1e-3 * thesis.thermal, 0);
+    velocity_ripple(right, box, {.wave = wave_of_mode(box, 0, mode), .amplitude = 1e-3 * thesis.thermal});
     double const step = 0.1 / thesis.plasma_frequency, gamma = thesis.growth(mode, 128);
     Simulation simulation(mesh, step);
     simulation.integrate(right, Method::leap_frog);

@@ -472,7 +472,7 @@ struct Gas {
   Simulation simulation{scheme, 0.002};
 
   Gas() {
-    block_load(gas, Lattice::square, 0.05, {20, 20}, {0.025, 0.025});
+    block_load(gas, {Lattice::square, 0.05, {20, 20}, {0.025, 0.025}});
     for (auto& p : gas) {
       p.mass = 0.05 * 0.05;
       p.range = 0.2;
@@ -517,7 +517,7 @@ void look_at_tracks(std::string const& y, std::uint64_t steps) {
   std::filesystem::remove_all(folder);
   {
     System stored;
-    Recording recording(stored.simulation, UnitSystem::reduced(), folder.string(), true);
+    Recording recording(stored.simulation, UnitSystem::reduced(), folder.string(), {.overwrite = true});
     recording.trajectory(steps / 4);
     run_with_progress(recording, steps, {.quiet = true});
   }
@@ -554,7 +554,7 @@ TEST(Looking, TracksThatAreLostAreTold) {
     scheme.add(gas);
     Simulation simulation(scheme, 1);
     simulation.integrate(gas, Method::leap_frog);
-    Recording recording(simulation, UnitSystem::reduced(), folder, true);
+    Recording recording(simulation, UnitSystem::reduced(), folder, {.overwrite = true});
     recording.trajectory(every);
     run_with_progress(recording, 20, {.quiet = true});
     Canvas const canvas = draw({.trace = true}, {simulation, UnitSystem::reduced(), "", 20, 20, folder});

@@ -1,6 +1,7 @@
 // Programs by run_program: what the command line says reaches the run, and what is wrong with it is said in one line.
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/scenario/classes.hpp>
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,6 @@ class Programs : public testing::Test {
       PairScheme space(Box(Vector{-1.0, -1.0}, Vector{1.0, 1.0}));
       space.internal(bodies, gravity(1.0));
       Simulation simulation(space, 0.05);
-      simulation.integrate(bodies);
       EXPECT_EQ(simulation.method(bodies), Method::leap_frog);
       if (ask) seed_ = program.seed(7);
       Recording recording = program.recording(simulation);
@@ -143,7 +143,71 @@ TEST_F(Programs, TellWhatTheyCanBeTold) {
   EXPECT_FALSE(fs::exists(folder()));
 }
 
+/// Two bodies that stand still, for so many steps into each of these folders; `between` is done after each run.
+int run_parts(std::vector<std::string> words, std::vector<std::string> const& parts,
+              std::function<void(Program&)> const& between) {
+  words.insert(words.begin(), "parts");
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  return run_program(static_cast<int>(argv.size()), argv.data(), "", [&](Program& program) {
+    for (auto const& part : parts) {
+      Ensemble<Newton<1>> bodies("bodies", 2);
+      bodies[1].position = {0.5};
+      PairScheme space(Box({-1}, {1}));
+      space.internal(bodies, Spring{.stiffness = 1, .rest_length = 0.5});
+      Simulation simulation(space, 0.05);
+      Recording recording = program.recording(simulation, part);
+      recording.diagnoses(1, {"energies"});
+      program.run(recording, 40);
+      between(program);
+    }
+  });
+}
+
+TEST_F(Programs, DoSeveralRunsInFoldersOfTheirOwn) {
+  int done = 0;
+  auto const count = [&](Program&) { ++done; };
+  EXPECT_EQ(run_parts({folder(), "--quiet", "--steps", "7"}, {"a", "b"}, count), 0);
+  EXPECT_EQ(done, 2);
+  EXPECT_EQ(rows(folder() + "/a"), 8U);
+  EXPECT_EQ(rows(folder() + "/b"), 8U);
+  // Each goes on with what is left of it; what has not begun begins.
+  EXPECT_EQ(run_parts({folder(), "--quiet", "--resume"}, {"a", "b", "c"}, count), 0);
+  for (char const* part : {"/a", "/b", "/c"}) EXPECT_EQ(rows(folder() + part), 41U) << part;
+  EXPECT_EQ(done, 5);
+}
+
+TEST_F(Programs, RefuseTwoRunsInOneFolder) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run_parts({folder(), "--quiet"}, {"a", "a"}, [](Program&) {}), 2);
+  std::string const text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("two runs of this program go to " + folder() + "/a; name each"), std::string::npos) << text;
+}
+
+// A run out of time ends the program with status 4: nothing behind it is done.
+TEST_F(Programs, EndWhereARunIsStopped) {
+  int done = 0;
+  EXPECT_EQ(
+      run_parts({folder(), "--quiet", "--hours", "0.000001", "--steps", "9e15"}, {"a", "b"}, [&](Program&) { ++done; }),
+      4);
+  EXPECT_EQ(done, 0);
+  EXPECT_TRUE(fs::exists(folder() + "/a/checkpoint.h5"));
+  EXPECT_FALSE(fs::exists(folder() + "/b"));
+}
+
 // As scenarios have them.
+TEST(UsualMethod, OfAnEnsembleIsThatOfItsClass) {
+  int seen = 0;
+  for (auto const& entry : particle_classes())
+    for (auto const& variant : entry.variants) {
+      auto const ensemble = variant.make("some", 1);
+      EXPECT_EQ(usual_method(*ensemble), variant.usual_method) << entry.name << " " << variant.dimension;
+      EXPECT_EQ(usual_integrator(*ensemble)->method(), variant.usual_method) << entry.name << " " << variant.dimension;
+      ++seen;
+    }
+  EXPECT_GT(seen, 20);
+}
+
 TEST(UsualMethod, IsThatOfTheClass) {
   static_assert(usual_method<Newton<3>>() == Method::leap_frog && usual_method<Smooth<2>>() == Method::leap_frog);
   static_assert(usual_method<Tracer<2>>() == Method::rk4 && usual_method<Inviscid<3>>() == Method::rk4);

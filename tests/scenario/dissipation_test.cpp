@@ -41,7 +41,7 @@ std::string dpd(std::string const& more) {
 double kinetic_temperature(ScenarioSimulation const& scenario) {
   std::vector<AnyEnsemble*> all;
   for (auto const& ensemble : scenario.ensembles) all.push_back(ensemble.get());
-  return temperature(all, 1, true).total;
+  return temperature(all, 1, {.subtract_drift = true}).total;
 }
 /// The harmonic mean of the internal temperatures.
 double internal_temperature(AnyEnsemble const& ensemble) {

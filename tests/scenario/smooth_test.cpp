@@ -83,7 +83,7 @@ TEST(SmoothScenario, IsTheSimulationThatAProgramWouldMake) {
   auto const sites = filling_sites(Filling{Lattice::square, 0.1, {0, 0, 0}, {4, 2, 0}}, 2);
   ASSERT_EQ(sites.size(), particles.size());
   for (std::size_t i = 0; i < sites.size(); ++i) particles[i].position = {sites[i][0], sites[i][1]};
-  jitter(particles, 0.02, 1);  // the seed of the scenario
+  jitter(particles, {.most = 0.02});  // the seed of the scenario
   for (auto& p : particles) {
     double const x = p.position[0], y = p.position[1];
     p.range = 0.3;

@@ -33,7 +33,7 @@ TEST(Memory, ALennardJonesLiquidNeedsLessThanAKilobyteAParticle) {
   LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {24, 24, 24}};
   Ensemble<Newton<3>> atoms("atoms");
   block_load(atoms, block);
-  maxwellian_load(atoms, 1.44, 1, test_seed(1));
+  maxwellian_load(atoms, {.temperature = 1.44, .seed = test_seed(1)});
   auto const length = repeat_lengths(block, 3);
   PairScheme scheme(Box(Vector{0.0, 0.0, 0.0}, Vector{length[0], length[1], length[2]}, Boundary::periodic), 2.5);
   scheme.skin(0.3);

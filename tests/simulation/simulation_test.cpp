@@ -1,5 +1,6 @@
 // The loop: same bits for any thread count and after a restart, failures as one line, N = 0, 1, 2.
 #include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
@@ -353,12 +354,51 @@ TEST(Simulation, FailuresNameStepAndParticle) {
     atoms[1].position = {2, 2};
     scheme.internal(atoms, LennardJones{1, 1});
     Simulation simulation(scheme, 0.05);
-    auto const text = message_of<Error>(simulation);
-    EXPECT_NE(text.find("'atoms' has no integrator"), std::string::npos) << text;
     for (double const step : {0.0, std::nan(""), std::numeric_limits<double>::infinity()})
       EXPECT_THROW(Simulation(scheme, step), Error) << step;
     EXPECT_THROW(simulation.observe(0, [](Simulation const&) {}), Error);
   }
+}
+
+/// A class with equations of motion of its own.
+template <class Real = double>
+struct Charging : Coulomb<2, Real> {
+  static constexpr char const* class_name = "Charging";
+  static void equations(auto const& p, auto const& force, auto const& rate) {
+    Coulomb<2, Real>::equations(p, force, rate);
+    rate(&Charging::charge, 1 - p.charge);
+  }
+};
+
+// Coulomb moves as Newton says, whose usual method is leap-frog: the same bits as if it had been told.
+TEST(Simulation, EnsemblesMoveAsTheirClassUsuallyDoes) {
+  auto const run = [](bool told) {
+    Ensemble<Coulomb<2>> ions("ions", 2);
+    for (int i = 0; i < 2; ++i) ions[i].position = {1.0 + i, 1.0}, ions[i].charge = 1;
+    PairScheme scheme(Box({0, 0}, {4, 4}, Boundary::reflecting));
+    scheme.internal(ions, coulomb(1));
+    Simulation simulation(scheme, 0.01);
+    if (told) simulation.integrate(ions, Method::leap_frog);
+    EXPECT_EQ(simulation.method(ions), Method::leap_frog);
+    simulation.run(50);
+    return ions[0].position;
+  };
+  EXPECT_EQ(run(true), run(false));
+  EXPECT_NE(run(true), (Vector{1.0, 1.0}));
+}
+
+TEST(Simulation, EquationsOfOnesOwnNeedAMethod) {
+  Ensemble<Charging<>> dust("dust", 1);
+  PairScheme scheme(Box({-1, -1}, {1, 1}));
+  scheme.internal(dust, coulomb(1));
+  Simulation simulation(scheme, 0.05);
+  auto const text = message_of<Error>(simulation);
+  EXPECT_NE(text.find("'dust' has no integrator: its class Charging has equations of motion of its own"),
+            std::string::npos)
+      << text;
+  simulation.integrate(dust, Method::rk4);
+  simulation.run(100);
+  EXPECT_NEAR(dust[0].charge, 1 - std::exp(-5.0), 1e-6);
 }
 
 TEST(Simulation, ObserversSeeFinishedSteps) {

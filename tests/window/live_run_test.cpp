@@ -387,7 +387,7 @@ TEST(LiveRun, SeveralPagesLookAtOneRun) {
 TEST(LiveRun, RecordsAsARunWithoutAWindow) {
   Folder const folder;
   auto const record = [&](Atoms<2>& system, std::string const& name, bool in_window) {
-    Recording recording(*system.simulation, UnitSystem::reduced(), (folder.path / name).string(), true);
+    Recording recording(*system.simulation, UnitSystem::reduced(), (folder.path / name).string(), {.overwrite = true});
     recording.diagnoses(5, {"energies"});
     recording.trajectory(10);
     recording.picture({.colour = "speed"});
@@ -434,7 +434,7 @@ TEST(LiveRun, RecordsAsARunWithoutAWindow) {
 TEST(LiveRun, QuitBeforeTheFirstStepLeavesARunToResume) {
   Folder const folder;
   Atoms<2> system;
-  Recording recording(*system.simulation, UnitSystem::reduced(), folder.path.string(), true);
+  Recording recording(*system.simulation, UnitSystem::reduced(), folder.path.string(), {.overwrite = true});
   recording.trajectory(10);
   Running running(recording, 40);
   PageReader page(running.window.address());

@@ -38,7 +38,8 @@ class ReplayTest : public testing::Test {
  protected:
   void SetUp() override {
     fs::remove_all(folder_);
-    recording_ = std::make_unique<Recording>(run_.simulation, UnitSystem::reduced(), folder_, true);
+    recording_ = std::make_unique<Recording>(run_.simulation, UnitSystem::reduced(), folder_,
+                                             RecordingOptions{.overwrite = true});
     recording_->trajectory(10);
     recording_->diagnoses(5, {"temperature"});
     run_with_progress(*recording_, 200, {.quiet = true});
@@ -154,7 +155,7 @@ TEST_F(ReplayTest, GrowsWhileTheRunGoesOn) {
   std::string const other = folder_ + "-growing";
   Balls growing;
   {
-    Recording recording(growing.simulation, UnitSystem::reduced(), other, true);
+    Recording recording(growing.simulation, UnitSystem::reduced(), other, {.overwrite = true});
     recording.trajectory(10);
     growing.simulation.run(30);
     Shown shown(other);
