@@ -47,6 +47,9 @@ std::string did_you_mean(std::string_view word, std::span<std::string const> can
   for (auto const& [before, now] : renamed_words)
     if (word == before && std::find(candidates.begin(), candidates.end(), now) != candidates.end())
       return "; it is '" + std::string(now) + "' now";
+  for (auto const& [elsewhere, here] : words_elsewhere)
+    if (word == elsewhere && std::find(candidates.begin(), candidates.end(), here) != candidates.end())
+      return "; it is called '" + std::string(here) + "' here";
   std::string const best = nearest(word, candidates);
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }

@@ -22,4 +22,13 @@ inline constexpr std::array renamed_words{RenamedWord{"flows", "dissipation"},
                                           RenamedWord{"cells", "bins"},
                                           RenamedWord{"one_way", "by"}};
 
+/// Words of other programs for what has another here.
+inline constexpr std::array words_elsewhere{RenamedWord{"verlet", "leap-frog"},
+                                            RenamedWord{"velocity-verlet", "leap-frog"},
+                                            RenamedWord{"hexagonal", "triangular"},
+                                            RenamedWord{"wall", "reflecting"},
+                                            RenamedWord{"dt", "step"},
+                                            RenamedWord{"timestep", "step"},
+                                            RenamedWord{"p3m", "accuracy"}};
+
 }  // namespace boltzmann

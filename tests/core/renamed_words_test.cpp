@@ -18,5 +18,11 @@ TEST(RenamedWords, AreToldWhereTheyAreAllowed) {
   }
 }
 
+TEST(RenamedWords, ThoseOfOtherProgramsAreToldToo) {
+  for (auto const& [elsewhere, here] : words_elsewhere)
+    EXPECT_EQ(did_you_mean(elsewhere, std::vector<std::string>{std::string(here), "euler"}),
+              "; it is called '" + std::string(here) + "' here");
+}
+
 }  // namespace
 }  // namespace boltzmann::renamed_words_test
