@@ -140,6 +140,17 @@ void check_label(std::string const& path) {
     throw Error(path + ": is damaged (its checksum is wrong)");
 }
 
+/// What to do about a checkpoint that can't be read; empty if the one before it can't either.
+std::string previous_left(std::string const& path) {
+  std::string const previous = path + ".previous";
+  try {
+    check_label(previous);
+  } catch (Error const&) {
+    return "";
+  }
+  return fmt::format("; the one before it is whole: cp '{}' '{}' goes back to it", previous, path);
+}
+
 void keep(std::string const& path, std::string const& previous) {
   ::unlink(previous.c_str());
   // A second name first, so that `path` is there all the time; a file system without links gets a moment with none.
@@ -187,7 +198,11 @@ void write_checkpoint(std::string const& path, Checkpoint const& checkpoint, boo
 }
 
 Checkpoint read_checkpoint(std::string const& path) {
-  check_label(path);
+  try {
+    check_label(path);
+  } catch (Error const& error) {
+    throw Error(error.what() + previous_left(path));
+  }
   auto const file = File::open(path);
   Checkpoint checkpoint;
   checkpoint.step = file->integer("/", "step");

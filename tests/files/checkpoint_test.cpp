@@ -138,6 +138,21 @@ TEST(Checkpoint, RowsGoBackIntoAnEnsemble) {
   EXPECT_EQ(b.size(), 0U);
 }
 
+TEST(Checkpoint, ADamagedOneNamesTheOneBeforeIfThatIsWhole) {
+  TemporaryFolder const folder;
+  std::string const path = folder / "c.h5", previous = path + ".previous";
+  write_checkpoint(path, {});
+  std::string const bytes = read_text(path);
+  put(path, bytes.substr(0, 700));
+  EXPECT_TRUE(message([&] { read_checkpoint(path); }).ends_with(" bytes")) << "there is none before";
+  put(previous, bytes);
+  EXPECT_TRUE(message([&] {
+                read_checkpoint(path);
+              }).ends_with("; the one before it is whole: cp '" + previous + "' '" + path + "' goes back to it"));
+  put(previous, bytes.substr(0, 800));
+  EXPECT_TRUE(message([&] { read_checkpoint(path); }).ends_with(" bytes"));
+}
+
 TEST(Checkpoint, EveryTruncationIsOneError) {
   TemporaryFolder const folder;
   write_checkpoint(folder / "c.h5", {});
