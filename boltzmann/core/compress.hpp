@@ -45,18 +45,18 @@ template <class Real, int W>
 
 /// W numbers of 32 bits.
 template <int W>
-using Words = typename detail::register_of<std::uint32_t, W>::type;
+using LaneWords = typename detail::register_of<std::uint32_t, W>::type;
 
 template <int W>
-[[gnu::always_inline]] inline Words<W> load_words(std::uint32_t const* from) {
-  Words<W> words;
+[[gnu::always_inline]] inline LaneWords<W> load_words(std::uint32_t const* from) {
+  LaneWords<W> words;
   __builtin_memcpy(&words, from, sizeof(words));
   return words;
 }
 
 /// The lanes that are equal to `value`.
 template <int W>
-[[gnu::always_inline]] inline LaneBits lanes_equal(Words<W> words, std::uint32_t value) {
+[[gnu::always_inline]] inline LaneBits lanes_equal(LaneWords<W> words, std::uint32_t value) {
 #if defined(__AVX512F__)
   if constexpr (W == 16)
     return _mm512_cmpeq_epi32_mask((__m512i)words, _mm512_set1_epi32(static_cast<int>(value)));
@@ -95,7 +95,7 @@ constexpr SelectedLanes<W> SelectedLanes<W>::table{};
 
 /// Those of the W words whose bit is set, in order; W words are written at `to`, the rest of them without meaning.
 template <int W>
-[[gnu::always_inline]] inline void store_selected(std::uint32_t* to, Words<W> words, LaneBits bits) {
+[[gnu::always_inline]] inline void store_selected(std::uint32_t* to, LaneWords<W> words, LaneBits bits) {
 #if defined(__AVX512VL__)
   if constexpr (W == 16)
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), (__m512i)words));
@@ -126,7 +126,7 @@ template <int W>
 }
 template <int W>
 [[gnu::always_inline]] inline void store_selected(float* to, Pack<float, W> values, LaneBits bits) {
-  store_selected<W>(reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(to), (Words<W>)values.native, bits);
+  store_selected<W>(reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(to), (LaneWords<W>)values.native, bits);
 }
 
 }  // namespace boltzmann

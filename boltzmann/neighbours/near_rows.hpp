@@ -31,7 +31,7 @@ using Steps = typename register_of<std::int32_t, W>::type;
 /// Differences are modulo 2^32: overflow of signed numbers would have no meaning.
 template <int W>
 [[gnu::always_inline]] inline Steps<W> less(Steps<W> a, Steps<W> b) {
-  return (Steps<W>)((Words<W>)a - (Words<W>)b);
+  return (Steps<W>)((LaneWords<W>)a - (LaneWords<W>)b);
 }
 template <int W>
 [[gnu::always_inline]] inline Steps<W> load_steps(std::int32_t const* from) {

@@ -1,5 +1,6 @@
 // Packs against scalars: every operator, comparison, mask, select, roots and sums, lane by lane.
-#include <boltzmann/core/pack.hpp>
+#include <boltzmann/boltzmann.hpp>
+#include <boltzmann/core/compress.hpp>  // beside all that users include
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
@@ -223,6 +224,14 @@ TEST(Number, SelectMinMaxOfScalars) {
   EXPECT_EQ(rsqrt(0.0), infinity);
   EXPECT_TRUE(std::isnan(rsqrt(nan_value)));
   EXPECT_EQ(cube(3.0), 27.0);
+}
+
+TEST(Compress, StoresTheLanesThatAreChosenInOrder) {
+  std::uint32_t const from[4] = {7, 8, 9, 10};
+  std::uint32_t to[4] = {};
+  store_selected<4>(to, load_words<4>(from), 0b1010U);
+  EXPECT_EQ(to[0], 8U);
+  EXPECT_EQ(to[1], 10U);
 }
 
 }  // namespace
