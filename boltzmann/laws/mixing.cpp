@@ -2,6 +2,8 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/mixing.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace boltzmann {
@@ -23,6 +25,10 @@ LennardJones mix(LennardJones const& a, LennardJones const& b, Mixing rule) {
     }
   }
   throw Error("mixing: the rules are lorentz_berthelot, geometric and sixth_power");
+}
+
+void refuse_species(int a, int b, int count) {
+  throw Error(fmt::format("there are no species {} and {}: of {} they are 0 to {}", a, b, count, count - 1));
 }
 
 }  // namespace boltzmann

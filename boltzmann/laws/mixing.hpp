@@ -22,6 +22,9 @@ enum class Mixing {
 /// The law between a particle whose like have the law a and one whose like have the law b.
 LennardJones mix(LennardJones const& a, LennardJones const& b, Mixing rule);
 
+/// Throws Error: the species are 0 to count - 1.
+[[noreturn]] void refuse_species(int a, int b, int count);
+
 /// N numbers for every pair of K species, the same for (a, b) as for (b, a). Numbers that were not set, and those of a
 /// species that is none of 0 ... K-1, are NaN: a law that meets them has no force, and the run stops by saying so.
 template <int K, int N = 1>
@@ -36,7 +39,7 @@ class SpeciesTable {
       for (double& x : column) x = std::numeric_limits<double>::quiet_NaN();
   }
 
-  /// For 0 <= a, b < K.
+  /// Error unless 0 <= a, b < K.
   void set(int a, int b, std::array<double, N> const& numbers) {
     for (auto const k : {index(a, b), index(b, a)})
       for (std::size_t n = 0; n < N; ++n) {
@@ -44,6 +47,7 @@ class SpeciesTable {
         if constexpr (in_registers) columns_[n][k] = numbers[n];
       }
   }
+  /// NaN where nothing was set. Error unless 0 <= a, b < K.
   std::array<double, N> get(int a, int b) const {
     std::array<double, N> numbers;
     for (std::size_t n = 0; n < N; ++n) numbers[n] = rows_[index(a, b)].number[n];
@@ -66,7 +70,10 @@ class SpeciesTable {
   /// A row for each first species: for each second one a number, between two columns of NaN.
   static constexpr std::size_t entries = static_cast<std::size_t>(K) * (K + 2);
   static constexpr bool in_registers = entries <= 24;
-  static constexpr std::size_t index(int a, int b) { return static_cast<std::size_t>(a * (K + 2) + b + 1); }
+  static constexpr std::size_t index(int a, int b) {
+    if (a < 0 || a >= K || b < 0 || b >= K) refuse_species(a, b, K);
+    return static_cast<std::size_t>(a * (K + 2) + b + 1);
+  }
 
   std::array<double, N> at(double place) const {
     std::array<double, N> numbers;
@@ -126,7 +133,7 @@ class LennardJonesMixture {
                    : mix(like[static_cast<std::size_t>(a)], like[static_cast<std::size_t>(b)], rule));
   }
 
-  /// For 0 <= a, b < K.
+  /// Errors as of SpeciesTable.
   void set(int a, int b, LennardJones const& law) { table_.set(a, b, {law.depth, law.r0 * law.r0}); }
   LennardJones between(int a, int b) const {
     auto const [depth, r02] = table_.get(a, b);

@@ -1,6 +1,8 @@
 // Quiet start: numbers in place of random ones that fill an interval evenly, and any few of them as well.
 #pragma once
 
+#include <boltzmann/core/error.hpp>
+
 #include <array>
 #include <cstddef>
 
@@ -25,11 +27,13 @@ constexpr std::size_t reversed_rank(std::size_t i, std::size_t count, std::size_
 }
 
 /// The fraction (rank + 1/2) / count of particle i in independent direction 0, 1, ..., 4: bases 2, 3, 5, 7, 11. In each
-/// direction all particles together are exactly even. The fraction (i + 1/2) / count is one more direction.
+/// direction all particles together are exactly even. The fraction (i + 1/2) / count is one more direction. Error for
+/// another direction.
 constexpr double quiet_fraction(std::size_t i, std::size_t count, int direction) {
   constexpr std::array<std::size_t, 5> bases{2, 3, 5, 7, 11};
-  return (static_cast<double>(reversed_rank(i, count, bases[static_cast<std::size_t>(direction)])) + 0.5) /
-         static_cast<double>(count);
+  auto const number = static_cast<std::size_t>(direction);
+  if (number >= bases.size()) throw Error("a quiet start has directions 0 to 4");
+  return (static_cast<double>(reversed_rank(i, count, bases[number])) + 0.5) / static_cast<double>(count);
 }
 
 }  // namespace boltzmann

@@ -233,5 +233,15 @@ TEST(Species, AWrongOneInARunStopsIt) {
   EXPECT_THROW(simulation.run(10), Error);
 }
 
+TEST(SpeciesTable, RefusesSpeciesThatItDoesNotHave) {
+  SpeciesTable<3> table;
+  for (auto const& [a, b] : {std::pair(3, 0), std::pair(0, 3), std::pair(-1, 0), std::pair(0, -1)}) {
+    EXPECT_EQ(message([&] { table.set(a, b, {1.0}); }),
+              "there are no species " + std::to_string(a) + " and " + std::to_string(b) + ": of 3 they are 0 to 2");
+    EXPECT_THROW(table.get(a, b), Error);
+  }
+  EXPECT_TRUE(std::isnan(table.get(2, 2)[0]));
+}
+
 }  // namespace
 }  // namespace boltzmann::mixing_test

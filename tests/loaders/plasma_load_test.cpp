@@ -314,5 +314,10 @@ TEST(PlasmaScenarios, MistakesHaveOneLine) {
   EXPECT_NE(says("{ kind = \"quiit\" }").find("did you mean 'quiet'"), std::string::npos);
 }
 
+TEST(QuietStart, HasFiveDirections) {
+  for (int direction : {0, 4}) EXPECT_LT(quiet_fraction(0, 10, direction), 1);
+  for (int direction : {-1, 5}) EXPECT_THROW(quiet_fraction(0, 10, direction), Error);
+}
+
 }  // namespace
 }  // namespace boltzmann::plasma_load_test
