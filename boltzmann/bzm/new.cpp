@@ -29,7 +29,7 @@ time = "1 ps"
 [box]
 low = [0, 0]                  # as many numbers as the space has dimensions
 high = ["80 angstrom", "80 angstrom"]
-boundary = "periodic"         # or "open", "reflecting"; or one for each axis: ["periodic", "reflecting"]
+boundary = "periodic"         # or "open", "reflecting", "mirror"; or one for each axis: ["periodic", "reflecting"]
 
 [run]
 step = "10 fs"

@@ -1,10 +1,12 @@
 // bzm list and bzm show: what there is, from the tables that the program itself works with.
+#include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
@@ -52,17 +54,49 @@ std::vector<Named> of() {
   for (auto const& one : catalogue()) all.push_back({std::string(one.name), std::string(one.doc)});
   return all;
 }
+/// "an energy", "a mass".
+std::string one(std::string const& noun) {
+  return (std::string_view("aeiou").find(noun.empty() ? 'x' : noun[0]) != std::string_view::npos ? "an " : "a ") + noun;
+}
 std::vector<Named> unit_list() {
   std::vector<Named> all;
   for (auto const& unit : unit_table()) {
     std::string const symbols(unit.symbols), words(unit.words);
     std::string const& names = symbols.empty() ? words : symbols;
     all.push_back({names.substr(0, names.find(' ')),
-                   fmt::format("{} = {:.10g} SI, a {}{}", words.empty() ? symbols : words, unit.si,
-                               name_of(unit.dimension), unit.prefixes ? "; takes metric prefixes" : "")});
+                   fmt::format("{} = {:.10g} SI, {}{}", words.empty() ? symbols : words, unit.si,
+                               one(name_of(unit.dimension)), unit.prefixes ? "; takes metric prefixes" : "")});
   }
   return all;
 }
+
+/// Tables of a scenario of which each is of one of several kinds, which have the keys.
+struct TableOfKinds {
+  char const *name, *heading, *doc, *key;
+  std::vector<Named> (*kinds)();
+};
+constexpr TableOfKinds tables_of_kinds[] = {
+    {"dissipation", "[[dissipation]]", "friction and noise between the steps", "kind", of<dissipation_kinds>},
+    {"diagnoses", "[[diagnoses]]", "what is measured, as columns of diagnoses.csv", "kind", of<diagnosis_kinds>},
+    {"output.pictures", "[[output.pictures]]", "a picture of the last state, as a file", "drawing", of<drawings>},
+    {"views", "[[views]]", "a drawing that the window's page offers, by its `name`", "drawing", of<drawings>}};
+
+std::vector<Named> table_list() {
+  auto all = of<scenario_tables>();
+  for (auto const& table : tables_of_kinds) all.push_back({table.name, table.doc});
+  return all;
+}
+
+/// Words that keys may be.
+struct KeyWords {
+  char const* what;
+  std::vector<Named> (*words)();
+};
+constexpr KeyWords key_words[] = {{"integrator", of<method_words>},
+                                  {"boundary", of<boundary_words>},
+                                  {"convention of dpd", of<convention_words>},
+                                  {"method of dpd", of<dissipation_method_words>},
+                                  {"lattice", of<lattice_words>}};
 
 struct Section {
   char const* name;
@@ -75,7 +109,7 @@ constexpr Section sections[] = {{"scenarios", scenarios},
                                 {"integrators", of<method_words>},
                                 {"dissipations", of<dissipation_kinds>},
                                 {"loaders", of<load_kinds>},
-                                {"tables", of<scenario_tables>},
+                                {"tables", table_list},
                                 {"diagnoses", of<diagnosis_kinds>},
                                 {"drawings", of<drawings>},
                                 {"units", unit_list}};
@@ -234,13 +268,39 @@ void show_drawing(Drawing const& drawing) {
       drawing.name);
 }
 
+/// Every table of options, and where a user finds it.
+void for_each_table(std::function<void(std::string const&, OptionTable const&)> const& function) {
+  for (auto const& table : scenario_tables()) function(table.heading, *table.options);
+  for (auto const& kind : dissipation_kinds()) function("dissipation " + kind.name, kind.options);
+  for (auto const& kind : load_kinds()) function("loader " + kind.name, kind.options);
+  for (auto const& kind : diagnosis_kinds()) function("diagnosis " + kind.name, kind.options);
+  for (auto const& drawing : drawings()) function("drawing " + drawing.name, drawing.options);
+}
+
+/// The tables that have a key; false if none has it.
+bool show_key(std::string const& key) {
+  std::vector<std::string> lines, places;
+  for_each_table([&](std::string const& place, OptionTable const& options) {
+    Option const* option = options.find(key);
+    if (!option) return;
+    auto const line = plain_text(option->doc + ": " + allowed(*option));
+    auto const known = static_cast<std::size_t>(std::find(lines.begin(), lines.end(), line) - lines.begin());
+    if (known == lines.size()) lines.push_back(line), places.emplace_back();
+    places[known] += (places[known].empty() ? "" : ", ") + place;
+  });
+  if (lines.empty()) return false;
+  fmt::print("key {}\n", key);
+  for (std::size_t k = 0; k < lines.size(); ++k) fmt::print("  {}\n    of {}\n", lines[k], places[k]);
+  return true;
+}
+
 bool show_unit(std::string const& name) {
   for (auto const& unit : unit_table()) {
     std::istringstream names(std::string(unit.symbols) + " " + std::string(unit.words));
-    for (std::string one; names >> one;)
-      if (one == name) {
-        fmt::print("unit {}: a {}\n\n  names       {} {}\n  in SI       {:.12g} {}\n  prefixes    {}\n", name,
-                   name_of(unit.dimension), unit.symbols, unit.words, unit.si, join(example_units(unit.dimension)),
+    for (std::string word; names >> word;)
+      if (word == name) {
+        fmt::print("unit {}: {}\n\n  names       {} {}\n  in SI       {:.12g} {}\n  prefixes    {}\n", name,
+                   one(name_of(unit.dimension)), unit.symbols, unit.words, unit.si, join(example_units(unit.dimension)),
                    unit.prefixes ? "yes (k, M, m, ...; kilo, mega, milli, ... before words)" : "no");
         return true;
       }
@@ -248,8 +308,28 @@ bool show_unit(std::string const& name) {
   auto const all = unit_names();
   if (std::find(all.begin(), all.end(), name) == all.end()) return false;
   auto const quantity = parse_quantity("1 " + name);
-  fmt::print("unit {}: a {}\n\n  in SI       {:.12g}\n", name, name_of(quantity.dimension), quantity.si);
+  fmt::print("unit {}: {}\n\n  in SI       {:.12g}\n", name, one(name_of(quantity.dimension)), quantity.si);
   return true;
+}
+
+/// The nearest of all names; of keys and units only where no name is near.
+std::string near_name(std::string const& name) {
+  std::vector<std::string> names, units, keys;
+  for (auto const& section : sections)
+    for (auto const& entry : section.entries())
+      (std::string_view(section.name) == "units" ? units : names).push_back(entry.name);
+  for (auto const& kind : key_words)
+    for (auto const& word : kind.words()) names.push_back(word.name);
+  for_each_table([&](std::string const&, OptionTable const& options) {
+    for (auto const& key : options.keys()) keys.push_back(key);
+  });
+  std::string near;
+  for (auto const* list : {&names, &keys, &units}) {
+    std::string const said = did_you_mean(name, *list);
+    if (said.starts_with("; it is ")) return said;  // another word for one of them, wherever it stands
+    if (near.empty()) near = said;
+  }
+  return near;
 }
 
 }  // namespace
@@ -306,20 +386,23 @@ int show(std::string const& name) {
     if (kind.name == name) next(), show_dissipation(kind);
   for (auto const& table : scenario_tables())
     if (table.name == name) next(), show_table(table);
+  for (auto const& table : tables_of_kinds)
+    if (table.name == name) {
+      next(), fmt::print("{}: {}\n\n  {} = one of these; bzm show NAME tells its keys\n", table.heading,
+                         plain_text(table.doc), table.key);
+      for (auto const& kind : table.kinds()) fmt::print("    {:<22} {}\n", kind.name, kind.doc);
+    }
   for (auto const& kind : load_kinds())
     if (kind.name == name) next(), show_loader(kind);
   for (auto const& kind : diagnosis_kinds())
     if (kind.name == name) next(), show_diagnosis(kind);
   for (auto const& drawing : drawings())
     if (drawing.name == name) next(), show_drawing(drawing);
-  for (auto const& word : method_words())
-    if (word.name == name) next(), fmt::print("integrator {}: {}\n", name, word.doc);
-  if (shown) return 0;
-  if (show_unit(name)) return 0;
-  std::vector<std::string> names;
-  for (auto const& section : sections)
-    for (auto const& entry : section.entries()) names.push_back(entry.name);
-  throw Error("nothing is called '" + name + "'" + did_you_mean(name, names) + " (bzm list shows all names)");
+  for (auto const& kind : key_words)
+    for (auto const& word : kind.words())
+      if (word.name == name) next(), fmt::print("{} {}: {}\n", kind.what, name, word.doc);
+  if (shown || show_key(name) || show_unit(name)) return 0;
+  throw Error("nothing is called '" + name + "'" + near_name(name) + " (bzm list shows all names)");
 }
 
 }  // namespace boltzmann::bzm

@@ -32,6 +32,7 @@ class Loader {
  private:
   double read_block();
   /// A lattice that fills the block from low to high (without them the box), where a formula says so.
+  void refuse_overlapping_ends(std::array<double, 3> const& lengths);
   double read_fill();
   double read_positions();
   double read_file();

@@ -118,6 +118,7 @@ void Loader::load(AnyEnsemble& particles) {
   std::uint64_t const seed = reading_.run.seed;
   std::string const& kind = kind_->name;
   if (kind == "block") {
+    refuse_overlapping_ends(repeat_lengths(block_, particles.dimension()));
     block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
   } else if (kind == "random") {
     random_load(particles, *reading_.box, {.minimum_distance = options_.minimum_distance, .seed = seed});
@@ -182,6 +183,20 @@ double Loader::read_block() {
     }
   }
   return count;
+}
+
+/// A block that is longer than its periodic axis goes on at the other end, through what is there.
+void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
+  for (int a = 0; a < reading_.dimension && reading_.box; ++a) {
+    double const length = lengths[static_cast<std::size_t>(a)], axis = reading_.box->length(a);
+    if (!reading_.box->periodic(a) || length - axis <= block_.spacing / 2) continue;
+    auto const told = [&](double number) { return reading_.context.base.text(number, dimensions::length, 6); };
+    Place const counts = section_.place("counts"), spacing = section_.place("spacing");
+    reading_.mistake(spacing.override_number > counts.override_number ? spacing : counts,
+                     fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap",
+                                 told(length), "xyz"[a], told(axis)));
+    return;
+  }
 }
 
 double Loader::read_fill() {

@@ -313,6 +313,12 @@ void refuse_varied(Item const& document, Mistakes& mistakes) {
   if (!vary || !vary->item.is(Item::Kind::table)) return;
   Mistakes aside("");  // they are told when the sweep is read
   for (auto const& key : read_sweep_values(sweep->item, aside).keys) {
+    std::string const same = key.path == "run.time" ? "run.steps" : key.path == "run.steps" ? "run.time" : key.path;
+    Item const* length = same == key.path ? nullptr : item_at(document, same);
+    if (length && length->place.override_number >= 0)
+      mistakes.add(length->place, fmt::format("{}: the sweep of this scenario varies {}, which says the same; give "
+                                              "--vary {}=[...], or --no-sweep",
+                                              same, key.path, key.path));
     Item const* at = item_at(document, key.path);
     if (at && at->place.override_number > key.place.override_number)
       mistakes.add(at->place,

@@ -145,6 +145,7 @@ Place place_of(std::string const& message, Reading const& reading) {
     if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
   if (message.starts_with("the skin "))
     return reading.smooth.wanted && !reading.run.skin ? reading.smooth.skin_place : reading.run.skin_place;
+  if (message.starts_with("the step ")) return reading.run.step_place;
   if (message.starts_with("mesh: ")) return reading.mesh.background_place;
   return reading.run.place;
 }

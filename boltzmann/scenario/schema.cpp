@@ -249,9 +249,9 @@ std::string scenario_schema() {
   Members properties{
       {"title", title},
       {"description", description},
-      {"units", table({{"base", words({"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"},
-                                      "the units in which the simulation counts")}},
-                      false, "what plain numbers mean, and the units of the results")},
+      {"units",
+       closed("units", {{"base", words({"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"},
+                                       "the units in which the simulation counts")}})},
       {"box", closed("box", {{"walls", tables(closed("box.walls"))}, {"regions", tables(closed("box.regions"))}})},
       {"run", closed("run")},
       {"ensembles", ensembles()},
@@ -261,7 +261,7 @@ std::string scenario_schema() {
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"output", closed("output", {{"pictures", of_pictures(properties_of(picture_options().only({{"file"}})))}})},
       {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},
-      {"sweep", table({}, false, "the same scenario for several values of its keys, and with several seeds")}};
+      {"sweep", closed("sweep", {{"pictures", tables(closed("sweep.pictures"))}})}};
   for (auto const& scheme : scheme_entries()) {
     Members inner;
     for (auto const& table : scheme.inner)

@@ -35,6 +35,62 @@ OptionTable make_run_options() {
   return all;
 }
 
+OptionTable make_units_options() {
+  OptionTable all;
+  all.add_said("base",
+               "`\"si\"`, `\"cgs\"`, `\"reduced\"`, `\"lennard-jones\"`, `\"gravitational\"`, `\"plasma\"` or "
+               "`\"custom\"`",
+               "what plain numbers mean, and the units of the results; reduced: pure numbers, no text may have a unit",
+               "`\"si\"`");
+  all.add_said("sigma", "a length", "lennard-jones: sigma, epsilon, mass and Boltzmann's constant are 1");
+  all.add_said("epsilon", "an energy", "lennard-jones");
+  all.add_said("mass", "a mass", "lennard-jones, plasma, custom; gravitational: length, mass and G are 1");
+  all.add_said("length", "a length", "gravitational, custom");
+  all.add_said("time", "a time", "custom");
+  all.add_said("density", "a number per volume",
+               "plasma: the plasma frequency, the Debye length and the thermal velocity are 1");
+  all.add_said("charge", "a charge", "plasma, custom", "of custom the elementary charge");
+  all.add_said("temperature", "a temperature", "plasma, custom", "of custom 1 K");
+  return all;
+}
+
+OptionTable make_sweep_options() {
+  OptionTable all;
+  all.add_said("seeds", "a whole number, 1 to 10000",
+               "how many runs there are of each value; they have the seed of `[run]`, the next one, ...", "`1`");
+  all.add_said("vary", "a table: for each key the list of its values",
+               "values are whatever the key is: numbers, quantities, words, lists, tables. Keys are written as for "
+               "`--set`, and go together: all have as many values",
+               "repeated with other seeds only");
+  all.add_said("table", "columns of diagnoses, a list or with commas",
+               "of `sweep.csv` and of the table that is printed. A run counts once: its last row, or its mean since "
+               "`from`",
+               "all");
+  all.add_said("from", "a time", "the table has means over the rows since then", "the last row");
+  all.add_said("labels", "a list of texts, `[\"coupled\", \"uncoupled\"]`",
+               "names of the values, for legends, tables and folders", "the values");
+  all.add_said("pictures", "tables, `[[sweep.pictures]]`", "of all runs together", "none");
+  return all;
+}
+
+OptionTable make_sweep_picture_options() {
+  OptionTable all;
+  all.add_said("drawing", "`\"points\"` or `\"time-series\"`", "a point for each value, or curves over time",
+               "`\"points\"`");
+  all.add_said("x", "a key that varies, or a column of diagnoses",
+               "of points; of a key with lists the one component that differs", "the key, if only one varies");
+  all.add_said("y", "columns of diagnoses, a list or with commas", "upwards");
+  all.add_said("fit", "`\"line\"`",
+               "of points: the straight line through all runs by least squares, with the errors that their scatter "
+               "about it tells; it is drawn, printed and written to `fits.csv`",
+               "none");
+  all.add_said("logarithmic", "true or false", "y", "`false`");
+  all.add_said("file", "a name that ends in .png, .svg or .pdf", "in the folder of the sweep",
+               "`sweep.png`, `series.png`");
+  all.at("y").needed = "\"temperature\"";
+  return all;
+}
+
 constexpr char const* ensemble_or_list = "the name of an ensemble, or a list";
 
 OptionTable make_box_options() {
@@ -270,7 +326,9 @@ std::vector<ScenarioTable> make_tables() {
   static RegionOptions region;
   static SetOptions set;
   static OutputOptions output;
+  static OptionTable const units = make_units_options();
   std::vector<ScenarioTable> all = {
+      {"units", "[units]", "what plain numbers mean, and the units of the results", &units, nullptr},
       {"box", "[box]", "the space", &box_options(), nullptr},
       {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of reflecting ones",
        &wall_options(), &wall},
@@ -280,13 +338,17 @@ std::vector<ScenarioTable> make_tables() {
     all.push_back(scheme.told);
     all.insert(all.end(), scheme.inner.begin(), scheme.inner.end());
   }
+  static OptionTable const sweep = make_sweep_options(), picture = make_sweep_picture_options();
   all.insert(all.end(),
              {{"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
               {"ensembles.set", "[[ensembles.set]]",
                "other values for some particles, beside the fields of their class", &set_options(), &set},
               {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
               {"output", "[output]", "what is written, and how often", &output_options(), &output},
-              {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath}});
+              {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
+              {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,
+               nullptr},
+              {"sweep.pictures", "[[sweep.pictures]]", "a picture of all runs of a sweep", &picture, nullptr}});
   return all;
 }
 

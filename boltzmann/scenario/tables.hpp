@@ -15,7 +15,8 @@
 
 namespace boltzmann {
 
-/// [run]; its step, its length and what ends it are read by code.
+/// [run]; its step, its length and what ends it are read by code. A new key is a member, a row of the table, and its
+/// use in read_run() (read_space.cpp).
 struct RunOptions {
   std::int64_t seed = 1;
   int threads = 0;
@@ -64,7 +65,7 @@ struct OutputOptions {
 };
 OptionTable const& output_options();
 
-/// [box] and [[influences]], which are read by code of their own; beside these keys, influences have parameters.
+/// [box] and [[influences]], which are read by code of their own (box and run: read_space.cpp); beside these keys, influences have parameters.
 OptionTable const& box_options();
 OptionTable const& influence_options();
 /// Of [[dissipation]] between pairs, beside the keys of its kind.
@@ -77,8 +78,9 @@ struct ScenarioTable {
   OptionTable const* options;
   void* plain;  ///< an object as it is without keys; null: none of the keys is a plain member
 };
-/// Those that have a table of options, in the order of the guide; those of several kinds (dissipation, pictures, diagnoses)
-/// have one for each kind and are not here.
+/// Those that have a table of options, in the order of the guide; those of several kinds (dissipation, pictures, views,
+/// diagnoses) have one for each kind and are not here. Which fields a class has for [[ensembles.set]] is in
+/// particle_classes().
 std::vector<ScenarioTable> const& scenario_tables();
 
 }  // namespace boltzmann

@@ -61,6 +61,15 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
   std::string const start = units + box + run, atoms = ensemble("Newton");
   std::map<std::string, std::vector<std::string>> const texts{
       {"box", {units + box + wrong + run + atoms}},
+      {"units",
+       {"[units]\nbase = \"custom\"\n" + wrong + box + run + atoms,
+        "[units]\nbase = \"plasma\"\n" + wrong + box + run + atoms,
+        "[units]\nbase = \"lennard-jones\"\n" + wrong + box + run + atoms}},
+      {"box.regions",
+       {units + box + "[[box.regions]]\nlow = [1, 1]\nhigh = [2, 2]\nside = \"keep-out\"\n" + wrong + run + atoms}},
+      {"ensembles.set", {start + atoms + "[[ensembles.set]]\nparticles = \"all\"\n" + wrong}},
+      {"sweep", {start + atoms + "[sweep]\nseeds = 2\n" + wrong}},
+      {"sweep.pictures", {start + atoms + "[sweep]\nseeds = 2\n[[sweep.pictures]]\ny = \"step\"\n" + wrong}},
       {"box.walls", {units + box + mirror + "[[box.walls]]\naxis = \"x\"\nend = \"low\"\n" + wrong + run + atoms}},
       {"box.regions", {units + box + "[[box.regions]]\n" + wrong + run + atoms}},
       {"run", {start + wrong + atoms}},

@@ -100,7 +100,7 @@ std::vector<Mistake> const rows{
      "12:10",
      {"unknown key 'currant'", "did you mean 'courant'?"}},
     {"a word for a step", with("{ courant = 0.5 }", "\"currant\""), "12:8", {"step"}},
-    {"a step far above sound", with("{ courant = 0.5 }", "1.0"), "11:1", {"step", "far above"}},
+    {"a step far above sound", with("{ courant = 0.5 }", "1.0"), "12:8", {"step", "far above"}},
     {"cut-off", with("time = 0.1", "time = 0.1\ncutoff = 0.3"), "14:10", {"'range'", "leave it out"}},
     {"skin of pairs", with("time = 0.1", "time = 0.1\nskin = 0.3"), "14:8", {"[smooth]"}},
     // [smooth].
