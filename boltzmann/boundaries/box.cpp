@@ -274,9 +274,10 @@ class Box::Reflection {
   [[noreturn]] void fail(std::size_t i, int a, double x) const {
     if (!std::isfinite(x))
       throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles_, i)));
-    throw PhysicsFailure(fmt::format(
-        "{} escaped: {} = {} is further out of the box [{}, {}] than one step should bring it; take a smaller step",
-        who(particles_, i), "xyz"[a], x, box_.low_[a], box_.high_[a]));
+    auto const told = [&](double place) { return box_.base_.text(place, dimensions::length); };
+    throw PhysicsFailure(
+        fmt::format("{} escaped: {} = {} is further out of the box, {} to {}, than one step should bring it",
+                    who(particles_, i), "xyz"[a], told(x), told(box_.low_[a]), told(box_.high_[a])));
   }
 
   /// The work done on the particle; in the frame of the wall it is an elastic reflection.

@@ -2,6 +2,7 @@
 // installed inside it (sections 4.1, 4.2).
 #pragma once
 
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/core/words.hpp>
 
@@ -110,6 +111,10 @@ class Box {
     return held_ ? 0 : walls_[axis][static_cast<int>(end)].velocity[component];
   }
 
+  /// The units in which failures are told; plain numbers until then.
+  void speak_in(UnitSystem const& base) { base_ = base; }
+  UnitSystem const& spoken_units() const { return base_; }
+
   /// Installs a region. Error if it is not a block of this space.
   void install(Region const& region);
   template <int D>
@@ -145,6 +150,8 @@ class Box {
 
  private:
   class Reflection;
+
+  UnitSystem base_ = UnitSystem::reduced();
 
   template <int D>
   static std::array<double, 3> widen(Vector<D> const& a) {

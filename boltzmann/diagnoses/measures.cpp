@@ -169,6 +169,8 @@ Tensor3 kinetic_stress(Ensembles of) {
 
 Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box) {
   Tensor3 tensor = kinetic_stress(of);
+  if (!measures.no_virial.empty())
+    for (auto& row : tensor) row.fill(std::numeric_limits<double>::quiet_NaN());
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) tensor[a][b] = (tensor[a][b] + measures.virial[a][b]) / box.volume();
   return tensor;

@@ -1,6 +1,6 @@
 // Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
 //
-// Every function is a compensated sum in the order of the particles, so that results do not depend on threads. What a
+// Numbers are in the simulation's units, of the state as it stands. Every function is a compensated sum in the order of the particles, so that results do not depend on threads. What a
 // class does not have does not count: an ensemble without mass or velocity (Tracer particles, vortices) adds nothing to
 // mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0.
 #pragma once
@@ -92,10 +92,10 @@ struct TemperatureOptions {
 /// there are no particles left to take a mean over.
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options = {});
 
-/// Sum m v_a v_b
+/// Sum m v_a v_b, an energy: not per volume.
 Tensor3 kinetic_stress(Ensembles of);
 /// (Sum m v v + virial) / V, V the volume of the box (area in 2D, length in 1D): the virial of all influences between
-/// particles. Meaningful where particles fill the box.
+/// particles. NaN where it is not known. Meaningful where particles fill the box.
 Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box);
 /// (Sum m v.v + trace of the virial) / (D V)
 double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box);

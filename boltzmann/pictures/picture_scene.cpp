@@ -73,8 +73,10 @@ Canvas Scene::too_few(std::string const& why) const {
 
 EnergyAndVirial Scene::potential_energies() {
   EnergyAndVirial measures = context.simulation.measure();
-  if (measures.per_particle.empty() && !measures.unknown.empty())
-    throw Error("potential energies can't be shown: " + measures.unknown + " gives none");
+  if (measures.per_particle.empty())
+    throw Error("potential energies can't be shown: " + (measures.unknown.empty()
+                                                             ? "a scheme does not know them of each particle"
+                                                             : measures.unknown + " gives none"));
   return measures;
 }
 

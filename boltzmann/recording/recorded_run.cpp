@@ -18,7 +18,8 @@ std::string large(double number) {
   return fmt::format("{:.6g}", number);
 }
 
-void print_summary(Recording const& recording, RunReport const& report, Conserved const& start, double recorded) {
+void print_summary(Recording const& recording, RunReport const& report, Conserved const& start, Conserved const& end,
+                   double recorded) {
   Simulation const& simulation = recording.simulation();
   std::size_t now = 0;
   for (auto const* ensemble : simulation.ensembles()) now += ensemble->size();
@@ -27,7 +28,7 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
              changed ? fmt::format(" at the start, {} at the end", now) : "", report.steps, simulation.step(),
              recording.base().text(simulation.time(), dimensions::time, 6));
   if (report.steps > 0) {
-    for (auto const& line : conserved_table(start, conserved(simulation), recording.base())) fmt::print("{}\n", line);
+    for (auto const& line : conserved_table(start, end, recording.base())) fmt::print("{}\n", line);
     double const work = std::max(report.seconds - recorded, 1e-9);
     fmt::print("\n  speed    {} particle-steps/s, {:.3g} ns for a particle and step, {:.3g} s in all",
                large(report.particle_steps / work), work / std::max(report.particle_steps, 1.0) * 1e9, report.seconds);
@@ -64,8 +65,14 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   } catch (PhysicsFailure const& failure) {
     recording.give_up();
     if (recording.checkpoint_step() < 0) throw;
-    throw PhysicsFailure(fmt::format("{}\nlast good checkpoint: {}/checkpoint.h5 (step {})", failure.what(),
-                                     recording.folder(), recording.checkpoint_step()));
+    std::int64_t const every = recording.diagnoses_every();
+    throw PhysicsFailure(fmt::format(
+        "{}\nlast good checkpoint: {}/checkpoint.h5 (step {}){}", failure.what(), recording.folder(),
+        recording.checkpoint_step(),
+        every > 1
+            ? fmt::format("; diagnoses were every {} steps, every 1 (--set output.diagnoses=1) shows the way there",
+                          every)
+            : ""));
   }
   double const recorded = recording.seconds() - before;
   recording.finish();
@@ -73,7 +80,10 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   report.condition = recording.ended_by();
   if (!report.condition.empty() && recording.ended_step() == simulation.step())
     report.interrupted = report.out_of_time = false;
-  if (!options.quiet) print_summary(recording, report, *start, recorded);
+  Conserved const end = conserved(simulation);
+  if (!options.quiet) print_summary(recording, report, *start, end, recorded);
+  if (auto const line = drift_warning(*start, end, recording.base()); !line.empty())
+    fmt::print(stderr, "{}{}\n", options.warnings ? "" : recording.folder() + ": ", line);
   if (report.interrupted || report.out_of_time)
     fmt::print(stderr, "{} after step {}; its checkpoint is written: {}/checkpoint.h5\n",
                report.interrupted ? "stopped by a signal" : "out of time", simulation.step(), recording.folder());

@@ -390,6 +390,7 @@ std::vector<std::string> Recording::header() const {
 std::vector<Column> Recording::columns() const { return state_->rows.columns(); }
 std::vector<Picture> const& Recording::pictures() const { return state_->pictures; }
 std::vector<Diagnosis const*> Recording::instruments() const { return state_->rows.instruments(); }
+std::int64_t Recording::diagnoses_every() const { return state_->rows.every; }
 std::int64_t Recording::checkpoint_step() const { return state_->checkpoint_step; }
 double Recording::seconds() const { return state_->seconds; }
 double Recording::checkpoint_seconds() const { return state_->checkpoint_seconds; }

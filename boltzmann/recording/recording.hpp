@@ -126,6 +126,8 @@ class Recording {
   std::vector<Column> columns() const;
   std::vector<Picture> const& pictures() const;
   std::vector<Diagnosis const*> instruments() const;
+  /// Steps between two rows of diagnoses; 0: there are none.
+  std::int64_t diagnoses_every() const;
   /// The step of checkpoint.h5; -1 before there is one.
   std::int64_t checkpoint_step() const;
   /// The longest time that a checkpoint has taken so far.

@@ -17,21 +17,34 @@
 
 namespace boltzmann {
 
-/// Energies and virial of a state, summed over everything a scheme supervises.
+/// Energies and virial of a state, summed over everything a scheme supervises, in the simulation's units. Unknown until
+/// a scheme says otherwise: what it does not state is refused, not taken for zero.
 struct EnergyAndVirial {
+  /// Nothing yet of energies and virial that are known, to add to.
+  static EnergyAndVirial known() {
+    EnergyAndVirial all;
+    all.unknown = all.no_virial = "";
+    return all;
+  }
+
   double potential = 0;                           ///< of the influences between particles
   double external = 0;                            ///< in the external fields
   double internal = 0;                            ///< of the particles themselves (smooth particles, mesoparticles)
   double work = 0;                                ///< that moving walls have done since the start of the run
   double heat = 0;                                ///< that heat baths have given since the start of the run
+  bool driven = false;                            ///< something may change the energy uncounted: friction, a law that
+                                                  ///< depends on time, an influence without reaction
   std::array<std::array<double, 3>, 3> virial{};  ///< - sum over pairs r_a F_b with r = q - p and F the force on p; the
                                                   ///< pressure tensor is (sum m v v + virial) / volume
-  std::string unknown;    ///< empty, or the name of a law that gives no energy: the energies are then incomplete
-  std::string no_virial;  ///< empty, or why the virial can't be had (NaN then)
+  std::string unknown = "a scheme's measure()";   ///< what gives no energy, a law by name: the energies are incomplete;
+                                                  ///< empty: they are known
+  std::string no_virial =
+      "a scheme's measure() does not state it";  ///< why the virial can't be had; empty: it is known
   std::vector<std::vector<double>>
-      per_particle;  ///< potential energy of each particle (half of each of its pairs), one vector per ensemble
-  std::vector<std::vector<double>> virial_per_particle;  ///< 9 numbers a particle, half of each of its pairs'; empty
-                                                         ///< where a scheme does not know
+      per_particle;  ///< potential energy of each particle (half of each of its pairs), one
+                     ///< vector for each of ensembles(); empty: unknown
+  std::vector<std::vector<double>> virial_per_particle;  ///< 9 numbers a particle, half of each of its pairs'; empty:
+                                                         ///< unknown
 };
 
 class Scheme {
@@ -54,7 +67,9 @@ class Scheme {
     for (auto* ensemble : ensembles_) ensemble->clear_influence();
     add_influences(time);
   }
-  /// Adds this scheme's influences to the arrays, for ensembles that go through several schemes.
+  /// Adds this scheme's influence on each particle to AnyEnsemble::influence(i) of its ensembles: influence_size()
+  /// numbers in the simulation's units, a force for Newton classes, a velocity for tracers and vortices. Somebody has
+  /// cleared them, and other schemes may have added theirs. PhysicsFailure as above.
   virtual void add_influences(double time) = 0;
   /// One call that does all of calculate(), for systems so small that the way there costs as much as the work. It holds
   /// until an ensemble, a law or the box changes; `call` is null if there is none.
@@ -71,7 +86,9 @@ class Scheme {
   /// Fields of the particles that are not their own but found by this scheme (the density of smooth particles), for the
   /// state as it stands: observers see these. It changes nothing that the next step depends on.
   virtual void complete(double /*time*/) {}
-  /// Energies and virial of the state as it stands.
+  /// Energies and virial of the state as it stands: begin with EnergyAndVirial::known() if all of them can be given;
+  /// else clear `unknown` or `no_virial` for what is given, and say in the other what is missing. Work and heat are
+  /// the simulation's to fill.
   virtual EnergyAndVirial measure(double time = 0) = 0;
   /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise.
   /// They live until the next call.
@@ -86,6 +103,9 @@ class Scheme {
   /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite
   /// if unknown.
   virtual double length_scale(AnyEnsemble const& ensemble) const = 0;
+  /// The step in which particles that meet at the speeds they have come a quarter of their law's length closer: a longer
+  /// one does not follow them, forces may need a shorter one. Infinite if unknown.
+  virtual double collision_step() const { return __builtin_inf(); }
   /// The longest step that makes sense for the state as it stands (the Courant step); infinite if unknown.
   virtual double longest_step() { return __builtin_inf(); }
   /// The same as far as sound goes, at the last calculation, which knows it without looking again.
@@ -113,11 +133,10 @@ class Scheme {
   void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
   int threads() const { return threads_; }
   /// The units of what it says (Simulation::speak_in); plain numbers until then.
-  void speak_in(UnitSystem const& base) { base_ = base; }
-  UnitSystem const& spoken_units() const { return base_; }
+  void speak_in(UnitSystem const& base) { box_.speak_in(base); }
+  UnitSystem const& spoken_units() const { return box_.spoken_units(); }
 
  private:
-  UnitSystem base_ = UnitSystem::reduced();
   Box box_;
   std::vector<AnyEnsemble*> ensembles_;
   int threads_ = default_threads();

@@ -53,7 +53,8 @@ Conserved conserved(Simulation const& simulation) {
   total.isolated = measures.external == 0;
   total.work = measures.work;
   total.heat = measures.heat;
-  bool massive = !ensembles.empty();
+  total.driven = measures.driven || !simulation.dissipations().empty() || !simulation.adaptations().empty();
+  bool massive = !ensembles.empty(), moves_in_space = true;
   bool periodic = false;
   for (auto const* scheme : simulation.schemes()) {
     periodic = periodic || scheme->box().any_periodic();
@@ -72,12 +73,13 @@ Conserved conserved(Simulation const& simulation) {
           fmt::format("'{}' is of class {}, which has no kinetic energy", ensemble->name(), ensemble->class_name());
       continue;
     }
+    moves_in_space = moves_in_space && ensemble->fields().front().dimension == dimensions::length;
     add_scales(*ensemble, total);
   }
   if (!massive) return total;
   double const kinetic = kinetic_energy(ensembles);
-  total.momentum = momentum(ensembles);
-  if (!periodic && total.dimension > 1) total.angular_momentum = angular_momentum(ensembles);
+  if (moves_in_space) total.momentum = momentum(ensembles);
+  if (moves_in_space && !periodic && total.dimension > 1) total.angular_momentum = angular_momentum(ensembles);
   if (measures.unknown.empty())
     total.energy = kinetic + measures.potential + measures.external + measures.internal - measures.work - measures.heat;
   else
@@ -85,6 +87,19 @@ Conserved conserved(Simulation const& simulation) {
   total.energy_scale =
       kinetic + std::abs(measures.potential) + std::abs(measures.external) + std::abs(measures.internal);
   return total;
+}
+
+std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& base) {
+  if (!start.energy || !end.energy || start.driven || !(start.energy_scale > 0)) return "";
+  double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
+  double const drift = std::abs(*end.energy - *start.energy), scale = std::max(start.energy_scale, given);
+  if (drift <= 0.1 * scale) return "";
+  return fmt::format(
+      "warning: {} should be conserved and has gone from {} to {}: the step is too long, or a force is not the "
+      "gradient "
+      "of its energy",
+      name_of_energy(start, end), base.text(*start.energy, dimensions::energy),
+      base.text(*end.energy, dimensions::energy));
 }
 
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& base) {

@@ -24,11 +24,16 @@ struct Conserved {
   double momentum_scale = 0;                              ///< sum of |m v|
   double angular_momentum_scale = 0;                      ///< sum of |m r x v|
   int dimension = 3;
+  bool driven = false;   ///< something may change the energy uncounted: friction, noise, adaptations, ...
   bool isolated = true;  ///< no walls, no heat bath, and no energy in fields from outside: momentum can be conserved
 };
 
 /// Of the present state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
+
+/// One line of warning if the energy should be conserved and has changed by more than a tenth of what there was of
+/// kinetic, potential and internal energies; else empty.
+std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& base);
 
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
 /// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to

@@ -1,4 +1,5 @@
 // The loop, and the checks that turn a failing simulation into one line.
+#include <boltzmann/simulation/overlap.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <fmt/format.h>
@@ -165,6 +166,7 @@ void Simulation::check() {
   influences_.outdated();
   calculate(time());
   check_influences();
+  note_start();
   checked_ = true;
 }
 
@@ -285,7 +287,11 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
       passed = part.time_after[stage];
       if (motion != Motion::final) continue;
       move_walls(start + passed * dt);
-      work_ += part.home->box().apply(*part.ensemble, part.home->threads());
+      try {
+        work_ += part.home->box().apply(*part.ensemble, part.home->threads());
+      } catch (PhysicsFailure const& failure) {
+        throw PhysicsFailure(failure.what() + advice());
+      }
     }
   }
   if (!dissipations.empty()) calculate(start + passed * dt);
@@ -325,32 +331,33 @@ void Simulation::check_moves(Part const& part) const {
                     move.not_finite, name, why.empty() ? "" : ": ", why));
   }
   double const moved = std::sqrt(move.square), allowed = std::sqrt(part.longest_move2);
-  double const shorter = shorter_step(*part.ensemble, move.particle, moved, allowed);
   Dimension const unit = part.ensemble->fields().front().dimension;  // of what moves: a length, an angle
   auto const length = [&](double number) { return base().text(number, unit); };
-  throw PhysicsFailure(fmt::format(
-      "particle {} of '{}' moved {} in one step, further than the length {} of its law; take a step below {}",
-      move.particle, name, length(moved), length(allowed), base().text(shorter, dimensions::time, 3)));
+  throw PhysicsFailure(fmt::format("particle {} of '{}' moved {} in one step, further than the length {} of its law{}",
+                                   move.particle, name, length(moved), length(allowed), advice()));
 }
 
-/// With which it moves a tenth of what is allowed: the way of the velocity that it had goes with the step, that of the
-/// force, which may have thrown it, with the square.
-double Simulation::shorter_step(AnyEnsemble const& ensemble, std::size_t i, double moved, double allowed) const {
-  double const dt = std::abs(step_size_), tenth = 0.1 * allowed;
-  Field const *mass = ensemble.find_field("mass"), *velocity = ensemble.find_field("velocity");
-  if (!mass || !velocity || ensemble.influence_size() < static_cast<std::size_t>(ensemble.dimension()))
-    return tenth / moved * dt;
-  double acceleration2 = 0;
-  std::array<double, 3> before2{};  // if the force has not acted yet, for half a step, for a whole one
-  for (int a = 0; a < ensemble.dimension(); ++a) {
-    double const acceleration = ensemble.influence(i)[a] / ensemble.row(i)[mass->offset];
-    acceleration2 += square(acceleration);
-    for (std::size_t half = 0; half < before2.size(); ++half)
-      before2[half] +=
-          square(ensemble.row(i)[velocity->offset + a] - 0.5 * static_cast<double>(half) * acceleration * step_size_);
-  }
-  double const before = std::sqrt(*std::min_element(before2.begin(), before2.end()));
-  return std::min({dt, tenth / before, std::sqrt(tenth / std::sqrt(acceleration2))});
+/// What a failure may be told of, from the state that check() has seen.
+void Simulation::note_start() {
+  start_ = step_;
+  collision_step_ = std::numeric_limits<double>::infinity();
+  for (auto const* scheme : schemes_) collision_step_ = std::min(collision_step_, scheme->collision_step());
+  overlap_ = overlap(schemes_, ensembles_, step_size_);
+}
+
+/// The cure of a step that has brought a particle too far, as far as it is known.
+std::string Simulation::advice() const {
+  if (step_ == start_ && !overlap_.empty()) return "; " + overlap_;
+  auto const told = [&](double number) { return base().text(number, dimensions::time, 3); };
+  double const safe = 0.1 * collision_step_;  // forces between atoms rise over a tenth of their law's length
+  if (std::abs(step_size_) > safe)
+    return fmt::format(
+        "; at the speeds of the start a step above {} does not follow collisions, and forces need a shorter one; a "
+        "tenth is safe to begin with: take a step below {}",
+        told(collision_step_), told(safe));
+  if (std::isfinite(safe))
+    return fmt::format("; the speeds of the start allow the step ({}), forces do not: begin with half", told(safe));
+  return "; take a shorter step";
 }
 
 UnitSystem const& Simulation::base() const { return schemes_.front()->spoken_units(); }
@@ -522,7 +529,7 @@ void add_up(std::vector<std::vector<double>> const& part, Scheme const& scheme,
 }  // namespace
 
 EnergyAndVirial Simulation::measure() const {
-  EnergyAndVirial total;
+  auto total = EnergyAndVirial::known();
   bool energies = true, virials = true;  // of each particle, from every scheme
   auto const all = supervised_by(schemes_);
   for (auto* scheme : schemes_) {
@@ -530,6 +537,7 @@ EnergyAndVirial Simulation::measure() const {
     total.potential += part.potential;
     total.external += part.external;
     total.internal += part.internal;
+    total.driven = total.driven || part.driven;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) total.virial[a][b] += part.virial[a][b];
     if (!part.unknown.empty()) total.unknown = part.unknown;

@@ -34,6 +34,7 @@ class Simulation {
   void integrate(Ensemble<P>& ensemble, Method method) {
     integrate(ensemble, make_integrator(ensemble, method));
   }
+  /// The same by an integrator of one's own, for this ensemble; it replaces the one before.
   void integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator);
 
   /// Calls the observer at step 0 (when the run starts) and whenever the step number is a multiple of `every`.
@@ -80,16 +81,22 @@ class Simulation {
   std::int64_t step() const { return step_; }
   double time() const { return base_time_ + static_cast<double>(step_ - base_step_) * step_size_; }
   double step_size() const { return step_size_; }
+  /// For the steps to come; time() goes on from where it is. Between two run(), or from an observer. Error unless it is
+  /// finite and not zero (negative: backwards).
   void step_size(double size);
+  /// Of the random numbers of steps; loaders take theirs as an argument.
   std::uint64_t seed() const { return seed_; }
   void seed(std::uint64_t seed) { seed_ = seed; }
   /// The units in which failures and advice are told; plain numbers without it. A Recording says it.
   void speak_in(UnitSystem const& base);
+  /// Of everything that there is by now; below 1: as many as the machine has. No bit depends on it.
   void threads(int count);
 
   std::vector<Scheme*> const& schemes() const { return schemes_; }
   std::vector<Dissipation*> const& dissipations() const { return dissipations_; }
+  /// Whether equilibrate() is still to be done.
   bool equilibrates() const { return !equilibrations_.empty(); }
+  /// Each once, in the order of the schemes; none before check().
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   Method method(AnyEnsemble const& ensemble) const;
   /// Energies and virial of the present state, over all schemes and dissipations.
@@ -131,7 +138,8 @@ class Simulation {
   void calculate(double time);
   void move_walls(double time);
   void check_moves(Part const& part) const;
-  double shorter_step(AnyEnsemble const& ensemble, std::size_t i, double moved, double allowed) const;
+  void note_start();
+  std::string advice() const;
   UnitSystem const& base() const;
   std::string told_time(double number) const;
   void observe_now() const;
@@ -161,6 +169,9 @@ class Simulation {
   double step_size_;
   std::int64_t step_ = 0, base_step_ = 0;
   double base_time_ = 0, work_ = 0;
+  double collision_step_ = 0;  // of the state that check() has seen ...
+  std::int64_t start_ = 0;     // ... at this step,
+  std::string overlap_;        // and which of its particles are too near each other
   std::uint64_t seed_ = 1;
   int stages_ = 0;
   Freshness influences_;

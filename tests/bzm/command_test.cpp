@@ -342,7 +342,8 @@ TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {
   EXPECT_TRUE(has(outcome.err, "warning: particles of 'atoms' meet")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "step 1: particle ")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "of 'atoms' moved")) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "last good checkpoint: out/checkpoint.h5 (step 0)")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "last good checkpoint: out/checkpoint.h5 (step 0); diagnoses were every 20 steps"))
+      << outcome.err;
   // The step that it advises, with its unit, is one that holds, and no thousandth of it.
   std::size_t const below = outcome.err.find("take a step below ") + 18;
   std::string const step = outcome.err.substr(below, outcome.err.find('\n', below) - below);
@@ -356,6 +357,20 @@ TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {
   auto const again = bzm({"resume", "out", "--quiet"}, folder.string());
   EXPECT_EQ(again.status, 3);
   EXPECT_TRUE(has(again.err, "step 1: particle ")) << again.err;
+}
+
+TEST(Physics, AnEnergyThatShouldStayAndGoesIsToldOfAtTheEnd) {
+  Folder folder;
+  auto const run = [&](std::string const& step, bool quiet) {
+    std::vector<std::string> words{"run", "pendulums", "--set", "run.step=" + step, "--steps", "500", "--force"};
+    if (quiet) words.emplace_back("--quiet");
+    return bzm(words, folder.string());
+  };
+  expect_one_line(run("5", true), 0, {"warning: energy should be conserved and has gone from ", "too long"});
+  EXPECT_TRUE(has(run("5", false).err, "warning: energy should be conserved"));
+  auto const good = run("0.005", false);
+  EXPECT_FALSE(has(good.err, "warning")) << good.err;
+  EXPECT_FALSE(has(good.out, "momentum")) << good.out;
 }
 
 TEST(Physics, AFailureInTheMiddleKeepsWhatWasGood) {
@@ -482,6 +497,27 @@ TEST(Show, KnowsWhatScenariosKnow) {
   }
   for (auto const& kind : load_kinds())
     EXPECT_TRUE(has(bzm({"show", kind.name}, folder.string()).out, "loader " + kind.name + ": ")) << kind.name;
+}
+
+TEST(Show, KnowsKeysAndWordsToo) {
+  Folder folder;
+  auto const told = [&](char const* name) { return bzm({"show", name}, folder.string()).out; };
+  EXPECT_TRUE(has(told("stop"), "ends the run before its last step: a condition\n    of [run]")) << told("stop");
+  EXPECT_TRUE(has(told("convention"), "dissipation dpd")) << told("convention");
+  EXPECT_TRUE(has(told("material"), "[[ensembles]]")) << told("material");
+  EXPECT_TRUE(has(told("reflecting"), "boundary reflecting: elastic walls")) << told("reflecting");
+  EXPECT_TRUE(has(told("diagnoses"), "energy-balance")) << told("diagnoses");
+  auto const tables = bzm({"list", "tables"}, folder.string()).out;
+  for (char const* table : {"units", "sweep", "sweep.pictures", "views", "dissipation", "diagnoses", "ensembles.set",
+                            "box.regions", "output.pictures"}) {
+    EXPECT_TRUE(has(tables, std::string("\n  ") + table + " ")) << table;
+    EXPECT_EQ(bzm({"show", table}, folder.string()).status, 0) << table;
+  }
+  expect_one_line(bzm({"show", "order-free"}, folder.string()), 2, {"it is 'simultaneous' now"});
+  expect_one_line(bzm({"show", "verlet"}, folder.string()), 2, {"it is called 'leap-frog' here"});
+  expect_one_line(bzm({"show", "dt"}, folder.string()), 2, {"it is called 'step' here"});
+  auto const units = bzm({"list", "units"}, folder.string()).out;
+  EXPECT_TRUE(has(units, "an energy") && has(units, "a mass") && !std::regex_search(units, std::regex(" a [aeiou]")));
 }
 
 TEST(Show, RefusesWhatSaysNothingOrTooMuch) {

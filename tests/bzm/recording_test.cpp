@@ -4,6 +4,7 @@
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/conserved.hpp>
@@ -65,6 +66,18 @@ TEST(Conserved, NoAngularMomentumOnPeriodicAxesAndWallsAreNamed) {
   auto const total = conserved(walls.simulation);
   EXPECT_FALSE(total.isolated);
   EXPECT_NE(conserved_table(total, total, UnitSystem::reduced()).back().find("walls"), std::string::npos);
+}
+
+TEST(Conserved, AnglesHaveNoMomenta) {
+  Ensemble<Pendulum<>> bobs("bobs", 2);
+  PairScheme scheme(Box(Vector{-9.}, Vector{9.}));
+  scheme.add(bobs);
+  Simulation simulation(scheme, 0.1);
+  simulation.integrate(bobs, Method::leap_frog);
+  simulation.check();
+  auto const total = conserved(simulation);
+  EXPECT_TRUE(total.energy);
+  EXPECT_FALSE(total.momentum);
 }
 
 TEST(Conserved, TheTableShowsTheDrift) {

@@ -109,9 +109,9 @@ TEST(Measures, AnIdealGasHasThePressureNkTOverV) {
   maxwellian_load(heavy, {.temperature = t, .boltzmann_constant = k, .seed = test_seed(1), .exact_temperature = true});
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 2, 3});
   std::vector<AnyEnsemble*> const both{&light, &heavy};
-  EXPECT_NEAR(pressure(both, EnergyAndVirial{}, box) / (1500 * k * t / 6), 1, 1e-12);
+  EXPECT_NEAR(pressure(both, EnergyAndVirial::known(), box) / (1500 * k * t / 6), 1, 1e-12);
   EXPECT_NEAR(temperature(both, k).total, t, 1e-9);
-  Tensor3 const tensor = pressure_tensor(both, EnergyAndVirial{}, box);
+  Tensor3 const tensor = pressure_tensor(both, EnergyAndVirial::known(), box);
   EXPECT_NEAR(tensor[1][1] / (1500 * k * t / 6), 1, 0.15);
   EXPECT_DOUBLE_EQ(tensor[0][1], tensor[1][0]);
   EXPECT_LT(std::abs(tensor[0][1]) / (1500 * k * t / 6), 0.1);
@@ -224,7 +224,7 @@ TEST(Measures, OfNothing) {
     EXPECT_EQ(momentum(of), (Triple{0, 0, 0}));
     EXPECT_TRUE(std::isnan(temperature(of, 1).total));
     EXPECT_TRUE(std::isnan(temperature(of, 1, {.subtract_drift = true}).total));
-    EXPECT_EQ(pressure(of, EnergyAndVirial{}, Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1})), 0);
+    EXPECT_EQ(pressure(of, EnergyAndVirial::known(), Box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1})), 0);
   }
   EXPECT_TRUE(mean_velocity(none, {}).size() == 3 && std::isnan(mean_velocity(none, {})[2]));
   EXPECT_TRUE(similar_particles(none, {0, 0, 0}, 1).empty());

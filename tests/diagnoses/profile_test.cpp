@@ -29,7 +29,7 @@ struct Four {
   Ensemble<Meso<2>> lumps{"lumps", 3};
   Ensemble<Newton<2>> atoms{"atoms", 1};
   List all{&lumps, &atoms};
-  EnergyAndVirial measures;
+  EnergyAndVirial measures = EnergyAndVirial::known();
 
   Four() {
     lumps[0] = {{{{0.5, 1.0}}, 2, {3.0, 0.0}}, 7, 100};
@@ -135,7 +135,7 @@ TEST(Profile, FastGasHasItsTemperatureAndPressure) {
     if (p.position[0] > 1) p.velocity *= 2;
     p.velocity[1] += 1e6 * p.mass;
   }
-  EnergyAndVirial nothing;
+  auto nothing = EnergyAndVirial::known();
   nothing.per_particle = {std::vector<double>(gas.size(), 0)};
   nothing.virial_per_particle = {std::vector<double>(9 * gas.size(), 0)};
   List const all{&gas};

@@ -168,7 +168,7 @@ struct Made {
   std::vector<AnyEnsemble*> all{&lumps};
   std::vector<AnyEnsemble const*> available{&lumps};
   std::vector<double> start;
-  EnergyAndVirial measures;
+  EnergyAndVirial measures = EnergyAndVirial::known();
   double extra_energy = 0;  // behind the front, per mass: 0 closes
 
   explicit Made(double sign = 1)
@@ -186,7 +186,7 @@ struct Made {
   }
   Sample at(double time) {
     box.move_walls(time);
-    measures = {};
+    measures = EnergyAndVirial::known();
     measures.per_particle = {{}};
     measures.virial_per_particle = {{}};
     for (std::size_t i = 0; i < lumps.size(); ++i) {

@@ -1,9 +1,13 @@
 // The loop: same bits for any thread count and after a restart, failures as one line, N = 0, 1, 2.
+#include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/refusals.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <tests/message.hpp>
 
@@ -443,6 +447,147 @@ TEST(Simulation, EnsemblesOfSeveralSchemesAddTheirInfluences) {
   simulation.integrate(ball, Method::leap_frog);
   simulation.run(2);
   EXPECT_DOUBLE_EQ(ball[0].position[0], 1.0);  // a t^2 / 2 with a = 2, t = 1
+}
+
+// ---- Schemes of a user's own ----
+
+/// A harmonic trap that states what it is told to state.
+class Trap final : public Scheme {
+ public:
+  Trap(Box const& box, bool states) : Scheme(box), states_(states) {}
+  void add_influences(double) override {
+    for (auto* ensemble : ensembles())
+      for (std::size_t i = 0; i < ensemble->size(); ++i)
+        for (int a = 0; a < 2; ++a) ensemble->influence(i)[a] -= ensemble->row(i)[a];
+  }
+  EnergyAndVirial measure(double) override {
+    auto measures = states_ ? EnergyAndVirial::known() : EnergyAndVirial{};
+    for (auto const* ensemble : ensembles())
+      for (std::size_t i = 0; i < ensemble->size(); ++i)
+        for (int a = 0; a < 2; ++a) measures.external += 0.5 * square(ensemble->row(i)[a]);
+    return measures;
+  }
+  double length_scale(AnyEnsemble const&) const override { return std::numeric_limits<double>::infinity(); }
+  std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
+  void make_reversible(double) override {}
+
+ private:
+  bool states_;
+};
+
+TEST(Scheme, WhatItDoesNotStateIsUnknown) {
+  Box const box(Vector{-9., -9.}, Vector{9., 9.});
+  for (bool const states : {false, true}) {
+    Ensemble<Newton<2>> atoms("atoms", 1);
+    atoms[0].position = {1, 0};
+    Trap trap(box, states);
+    trap.add(atoms);
+    PairScheme rest(box);  // a scheme beside it that knows does not hide that it is silent
+    rest.add(atoms);
+    Simulation simulation(trap, 0.1);
+    simulation.add(rest);
+    simulation.integrate(atoms);
+    std::vector<std::unique_ptr<Diagnosis>> diagnoses;
+    for (char const* kind : {"energies", "pressure"})
+      diagnoses.push_back(make_diagnosis(kind, {.available = {&atoms}}));
+    auto const lines = refusals(simulation, diagnoses);
+    auto const measures = simulation.measure();
+    if (states) {
+      EXPECT_EQ(lines, (std::vector<std::string>{"", ""}));
+      EXPECT_NEAR(*conserved(simulation).energy, 0.5, 1e-15);
+      EXPECT_EQ(pressure(atoms, measures, box), 0);
+    } else {
+      EXPECT_NE(lines[0].find("a scheme's measure() gives none"), std::string::npos) << lines[0];
+      EXPECT_NE(lines[1].find("a scheme's measure() does not state it"), std::string::npos) << lines[1];
+      EXPECT_FALSE(conserved(simulation).energy);
+      EXPECT_TRUE(std::isnan(pressure(atoms, measures, box)));
+    }
+  }
+}
+
+// ---- Advice ----
+
+TEST(Simulation, AdvisesTheStepThatItsWarningAdvises) {
+  // Two streams through each other: they come a quarter of r0 closer in 1/80; a hundred times that is too much.
+  auto const run = [](double step) {
+    Ensemble<Newton<2>> atoms("atoms", 100);
+    for (std::size_t i = 0; i < 100; ++i) {
+      atoms[i].position = {1.2 * static_cast<double>(i % 10), 1.2 * static_cast<double>(i / 10)};
+      atoms[i].velocity = {i % 2 == 0 ? 5. : -5., 0};
+    }
+    PairScheme scheme(Box(Vector{0., 0.}, Vector{12., 12.}, Boundary::periodic), 2.5);
+    scheme.internal(atoms, LennardJones{1, 1});
+    Simulation simulation(scheme, step);
+    simulation.integrate(atoms);
+    std::string const warning = scheme.warnings(step).empty() ? "" : scheme.warnings(step).front();
+    return std::pair(warning, message_of<PhysicsFailure>(simulation, 20));
+  };
+  auto const [warning, failure] = run(0.3);
+  std::string const at_most = warning.substr(warning.rfind(' ') + 1);
+  EXPECT_NEAR(std::stod(at_most), 0.25 / 15, 2e-3) << warning;  // three thermal speeds
+  EXPECT_NE(failure.find("of its law; at the speeds of the start a step above " + at_most + " does not follow"),
+            std::string::npos)
+      << failure;
+  std::string const advised = failure.substr(failure.rfind(' ') + 1);
+  EXPECT_NEAR(std::stod(advised), 0.1 * std::stod(at_most), 1e-9) << failure;
+  EXPECT_EQ(run(std::stod(advised)).second, "no error");
+}
+
+TEST(Simulation, OverlapAtTheStartIsToldAsThat) {
+  auto const failure = [](Boundary boundary, double distance) {
+    Ensemble<Newton<2>> atoms("atoms", 3);
+    atoms[0].position = {2, 2};
+    atoms[1].position = {5, 5};
+    atoms[2].position = {5 + distance, 5};
+    PairScheme scheme(Box(Vector{0., 0.}, Vector{10., 10.}, boundary));
+    scheme.internal(atoms, [](auto const& p, auto const& q) {  // it states no length
+      auto const r = q.position - p.position;
+      return r * (-1.0 / cube(dot(r, r)));
+    });
+    Simulation simulation(scheme, 0.01);
+    simulation.integrate(atoms);
+    simulation.speak_in(UnitSystem(10 * units::angstrom, 1 * units::amu, 1000 * units::femtosecond));
+    return message_of<PhysicsFailure>(simulation);
+  };
+  auto const text = failure(Boundary::reflecting, 0.05);
+  EXPECT_NE(text.find("escaped: x = "), std::string::npos) << text;
+  EXPECT_NE(text.find(" nm is further out of the box, 0 nm to 10 nm, than"), std::string::npos) << text;
+  EXPECT_NE(
+      text.find("; particle 2 of 'atoms' and particle 1 of 'atoms' began only 0.05 nm apart: a shorter step is no "
+                "cure, load them further apart (minimum_distance)"),
+      std::string::npos)
+      << text;
+  EXPECT_EQ(failure(Boundary::reflecting, 1.5), "no error");
+}
+
+TEST(Simulation, AnEnergyThatShouldStayAndGoesIsToldOf) {
+  Ensemble<Newton<2>> pair("pair", 2);
+  auto const drift = [&](double step, bool drag, bool gravity, Boundary boundary) {
+    pair[0].position = {5, 5}, pair[1].position = {6, 5};
+    pair[0].velocity = {0, -0.5}, pair[1].velocity = {0, 0.5};
+    PairScheme scheme(Box(Vector{-1e6, -1e6}, Vector{1e6, 1e6}, boundary));
+    scheme.internal(pair, [](auto const& p, auto const& q) {
+      auto const r = q.position - p.position;
+      return Interaction{r * 1.0, 0.5 * dot(r, r)};
+    });
+    if (drag) scheme.external(pair, Drag{5.0});
+    if (gravity)
+      scheme.external(pair, [](auto const& p, double time) {
+        return Interaction{p.position * 0.0, 0.0 * p.mass + 10 * time};
+      });
+    Simulation simulation(scheme, step);
+    simulation.integrate(pair, Method::euler);
+    simulation.check();
+    auto const start = conserved(simulation);
+    simulation.run(100);
+    return drift_warning(start, conserved(simulation), UnitSystem::reduced());
+  };
+  auto const warned = drift(0.1, false, false, Boundary::open);
+  EXPECT_TRUE(warned.starts_with("warning: energy should be conserved and has gone from 0.75 to ")) << warned;
+  EXPECT_EQ(drift(0.0001, false, false, Boundary::open), "");
+  // What loses or gains by friction, by a law that changes in time, is not expected to keep its energy.
+  EXPECT_EQ(drift(0.01, true, false, Boundary::open), "");
+  EXPECT_EQ(drift(0.01, false, true, Boundary::open), "");
 }
 
 }  // namespace

@@ -281,7 +281,7 @@ std::vector<MeshField const*> MeshScheme::mesh_fields() {
 }
 
 EnergyAndVirial MeshScheme::measure(double time) {
-  EnergyAndVirial measures;
+  auto measures = EnergyAndVirial::known();
   if (!pairs_.ensembles().empty()) measures = pairs_.measure(time);
   Work& work = this->work();
   deposit(work);

@@ -84,7 +84,9 @@ class MeshScheme : public Scheme {
   PairScheme& pairs() { return pairs_; }
   PairScheme const& pairs() const { return pairs_; }
 
-  // The four stages of section 4.4, each of which a user's function may replace.
+  // The four stages of section 4.4, each of which a user's function may replace; an empty function brings back the
+  // mesh's own. Fields come with their grid and its size() numbers in each component: the density zero, the rest as the
+  // last calculation left it.
   /// Gives the density of strength on the nodes.
   using DensityAssignment = std::function<void(MeshScheme& mesh, MeshField& density)>;
   /// Solves laplacian phi = -C rho. Where the field is closed (periodic, Neumann) the mean of phi is zero: energies
@@ -127,6 +129,7 @@ class MeshScheme : public Scheme {
   std::size_t bytes() const override;
   std::string summary() const override;
   std::string report() const override;
+  double collision_step() const override { return pairs_.collision_step(); }
   std::vector<std::string> warnings(double step_size) override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

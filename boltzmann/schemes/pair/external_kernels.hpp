@@ -26,6 +26,7 @@ struct ExternalKernels {
   ExternalKernel influence = nullptr, measure = nullptr;
   RotationKernel rotate = nullptr;  ///< of laws that only turn velocities (see UniformMagneticField)
   bool has_energy = false;
+  bool depends_on_time = false;
 };
 
 /// True if law(p) or law(p, time) can be called for this class.
@@ -97,7 +98,10 @@ constexpr ExternalKernels external_kernels() {
   using detail::Pass;
   using Result = decltype(detail::external_result(std::declval<Law const&>(), std::declval<P const&>(), 0.0));
   return {detail::over_particles<Pass::influence, W, P, Law>, detail::over_particles<Pass::measure, W, P, Law>,
-          detail::rotation_kernel<W, P, Law>(), detail::has_energy<Result>};
+          detail::rotation_kernel<W, P, Law>(), detail::has_energy<Result>,
+          requires(Law const& law, P const& p){law(p, 0.0);
+}
+};  // namespace boltzmann
 }
 
 }  // namespace boltzmann

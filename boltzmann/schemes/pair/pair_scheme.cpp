@@ -16,6 +16,12 @@ constexpr std::size_t particle_grain = 256;     // particles of one range of a l
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
 // Below, one thread is faster than the start of two (some us, and some 50 if the others have gone to sleep).
 constexpr double pair_work = 0.125;
+constexpr double collision_part = 0.25;  // of a law's length, that particles may come closer in a step
+
+double with_two_digits_below(double x) {
+  double const digit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+  return std::isfinite(x) ? std::floor(x / digit) * digit : x;
+}
 
 }  // namespace
 
@@ -31,6 +37,11 @@ struct PairScheme::Near {
   PairKernel few = nullptr;  // the kernel for a handful of particles, if they are
 
   bool all_pairs() const { return cutoff == no_cutoff; }
+  double collision_step(Box const& box) const {
+    double const length = traits.length_scale;
+    double const speed = std::isfinite(length) ? closing_speed(box, *target, *source) : 0;
+    return speed > 0 ? collision_part * length / speed : no_cutoff;
+  }
 
   /// Sets the task to where memory is now (ensembles may have been resized, sorted copies rebuilt).
   void locate(double quantum, Neighbourhood const& neighbourhood) {
@@ -105,6 +116,10 @@ struct PairScheme::External {
   bool taken = false;    // by an integrator, as a rotation
 
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
+  /// Whether it may change the energy: who comes back at the other end of a periodic axis has gained that of a field.
+  bool drives(Box const& box) const {
+    return box.any_periodic() || kernels.depends_on_time || (traits.velocity_dependent && !kernels.rotate);
+  }
   ExternalTask task(double time) const {
     if (!only.empty() && ensemble->size() <= last)
       throw Error(fmt::format("an external influence acts on particle {} of '{}', which has {} now", last,
@@ -250,7 +265,7 @@ Scheme::SmallSystem PairScheme::small_system() {
 }
 
 EnergyAndVirial PairScheme::measure(double time) {
-  EnergyAndVirial measures;
+  auto measures = EnergyAndVirial::known();
   neighbourhood_.refresh(threads());
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
@@ -274,6 +289,7 @@ EnergyAndVirial PairScheme::measure(double time) {
   };
   for (auto const& near : near_) {
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
+    measures.driven = measures.driven || near->traits.velocity_dependent || !has_reaction(*near);
     near->locate(0, neighbourhood_);
     near->task.zero_at = shifted_ && !near->all_pairs() ? near->cutoff : 0;
     run(near->task, near->target, near->grain(),
@@ -285,6 +301,7 @@ EnergyAndVirial PairScheme::measure(double time) {
         connected->law.get());
   }
   for (auto const& external : external_) {
+    measures.driven = measures.driven || external->drives(box());
     if (!external->kernels.has_energy) {
       if (!external->traits.velocity_dependent)
         measures.unknown = "an external law on '" + external->ensemble->name() + "'";
@@ -398,26 +415,34 @@ std::size_t PairScheme::bytes() const {
   return bytes;
 }
 
+bool PairScheme::has_reaction(Near const& near) const {
+  return std::any_of(near_.begin(), near_.end(),
+                     [&](auto const& other) { return other->target == near.source && other->source == near.target; });
+}
+
+double PairScheme::collision_step() const {
+  double shortest = no_cutoff;
+  for (auto const& near : near_) shortest = std::min(shortest, near->collision_step(box()));
+  return with_two_digits_below(shortest);
+}
+
 std::vector<std::string> PairScheme::warnings(double step_size) {
-  constexpr double most = 0.25;  // of the law's length in one step
   auto const told = [&](double number, Dimension unit) { return spoken_units().text(number, unit, 3); };
+  double const dt = std::abs(step_size);
   std::vector<std::string> lines;
   for (auto const& near : near_) {
-    double const length = near->traits.length_scale;
     bool const said = std::any_of(near_.begin(), near_.end(), [&](std::unique_ptr<Near> const& other) {
       return &other < &near && other->target == near->source && other->source == near->target;
     });
-    if (said) continue;  // the other way round
-    double const speed = std::isfinite(length) ? closing_speed(box(), *near->target, *near->source) : 0;
-    double const move = speed * std::abs(step_size);
-    if (!(move > most * length)) continue;
-    double const longest = most * length / speed, digit = std::pow(10.0, std::floor(std::log10(longest)) - 1);
+    double const longest = said ? no_cutoff : near->collision_step(box());  // said: the other way round
+    if (!(dt > longest)) continue;
+    double const length = near->traits.length_scale, speed = collision_part * length / longest;
     lines.push_back(fmt::format(
         "warning: particles of '{}'{} meet at speeds up to {} and come {} closer in a step of {}, but the "
         "law between them changes over {}: collisions are not followed; take a step of at most {}",
         near->target->name(), near->target == near->source ? "" : fmt::format(" and '{}'", near->source->name()),
-        told(speed, dimensions::velocity), told(move, dimensions::length), told(std::abs(step_size), dimensions::time),
-        told(length, dimensions::length), told(std::floor(longest / digit) * digit, dimensions::time)));
+        told(speed, dimensions::velocity), told(speed * dt, dimensions::length), told(dt, dimensions::time),
+        told(length, dimensions::length), told(with_two_digits_below(longest), dimensions::time)));
   }
   return lines;
 }

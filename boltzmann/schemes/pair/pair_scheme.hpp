@@ -109,6 +109,7 @@ class PairScheme final : public Scheme {
   std::size_t bytes() const override;
   /// Warns of steps in which particles that meet move further than a quarter of the length over which the law between
   /// them changes: collisions would not be followed.
+  double collision_step() const override;
   std::vector<std::string> warnings(double step_size) override;
   std::string report() const override;
   std::vector<double> state() const override;
@@ -146,6 +147,7 @@ class PairScheme final : public Scheme {
   struct External;
 
   void calculate(double time, bool overwrite);
+  bool has_reaction(Near const& near) const;
 
   double cutoff_;
   double quantum_ = 0;

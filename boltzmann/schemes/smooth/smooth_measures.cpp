@@ -65,7 +65,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     complete(time);
   else
     find(Until::fluxes);
-  EnergyAndVirial measures;
+  auto measures = EnergyAndVirial::known();
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -93,6 +93,10 @@ EnergyAndVirial SmoothScheme::measure(double time) {
   Tensor<3> const further = all_is_pressure || points_->size() == 0 ? Tensor<3>{} : stress();
   for (int a = 0; a < box().dimension(); ++a)
     for (int b = 0; b < box().dimension(); ++b) measures.virial[a][b] = further[a][b] + (a == b ? work.value() : 0);
+  // Walls with images heat and push, friction in a barotropic material heats nothing.
+  measures.driven =
+      box().any_wall() || !outside_.empty() ||
+      std::any_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.barotropic; });
   for (auto const& outside : outside_) {
     if (!outside->kernels.has_energy) {
       measures.unknown = "an external law on '" + outside->ensemble->name() + "'";

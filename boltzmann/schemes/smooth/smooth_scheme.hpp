@@ -51,7 +51,7 @@ class SmoothScheme final : public Scheme {
   explicit SmoothScheme(Box box, WeightShape shape = WeightShape::lucy);
   ~SmoothScheme() override;
 
-  /// Loads an ensemble of a class made from Smooth, and says what it is made of. Particles of all ensembles act on
+  /// Adds an ensemble of a class made from Smooth, and says what it is made of. Particles of all ensembles act on
   /// each other.
   template <class P, class M>
   void material(Ensemble<P>& ensemble, M const& material) {
@@ -69,13 +69,14 @@ class SmoothScheme final : public Scheme {
     add_external(ensemble, external_kernels<P, ForceOn<Law>>(), std::make_shared<ForceOn<Law>>(ForceOn<Law>{law}));
   }
 
+  // How the continuum is calculated: at any time before the first calculation, in any order.
   void density_from(DensityFrom from) { density_from_ = from; }
   void mean_density(MeanDensity mean) { mean_density_ = mean; }
   void heating(Heating heating);
   /// Error if alpha or beta is negative.
   void artificial_viscosity(ArtificialViscosity const& viscosity);
   /// Lets ranges vary and sets them for the state as it stands. From then on they evolve with the density. Ensembles
-  /// are to be loaded before; densities are summed. Error if they can't be found.
+  /// are to be added before; densities are summed. Error if they can't be found.
   void variable_range(VariableRange const& variable);
   /// How far particles may move before lists are rebuilt: lists reach range + skin. Default 0.08 of the longest range.
   void skin(double length);
