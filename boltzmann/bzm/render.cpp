@@ -139,7 +139,7 @@ class Frames {
   std::string folder_, title_;
   TrajectoryReader reader_;
   Picture picture_;
-  PictureOptions paper_;
+  FigureOptions paper_;
   std::optional<std::array<AxisRange, 2>> axes_;  // of a movie
 };
 

@@ -66,6 +66,8 @@ class Canvas {
 
     std::size_t count() const { return position.size() / static_cast<std::size_t>(dimension); }
   };
+  // Marks: x, y, z are coordinates of the axes, in the simulation's units (not times Axis::factor); widths and sizes
+  // are pixels of a picture of 1200 x 900.
   /// radius in units of the x axis. Shaded circles look like spheres. depth: 0 (near) to 1 (far, faded towards the
   /// paper).
   struct Circle {
@@ -76,7 +78,7 @@ class Canvas {
     float depth = 0;
     double z = 0;
   };
-  /// A disc whose size is its diameter in pixels of a picture of 1200 x 900; so are all widths and text sizes below.
+  /// A disc; size is its diameter.
   struct Point {
     double x = 0, y = 0;
     float size = 4;

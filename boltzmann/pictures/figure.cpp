@@ -41,7 +41,7 @@ cairo_status_t put(void* bytes, unsigned char const* data, unsigned length) {
 }
 
 // `what` is told of in errors: "can't write picture 'a.png'".
-void check(PictureOptions const& options, std::string const& what) {
+void check(FigureOptions const& options, std::string const& what) {
   auto allowed = [&](int pixels) { return pixels * options.scale >= 16 && pixels * options.scale <= 20000; };
   if (!allowed(options.width) || !allowed(options.height))
     throw Error(fmt::format("{}: its size is {} x {} pixels times {}; allowed are 16 to 20000 each way", what,
@@ -49,19 +49,19 @@ void check(PictureOptions const& options, std::string const& what) {
 }
 
 // Device units per pixel of a picture of 1200 x 900.
-double unit_of(PictureOptions const& options) {
+double unit_of(FigureOptions const& options) {
   return std::max(std::sqrt(static_cast<double>(options.width) * options.height / (1200.0 * 900)), 0.4);
 }
 
 // Pages of pixels have whole ones.
-Page page_of(cairo_t* cairo, PictureOptions const& options, double per_pixel, bool whole) {
+Page page_of(cairo_t* cairo, FigureOptions const& options, double per_pixel, bool whole) {
   auto const side = [&](int pixels) {
     return whole ? static_cast<double>(std::lround(pixels * per_pixel)) : pixels * per_pixel;
   };
   return {cairo, side(options.width), side(options.height), unit_of(options) * per_pixel, options.dark};
 }
 
-cairo_status_t draw_png(Canvas const& canvas, PictureOptions const& options, std::string& bytes) {
+cairo_status_t draw_png(Canvas const& canvas, FigureOptions const& options, std::string& bytes) {
   auto const side = [&](int pixels) { return static_cast<int>(std::lround(pixels * options.scale)); };
   CairoSurface target(cairo_image_surface_create(CAIRO_FORMAT_RGB24, side(options.width), side(options.height)));
   if (cairo_surface_status(target.surface) != CAIRO_STATUS_SUCCESS) return cairo_surface_status(target.surface);
@@ -70,7 +70,7 @@ cairo_status_t draw_png(Canvas const& canvas, PictureOptions const& options, std
   return cairo_surface_write_to_png_stream(target.surface, put, &bytes);
 }
 
-cairo_status_t draw_vectors(Canvas const& canvas, PictureOptions const& options, bool svg, std::string& bytes) {
+cairo_status_t draw_vectors(Canvas const& canvas, FigureOptions const& options, bool svg, std::string& bytes) {
   double const per_pixel = svg ? options.scale : options.scale * 72 / 150;
   double const width = options.width * per_pixel, height = options.height * per_pixel;
   CairoSurface target(svg ? cairo_svg_surface_create_for_stream(put, &bytes, width, height)
@@ -85,7 +85,7 @@ cairo_status_t draw_vectors(Canvas const& canvas, PictureOptions const& options,
   return drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(target.surface);
 }
 
-std::string bytes_of(Canvas const& canvas, Format format, PictureOptions const& options, std::string const& what) {
+std::string bytes_of(Canvas const& canvas, Format format, FigureOptions const& options, std::string const& what) {
   check(options, what);
   std::string bytes;
   cairo_status_t const status = format == Format::png ? draw_png(canvas, options, bytes)
@@ -95,7 +95,7 @@ std::string bytes_of(Canvas const& canvas, Format format, PictureOptions const& 
 }
 
 // Writes path + ".part", then renames it.
-void write_whole(Canvas const& canvas, Format format, std::string const& path, PictureOptions const& options) {
+void write_whole(Canvas const& canvas, Format format, std::string const& path, FigureOptions const& options) {
   std::string const what = "can't write picture '" + path + "'";
   std::string const bytes = bytes_of(canvas, format, options, what);
   std::string const part = path + ".part";
@@ -116,25 +116,25 @@ void write_whole(Canvas const& canvas, Format format, std::string const& path, P
 
 }  // namespace
 
-std::string picture_bytes(Canvas const& canvas, std::string const& format, PictureOptions const& options) {
+std::string picture_bytes(Canvas const& canvas, std::string const& format, FigureOptions const& options) {
   auto const found = std::find(format_names.begin(), format_names.end(), format);
   if (found == format_names.end()) throw Error("a picture is made as png, svg or pdf, not as '" + format + "'");
   return bytes_of(canvas, static_cast<Format>(found - format_names.begin()), options, "can't make a picture");
 }
 
-void write_png(Canvas const& canvas, std::string const& path, PictureOptions const& options) {
+void write_png(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
   write_whole(canvas, Format::png, path, options);
 }
 
-void write_svg(Canvas const& canvas, std::string const& path, PictureOptions const& options) {
+void write_svg(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
   write_whole(canvas, Format::svg, path, options);
 }
 
-void write_pdf(Canvas const& canvas, std::string const& path, PictureOptions const& options) {
+void write_pdf(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
   write_whole(canvas, Format::pdf, path, options);
 }
 
-void write_picture(Canvas const& canvas, std::string const& path, PictureOptions const& options) {
+void write_picture(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
   std::string const extension = std::filesystem::path(path).extension().string();
   auto const found = std::find_if(format_names.begin(), format_names.end(),
                                   [&](char const* name) { return extension == std::string(".") + name; });
@@ -143,7 +143,7 @@ void write_picture(Canvas const& canvas, std::string const& path, PictureOptions
   write_whole(canvas, static_cast<Format>(found - format_names.begin()), path, options);
 }
 
-PictureLayout layout_of(Canvas const& canvas, PictureOptions const& options) {
+PictureLayout layout_of(Canvas const& canvas, FigureOptions const& options) {
   check(options, "can't lay a picture out");
   CairoSurface const anything(cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1));
   return layout_of(canvas, page_of(anything.cairo, options, options.scale, true));

@@ -279,7 +279,7 @@ PictureFile Stage::picture(json const& request, std::int64_t step, double time) 
       y.low = range(view["y_range"], "y_range")[0], y.high = range(view["y_range"], "y_range")[1];
     drawn.axes(x, y);
   }
-  PictureOptions paper;
+  FigureOptions paper;
   paper.width = static_cast<int>(std::clamp(number_or(request, "width", 1200), 16.0, 8000.0));
   paper.height = static_cast<int>(std::clamp(number_or(request, "height", 900), 16.0, 8000.0));
   paper.scale = std::clamp(number_or(request, "scale", 1), 0.1, 8.0);

@@ -703,8 +703,8 @@ TEST_F(Pictures, SurviveAnything) {
   all[7].axes({"x", "", 5, 5}, {"y", "", 9, 2});
   all[7].image(0, 0, 0, 0, 0, 0, {}, 0, 1);
   for (std::size_t i = 0; i < all.size(); ++i)
-    for (PictureOptions const options :
-         {PictureOptions{}, PictureOptions{.width = 16, .height = 16}, PictureOptions{.width = 3000, .height = 60}}) {
+    for (FigureOptions const options :
+         {FigureOptions{}, FigureOptions{.width = 16, .height = 16}, FigureOptions{.width = 3000, .height = 60}}) {
       SCOPED_TRACE(i);
       write_png(all[i], in_folder("a.png"), options);
       EXPECT_EQ(Picture(in_folder("a.png")).width(), options.width);

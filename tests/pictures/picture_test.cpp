@@ -52,7 +52,7 @@ struct Atoms {
 };
 
 // The mean place of the pixels that have a colour nearly.
-std::array<double, 2> place_of(Canvas const& canvas, PictureOptions const& options, Colour colour) {
+std::array<double, 2> place_of(Canvas const& canvas, FigureOptions const& options, Colour colour) {
   std::string const png = picture_bytes(canvas, "png", options);
   struct Source {
     std::string const& bytes;
@@ -96,7 +96,7 @@ TEST(ParticlePictures, ParticlesAreAtTheirPixels) {
   plane.atoms.appearance = {"seagreen", 0.5};
   for (double const scale : {1.0, 1.5}) {
     Canvas const canvas = plane.drawn({});
-    PictureOptions const options{.width = 800, .height = 600, .scale = scale};
+    FigureOptions const options{.width = 800, .height = 600, .scale = scale};
     auto const at = place_of(canvas, options, colour_named("seagreen"));
     auto const expected = pixel(layout_of(canvas, options), 2.5, 7.25);
     EXPECT_NEAR(at[0], expected[0], 0.5);
@@ -569,6 +569,30 @@ TEST(Looking, AtTracksChangesNoBit) {
   look_at_tracks<Vortices<Method::rk2>>("velocity.y", 20);
   look_at_tracks<SlowedLiquid>("influence.y", 60);  // whose lists are built of where particles are
   look_at_tracks<Gas<Method::leap_frog>>("influence.y", 20);
+}
+
+/// It says what there is in all, and not of whom.
+class WholeEnergy final : public Scheme {
+ public:
+  using Scheme::Scheme;
+  void add_influences(double) override {}
+  EnergyAndVirial measure(double) override { return EnergyAndVirial::known(); }
+  double length_scale(AnyEnsemble const&) const override { return std::numeric_limits<double>::infinity(); }
+  std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
+  void make_reversible(double) override {}
+};
+
+TEST(Picture, RefusesPotentialEnergiesThatNoSchemeKnows) {
+  Ensemble<Newton<2>> atoms("atoms", 3);
+  WholeEnergy scheme(Box(Vector{0., 0.}, Vector{9., 9.}));
+  scheme.add(atoms);
+  Simulation simulation(scheme, 0.1);
+  simulation.integrate(atoms);
+  simulation.check();
+  EXPECT_EQ(message([&] {
+              draw({.colour = "potential-energy"}, {simulation, UnitSystem::reduced(), "", 0, 0, ""});
+            }),
+            "potential energies can't be shown: a scheme does not know them of each particle");
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST(Spaces, MarksFallWhereTheirProjectionPutsThemToThePixel) {
     space.cloud(cloud);
     space.circle({.x = 8, .y = 2, .radius = 0.2, .colour = green, .z = 7});
     space.point({.x = 5, .y = 8, .size = 14, .colour = blue, .z = 1});
-    PictureOptions const options{.width = 900, .height = 800};
+    FigureOptions const options{.width = 900, .height = 800};
     auto const layout = layout_of(space, options);
     Pixels const pixels(picture_bytes(space, "png", options));
     auto const check = [&](Colour colour, double x, double y, double z) {
@@ -242,7 +242,7 @@ TEST(Layouts, SayWhereTheFrameStands) {
     canvas.title("a frame");
     canvas.axes({"x", "", 0, 10}, {"y", "", -2, 2});
     canvas.point(2.5, 1, red, 20);
-    PictureOptions const options{.width = 640, .height = 480, .scale = scale};
+    FigureOptions const options{.width = 640, .height = 480, .scale = scale};
     auto const layout = layout_of(canvas, options);
     EXPECT_EQ(layout.x.low, 0);
     EXPECT_EQ(layout.y.high, 2);
