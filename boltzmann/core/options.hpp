@@ -102,17 +102,25 @@ struct Option {
   std::function<OptionPlace(void*)> place;
 };
 
+// What each of these lets a user write, in TOML.
 namespace option {
+/// true or false.
 inline OptionKind flag() { return {OptionKind::Form::flag}; }
+/// Any text: "gas at rest".
 inline OptionKind text() { return {OptionKind::Form::text}; }
+/// "velocity.x": what particles have, a column, a field; whoever uses it knows which.
 inline OptionKind name_of_quantity() { return {OptionKind::Form::name}; }
+/// "x", "y" or "z", as far as the space has them.
 inline OptionKind axis_word() { return {OptionKind::Form::axis}; }
+/// One of these texts.
 inline OptionKind word(std::vector<std::string> words) {
   return {OptionKind::Form::word, dimensions::none, {}, std::move(words)};
 }
+/// A whole number between these, 5 or 1e5.
 inline OptionKind whole(double low, double high) {
   return {OptionKind::Form::whole, dimensions::none, {low, high, false}};
 }
+/// "2.5 angstrom" or 2.5, in the simulation's units; of no dimension a plain number.
 inline OptionKind number(std::optional<Dimension> dimension, NumberRange range = {}) {
   return {OptionKind::Form::number, dimension, range};
 }
@@ -122,20 +130,28 @@ inline OptionKind number_by_space(Dimension dimension, int by_space, NumberRange
   kind.by_space = by_space;
   return kind;
 }
+/// A whole number between these, or a list of them.
 inline OptionKind wholes(double low, double high) {
   return {OptionKind::Form::wholes, dimensions::none, {low, high, false}};
 }
+/// As many quantities as the space has axes: ["1 nm", 0, 0].
 inline OptionKind vector(Dimension dimension) { return {OptionKind::Form::vector, dimension}; }
+/// "atoms" or ["atoms", "wall"].
 inline OptionKind ensembles() { return {OptionKind::Form::ensembles}; }
+/// Particles of one ensemble: [0, 7], or words that choose them.
 inline OptionKind particles() { return {OptionKind::Form::particles}; }
+/// A plain number of degrees; the member is in radians.
 inline OptionKind degrees() {
   OptionKind kind;
   kind.form = OptionKind::Form::number;
   kind.counted_in = std::numbers::pi / 180;
   return kind;
 }
+/// A list of quantities.
 inline OptionKind numbers(std::optional<Dimension> dimension) { return {OptionKind::Form::numbers, dimension}; }
+/// A list of tables with options of their own: [{ ... }, { ... }].
 inline OptionKind tables() { return {OptionKind::Form::tables}; }
+/// A table in braces with options of its own, of which this is an example.
 inline OptionKind group(std::string example) {
   return {OptionKind::Form::group, dimensions::none, {}, {std::move(example)}};
 }

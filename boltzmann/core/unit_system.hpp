@@ -63,11 +63,12 @@ class UnitSystem {
     return {to_si(number, d)};
   }
 
+  /// The plain number in this base of so many SI units of a dimension, and back. A reduced base converts nothing.
   double from_si(double si, Dimension) const;
   double to_si(double number, Dimension) const;
 
-  /// How numbers of this base are shown to people: number * factor, in a unit that people know ("angstrom", "eV",
-  /// "fs").
+  /// How numbers of this base are shown to people: number * factor, in the base's own unit where it is made of known
+  /// ones ("angstrom", "amu angstrom^2/ps^2"), else in a unit that people know. A reduced base has none: "" and 1.
   struct Display {
     std::string unit;
     double factor = 1;

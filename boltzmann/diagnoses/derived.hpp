@@ -28,7 +28,7 @@ std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble);
 QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name);
 
 /// The quantity of every particle, in order. "potential-energy" comes from the scheme: pass the ensemble's vector of
-/// Measures::per_particle; without it (or with another length) the values are NaN. Error as above.
+/// EnergyAndVirial::per_particle; without it (or with another length) the values are NaN. Error as above.
 std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
                              std::span<double const> potential_energy = {});
 

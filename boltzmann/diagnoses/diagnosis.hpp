@@ -31,12 +31,15 @@ struct Sample {
 class Diagnosis {
  public:
   virtual ~Diagnosis() = default;
+  /// Asked for before the first look, and again for the table's first line: the same columns in every answer.
   virtual std::vector<Column> columns() const = 0;
   /// Appends one value for each of columns().
   virtual void measure(Sample const& sample, std::vector<double>& values) = 0;
   /// Where it says that it follows(), it sees every step between two looks, too: where particles are, no energies.
   virtual bool follows() const { return false; }
   virtual void follow(Sample const&) {}
+  // Whatever is needed is found once for all diagnoses of a look; what nobody needs is not there: Sample::measures is
+  // null unless some diagnosis needs energies or the virial. The answers may not change.
   virtual bool needs_energies() const { return false; }
   virtual bool needs_virial() const { return false; }
   virtual bool needs_mesh() const { return false; }
@@ -44,6 +47,7 @@ class Diagnosis {
   virtual bool by_number() const { return false; }
   /// What it remembers from earlier looks (initial velocities of a group, ...), for checkpoints.
   virtual std::vector<double> state() const { return {}; }
+  /// Takes back what state() gave. Error if it is not of this diagnosis.
   virtual void restore(std::span<double const>) {}
 };
 

@@ -19,9 +19,7 @@ struct DiagnosisKind {
   bool of_mesh = false;  ///< it looks at what a mesh has on its nodes
 };
 
-/// All kinds there are: energies, momentum, angular-momentum, temperature, pressure, number, entropy, heat-flux,
-/// slab, shock, drag, velocity-diffusion, diffusion, extremes, energy-balance; of a mesh field-energy, field-mode,
-/// wave-spectrum.
+/// All kinds there are.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
 
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or

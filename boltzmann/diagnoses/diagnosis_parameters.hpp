@@ -21,7 +21,7 @@ struct DiagnosisParameters {
   /// All ensembles of the simulation, for names, dimensions and checks. They are used by the constructor only.
   std::vector<AnyEnsemble const*> available = {};
   /// Names of ensembles: one set of columns for each, "atoms temperature". Empty: one set for the whole system,
-  /// "temperature" (for drag, velocity-diffusion and extremes: one set for each ensemble there is).
+  /// "temperature" (for mean-velocity, velocity-diffusion and extremes: one set for each ensemble there is).
   std::vector<std::string> ensembles = {};
   /// What the columns are called instead of the ensemble, if a group is measured; empty: the ensemble's name.
   std::string label = {};

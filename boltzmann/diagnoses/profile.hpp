@@ -39,10 +39,12 @@ class MomentSums {
     double temperature;                 ///< NaN: its class has none
     double const* virial;               ///< nine numbers (EnergyAndVirial::virial_per_particle); null: unknown
   };
+  /// One particle, in the simulation's units.
   void add(Body const& body, int dimension);
   void add_volume(double volume) { volume_ += volume; }
 
   std::size_t number() const { return static_cast<std::size_t>(number_); }
+  /// Of all that was added. boltzmann_constant: in the simulation's units, base(units::boltzmann_constant).
   MatterState matter(int dimension, double boltzmann_constant) const;
 
   /// The sums themselves, for checkpoints.
@@ -74,6 +76,7 @@ class MassiveParticles {
     double const* virial;
   };
   std::vector<Source> const& sources() const { return sources_; }
+  /// Particle i of a source; offsets count doubles from the beginning of its row.
   static MomentSums::Body body(Source const& source, std::size_t i);
   /// Calls f(position, body) for every particle.
   template <class Function>

@@ -87,7 +87,9 @@ class Shock final : public Diagnosis {
   void restore(std::span<double const> state) override;
 
   ShockOptions const& options() const { return options_; }
+  /// The front's position over time, fitted to the looks since Options::since: the slope is the shock's speed.
   LineFit line() const { return line_.fit(); }
+  /// How many went into line().
   std::size_t looks() const { return line_.count(); }
 
  private:

@@ -73,6 +73,7 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual Method method() const = 0;
+  /// Of a step: 2 of leap-frog, 4 of rk4. Influences are calculated anew before each that finds particles moved.
   virtual int stages() const = 0;
   /// The part of the step that has passed once stage k is done.
   virtual double time_after(int stage) const = 0;
@@ -88,6 +89,7 @@ class Integrator {
   /// The rotations of all steps to come, in place of those before.
   virtual void rotate(std::vector<Rotation> /*rotations*/) {}
 
+  /// Of the last step that was finished (the square of a distance); the next stage 0 begins another.
   LargestMove const& largest_move() const { return move_; }
   void threads(int count) { threads_ = count; }
 

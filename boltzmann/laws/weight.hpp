@@ -15,8 +15,8 @@ namespace boltzmann {
 // zero beyond), without its normalisation:
 //   norm<D>           the factor that makes the integral over D-dimensional space, in units of the range, one
 //   value(q)
-//   slope(q, 1/q)     value'(q) / q: finite at q = 0, so that a gradient needs no unit vector; 1/q may be anything
-//   there curvature(q)      value''(q)
+//   slope(q, 1/q)     value'(q) / q: finite at q = 0, so that a gradient needs no unit vector; 1/q may be anything there
+//   curvature(q)      value''(q)
 
 /// (1 - q)^3 (1 + 3q): Lucy 1977, two continuous derivatives. The weight of the source texts.
 struct Lucy {

@@ -59,6 +59,8 @@ class AnyEnsemble {
   /// One component of a field for all particles, in order.
   std::vector<double> column(Field const& field, int component = 0) const;
 
+  /// The first particles stay as they are; of new ones every field is zero (and mass one where the class has a mass).
+  /// Influences are zero until they are calculated. Pointers to rows and influences become invalid.
   virtual void resize(std::size_t size) = 0;
   /// Memory of rows and influences.
   virtual std::size_t bytes() const = 0;
@@ -106,6 +108,7 @@ class Ensemble final : public AnyEnsemble {
 
   Influence const& influence_on(std::size_t i) const { return *reinterpret_cast<Influence const*>(influence(i)); }
 
+  /// One more particle at the end. References, rows and influences become invalid, as by resize().
   void add(P const& particle) {
     P const copy = particle;  // it may be one of ours, which resizing moves
     std::size_t const i = size();

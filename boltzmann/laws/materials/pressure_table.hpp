@@ -38,11 +38,13 @@ class PressureTable {
     auto const [pressure, slope] = at(p.density);
     return {pressure, 0, sqrt(abs(slope))};
   }
+  /// Per mass, at any density above 0, outside the points too (see above); 0 at density 0.
   double energy(double density) const;
 
   struct Value {
     double pressure, slope;  ///< P, dP/drho
   };
+  /// At any density above 0, outside the points too.
   Value at(double density) const;
 
   double first() const { return first_.density; }
