@@ -206,7 +206,7 @@ bool load_ensembles(Item const& table, MeshScheme& mesh, Reading& reading) {
 
 }  // namespace
 
-void load_mesh(Item const& table, Reading& reading) {
+void add_to_mesh(Item const& table, Reading& reading) {
   if (auto* mesh = reading.result->scheme<MeshScheme>())
     if (!load_ensembles(table, *mesh, reading)) reading.mesh.usable = false;
 }

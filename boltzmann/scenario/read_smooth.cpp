@@ -147,7 +147,7 @@ void read_smooth(Item const& table, Reading& reading) {
   });
 }
 
-void load_smooth(Item const& table, Reading& reading) {
+void add_to_smooth(Item const& table, Reading& reading) {
   auto* const found = reading.result->scheme<SmoothScheme>();
   if (!found) return;
   SmoothScheme& scheme = *found;

@@ -157,8 +157,8 @@ std::optional<double> read_internal_temperature(Section& ensemble, ParticleClass
 void find_temperatures(AnyEnsemble& particles, StateLaw const& law);
 /// Loads ensembles into the schemes; what none of these takes is for pairs.
 void load_schemes(Reading& reading);
-void load_mesh(Item const& table, Reading& reading);
-void load_smooth(Item const& table, Reading& reading);
+void add_to_mesh(Item const& table, Reading& reading);
+void add_to_smooth(Item const& table, Reading& reading);
 /// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);

@@ -32,7 +32,7 @@ struct ScenarioErrors : Error {
   std::vector<ScenarioParameter> absent;  ///< as in ScenarioSimulation, as far as the tables could be read
 };
 
-/// A picture that a scenario asks for, or (by its name) a diagnosis for the window.
+/// A picture that a scenario asks for, or (by its name) a view in the window.
 struct PicturePlan : Picture {
   std::string name = {};
 };
@@ -58,7 +58,7 @@ struct ScenarioSimulation {
   std::string stop;  ///< the condition that ends the run before; empty: none
   std::function<bool(std::int64_t step, std::span<double const> values)> stop_when;  ///< the same, for Recording
   OutputPlan output;
-  std::vector<PicturePlan> views;  ///< diagnoses for the window, by name
+  std::vector<PicturePlan> views;  ///< drawings for the window, by name
   std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
   std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
   std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be

@@ -19,12 +19,12 @@ std::vector<SchemeEntry> const& scheme_entries() {
       {{"mesh", "[mesh]", "charges or masses influence each other through a field on a mesh", &mesh_options(), &mesh},
        {},
        read_mesh,
-       load_mesh},
+       add_to_mesh},
       {{"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
        {{"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
          &rezone_options(), &rezone}},
        read_smooth,
-       load_smooth}};
+       add_to_smooth}};
   return all;
 }
 
@@ -72,7 +72,7 @@ void load_pairs(Reading& reading) {
 }  // namespace
 
 void load_schemes(Reading& reading) {
-  for (auto const& [entry, table] : reading.schemes) entry->load(*table, reading);
+  for (auto const& [entry, table] : reading.schemes) entry->add(*table, reading);
   load_pairs(reading);
 }
 

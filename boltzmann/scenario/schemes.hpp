@@ -15,7 +15,7 @@ struct SchemeEntry {
   ScenarioTable told;
   std::vector<ScenarioTable> inner;                   ///< tables within its table
   void (*read)(Item const& table, Reading& reading);  ///< makes the scheme; the ensembles are not read yet
-  void (*load)(Item const& table, Reading& reading);  ///< gives it its ensembles, if it could be made
+  void (*add)(Item const& table, Reading& reading);   ///< gives it its ensembles, if it could be made
 };
 
 /// In the order in which their influences are added.

@@ -41,7 +41,7 @@ class Window {
   Window(Window const&) = delete;
   Window& operator=(Window const&) = delete;
 
-  /// Adds a diagnosis of your own to the list: draw(canvas, scheme) or draw(canvas), called between two steps whenever
+  /// Adds a drawing of your own to the list: draw(canvas, scheme) or draw(canvas), called between two steps whenever
   /// somebody wants to see it. In place of the one of that name, if there is one.
   ///
   ///   window.install("Kinetic", [&](Canvas& canvas) {
