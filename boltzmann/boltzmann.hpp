@@ -49,6 +49,7 @@
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
@@ -62,6 +63,7 @@
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
+#include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/rezoner.hpp>

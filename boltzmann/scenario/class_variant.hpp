@@ -7,9 +7,9 @@
 namespace boltzmann::detail {
 
 template <class P>
-MeshKind mesh_kind_of() {
+SourceKind source_kind_of() {
   if constexpr (ForcedParticle<P>)
-    return mesh_kind<P>();
+    return source_kind<P>();
   else
     return {};
 }
@@ -25,7 +25,7 @@ ClassVariant variant_of() {
       P::fields().fields,
       sizeof(Row<P>) + sizeof(typename P::Influence),
       usual_method<P>(),
-      mesh_kind_of<P>()};
+      source_kind_of<P>()};
 }
 
 }  // namespace boltzmann::detail

@@ -3,7 +3,7 @@
 
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
-#include <boltzmann/schemes/mesh/mesh_kind.hpp>
+#include <boltzmann/schemes/source_kind.hpp>
 
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ struct ClassVariant {
   std::vector<Field> fields;
   std::size_t row_bytes;  ///< memory of one particle
   Method usual_method;    ///< the integrator unless told otherwise
-  MeshKind mesh;          ///< for a mesh; without `strengths` it can't supervise the class
+  SourceKind source;      ///< for schemes of fields; without `strengths` they can't act on the class
 };
 
 /// Whether particles are pieces of a continuum: then their ensembles have materials, and need a SmoothScheme.

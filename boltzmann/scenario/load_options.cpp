@@ -41,6 +41,15 @@ OptionTable make_members() {
   all.add("species", &L::species, text(), "only these", "all");
   all.add("length", &L::length, number(dimensions::length, positive), "the file's unit of length", "the base's");
   all.add("velocity", &L::velocity, number(dimensions::velocity, positive), "and of velocities", "the base's");
+  all.add("mass", &L::mass, number(dimensions::mass, positive), "of all together");
+  all.add("radius", &L::radius, number(dimensions::length, positive),
+          "Plummer's: half of the mass is within 1.305 of it");
+  all.add("G", &L::G, number(dimensions::volume / (dimensions::mass * pow(dimensions::time, 2)), positive),
+          "Newton's constant, by which they move", "that of nature; 1 of pure numbers");
+  all.add("centre", &L::centre, vector(dimensions::length), "of the cluster", "0 on each axis");
+  all.add("drift", &L::drift, vector(dimensions::velocity), "how the cluster moves", "0 on each axis");
+  all.at("mass").needed = "\"1e4 Msun\"";
+  all.at("radius").needed = "\"1 pc\"";
   all.at("spacing").needed = "\"2.551 angstrom\"";
   all.at("counts").needed = "[25, 10]";
   all.at("amplitude").needed = "0.1";
@@ -65,6 +74,8 @@ std::vector<LoadKind> make_kinds() {
       {"sinusoidal", "a density with a wave", true,
        of({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}, {"amplitude"}, {"quiet"}})},
       {"barometric", "the barometric density along the last axis", true, of({{"temperature"}, {"acceleration"}})},
+      {"plummer", "Plummer's cluster of stars, at rest in its own gravity, with masses and velocities", true,
+       of({{"mass"}, {"radius"}, {"G"}, {"centre"}, {"drift"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file", "an XYZ file; its `Lattice` has to be the box along axes that are periodic in both (`pbc`)", false,
        of({{"path"}, {"frame"}, {"species"}, {"length"}, {"velocity"}})},

@@ -4,6 +4,7 @@
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ struct LoadOptions {
   std::int64_t frame = 0;
   std::string species;
   double length = 1, velocity = 1;
+  double mass = 1, radius = 1;
+  std::optional<double> G;
+  std::optional<std::array<double, 3>> centre, drift;
 };
 
 struct LoadKind {

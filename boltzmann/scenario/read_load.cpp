@@ -1,5 +1,6 @@
 // Reads load = { kind = ... }: where the particles of an ensemble are.
 #include <boltzmann/loaders/jitter.hpp>
+#include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/loader.hpp>
@@ -134,6 +135,15 @@ void Loader::load(AnyEnsemble& particles) {
                      .gravity = options_.acceleration,
                      .boltzmann_constant = reading_.boltzmann_constant(),
                      .seed = seed});
+  } else if (kind == "plummer") {
+    std::array<double, 3> const none{0, 0, 0};
+    double const newton = reading_.context.base.is_reduced() ? 1 : reading_.context.base(constants::gravitation);
+    plummer_load(particles, {.mass = options_.mass,
+                             .radius = options_.radius,
+                             .G = options_.G.value_or(newton),
+                             .centre = options_.centre.value_or(none),
+                             .drift = options_.drift.value_or(none),
+                             .seed = seed});
   } else if (kind == "positions" || kind == "fill") {
     for (std::size_t i = 0; i < count_; ++i)
       std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),

@@ -14,35 +14,6 @@
 namespace boltzmann {
 namespace {
 
-std::optional<LaplaceLaw> read_law(Section& section, Reading& reading) {
-  Item const* word = section.need("law", "law = \"coulomb\"");
-  auto const name = word ? read_word(*word, "law", {"coulomb", "gravity"}, reading.context) : std::nullopt;
-  section.explain(*mesh_options().find("law"));
-  if (!name) {
-    section.mark_used("k");
-    section.mark_used("G");
-    return std::nullopt;
-  }
-  auto parameters = find_law(*name)->parameters;
-  // A mesh smooths by its cells.
-  std::erase_if(parameters, [](Parameter const& parameter) { return parameter.name == "softening"; });
-  auto const values = read_parameters(section, fmt::format("law '{}'", *name), parameters, reading);
-  if (!values) return std::nullopt;
-  double const k = values->front().second.front();
-  return *name == "coulomb" ? coulomb(k) : gravity(k);
-}
-
-/// read_law knows law, k and G.
-OptionTable const& keys_but_of_the_law() {
-  static OptionTable const all = [] {
-    std::vector<OptionKey> keys;
-    for (auto const& key : mesh_options().keys())
-      if (key != "law" && key != "k" && key != "G") keys.push_back({key});
-    return mesh_options().only(keys);
-  }();
-  return all;
-}
-
 std::optional<std::vector<std::size_t>> read_cells(Item const& item, Reading& reading) {
   std::vector<std::size_t> cells;
   if (!item.is(Item::Kind::array)) {
@@ -129,9 +100,9 @@ void read_mesh(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[mesh]", reading.context);
   reading.mesh.background_place = section.place("background");
-  auto const law = read_law(section, reading);
+  auto const law = read_field_law(section, mesh_options(), reading);
   MeshOptions options;
-  read_options(section, keys_but_of_the_law(), &options, {.dimension = reading.dimension});
+  read_options(section, keys_but_of_the_law(mesh_options()), &options, {.dimension = reading.dimension});
   if (section.has("accuracy")) {
     for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"})
       section.refuse(key, "with 'accuracy' it is chosen by the scheme; leave it out");
@@ -148,67 +119,11 @@ void read_mesh(Item const& table, Reading& reading) {
   reading.mesh.usable = reading.context.mistakes.count() == before;
 }
 
-namespace {
-
-/// Whom the mesh may act on: those that are named, or all. Null where one could not be read.
-std::vector<ReadEnsemble*> ensembles_on_mesh(Section& section, Reading& reading) {
-  std::vector<ReadEnsemble*> on;
-  Item const* item = section.find("on");
-  if (!item) {
-    for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
-  } else if (!item->is(Item::Kind::array)) {
-    on.push_back(reading.ensemble(*item, "on"));
-  } else {
-    if (item->elements.empty())
-      reading.mistake(item->place, "on: no ensemble; name one or more, or leave it out: all that fit");
-    for (auto const& word : item->elements) {
-      on.push_back(reading.ensemble(word, "on"));
-      if (on.back() && std::find(on.begin(), on.end() - 1, on.back()) != on.end() - 1)
-        reading.mistake(word.place, fmt::format("on: '{}' twice", on.back()->name));
-    }
-  }
-  return on;
-}
-
-/// False: something is wrong with those that are there.
-bool load_ensembles(Item const& table, MeshScheme& mesh, Reading& reading) {
-  std::size_t const before = reading.context.mistakes.count();
-  Section section(table, "[mesh]", reading.context);
-  bool const chosen = section.has("on"), repel = mesh.constant() > 0;
-  char const* const fitting = repel ? "Coulomb" : "Kepler";
-  auto const refuse = [&](std::string const& what) {
-    reading.mistake(section.place("on"), what);
-    return false;
-  };
-  bool any = false;
-  for (auto* ensemble : ensembles_on_mesh(section, reading)) {
-    if (!ensemble || !ensemble->particles || !ensemble->kind) return false;
-    MeshKind const kind = ensemble->kind->in(reading.dimension)->mesh;
-    bool const can = kind.strengths != nullptr && kind.sign * mesh.constant() > 0;
-    if (!chosen && !(can && kind.own)) continue;
-    if (!kind.strengths)
-      return refuse(fmt::format("on: '{}' is of class {}, which makes no field; the class that does: {}",
-                                ensemble->name, ensemble->kind->name, fitting));
-    if (!can)
-      return refuse(fmt::format(
-          "on: '{}' is of class {}, which the law '{}' does not act on; write law = \"{}\", "
-          "or choose class {}",
-          ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity", repel ? "gravity" : "coulomb", fitting));
-    any = true;
-    catch_errors(reading, chosen ? section.place("on") : ensemble->place,
-                 [&] { mesh.add(*ensemble->particles, kind); });
-  }
-  if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
-    reading.mistake(table.place, fmt::format("[mesh]: no ensemble makes a field; class {} does{}", fitting,
-                                             repel ? "" : ", and with 'on' any other that has a mass"));
-  return reading.context.mistakes.count() == before;
-}
-
-}  // namespace
-
 void add_to_mesh(Item const& table, Reading& reading) {
-  if (auto* mesh = reading.result->scheme<MeshScheme>())
-    if (!load_ensembles(table, *mesh, reading)) reading.mesh.usable = false;
+  auto* const mesh = reading.result->scheme<MeshScheme>();
+  if (!mesh) return;
+  auto const add = [&](AnyEnsemble& ensemble, SourceKind const& kind) { mesh->add(ensemble, kind); };
+  if (!add_sources(table, "[mesh]", mesh->constant(), add, reading)) reading.mesh.usable = false;
 }
 
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {

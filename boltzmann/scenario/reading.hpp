@@ -2,7 +2,9 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/options.hpp>
 #include <boltzmann/dissipation/dissipation.hpp>
+#include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/state_law.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -13,6 +15,7 @@
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -143,7 +146,12 @@ void settle_run(Item& resolved, Reading& reading);
 /// Makes the schemes that the file has tables of.
 void read_schemes(Section& document, Reading& reading);
 void read_mesh(Item const& table, Reading& reading);
+void read_multipole(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
+/// The law that makes the field of a mesh or of multipoles, with k or G, and its softening if the table has it.
+std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading);
+/// The keys that this leaves.
+OptionTable keys_but_of_the_law(OptionTable const& all);
 void read_ensembles(Section& document, Reading& reading);
 /// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
@@ -158,7 +166,12 @@ void find_temperatures(AnyEnsemble& particles, StateLaw const& law);
 /// Loads ensembles into the schemes; what none of these takes is for pairs.
 void load_schemes(Reading& reading);
 void add_to_mesh(Item const& table, Reading& reading);
+void add_to_multipole(Item const& table, Reading& reading);
 void add_to_smooth(Item const& table, Reading& reading);
+/// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit. False: something is
+/// wrong with those that are there.
+bool add_sources(Item const& table, char const* heading, double constant,
+                 std::function<void(AnyEnsemble&, SourceKind const&)> const& add, Reading& reading);
 /// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);

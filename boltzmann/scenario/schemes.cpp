@@ -5,6 +5,7 @@
 #include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
+#include <boltzmann/schemes/multipole/multipole_options.hpp>
 #include <boltzmann/schemes/smooth/smooth_options.hpp>
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace boltzmann {
 
 std::vector<SchemeEntry> const& scheme_entries() {
   static MeshOptions mesh;
+  static MultipoleOptions multipole;
   static SmoothOptions smooth;
   static RezoneOptions rezone;
   static std::vector<SchemeEntry> const all = {
@@ -20,6 +22,11 @@ std::vector<SchemeEntry> const& scheme_entries() {
        {},
        read_mesh,
        add_to_mesh},
+      {{"multipole", "[multipole]", "charges or masses influence each other in open space, by expansions over a tree",
+        &multipole_options(), &multipole},
+       {},
+       read_multipole,
+       add_to_multipole},
       {{"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
        {{"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
          &rezone_options(), &rezone}},

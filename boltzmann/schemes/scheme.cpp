@@ -1,6 +1,8 @@
 // Loading particles into a scheme.
 #include <boltzmann/schemes/scheme.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace boltzmann {
@@ -17,6 +19,23 @@ void Scheme::add(AnyEnsemble& ensemble) {
 bool Scheme::supervises(AnyEnsemble const& ensemble) const {
   auto const& all = ensembles();
   return std::find(all.begin(), all.end(), &ensemble) != all.end();
+}
+
+std::string Scheme::at_one_place(AnyEnsemble const& ensemble, std::size_t i) const {
+  int const dimension = ensemble.dimension();
+  double const* x = ensemble.row(i);
+  for (auto const* other : ensembles())
+    for (std::size_t j = 0; j < other->size(); ++j) {
+      if (other == &ensemble && i == j) continue;
+      double d[3] = {0, 0, 0};
+      for (int a = 0; a < dimension; ++a) d[a] = other->row(j)[a] - x[a];
+      box().nearest_image(d);
+      if (d[0] == 0 && d[1] == 0 && d[2] == 0)
+        return fmt::format(
+            "particle {} of '{}' and particle {} of '{}' are at the same place, where their law is not finite", i,
+            ensemble.name(), j, other->name());
+    }
+  return "";
 }
 
 std::vector<AnyEnsemble*> supervised_by(std::vector<Scheme*> const& schemes) {

@@ -136,6 +136,10 @@ class Scheme {
   void speak_in(UnitSystem const& base) { box_.speak_in(base); }
   UnitSystem const& spoken_units() const { return box_.spoken_units(); }
 
+ protected:
+  /// Who else is where particle i is, as a sentence; empty if nobody is.
+  std::string at_one_place(AnyEnsemble const& ensemble, std::size_t i) const;
+
  private:
   Box box_;
   std::vector<AnyEnsemble*> ensembles_;

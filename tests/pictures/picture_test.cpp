@@ -587,7 +587,6 @@ TEST(Picture, RefusesPotentialEnergiesThatNoSchemeKnows) {
   WholeEnergy scheme(Box(Vector{0., 0.}, Vector{9., 9.}));
   scheme.add(atoms);
   Simulation simulation(scheme, 0.1);
-  simulation.integrate(atoms);
   simulation.check();
   EXPECT_EQ(message([&] {
               draw({.colour = "potential-energy"}, {simulation, UnitSystem::reduced(), "", 0, 0, ""});

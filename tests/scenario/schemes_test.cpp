@@ -173,6 +173,31 @@ TEST(Schemes, AddUpWithNearPairs) {
               charged->simulation->measure().potential + pairs->simulation->measure().potential, 1e-10);
 }
 
+// Multipoles are pairs that cost less; on a gas, too, where they add to what its pressure does.
+TEST(Schemes, OfMultipolesAreThoseOfPairs) {
+  std::string const law = "law = \"gravity\"\nG = 3\nsoftening = 0.1\n", tolerance = "tolerance = 1e-7\n";
+  for (int const dimension : {2, 3}) {
+    auto const far = read(lump(dimension, "open", "[multipole]\n" + law + tolerance, "Kepler")),
+               near = read(lump(dimension, "open", "", "Kepler") + "[[influences]]\non = \"gas\"\n" + law),
+               gas = read(lump(dimension, "open", smooth + "[multipole]\non = \"gas\"\n" + law + tolerance)),
+               pressed = read(lump(dimension, "open", smooth));
+    AnyEnsemble const &a = ensemble(*far, "gas"), &b = ensemble(*near, "gas"), &c = ensemble(*gas, "gas"),
+                      &d = ensemble(*pressed, "gas");
+    ASSERT_EQ(a.size(), b.size());
+    double errors = 0, of_gas = 0, squares = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (int k = 0; k < dimension; ++k) {
+        errors += square(a.influence(i)[k] - b.influence(i)[k]);
+        of_gas += square(c.influence(i)[k] - d.influence(i)[k] - b.influence(i)[k]);
+        squares += square(b.influence(i)[k]);
+      }
+    EXPECT_GT(squares, 0.01);
+    EXPECT_LT(errors, 1e-14 * squares);
+    EXPECT_LT(of_gas, 1e-12 * squares);
+    EXPECT_NEAR(far->simulation->measure().potential / near->simulation->measure().potential, 1, 1e-6);
+  }
+}
+
 // What a mass is called does not matter to gravity: any class with a mass falls as Kepler's stars do, to the bit.
 TEST(Schemes, LetAnyMassFallAsAStarDoes) {
   auto const stars = read(lump(2, "open", replaced(gravity, "on = \"gas\"\n", ""), "Kepler")),
@@ -323,6 +348,22 @@ Mistake const rows[] = {
      lump(2, "open", replaced(smooth, "\"wendland\"\n", "\"wendland\"\nskin = 1e6\n")),
      "12:8",
      {"the skin "}},
+    {"a tolerance of nothing",
+     lump(2, "open", "[multipole]\nlaw = \"gravity\"\nG = 1\ntolerance = 0\n", "Kepler"),
+     "13:13",
+     {"tolerance: 0", "between 1e-10 and 0.1"}},
+    {"multipoles in a periodic box",
+     lump(2, "periodic", "[multipole]\nlaw = \"gravity\"\nG = 1\n", "Kepler"),
+     "10:1",
+     {"axis x is periodic", "a mesh with an accuracy"}},
+    {"multipoles without a source",
+     lump(2, "open", "[multipole]\nlaw = \"coulomb\"\nk = 1\n", "Kepler"),
+     "10:1",
+     {"[multipole]: no ensemble makes a field", "Coulomb"}},
+    {"a softening below zero",
+     lump(2, "open", "[multipole]\nlaw = \"gravity\"\nG = 1\nsoftening = -1\n", "Kepler"),
+     "13:13",
+     {"softening", "zero or more"}},
     {"rezoned dust",
      replaced(lump(2, "open", smooth), "\"wendland\"\n",
               "\"wendland\"\nrezone = { every = 5, on = \"dust\", split_above = 2, smallest_mass = 0.001 }\n") +

@@ -486,7 +486,6 @@ TEST(Scheme, WhatItDoesNotStateIsUnknown) {
     rest.add(atoms);
     Simulation simulation(trap, 0.1);
     simulation.add(rest);
-    simulation.integrate(atoms);
     std::vector<std::unique_ptr<Diagnosis>> diagnoses;
     for (char const* kind : {"energies", "pressure"})
       diagnoses.push_back(make_diagnosis(kind, {.available = {&atoms}}));
@@ -518,7 +517,6 @@ TEST(Simulation, AdvisesTheStepThatItsWarningAdvises) {
     PairScheme scheme(Box(Vector{0., 0.}, Vector{12., 12.}, Boundary::periodic), 2.5);
     scheme.internal(atoms, LennardJones{1, 1});
     Simulation simulation(scheme, step);
-    simulation.integrate(atoms);
     std::string const warning = scheme.warnings(step).empty() ? "" : scheme.warnings(step).front();
     return std::pair(warning, message_of<PhysicsFailure>(simulation, 20));
   };
@@ -545,7 +543,6 @@ TEST(Simulation, OverlapAtTheStartIsToldAsThat) {
       return r * (-1.0 / cube(dot(r, r)));
     });
     Simulation simulation(scheme, 0.01);
-    simulation.integrate(atoms);
     simulation.speak_in(UnitSystem(10 * units::angstrom, 1 * units::amu, 1000 * units::femtosecond));
     return message_of<PhysicsFailure>(simulation);
   };

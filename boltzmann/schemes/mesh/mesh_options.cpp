@@ -1,5 +1,6 @@
 // The members of mesh schemes with their keys.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/schemes/field_options.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
 
 namespace boltzmann {
@@ -10,12 +11,7 @@ using namespace option;
 OptionTable make_mesh_options() {
   using M = MeshOptions;
   OptionTable all;
-  all.add_said("law", "coulomb with `k`, or gravity with `G`", "what the field is made by");
-  all.add_said("k", "as of the law", "of `law = \"coulomb\"`", "that of nature");
-  all.add_said("G", "as of the law", "of `law = \"gravity\"`", "that of nature");
-  all.add_said("on", "the name of an ensemble, or a list",
-               "who makes the field and feels it; gravity is made by the mass of any class",
-               "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`");
+  add_field_keys(all);
   all.add_said("cells", "a whole number, or a list with one for each axis", "of the mesh",
                "needed, but with `accuracy`");
   all.add_of<M>(
@@ -34,7 +30,6 @@ OptionTable make_mesh_options() {
           "P3M: mesh plus near pairs, forces to this part of their rms; `cells`, `assignment`, `poisson`, `boundary` "
           "and `precision` are then chosen for you",
           "a mesh alone");
-  all.at("law").needed = "\"coulomb\"";
   return all;
 }
 

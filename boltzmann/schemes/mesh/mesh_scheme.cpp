@@ -133,7 +133,7 @@ void MeshScheme::form(PoissonForm form) {
 
 void MeshScheme::background(bool yes) { background_ = yes; }
 
-void MeshScheme::add(AnyEnsemble& ensemble, MeshKind const& kind) {
+void MeshScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) {
   if (kind.sign * law_.constant < 0)
     throw Error(fmt::format("mesh: class {} of '{}' {}, but with the constant {} equal strengths {}; use {}",
                             ensemble.class_name(), ensemble.name(), kind.sign > 0 ? "repels its like" : "attracts",

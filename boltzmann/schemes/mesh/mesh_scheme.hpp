@@ -10,10 +10,10 @@
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
-#include <boltzmann/schemes/mesh/mesh_kind.hpp>
 #include <boltzmann/schemes/mesh/poisson.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/schemes/source_kind.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -70,10 +70,10 @@ class MeshScheme : public Scheme {
   template <class P>
   void add(Ensemble<P>& ensemble) {
     static_assert(ForcedParticle<P>, "a mesh acts on classes with mass and velocity, and a force as influence");
-    add(ensemble, mesh_kind<P>());
+    add(ensemble, source_kind<P>());
   }
   /// For code that knows classes only at run time.
-  void add(AnyEnsemble& ensemble, MeshKind const& kind);
+  void add(AnyEnsemble& ensemble, SourceKind const& kind);
 
   /// An influence from outside, as in PairScheme.
   template <class P, class Law>

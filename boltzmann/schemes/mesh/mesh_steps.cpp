@@ -89,7 +89,7 @@ class MeshSteps final : public FusedSteps {
  private:
   struct Columns {
     AnyEnsemble* ensemble;
-    MeshKind kind;
+    SourceKind kind;
     bool moves;
     double mass, strength;
     std::size_t size;

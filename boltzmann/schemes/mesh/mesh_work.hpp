@@ -13,7 +13,7 @@ namespace boltzmann {
 
 struct MeshScheme::Loaded {
   AnyEnsemble* ensemble;
-  MeshKind kind;
+  SourceKind kind;
   std::vector<double> strengths;
 
   /// Asks the class for all strengths as they are now.

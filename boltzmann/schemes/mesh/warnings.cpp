@@ -17,7 +17,7 @@ struct SpeciesOnMesh {
   double crossing = 0;           // cells that the fastest particle crosses in a step
 };
 
-SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, MeshKind const& kind, std::vector<double> const& strengths,
+SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, SourceKind const& kind, std::vector<double> const& strengths,
                               MeshGrid const& grid, double constant, double volume, double step_size) {
   SpeciesOnMesh result;
   auto const count = static_cast<double>(ensemble.size());

@@ -378,22 +378,7 @@ double PairScheme::length_scale(AnyEnsemble const& ensemble) const {
   return shortest;
 }
 
-std::string PairScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
-  int const dimension = ensemble.dimension();
-  double const* x = ensemble.row(i);
-  for (auto const* other : ensembles())
-    for (std::size_t j = 0; j < other->size(); ++j) {
-      if (other == &ensemble && i == j) continue;
-      double d[3] = {0, 0, 0};
-      for (int a = 0; a < dimension; ++a) d[a] = other->row(j)[a] - x[a];
-      box().nearest_image(d);
-      if (d[0] == 0 && d[1] == 0 && d[2] == 0)
-        return fmt::format(
-            "particle {} of '{}' and particle {} of '{}' are at the same place, where their law is not finite", i,
-            ensemble.name(), j, other->name());
-    }
-  return "";
-}
+std::string PairScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const { return at_one_place(ensemble, i); }
 
 void PairScheme::make_reversible(double quantum) {
   auto const refuse = [](bool velocity_dependent, std::string const& name) {

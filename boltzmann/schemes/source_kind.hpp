@@ -1,4 +1,5 @@
-// What a mesh must know of a particle class: its strength, and whether it moves as Newton says.
+// What a scheme of fields (mesh, multipoles) must know of a particle class: its strength, and whether it moves as Newton
+// says.
 #pragma once
 
 #include <boltzmann/particles/motion.hpp>
@@ -15,7 +16,7 @@ concept BeginsWithForce = requires(Influence const& influence) {
   requires std::is_same_v<std::decay_t<decltype(influence.force)>, Vector<D>>;
 };
 
-/// Classes that a mesh can act on: particles with mass and velocity, whose influence is a force or begins with one.
+/// Classes that such a scheme can act on: particles with mass and velocity, whose influence is a force or begins with one.
 template <class P>
 concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimension>> ||
                           BeginsWithForce<typename P::Influence, P::dimension>)&&requires(P const& p) {
@@ -23,7 +24,7 @@ concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimens
   p.velocity;
 };
 
-struct MeshKind {
+struct SourceKind {
   /// strength() of particles begin ... end-1; of classes that have none the mass, which attracts.
   void (*strengths)(double const* rows, std::size_t begin, std::size_t end, double* strengths) = nullptr;
   bool own = false;            ///< the class has a strength()
@@ -33,8 +34,8 @@ struct MeshKind {
 };
 
 template <class P>
-MeshKind mesh_kind() {
-  MeshKind kind;
+SourceKind source_kind() {
+  SourceKind kind;
   kind.own = requires(P const& p) { p.strength(); };
   kind.strengths = [](double const* rows, std::size_t begin, std::size_t end, double* strengths) {
     auto const* particles = reinterpret_cast<Row<P> const*>(rows);

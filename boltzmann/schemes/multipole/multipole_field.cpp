@@ -1,0 +1,371 @@
+// Moments up, meetings, local expansions down.
+#include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/schemes/multipole/multipole_field.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+constexpr std::size_t node_grain = 32;
+constexpr std::size_t parallel_visits = 64;
+constexpr double nearest = 1.1;  // of what an expansion's radius is: nearer, it hardly converges
+
+MultipoleKernels kernels_for(int dimension) {
+  return for_instruction_set([&](auto set) { return multipole_kernels<decltype(set)::value>().of[dimension - 2]; });
+}
+
+/// Pairs that take as long as one translation of an expansion.
+double pairs_of_a_translation(int dimension, int order) {
+  double const n = order + 1;
+  return dimension == 3 ? 60 + 0.2 * n * n * n : 20 + n * n;
+}
+
+/// And as long as to evaluate one at one particle.
+double pairs_of_an_evaluation(int dimension, int order) {
+  double const n = order + 1;
+  return dimension == 3 ? 10 + 0.7 * n * n : 5 + n;
+}
+
+}  // namespace
+
+/// What a thread needs besides.
+template <int D>
+struct MultipoleField<D>::Workspace {
+  std::vector<std::uint32_t> open;
+  std::vector<std::uint32_t> far;       ///< their moments to the local expansion
+  std::vector<std::uint32_t> outside;   ///< their moments to the particles of a wide leaf
+  std::vector<std::uint32_t> expanded;  ///< particles of wide leaves to the local expansion
+  std::vector<std::uint32_t> near;      ///< particles to particles
+  std::vector<std::uint32_t> later;     ///< for the children
+  std::vector<Shifted> shifted;
+  std::vector<Point> sources;
+  std::vector<double> energy, virial;
+  std::size_t translations = 0, pairs = 0;
+};
+
+template <int D>
+MultipoleField<D>::MultipoleField(LaplaceLaw const& law)
+    : law_(law), kernels_(kernels_for(D)), tables_(D, choice_.order) {
+  choose(choice_);
+}
+
+template <int D>
+void MultipoleField<D>::choose(MultipoleChoice const& choice) {
+  if (choice.order != choice_.order) tables_ = ExpansionTables(D, choice.order);
+  choice_ = choice;
+  pairs_of_a_translation_ = pairs_of_a_translation(D, choice.order);
+  pairs_of_an_evaluation_ = pairs_of_an_evaluation(D, choice.order);
+}
+
+template <int D>
+NodeParticles MultipoleField<D>::particles_of(TreeNode const& node) const {
+  NodeParticles particles{&tree_.particles()[node.begin].position[0], node.size(), {}, node.radius};
+  std::copy_n(node.centre.begin(), 3, particles.centre);
+  return particles;
+}
+
+template <int D>
+void MultipoleField<D>::gather(std::size_t number) {
+  TreeNode const& node = tree_.nodes()[number];
+  double* const own = moments(number);
+  std::fill_n(own, tables_.size(), 0.0);
+  if (node.leaf()) {
+    kernels_.moments(tables_.view(), particles_of(node), own);
+  } else {
+    std::array<Shifted, 8> children;
+    for (std::size_t k = 0; k < node.children; ++k) {
+      TreeNode const& child = tree_.nodes()[node.child + k];
+      for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
+      children[k].radius = child.radius;
+      children[k].numbers = moments(node.child + k);
+    }
+    kernels_.gather(tables_.view(), children.data(), node.children, node.radius, own);
+  }
+  limit(number);
+}
+
+/// With P_n the power of the moments of order n, a the radius, p the order, and e the error that is allowed, the first
+/// order that is cut off from the moments makes less than e further than
+///   D = a ((p + 2) P_p / (e a^2))^(1/(p+3))   in 3D (2D: a (P_p / (e a))^(1/(p+2)))
+/// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
+///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
+/// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the power
+/// 1), which margin() a allows for.
+template <int D>
+void MultipoleField<D>::limit(std::size_t number) {
+  double const a = tree_.nodes()[number].radius;
+  double const* const m = moments(number);
+  int const p = choice_.order;
+  double largest = 0, last = 0;
+  for (int n = 0; n <= p; ++n) {
+    double power = 0;
+    if constexpr (D == 3)
+      for (int k = 0; k <= 2 * n; ++k) power += (k > 0 && k != 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];
+    else
+      power = (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
+    power = std::sqrt(power);
+    largest = std::max(largest, power);
+    if (n + 1 >= p) last = std::max(last, power);
+  }
+  double const e = choice_.error, soft = law_.softening * law_.softening;
+  if constexpr (D == 3) {
+    source_limit_[number] = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
+    source_size_[number] = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
+    soft_limit_[number] = std::pow(1.5 * soft * largest / e, 0.25);
+  } else {
+    source_limit_[number] = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
+    source_size_[number] = std::pow(largest / e, 1.0 / (p + 1));
+    soft_limit_[number] = std::cbrt(soft * largest / e);
+  }
+}
+
+template <int D>
+void MultipoleField<D>::gather(int threads) {
+  auto const& nodes = tree_.nodes();
+  moments_.resize(nodes.size() * tables_.size() / 4);
+  source_limit_.resize(nodes.size());
+  source_size_.resize(nodes.size());
+  soft_limit_.resize(nodes.size());
+  int const useful = threads_for(tree_.particles().size(), 4, threads);
+  for_ranges(nodes.size(), node_grain, useful, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (nodes[i].leaf()) gather(i);
+  });
+  for (std::size_t i = nodes.size(); i-- > 0;)
+    if (!nodes[i].leaf()) gather(i);
+}
+
+/// How far sources have to be from the centre of a target.
+template <int D>
+double MultipoleField<D>::local_limit(TreeNode const& target, double reach, std::uint32_t source) const {
+  return std::max(nearest * target.radius, source_size_[source] * reach + margin() * target.radius);
+}
+
+template <int D>
+bool MultipoleField<D>::far(TreeNode const& target, double reach, std::uint32_t number) const {
+  TreeNode const& source = tree_.nodes()[number];
+  double square = 0;
+  for (int a = 0; a < D; ++a) square += (target.centre[a] - source.centre[a]) * (target.centre[a] - source.centre[a]);
+  double const soft = soft_limit_[number];
+  double const needed =
+      std::max({target.radius + std::max(nearest * source.radius, source_limit_[number]),
+                source.radius + local_limit(target, reach, number), target.radius + source.radius + soft});
+  return square > needed * needed;
+}
+
+/// Whether all particles of a node are further than this from a place.
+template <int D>
+bool MultipoleField<D>::clear_of(TreeNode const& node, std::array<double, 3> const& place, double distance) const {
+  auto const& particles = tree_.particles();
+  for (std::uint32_t i = node.begin; i < node.end; ++i) {
+    double square = 0;
+    for (int a = 0; a < D; ++a) square += (particles[i].position[a] - place[a]) * (particles[i].position[a] - place[a]);
+    if (!(square > distance * distance)) return false;
+  }
+  return true;
+}
+
+/// Sorts those that a node has to meet by what is done with them.
+template <int D>
+void MultipoleField<D>::meet(std::uint32_t number, std::vector<std::uint32_t> const& others, Workspace& work) const {
+  TreeNode const& target = tree_.nodes()[number];
+  int const p = choice_.order;
+  double const reach = std::pow(target.radius, static_cast<double>(p) / (p + (D == 3 ? 2 : 1)));
+  auto const count = [](TreeNode const& node) { return static_cast<double>(node.size()); };
+  for (auto* list : {&work.far, &work.outside, &work.expanded, &work.near, &work.later}) list->clear();
+  work.open.assign(others.begin(), others.end());
+  for (std::size_t i = 0; i < work.open.size(); ++i) {
+    std::uint32_t const other = work.open[i];
+    TreeNode const& source = tree_.nodes()[other];
+    bool const leaves = target.leaf() && source.leaf();
+    double const soft = soft_limit_[other];
+    // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
+    if (target.leaf() && target.radius > 1.5 * source.radius && count(source) > pairs_of_an_evaluation_ &&
+        clear_of(target, source.centre, std::max(nearest * source.radius + soft, source_limit_[other])))
+      work.outside.push_back(other);
+    else if (source.leaf() && source.radius > 1.5 * target.radius && count(target) > pairs_of_an_evaluation_ &&
+             clear_of(source, target.centre, local_limit(target, reach, other) + soft))
+      work.expanded.push_back(other);
+    else if (far(target, reach, other))
+      (leaves && count(target) * count(source) < pairs_of_a_translation_ ? work.near : work.far).push_back(other);
+    else if (leaves)
+      work.near.push_back(other);
+    else if (!source.leaf() && (target.leaf() || source.radius >= target.radius))
+      for (std::uint32_t k = 0; k < source.children; ++k) work.open.push_back(source.child + k);
+    else
+      work.later.push_back(other);
+  }
+}
+
+template <int D>
+void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& next) {
+  TreeNode const& node = tree_.nodes()[visit.node];
+  meet(visit.node, *visit.others, work);
+  work.shifted.resize(work.far.size());
+  for (std::size_t i = 0; i < work.far.size(); ++i) {
+    TreeNode const& source = tree_.nodes()[work.far[i]];
+    for (int a = 0; a < D; ++a) work.shifted[i].shift[a] = node.centre[a] - source.centre[a];
+    work.shifted[i].radius = source.radius;
+    work.shifted[i].numbers = moments(work.far[i]);
+  }
+  work.translations += work.far.size();
+  if (!work.far.empty())
+    kernels_.interact(tables_.view(), work.shifted.data(), work.shifted.size(), node.radius, visit.local.data());
+  for (std::uint32_t const other : work.expanded) {
+    NodeParticles particles = particles_of(tree_.nodes()[other]);
+    std::copy_n(node.centre.begin(), 3, particles.centre);
+    particles.radius = node.radius;
+    kernels_.expand(tables_.view(), particles, visit.local.data());
+  }
+  if (node.leaf()) return finish_leaf(node, visit.local, work);
+  auto const later = std::make_shared<std::vector<std::uint32_t> const>(work.later);
+  std::array<Shifted, 8> children;
+  std::size_t const first = next.size();
+  for (std::size_t k = 0; k < node.children; ++k) {
+    TreeNode const& child = tree_.nodes()[node.child + k];
+    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(tables_.size()), later});
+    for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
+    children[k].radius = child.radius;
+  }
+  for (std::size_t k = 0; k < node.children; ++k) children[k].numbers = next[first + k].local.data();
+  kernels_.hand_down(tables_.view(), visit.local.data(), node.radius, children.data(), node.children);
+}
+
+template <int D>
+void MultipoleField<D>::visit_below(Visit first, Workspace& work) {
+  std::vector<Visit> open;
+  open.push_back(std::move(first));
+  while (!open.empty()) {
+    Visit one = std::move(open.back());
+    open.pop_back();
+    visit(std::move(one), work, open);
+  }
+}
+
+template <int D>
+void MultipoleField<D>::finish_leaf(TreeNode const& leaf, std::vector<double> const& local, Workspace& work) {
+  auto const& particles = tree_.particles();
+  // The leaf's own stand first, so that the kernel knows who is the same.
+  work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
+  for (std::uint32_t const other : work.near) {
+    TreeNode const& source = tree_.nodes()[other];
+    if (&source != &leaf)
+      work.sources.insert(work.sources.end(), particles.begin() + source.begin, particles.begin() + source.end);
+  }
+  PairTask task;
+  task.target = task.source = &work.sources.front().position[0];
+  task.targets = leaf.size();
+  task.sources = work.sources.size();
+  task.target_row_stride = task.source_row_stride = row_stride<PointSource<D>>;
+  task.same = task.overwrite = true;
+  task.influence = sorted_field_.data() + leaf.begin * D;
+  work.pairs += task.targets * task.sources;
+  kernels_.near(&law_, task, 0, task.targets);
+  double* potential = nullptr;
+  if (with_potential_) {
+    work.energy.assign(leaf.size(), 0.0);
+    work.virial.assign(9 * leaf.size(), 0.0);
+    task.energy = work.energy.data();
+    task.virial = work.virial.data();
+    kernels_.near_measure(&law_, task, 0, task.targets);
+    potential = sorted_potential_.data() + leaf.begin;
+    for (std::size_t i = 0; i < leaf.size(); ++i) potential[i] = 2 * work.energy[i];  // kernels give half
+  }
+  double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
+  NodeParticles own = particles_of(leaf);
+  kernels_.evaluate(tables_.view(), own, local.data(), constant, task.influence, potential);
+  for (std::uint32_t const other : work.outside) {
+    TreeNode const& source = tree_.nodes()[other];
+    std::copy_n(source.centre.begin(), 3, own.centre);
+    own.radius = source.radius;
+    kernels_.evaluate_moments(tables_.view(), own, moments(other), constant, task.influence, potential);
+  }
+}
+
+template <int D>
+void MultipoleField<D>::calculate(std::vector<Point> particles, bool with_potential, int threads) {
+  with_potential_ = with_potential;
+  tree_.build(std::move(particles), choice_.leaf, threads);
+  std::size_t const count = tree_.particles().size();
+  sorted_field_.resize(count * D);
+  sorted_potential_.resize(with_potential ? count : 0);
+  cost_ = {tree_.nodes().size(), 0, 0};
+  if (count == 0) return put_in_order(with_potential, threads);
+  gather(threads);
+  // The uppermost nodes one by one, until there are enough for all threads.
+  Workspace work;
+  std::vector<Visit> open, next;
+  open.push_back({0, std::vector<double>(tables_.size(), 0.0),
+                  std::make_shared<std::vector<std::uint32_t> const>(std::vector<std::uint32_t>{0})});
+  while (!open.empty() && open.size() < parallel_visits) {
+    next.clear();
+    for (auto& one : open) visit(std::move(one), work, next);
+    std::swap(open, next);
+  }
+  std::atomic<std::size_t> translations = work.translations, pairs = work.pairs;
+  for_ranges(open.size(), 1, threads_for(count, 8, threads), [&](std::size_t begin, std::size_t end) {
+    Workspace own;
+    for (std::size_t i = begin; i < end; ++i) visit_below(std::move(open[i]), own);
+    translations += own.translations;
+    pairs += own.pairs;
+  });
+  cost_.translations = translations;
+  cost_.pairs = pairs;
+  put_in_order(with_potential, threads);
+}
+
+template <int D>
+void MultipoleField<D>::put_in_order(bool with_potential, int threads) {
+  auto const& numbers = tree_.numbers();
+  field_.resize(sorted_field_.size());
+  potential_.resize(sorted_potential_.size());
+  for_ranges(numbers.size(), 4096, threads_for(numbers.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::copy_n(sorted_field_.data() + k * D, D, field_.data() + std::size_t{numbers[k]} * D);
+      if (with_potential) potential_[numbers[k]] = sorted_potential_[k];
+    }
+  });
+}
+
+template <int D>
+std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particles,
+                                              std::vector<std::size_t> const& chosen, int threads) const {
+  std::vector<Point> sources;  // the chosen first, so that the kernel knows who is the same
+  sources.reserve(particles.size());
+  for (std::size_t const i : chosen) sources.push_back(particles[i]);
+  auto next = chosen.begin();
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (next != chosen.end() && *next == i)
+      ++next;
+    else
+      sources.push_back(particles[i]);
+  std::vector<double> field(chosen.size() * D);
+  PairTask task;
+  task.target = task.source = sources.empty() ? nullptr : &sources.front().position[0];
+  task.targets = chosen.size();
+  task.sources = sources.size();
+  task.target_row_stride = task.source_row_stride = row_stride<PointSource<D>>;
+  task.same = task.overwrite = true;
+  task.influence = field.data();
+  for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
+             [&](std::size_t begin, std::size_t end) { kernels_.near(&law_, task, begin, end); });
+  return field;
+}
+
+template <int D>
+std::size_t MultipoleField<D>::bytes() const {
+  return tree_.bytes() +
+         (4 * moments_.capacity() + source_limit_.capacity() + source_size_.capacity() + soft_limit_.capacity() +
+          sorted_field_.capacity() + sorted_potential_.capacity() + field_.capacity() + potential_.capacity()) *
+             sizeof(double);
+}
+
+template class MultipoleField<2>;
+template class MultipoleField<3>;
+
+}  // namespace boltzmann

@@ -1,0 +1,60 @@
+// What a multipole scheme computes on, compiled for every instruction set. Private to this room.
+#pragma once
+
+#include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/schemes/mesh/point_source.hpp>
+#include <boltzmann/schemes/multipole/expansion_tables.hpp>
+#include <boltzmann/schemes/pair/pair_task.hpp>
+
+#include <cstddef>
+
+namespace boltzmann {
+
+/// An expansion and how far it is carried; `numbers` are padded to a whole block of a row.
+struct Shifted {
+  double shift[3] = {0, 0, 0};  ///< moments: old centre - new one; local: new - old
+  double radius = 1;            ///< of the node that is not the one of the call
+  double const* numbers = nullptr;
+};
+
+/// Rows of PointSource<D> about the centre of a node.
+struct NodeParticles {
+  double const* rows = nullptr;
+  std::size_t count = 0;
+  double centre[3] = {0, 0, 0};
+  double radius = 1;
+};
+
+struct MultipoleKernels {
+  std::size_t width = 0;  ///< expansions that are carried at a time
+  /// The moments of particles.
+  void (*moments)(ExpansionView const& tables, NodeParticles const& particles, double* moments) = nullptr;
+  /// Sums the moments of children, about a centre with this radius.
+  void (*gather)(ExpansionView const& tables, Shifted const* children, std::size_t count, double radius,
+                 double* moments) = nullptr;
+  /// Adds what the moments of other nodes make to the local expansion of a node of this radius.
+  void (*interact)(ExpansionView const& tables, Shifted const* sources, std::size_t count, double radius,
+                   double* local) = nullptr;
+  /// The local expansion of a node for its children: into `numbers` of each.
+  void (*hand_down)(ExpansionView const& tables, double const* local, double radius, Shifted* children,
+                    std::size_t count) = nullptr;
+  /// Adds `constant` times the field of a local expansion, D numbers a particle; and the potential, unless null.
+  void (*evaluate)(ExpansionView const& tables, NodeParticles const& particles, double const* local, double constant,
+                   double* field, double* potential) = nullptr;
+  /// The same of the moments of a node with this centre and radius, which lies apart from the particles.
+  void (*evaluate_moments)(ExpansionView const& tables, NodeParticles const& particles, double const* moments,
+                           double constant, double* field, double* potential) = nullptr;
+  /// Adds what particles make to the local expansion about a centre with this radius, which lies apart from them.
+  void (*expand)(ExpansionView const& tables, NodeParticles const& particles, double* local) = nullptr;
+  PairKernel near = nullptr;          ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength
+  PairKernel near_measure = nullptr;  ///< half the potential
+};
+
+/// By [dimension - 2].
+struct MultipoleKernelTable {
+  MultipoleKernels of[2];
+};
+template <InstructionSet set>
+MultipoleKernelTable const& multipole_kernels();
+
+}  // namespace boltzmann

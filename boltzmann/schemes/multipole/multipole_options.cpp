@@ -1,0 +1,20 @@
+// The members of multipole schemes with their keys.
+#include <boltzmann/schemes/field_options.hpp>
+#include <boltzmann/schemes/multipole/multipole_options.hpp>
+
+namespace boltzmann {
+
+OptionTable const& multipole_options() {
+  static OptionTable const all = [] {
+    using namespace option;
+    OptionTable all;
+    add_field_keys(all);
+    all.add_said("softening", "a length, zero or more", "Plummer's length, within which the force is weaker", "0");
+    all.add("tolerance", &MultipoleOptions::tolerance, number(dimensions::none, NumberRange{1e-10, 0.1}),
+            "error of all forces, as a part of their rms; it is measured, and kept");
+    return all;
+  }();
+  return all;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,14 @@
+// Multipole options: what scenarios say of multipoles, with their keys.
+#pragma once
+
+#include <boltzmann/core/options.hpp>
+
+namespace boltzmann {
+
+/// The law and whom it acts on are read by the reader of the scenario.
+struct MultipoleOptions {
+  double tolerance = 1e-4;
+};
+OptionTable const& multipole_options();
+
+}  // namespace boltzmann

@@ -1,0 +1,358 @@
+// From ensembles to points and back, and how an accuracy is kept.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/random.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/schemes/multipole/multipole_field.hpp>
+#include <boltzmann/schemes/multipole/multipole_scheme.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+/// Of particles whose influence is compared with a direct sum: 200, or more as long as that takes hardly any time.
+std::size_t sample_count(std::size_t particles) {
+  return std::min(particles, std::max<std::size_t>(200, 20'000'000 / std::max<std::size_t>(1, particles)));
+}
+
+constexpr std::size_t checked_every = 64;
+constexpr double worst_of_one = 8;  // times the tolerance
+
+/// Below, to sum all pairs is as fast.
+constexpr std::size_t summed_directly = 1500;
+
+/// The order at which expansions and pairs take about as long for this tolerance.
+int order_for(double tolerance, int dimension) {
+  double const digits = -std::log10(tolerance);
+  double const order = dimension == 3 ? 1 + 1.6 * digits : 3 + 2 * digits;
+  return std::clamp(static_cast<int>(std::lround(order)), 2, highest_expansion_order);
+}
+
+}  // namespace
+
+/// The field of points in two or three dimensions.
+struct MultipoleScheme::Engine {
+  virtual ~Engine() = default;
+  /// All particles of these ensembles with their strengths. PhysicsFailure if a position is not finite.
+  virtual void collect(std::vector<Loaded> const& loaded, int threads) = 0;
+  virtual std::size_t count() const = 0;
+  virtual double strength(std::size_t i) const = 0;
+  virtual void choose(MultipoleChoice const& choice) = 0;
+  virtual void calculate(bool with_potential, int threads) = 0;
+  /// The field at these particles by direct sums.
+  virtual std::vector<double> exact(std::vector<std::size_t> const& particles, int threads) const = 0;
+  virtual std::vector<double> const& field() const = 0;
+  virtual std::vector<double> const& potential() const = 0;
+  virtual MultipoleChoice const& choice() const = 0;
+  virtual MultipoleCost const& cost() const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+template <int D>
+struct MultipoleScheme::EngineIn final : Engine {
+  using Point = typename MultipoleField<D>::Point;
+
+  explicit EngineIn(LaplaceLaw const& law) : multipoles(law) {}
+
+  void collect(std::vector<Loaded> const& loaded, int threads) override {
+    std::size_t total = 0;
+    for (auto const& one : loaded) total += one.ensemble->size();
+    points.resize(total);
+    std::size_t at = 0;
+    for (auto const& one : loaded) {
+      AnyEnsemble const& ensemble = *one.ensemble;
+      for_ranges(
+          ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+              Point& point = points[at + i];
+              for (int a = 0; a < D; ++a) {
+                point.position[a] = ensemble.row(i)[a];
+                if (!std::isfinite(point.position[a]))
+                  throw PhysicsFailure(
+                      fmt::format("particle {} of '{}' is at a position that is not finite", i, ensemble.name()));
+              }
+              point.amount = one.strengths[i];
+            }
+          });
+      at += ensemble.size();
+    }
+  }
+  std::size_t count() const override { return points.size(); }
+  double strength(std::size_t i) const override { return points[i].amount; }
+  void choose(MultipoleChoice const& choice) override { multipoles.choose(choice); }
+  void calculate(bool with_potential, int threads) override { multipoles.calculate(points, with_potential, threads); }
+  std::vector<double> exact(std::vector<std::size_t> const& particles, int threads) const override {
+    return multipoles.direct(points, particles, threads);
+  }
+  std::vector<double> const& field() const override { return multipoles.field(); }
+  std::vector<double> const& potential() const override { return multipoles.potential(); }
+  MultipoleChoice const& choice() const override { return multipoles.choice(); }
+  MultipoleCost const& cost() const override { return multipoles.cost(); }
+  std::size_t bytes() const override { return multipoles.bytes() + points.capacity() * sizeof(Point); }
+
+  MultipoleField<D> multipoles;
+  std::vector<Point> points;
+};
+
+MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
+    : Scheme(box), law_(law), tolerance_(tolerance) {
+  law.check();
+  if (law.constant == 0) throw Error("multipoles: the constant of the law is 0: nobody would feel anything");
+  if (!(tolerance >= 1e-10 && tolerance <= 0.1))
+    throw Error(fmt::format("multipoles: a tolerance of {}; it must be between 1e-10 and 0.1", tolerance));
+  if (box.dimension() == 1)
+    throw Error("multipoles: the box has one dimension, where a mesh or pairs do it; expansions are for 2 and 3");
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.boundary(a) == Boundary::periodic || box.boundary(a) == Boundary::mirror)
+      throw Error(
+          fmt::format("multipoles: axis {} is {}; the field is that of open space (in periodic boxes a mesh with "
+                      "an accuracy does it)",
+                      "xyz"[a], to_string(box.boundary(a))));
+  if (!box.regions().empty()) throw Error("multipoles: the box has regions; the field is that of open space");
+  if (box.dimension() == 2)
+    engine_ = std::make_unique<EngineIn<2>>(law);
+  else
+    engine_ = std::make_unique<EngineIn<3>>(law);
+}
+
+MultipoleScheme::~MultipoleScheme() = default;
+
+void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) {
+  if (kind.sign * law_.constant < 0)
+    throw Error(fmt::format("multipoles: class {} of '{}' {}, but with the constant {} equal strengths {}; use {}",
+                            ensemble.class_name(), ensemble.name(), kind.sign > 0 ? "repels its like" : "attracts",
+                            law_.constant, law_.constant > 0 ? "repel" : "attract",
+                            kind.sign > 0 ? "coulomb(k)" : "gravity(G)"));
+  if (std::any_of(loaded_.begin(), loaded_.end(), [&](Loaded const& one) { return one.ensemble == &ensemble; })) return;
+  Scheme::add(ensemble);
+  loaded_.push_back({&ensemble, kind, {}});
+}
+
+void MultipoleScheme::collect() {
+  for (auto& one : loaded_) {
+    one.strengths.resize(one.ensemble->size());
+    one.kind.strengths(one.ensemble->row(0), 0, one.ensemble->size(), one.strengths.data());
+  }
+  engine_->collect(loaded_, threads());
+}
+
+/// The mean square of what samples feel, without the fiftieth that feels most: a few that are near to each other would
+/// count for all.
+double MultipoleScheme::typical_square(std::vector<double> squares) {
+  std::sort(squares.begin(), squares.end());
+  std::size_t const kept = squares.size() - squares.size() / 50;
+  CompensatedSum sum;
+  for (std::size_t k = 0; k < kept; ++k) sum += squares[k];
+  return kept > 0 ? sum.value() / static_cast<double>(kept) : 0;
+}
+
+/// The error of the last calculation for the samples, as a part of what they feel; 0 where they feel nothing.
+double MultipoleScheme::error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const {
+  auto const D = static_cast<std::size_t>(box().dimension());
+  CompensatedSum errors;
+  std::vector<double> squares;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    double const strength = engine_->strength(chosen[k]);
+    double sum = 0;
+    for (std::size_t a = 0; a < D; ++a) {
+      errors += square(strength * (engine_->field()[chosen[k] * D + a] - exact[k * D + a]));
+      sum += square(strength * exact[k * D + a]);
+    }
+    squares.push_back(sum);
+  }
+  double const typical = typical_square(squares);
+  return typical > 0 ? std::sqrt(errors.value() / static_cast<double>(chosen.size()) / typical) : 0;
+}
+
+std::vector<std::size_t> MultipoleScheme::choose_samples() const {
+  std::size_t const samples = sample_count(engine_->count());
+  std::vector<std::size_t> chosen;
+  if (samples == engine_->count()) {
+    chosen.resize(samples);
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    return chosen;
+  }
+  Stream stream(0, 0, engine_->count(), Purpose::selection);
+  for (std::size_t k = 0; k < samples; ++k)
+    chosen.push_back(static_cast<std::size_t>(stream.uniform() * static_cast<double>(engine_->count())));
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+std::size_t MultipoleScheme::leaf() const {
+  int const order = order_for(tolerance_, box().dimension());
+  return box().dimension() == 2 || order < 8 ? 48 : order < 13 ? 64 : 100;
+}
+
+/// Calculates with a criterion for which the error of the samples is between a sixth of the tolerance and a half of it: what
+/// is promised of all particles then holds for all.
+void MultipoleScheme::tune(bool with_potential) {
+  auto const chosen = choose_samples();
+  auto const exact = engine_->exact(chosen, threads());
+  if (order_ == 0) order_ = order_for(tolerance_, box().dimension());
+  std::size_t const leaf = this->leaf();
+  auto const D = static_cast<std::size_t>(box().dimension());
+  std::vector<double> squares(chosen.size(), 0.0);
+  for (std::size_t i = 0; i < exact.size(); ++i) squares[i / D] += square(exact[i]);
+  double const typical = std::sqrt(typical_square(squares));
+  double const field = typical / (std::abs(law_.constant) / (box().dimension() == 3 ? 4 * pi : 2 * pi));
+  if (!std::isfinite(field) || field == 0) {  // two at one place, or nobody who acts: whoever looks will say so
+    engine_->choose({order_, leaf, 1});
+    engine_->calculate(with_potential, threads());
+    return;
+  }
+  // What one interaction may do at worst: seldom, but a few particles with such errors are not seen among the samples.
+  double const most = worst_of_one * tolerance_ * field;
+  criterion_ = criterion_ == 0 ? 4 * tolerance_ * field : std::min(criterion_, most);
+  for (int attempt = 0;; ++attempt) {
+    engine_->choose({order_, leaf, criterion_});
+    engine_->calculate(with_potential, threads());
+    measured_ = error_of(chosen, exact);
+    bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
+    if (engine_->cost().translations == 0 || (enough && (!too_much || attempt >= 8))) return;
+    double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
+    if (enough && criterion_ >= most) {  // then a lower order is enough
+      if (order_ == 2) return;
+      --order_;
+    }
+    criterion_ =
+        enough ? std::min(criterion_ * std::min(change, 20.0), most) : criterion_ * std::max(0.8 * change, 0.01);
+  }
+}
+
+void MultipoleScheme::calculate_field(bool with_potential) {
+  collect();
+  if (engine_->count() <= summed_directly) {
+    measured_ = 0;
+    engine_->choose({2, engine_->count() + 1, 1});
+    engine_->calculate(with_potential, threads());
+  } else if (criterion_ == 0 || until_check_ == 0) {
+    tune(with_potential);
+    until_check_ = checked_every;
+  } else {
+    engine_->choose({order_, leaf(), criterion_});
+    engine_->calculate(with_potential, threads());
+    --until_check_;
+  }
+}
+
+void MultipoleScheme::add_influences(double /*time*/) {
+  calculate_field(false);
+  ++calculations_;
+  auto const D = static_cast<std::size_t>(box().dimension());
+  std::size_t at = 0;
+  for (auto const& one : loaded_) {
+    AnyEnsemble& ensemble = *one.ensemble;
+    for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads()),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i)
+                   for (std::size_t a = 0; a < D; ++a)
+                     ensemble.influence(i)[a] += one.strengths[i] * engine_->field()[(at + i) * D + a];
+               });
+    at += ensemble.size();
+  }
+}
+
+/// Looking changes nothing that the next calculation depends on.
+class MultipoleScheme::Look {
+ public:
+  explicit Look(MultipoleScheme& scheme) : scheme_(scheme), state_(scheme.state()) {}
+  ~Look() { scheme_.restore(state_); }
+  Look(Look const&) = delete;
+  Look& operator=(Look const&) = delete;
+
+ private:
+  MultipoleScheme& scheme_;
+  std::vector<double> state_;
+};
+
+EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
+  Look const look(*this);
+  calculate_field(true);
+  EnergyAndVirial measures = EnergyAndVirial::known();
+  auto const D = static_cast<std::size_t>(box().dimension());
+  CompensatedSum potential;
+  std::array<std::array<CompensatedSum, 3>, 3> virial;
+  std::size_t at = 0;
+  for (auto const& one : loaded_) {
+    std::vector<double> energies(one.ensemble->size());
+    for (std::size_t i = 0; i < energies.size(); ++i) {
+      energies[i] = 0.5 * one.strengths[i] * engine_->potential()[at + i];
+      potential += energies[i];
+      // The sum over pairs of r_a F_b, since the forces of all cancel: that over particles of their place and force.
+      for (std::size_t a = 0; a < D; ++a)
+        for (std::size_t b = 0; b < D; ++b)
+          virial[a][b] += one.ensemble->row(i)[a] * one.strengths[i] * engine_->field()[(at + i) * D + b];
+    }
+    at += energies.size();
+    measures.per_particle.push_back(std::move(energies));
+  }
+  measures.potential = potential.value();
+  for (std::size_t a = 0; a < D; ++a)
+    for (std::size_t b = 0; b < D; ++b) measures.virial[a][b] = virial[a][b].value();
+  return measures;
+}
+
+MultipoleAccuracy MultipoleScheme::accuracy() {
+  Look const look(*this);
+  calculate_field(false);
+  auto const chosen = choose_samples();
+  bool const direct = engine_->cost().translations == 0;
+  MultipoleAccuracy accuracy;
+  if (!direct) {
+    accuracy.measured = error_of(chosen, engine_->exact(chosen, threads()));
+    accuracy.order = engine_->choice().order;
+  }
+  accuracy.nodes = engine_->cost().nodes;
+  accuracy.translations = engine_->cost().translations;
+  accuracy.pairs = engine_->cost().pairs;
+  return accuracy;
+}
+
+double MultipoleScheme::length_scale(AnyEnsemble const&) const {
+  return law_.softening > 0 ? law_.softening : __builtin_inf();
+}
+
+std::string MultipoleScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  return law_.softening > 0 ? "" : at_one_place(ensemble, i);
+}
+
+void MultipoleScheme::make_reversible(double /*quantum*/) {
+  throw Error(
+      "the reversible leap-frog needs influences that are the same to the bit whatever was before; expansions are "
+      "not: use leap-frog, or a pair scheme");
+}
+
+std::size_t MultipoleScheme::bytes() const { return engine_->bytes(); }
+
+std::string MultipoleScheme::summary() const { return fmt::format("multipoles, errors below {:.0e}", tolerance_); }
+
+std::string MultipoleScheme::report() const {
+  if (calculations_ == 0) return "";
+  auto const& cost = engine_->cost();
+  if (cost.translations == 0) return fmt::format("multipoles: {} pairs, all summed directly", cost.pairs);
+  return fmt::format(
+      "multipoles of order {}: error {:.1e} of {:.0e}; {} nodes, {:.3g} translations and {:.3g} pairs a step",
+      engine_->choice().order, measured_, tolerance_, cost.nodes, static_cast<double>(cost.translations),
+      static_cast<double>(cost.pairs));
+}
+
+std::vector<double> MultipoleScheme::state() const {
+  return {criterion_, measured_, static_cast<double>(order_), static_cast<double>(until_check_)};
+}
+
+void MultipoleScheme::restore(std::span<double const> state) {
+  if (state.size() != 4)
+    throw Error(fmt::format("multipoles: the state of a checkpoint has 4 numbers, not {}", state.size()));
+  criterion_ = state[0], measured_ = state[1];
+  order_ = static_cast<int>(state[2]), until_check_ = static_cast<std::size_t>(state[3]);
+}
+
+}  // namespace boltzmann

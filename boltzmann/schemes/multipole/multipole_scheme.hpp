@@ -1,0 +1,97 @@
+// MultipoleScheme: gravity and electrostatics of any distribution of particles in open space, in 2D and 3D, by multipole
+// expansions over a tree: O(N), with an accuracy that is kept.
+//
+//   MultipoleScheme scheme(Box({-9, -9, -9}, {9, 9, 9}), gravity(1, 0.01), 1e-4);
+//   scheme.add(stars);
+//   Simulation simulation(scheme, dt);
+#pragma once
+
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/schemes/source_kind.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// What a scheme of multipoles has found and chosen.
+struct MultipoleAccuracy {
+  double measured =
+      0;          ///< the error of 200 particles' influences against direct sums, as `tolerance`; 0: summed directly
+  int order = 0;  ///< of the expansions; 0: everything is summed directly
+  std::size_t nodes = 0, translations = 0, pairs = 0;  ///< of the last calculation
+};
+
+class MultipoleScheme final : public Scheme {
+ public:
+  /// `tolerance`: the error of influences, sqrt(sum |error|^2 / sum |influence|^2) over all particles. What the expansions
+  /// need for it is found when the scheme first calculates, by comparing with direct sums for 200 particles or more, and looked
+  /// at again every 64 calculations. Few particles are summed directly.
+  /// Error if the box is not of 2 or 3 dimensions, has periodic axes, mirrors or regions, or if the tolerance is not
+  /// between 1e-10 and 0.1.
+  MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
+  ~MultipoleScheme() override;
+
+  double tolerance() const { return tolerance_; }
+  /// C of div E = C rho.
+  double constant() const { return law_.constant; }
+
+  /// The particles of an ensemble influence each other: by their strength(), or under gravity by their mass if the class
+  /// has no other strength. Further schemes may act on the same ensemble.
+  template <class P>
+  void add(Ensemble<P>& ensemble) {
+    static_assert(ForcedParticle<P>, "multipoles act on classes with mass and velocity, and a force as influence");
+    add(ensemble, source_kind<P>());
+  }
+  /// For code that knows classes only at run time. Error if the law and the class disagree on who attracts whom.
+  void add(AnyEnsemble& ensemble, SourceKind const& kind);
+
+  /// The error as it stands, and what was chosen; chooses if that has not been done. Measuring costs 200 N pairs.
+  MultipoleAccuracy accuracy();
+
+  void add_influences(double time) override;
+  EnergyAndVirial measure(double time = 0) override;
+  double length_scale(AnyEnsemble const& ensemble) const override;
+  std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
+  std::string summary() const override;
+  std::string report() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+ private:
+  class Look;
+  struct Engine;
+  template <int D>
+  struct EngineIn;
+  struct Loaded {
+    AnyEnsemble* ensemble;
+    SourceKind kind;
+    std::vector<double> strengths;
+  };
+
+  void collect();
+  void calculate_field(bool with_potential);
+  std::vector<std::size_t> choose_samples() const;
+  std::size_t leaf() const;
+  static double typical_square(std::vector<double> squares);
+  double error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const;
+  void tune(bool with_potential);
+
+  LaplaceLaw law_;
+  double tolerance_;
+  std::vector<Loaded> loaded_;
+  std::unique_ptr<Engine> engine_;
+  double criterion_ = 0;  // the error that one interaction may make; 0: not chosen yet
+  double measured_ = 0;
+  int order_ = 0;  // 0: not chosen yet
+  std::size_t until_check_ = 0, calculations_ = 0;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,138 @@
+// Boxes are cut in the middle of what they hold.
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/schemes/multipole/tree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+/// The ends of what is in a range.
+template <int D>
+struct Ends {
+  std::array<double, 3> low, high;
+
+  Ends(Row<PointSource<D>> const* particles, std::size_t count) {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < count; ++i)
+      for (int a = 0; a < D; ++a) {
+        low[a] = std::min(low[a], particles[i].position[a]);
+        high[a] = std::max(high[a], particles[i].position[a]);
+      }
+  }
+  double length(int a) const { return high[a] - low[a]; }
+  double longest() const {
+    double length = 0;
+    for (int a = 0; a < D; ++a) length = std::max(length, this->length(a));
+    return length;
+  }
+};
+
+/// Which axes are cut: those that are not much shorter than the longest, and of these no more than it takes to come down
+/// to `leaf` particles.
+template <int D>
+std::array<bool, 3> cuts(Ends<D> const& ends, std::size_t count, std::size_t leaf) {
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.begin() + D, [&](int a, int b) { return ends.length(a) > ends.length(b); });
+  std::array<bool, 3> cut{false, false, false};
+  std::size_t parts = 1;
+  for (int i = 0; i < D; ++i) {
+    if (!(ends.length(order[i]) > 0.6 * ends.longest()) || (i > 0 && parts * leaf >= count)) break;
+    cut[order[i]] = true;
+    parts *= 2;
+  }
+  return cut;
+}
+
+}  // namespace
+
+template <int D>
+void Tree<D>::surround(TreeNode& node) const {
+  Point const* const first = particles_.data() + node.begin;
+  Ends<D> const ends(first, node.size());
+  for (int a = 0; a < D; ++a) node.centre[a] = 0.5 * ends.low[a] + 0.5 * ends.high[a];
+  double furthest = 0;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    double square = 0;
+    for (int a = 0; a < D; ++a)
+      square += (first[i].position[a] - node.centre[a]) * (first[i].position[a] - node.centre[a]);
+    furthest = std::max(furthest, square);
+  }
+  node.radius = std::sqrt(furthest);
+}
+
+template <int D>
+void Tree<D>::split(std::size_t number, std::size_t leaf) {
+  TreeNode node = nodes_[number];
+  Point* const first = particles_.data() + node.begin;
+  std::size_t const count = node.size();
+  Ends<D> const ends(first, count);
+  if (count <= leaf || !(ends.longest() > 0)) return;
+  auto const cut = cuts(ends, count, leaf);
+  std::array<double, 3> middle{};
+  for (int a = 0; a < D; ++a) middle[a] = 0.5 * ends.low[a] + 0.5 * ends.high[a];
+  auto const part = [&](Point const& p) {
+    unsigned part = 0;
+    for (int a = 0; a < D; ++a) part |= cut[a] && p.position[a] > middle[a] ? 1U << a : 0U;
+    return part;
+  };
+  std::array<std::uint32_t, 9> begin{};
+  for (std::size_t i = 0; i < count; ++i) ++begin[part(first[i]) + 1];
+  if (std::find(begin.begin(), begin.end(), count) != begin.end())
+    return;  // neighbouring numbers: nothing between them
+  for (std::size_t k = 0; k < 8; ++k) begin[k + 1] += begin[k];
+  auto at = begin;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t const to = node.begin + at[part(first[i])]++;
+    other_[to] = first[i];
+    other_numbers_[to] = numbers_[node.begin + i];
+  }
+  std::copy_n(other_.data() + node.begin, count, first);
+  std::copy_n(other_numbers_.data() + node.begin, count, numbers_.data() + node.begin);
+  node.child = static_cast<std::uint32_t>(nodes_.size());
+  for (std::size_t k = 0; k < 8; ++k)
+    if (begin[k + 1] > begin[k]) {
+      TreeNode child;
+      child.begin = node.begin + begin[k];
+      child.end = node.begin + begin[k + 1];
+      nodes_.push_back(child);
+      ++node.children;
+    }
+  nodes_[number] = node;
+}
+
+template <int D>
+void Tree<D>::build(std::vector<Point> particles, std::size_t leaf, int threads) {
+  particles_ = std::move(particles);
+  other_.resize(particles_.size());
+  other_numbers_.resize(particles_.size());
+  numbers_.resize(particles_.size());
+  for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = static_cast<std::uint32_t>(i);
+  nodes_.clear();
+  TreeNode root;
+  root.end = static_cast<std::uint32_t>(particles_.size());
+  if (root.end > 0) nodes_.push_back(root);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) split(i, leaf);
+  for_ranges(nodes_.size(), 64, threads_for(particles_.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) surround(nodes_[i]);
+  });
+  // A node without extent would divide by nothing.
+  double const least = nodes_.empty() || !(nodes_.front().radius > 0) ? 1 : 1e-10 * nodes_.front().radius;
+  for (auto& node : nodes_) node.radius = std::max(node.radius, least);
+}
+
+template <int D>
+std::size_t Tree<D>::bytes() const {
+  return (particles_.capacity() + other_.capacity()) * sizeof(Point) +
+         (numbers_.capacity() + other_numbers_.capacity()) * sizeof(std::uint32_t) +
+         nodes_.capacity() * sizeof(TreeNode);
+}
+
+template class Tree<2>;
+template class Tree<3>;
+
+}  // namespace boltzmann

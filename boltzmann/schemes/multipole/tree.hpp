@@ -1,0 +1,51 @@
+// Tree: particles in nested boxes, each as tight as its particles allow, so that clusters cost no more than an even
+// space. Private to this room.
+#pragma once
+
+#include <boltzmann/particles/rows.hpp>
+#include <boltzmann/schemes/mesh/point_source.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace boltzmann {
+
+struct TreeNode {
+  std::array<double, 3> centre{0, 0, 0};  ///< of the box around its particles
+  double radius = 0;                      ///< no particle is further from the centre
+  std::uint32_t begin = 0, end = 0;       ///< its particles
+  std::uint32_t child = 0;                ///< the first; others follow it
+  std::uint32_t children = 0;             ///< none: a leaf
+
+  std::size_t size() const { return end - begin; }
+  bool leaf() const { return children == 0; }
+};
+
+template <int D>
+class Tree {
+ public:
+  using Point = Row<PointSource<D>>;
+
+  /// Of these particles (finite positions), with at most so many in a leaf; more only at one place. The same tree for any
+  /// number of threads.
+  void build(std::vector<Point> particles, std::size_t leaf, int threads);
+
+  /// In the order of the leaves; particle k was number()[k].
+  std::vector<Point> const& particles() const { return particles_; }
+  std::vector<std::uint32_t> const& numbers() const { return numbers_; }
+  /// Parents stand before their children.
+  std::vector<TreeNode> const& nodes() const { return nodes_; }
+  std::size_t bytes() const;
+
+ private:
+  void surround(TreeNode& node) const;
+  void split(std::size_t node, std::size_t leaf);
+
+  std::vector<Point> particles_, other_;
+  std::vector<std::uint32_t> numbers_, other_numbers_;
+  std::vector<TreeNode> nodes_;
+};
+
+}  // namespace boltzmann

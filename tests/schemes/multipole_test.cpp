@@ -1,0 +1,317 @@
+// Multipoles: the tolerance is kept whatever the shape, nothing depends on threads or on who looks, and the special cases.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/particles/newton.hpp>
+#include <boltzmann/schemes/multipole/multipole_field.hpp>
+#include <boltzmann/schemes/multipole/multipole_scheme.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/message.hpp>
+#include <tests/seed.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace boltzmann::multipole_test {
+namespace {
+
+template <int D>
+Box wide(double half = 1e9) {
+  Vector<D> low, high;
+  for (int a = 0; a < D; ++a) low[a] = -half, high[a] = half;
+  return Box(low, high, Boundary::open);
+}
+
+enum class Shape { cube, plummer, two_clusters, line, nearly_one_place, shell, lattice };
+
+template <int D>
+std::vector<Vector<D>> places(Shape shape, std::size_t count, int seed) {
+  std::mt19937_64 random(test_seed(seed));
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> normal;
+  std::vector<Vector<D>> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vector<D> x, direction;
+    for (int a = 0; a < D; ++a) x[a] = uniform(random) - 0.5, direction[a] = normal(random);
+    direction = direction * (1 / magnitude(direction));
+    switch (shape) {
+      case Shape::cube:
+        break;
+      case Shape::plummer:
+        x = direction / std::sqrt(std::pow(0.001 + 0.998 * uniform(random), -2. / 3) - 1);
+        break;
+      case Shape::two_clusters:
+        x = i % 3 == 0 ? x : x * 0.01 + 3.0;
+        break;
+      case Shape::line:
+        for (int a = 1; a < D; ++a) x[a] *= 1e-6;
+        break;
+      case Shape::nearly_one_place:
+        x = i == 0 ? x + 1000.0 : x * 1e-5;
+        break;
+      case Shape::shell:
+        x = direction;
+        break;
+      case Shape::lattice:
+        for (int a = 0; a < D; ++a) x[a] = std::floor(40 * x[a]) / 40 + 1e-4 * uniform(random);
+        break;
+    }
+    all.push_back(x);
+  }
+  return all;
+}
+
+/// The force on a particle by all others, one after the other.
+template <int D>
+Vector<D> direct(Ensemble<Coulomb<D>> const& charges, std::size_t i, LaplaceLaw const& law) {
+  Vector<D> force{};
+  for (std::size_t j = 0; j < charges.size(); ++j)
+    if (j != i) force += law(charges[i], charges[j]).force;
+  return force;
+}
+
+template <int D>
+void expect_tolerance(Shape shape, std::size_t count, double tolerance, int signs, int seed) {
+  Ensemble<Coulomb<D>> charges("charges", count);
+  auto const all = places<D>(shape, count, seed);
+  std::mt19937_64 random(test_seed(seed + 1));
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < count; ++i) {
+    charges[i].position = all[i];
+    charges[i].charge = signs == 0 ? 1 : signs == 1 ? (i % 2 == 0 ? 1 : -1) : normal(random);
+  }
+  auto const law = coulomb(2);
+  MultipoleScheme scheme(wide<D>(), law, tolerance);
+  scheme.add(charges);
+  scheme.calculate();
+  double errors = 0;
+  std::vector<double> squares;
+  for (std::size_t k = 0; k < std::min<std::size_t>(count, 2200); ++k) {
+    std::size_t const i = count <= 2200 ? k : random() % count;
+    auto const force = direct(charges, i, law);
+    errors += norm2(charges.influence_on(i) - force);
+    squares.push_back(norm2(force));
+  }
+  // A few that have a neighbour next to them would count for all.
+  std::sort(squares.begin(), squares.end());
+  double sum = 0;
+  for (std::size_t k = 0; k < squares.size() - squares.size() / 50; ++k) sum += squares[k];
+  std::string const what = "shape " + std::to_string(static_cast<int>(shape)) + ", " + std::to_string(D) + "D, " +
+                           std::to_string(count) + " particles, signs " + std::to_string(signs);
+  EXPECT_LT(std::sqrt(errors), tolerance * std::sqrt(sum)) << what;
+  if (count > 5000) {
+    EXPECT_GT(scheme.accuracy().order, 0) << what << ": nothing is left to expansions";
+  }
+}
+
+class MultipoleTolerance : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Shapes, MultipoleTolerance, testing::Range(0, 7));
+
+TEST_P(MultipoleTolerance, IsKept) {
+  auto const shape = static_cast<Shape>(GetParam());
+  int seed = 100 * GetParam();
+  for (double const tolerance : {1e-2, 1e-4, 1e-7, 1e-10})
+    for (std::size_t const count : {40UL, 2200UL, 9000UL}) {
+      expect_tolerance<2>(shape, count, tolerance, seed % 3, seed);
+      expect_tolerance<3>(shape, count, tolerance, seed % 3, seed);
+      seed += 2;
+    }
+}
+
+template <int D>
+void fill(Ensemble<Kepler<D>>& stars, Shape shape, int seed) {
+  auto const all = places<D>(shape, stars.size(), seed);
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    stars[i].position = all[i];
+    stars[i].mass = 1.0 / static_cast<double>(stars.size());
+  }
+}
+
+// A sum of multipoles is what the pair scheme has, to the tolerance: forces, energies of all and of each, the virial.
+template <int D>
+void expect_pairs(double softening) {
+  Ensemble<Kepler<D>> stars("stars", 2500), same("same", 2500);
+  fill(stars, Shape::plummer, 7);
+  fill(same, Shape::plummer, 7);
+  PairScheme pairs(wide<D>());
+  pairs.internal(same, gravity(3, softening));
+  pairs.calculate();
+  MultipoleScheme scheme(wide<D>(), gravity(3, softening), 1e-8);
+  scheme.add(stars);
+  scheme.calculate();
+  double errors = 0, squares = 0;
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    errors += norm2(stars.influence_on(i) - same.influence_on(i));
+    squares += norm2(same.influence_on(i));
+  }
+  EXPECT_LT(std::sqrt(errors / squares), 1e-8);
+  auto const exact = pairs.measure(), measured = scheme.measure();
+  EXPECT_NEAR(measured.potential / exact.potential, 1, 1e-8);
+  for (std::size_t i = 0; i < stars.size(); ++i)
+    ASSERT_NEAR(measured.per_particle[0][i] / exact.per_particle[0][i], 1, 1e-6) << i;
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < D; ++b)
+      EXPECT_NEAR(measured.virial[a][b], exact.virial[a][b], 1e-7 * std::abs(exact.virial[0][0])) << a << b;
+}
+TEST(Multipoles, AreWhatPairsAre2D) { expect_pairs<2>(0); }
+TEST(Multipoles, AreWhatPairsAre3D) { expect_pairs<3>(0); }
+TEST(Multipoles, AreWhatSoftenedPairsAre) {
+  expect_pairs<2>(0.02);
+  expect_pairs<3>(0.02);
+}
+
+std::vector<double> influences(AnyEnsemble const& ensemble) {
+  return {ensemble.influence(0), ensemble.influence(0) + ensemble.size() * ensemble.influence_size()};
+}
+
+TEST(Multipoles, HaveTheSameBitsForAnyThreads) {
+  Ensemble<Kepler<3>> stars("stars", 20000);
+  fill(stars, Shape::plummer, 11);
+  std::vector<double> first;
+  for (int const threads : {1, 2, 3, 7}) {
+    MultipoleScheme scheme(wide<3>(), gravity(1), 1e-5);
+    scheme.add(stars);
+    scheme.threads(threads);
+    scheme.calculate();
+    if (first.empty()) first = influences(stars);
+    EXPECT_EQ(influences(stars), first) << threads;
+  }
+}
+
+// Over several checks of the error, so that the choice changes on the way.
+TEST(Multipoles, GoOnFromACheckpointToTheBitWhoeverLooks) {
+  auto const run = [](std::uint64_t stop, bool look) {
+    Ensemble<Kepler<2>> stars("stars", 3000);
+    fill(stars, Shape::cube, 13);
+    auto scheme = std::make_unique<MultipoleScheme>(wide<2>(), gravity(1, 0.05), 1e-4);
+    scheme->add(stars);
+    auto simulation = std::make_unique<Simulation>(*scheme, 0.001);
+    if (stop > 0) {
+      simulation->run(stop);
+      std::vector<double> const state = simulation->state();
+      if (look) scheme->accuracy(), scheme->measure();
+      scheme = std::make_unique<MultipoleScheme>(wide<2>(), gravity(1, 0.05), 1e-4);
+      scheme->add(stars);
+      simulation = std::make_unique<Simulation>(*scheme, 0.001);
+      simulation->restore(static_cast<std::int64_t>(stop), 0.001, 1, state);
+    } else if (look) {
+      scheme->measure();
+      scheme->accuracy();
+    }
+    simulation->run(150 - stop);
+    return std::vector<double>(stars.row(0), stars.row(0) + stars.size() * stars.stride());
+  };
+  auto const whole = run(0, false);
+  EXPECT_EQ(run(0, true), whole);
+  EXPECT_EQ(run(37, false), whole);
+  EXPECT_EQ(run(64, true), whole);
+}
+
+TEST(Multipoles, OfFewAndOfNone) {
+  for (std::size_t const count : {0UL, 1UL, 2UL}) {
+    Ensemble<Kepler<3>> stars("stars", count);
+    for (std::size_t i = 0; i < count; ++i) stars[i].position = {2.0 * static_cast<double>(i), 0, 0};
+    MultipoleScheme scheme(wide<3>(), gravity(8), 1e-3);
+    scheme.add(stars);
+    scheme.calculate();
+    if (count > 0) {
+      EXPECT_EQ(stars.influence_on(0), count == 2 ? (Vector{2.0, 0.0, 0.0}) : Vector<3>{});
+    }
+    EXPECT_EQ(scheme.measure().potential, count == 2 ? -4.0 : 0.0);
+    EXPECT_EQ(scheme.accuracy().order, 0);
+  }
+}
+
+// Ions and electrons, some without charge, whose sum is zero; classes of different fields; a probe that nobody feels.
+TEST(Multipoles, OfSeveralEnsembles) {
+  Ensemble<Coulomb<3>> ions("ions", 2000), electrons("electrons", 2100), nobody("nobody");
+  auto const first = places<3>(Shape::cube, 2000, 21), second = places<3>(Shape::plummer, 2100, 22);
+  for (std::size_t i = 0; i < 2000; ++i) ions[i].position = first[i], ions[i].charge = i == 0 ? 0 : 2;
+  for (std::size_t i = 0; i < 2100; ++i) electrons[i].position = second[i], electrons[i].charge = -3998.0 / 2100;
+  MultipoleScheme scheme(wide<3>(), coulomb(1), 1e-6);
+  PairScheme pairs(wide<3>());
+  scheme.add(ions);
+  scheme.add(nobody);
+  scheme.add(electrons);
+  scheme.calculate();
+  auto const of_ions = influences(ions), of_electrons = influences(electrons);
+  pairs.internal(ions, coulomb(1));
+  pairs.internal(electrons, coulomb(1));
+  pairs.between(ions, electrons, coulomb(1));
+  pairs.calculate();
+  double errors = 0, squares = 0;
+  for (auto const& [mine, exact] : {std::pair{of_ions, influences(ions)}, {of_electrons, influences(electrons)}})
+    for (std::size_t k = 0; k < mine.size(); ++k) errors += square(mine[k] - exact[k]), squares += square(exact[k]);
+  EXPECT_LT(std::sqrt(errors / squares), 1e-6);
+  EXPECT_EQ(of_ions[0], 0);
+  auto const measured = scheme.measure(), exact = pairs.measure();
+  EXPECT_NEAR(measured.potential / exact.potential, 1, 1e-6);
+  EXPECT_EQ(measured.per_particle.size(), 3U);
+}
+
+TEST(Multipoles, AtOnePlaceAreOneLine) {
+  Ensemble<Kepler<3>> stars("stars", 2000);
+  fill(stars, Shape::cube, 31);
+  stars[1900].position = stars[17].position;
+  MultipoleScheme scheme(wide<3>(), gravity(1), 1e-4);
+  scheme.add(stars);
+  Simulation simulation(scheme, 0.01);
+  auto const text = message<std::exception>([&] { simulation.run(1); });
+  EXPECT_NE(text.find("particle 17 of 'stars' and particle 1900 of 'stars' are at the same place"), std::string::npos)
+      << text;
+  // With a softening they don't push each other. Many of them are one leaf that nothing divides.
+  for (std::size_t i = 0; i < 400; ++i) stars[i].position = {0.1, 0.2, 0.3};
+  MultipoleScheme soft(wide<3>(), gravity(1, 0.05), 1e-4);
+  soft.add(stars);
+  soft.calculate();
+  for (double const x : influences(stars)) ASSERT_TRUE(std::isfinite(x));
+  EXPECT_NEAR(magnitude(stars.influence_on(3) - stars.influence_on(300)), 0, 1e-12 * magnitude(stars.influence_on(3)));
+  stars[5].position[1] = std::nan("");
+  EXPECT_NE(message<PhysicsFailure>([&] { soft.calculate(); }).find("particle 5 of 'stars' is at a position that is not finite"),
+            std::string::npos);
+}
+
+TEST(Multipoles, RefuseWhatTheyCantDo) {
+  auto const refused = [](Box const& box, LaplaceLaw const& law, double tolerance) {
+    return message([&] { MultipoleScheme scheme(box, law, tolerance); });
+  };
+  auto const open = wide<3>();
+  EXPECT_NE(refused(open, gravity(1), 0).find("a tolerance of 0; it must be between 1e-10 and 0.1"), std::string::npos);
+  EXPECT_NE(refused(open, gravity(1), std::nan("")).find("between 1e-10 and 0.1"), std::string::npos);
+  EXPECT_NE(refused(open, LaplaceLaw{0}, 1e-3).find("the constant of the law is 0"), std::string::npos);
+  EXPECT_NE(refused(wide<1>(), gravity(1), 1e-3).find("one dimension"), std::string::npos);
+  Box const periodic(Vector{0., 0.}, Vector{1., 1.}, {Boundary::open, Boundary::periodic});
+  EXPECT_NE(refused(periodic, gravity(1), 1e-3).find("axis y is periodic"), std::string::npos);
+  MultipoleScheme scheme(open, gravity(1), 1e-3);
+  Ensemble<Coulomb<3>> charges("charges", 3);
+  EXPECT_NE(message([&] { scheme.add(charges); }).find("class Coulomb of 'charges' repels its like"),
+            std::string::npos);
+  EXPECT_NE(message([&] { scheme.make_reversible(1e-9); }).find("use leap-frog"), std::string::npos);
+}
+
+// What a tree needs: any leaf holds all that are at one place, and no two neighbouring numbers are divided for ever.
+TEST(MultipoleTree, EndsAtNeighbouringNumbers) {
+  Tree<2> tree;
+  std::vector<Tree<2>::Point> points(300);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].position = {1.0, i % 2 == 0 ? 1.0 : std::nextafter(1.0, 2.0)};
+    points[i].amount = 1;
+  }
+  tree.build(points, 16, 1);
+  std::size_t leaves = 0;
+  for (auto const& node : tree.nodes())
+    if (node.leaf()) leaves += node.size();
+  EXPECT_EQ(leaves, 300U);
+  EXPECT_LE(tree.nodes().size(), 3U);
+  std::vector<std::uint32_t> numbers = tree.numbers();
+  std::sort(numbers.begin(), numbers.end());
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(numbers[i], i);
+}
+
+}  // namespace
+}  // namespace boltzmann::multipole_test
