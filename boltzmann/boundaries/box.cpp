@@ -271,13 +271,15 @@ class Box::Reflection {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t i, int a, double x) const {
+  /// `kept_in`: the box, or a region.
+  [[noreturn]] void fail(std::size_t i, int a, double x, char const* kept_in, double low, double high) const {
     if (!std::isfinite(x))
       throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles_, i)));
-    auto const told = [&](double place) { return box_.base_.text(place, dimensions::length); };
+    Dimension const unit = particles_.fields().front().dimension;  // of what moves: a length, an angle
+    auto const told = [&](double place) { return box_.base_.text(place, unit); };
     throw PhysicsFailure(
-        fmt::format("{} escaped: {} = {} is further out of the box, {} to {}, than one step should bring it",
-                    who(particles_, i), "xyz"[a], told(x), told(box_.low_[a]), told(box_.high_[a])));
+        fmt::format("{} escaped: {} = {} is further out of the {}, {} to {}, than one step should bring it",
+                    who(particles_, i), "xyz"[a], told(x), kept_in, told(low), told(high)));
   }
 
   /// The work done on the particle; in the frame of the wall it is an elastic reflection.
@@ -316,17 +318,19 @@ class Box::Reflection {
     } else if (*x != high) {
       work = push_off(i, a, *x < low ? End::low : End::high);
     }
-    if (!(*x >= low && *x <= high)) fail(i, a, before);
+    if (!(*x >= low && *x <= high)) fail(i, a, before, "box", low, high);
     return work;
   }
 
   void keep_in(Region const& region, std::size_t i, double* x, double* v) const {
     for (int a = 0; a < box_.dimension_; ++a) {
-      if (x[a] < region.low[a])
+      double const before = x[a];
+      if (before < region.low[a])
         reflect(region.low[a], x + a, v ? v + a : nullptr);
-      else if (x[a] > region.high[a])
+      else if (before > region.high[a])
         reflect(region.high[a], x + a, v ? v + a : nullptr);
-      if (!(x[a] >= region.low[a] && x[a] <= region.high[a])) fail(i, a, x[a]);
+      if (!(x[a] >= region.low[a] && x[a] <= region.high[a]))
+        fail(i, a, before, "region", region.low[a], region.high[a]);
     }
   }
 

@@ -209,7 +209,7 @@ TEST(Boundaries, WhoIsFarOutsideHasEscaped) {
       auto const text = message<PhysicsFailure>([&] { box.apply(e); });
       expect_parts(text, {"particle 2 of 'gas'"});
       if (std::isfinite(y))
-        expect_parts(text, {"escaped", "y = ", "[0, 1]", "smaller step"});
+        expect_parts(text, {"escaped", "y = ", "the box, 0 to 1, than one step"});
       else
         expect_parts(text, {"not finite"});
     }
@@ -495,7 +495,9 @@ TEST(Regions, KeepInRefusesWhatOneReflectionDoesNotBringBack) {
   Ensemble<Newton<1>> e("e", 2);
   e[0].position = {5};
   e[1].position = {8.5};
-  expect_parts(message<PhysicsFailure>([&] { box.apply(e); }), {"particle 1 of 'e'", "escaped"});
+  box.speak_in(UnitSystem(1 * units::angstrom, 1 * units::amu, 1 * units::picosecond));
+  expect_parts(message<PhysicsFailure>([&] { box.apply(e); }),
+               {"particle 1 of 'e' escaped: x = 8.5 angstrom is further out of the region, 4 angstrom to 6 angstrom"});
 }
 
 // ---- refusals -----------------------------------------------------------------------------------------------------

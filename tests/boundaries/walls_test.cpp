@@ -192,7 +192,7 @@ TEST(ReflectingWalls, WhoIsFarBehindHasEscaped) {
     auto const text = message<PhysicsFailure>([&] { box.apply(e); });
     expect_parts(text, {"particle 1 of 'gas'"});
     if (std::isfinite(x))
-      expect_parts(text, {"escaped", "x = ", "[1, 3.5]", "smaller step"});
+      expect_parts(text, {"escaped", "x = ", "the box, 1 to 3.5, than one step"});
     else
       expect_parts(text, {"not finite"});
   }

@@ -405,6 +405,20 @@ TEST(P3MErrors, AreOneLine) {
   EXPECT_TRUE(has(failure([&] { flat.calculate(); }), "can't be reached")) << failure([&] { flat.calculate(); });
 }
 
+TEST(P3MErrors, PairsBesideTheMeshWarnOfLongStepsInUnits) {
+  Ensemble<Coulomb<3>> charges("charges", 2);
+  charges[0].charge = 1, charges[1].charge = -1, charges[1].position = {0.5, 0.0, 0.0};
+  charges[0].velocity = {10.0, 0.0, 0.0}, charges[1].velocity = {-10.0, 0.0, 0.0};
+  P3MScheme scheme(box_of(filled<3>(1.0), Boundary::periodic), coulomb(1), 1e-3);
+  scheme.add(charges);
+  scheme.pairs().internal(charges, LennardJones{1, 0.1}, 0.3);
+  scheme.speak_in(UnitSystem(1 * units::angstrom, 1 * units::amu, 1 * units::picosecond));
+  EXPECT_NEAR(scheme.collision_step(), 0.00083, 1e-12);  // a quarter of 0.1 at three thermal speeds, two digits
+  EXPECT_TRUE(has(scheme.warnings(0.1).front(), "particles of 'charges' meet at speeds up to 30 angstrom/ps"))
+      << scheme.warnings(0.1).front();
+  EXPECT_EQ(scheme.warnings(1e-4).size(), 1U) << "nothing but what P3M has chosen";
+}
+
 TEST(P3MErrors, LostParticle) {
   Ensemble<Coulomb<3>> charges("charges", 2);
   charges[0].charge = 1, charges[1].charge = -1, charges[1].position = {0.5, 0.0, 0.0};

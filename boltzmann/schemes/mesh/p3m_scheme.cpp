@@ -271,12 +271,15 @@ std::string P3MScheme::report() const {
   return text;
 }
 
-std::vector<std::string> P3MScheme::warnings(double) {
+std::vector<std::string> P3MScheme::warnings(double step_size) {
   P3mParameters const& chosen = parameters();
   std::string cells;
   for (int a = 0; a < box().dimension(); ++a) cells += fmt::format("{}{}", a ? " x " : "", chosen.cells[a]);
-  return {fmt::format("P3M for {:.1e}: mesh of {} cells, order {}, alpha {:.4g}, near pairs within {:.4g}", accuracy_,
-                      cells, chosen.order, chosen.alpha, chosen.cutoff)};
+  pairs().speak_in(spoken_units());
+  auto lines = pairs().warnings(step_size);
+  lines.push_back(fmt::format("P3M for {:.1e}: mesh of {} cells, order {}, alpha {:.4g}, near pairs within {:.4g}",
+                              accuracy_, cells, chosen.order, chosen.alpha, chosen.cutoff));
+  return lines;
 }
 
 std::vector<double> P3MScheme::state() const {

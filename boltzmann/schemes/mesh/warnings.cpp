@@ -40,7 +40,8 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, SourceKind const& kin
 }  // namespace
 
 std::vector<std::string> MeshScheme::warnings(double step_size) {
-  std::vector<std::string> lines;
+  pairs_.speak_in(spoken_units());
+  std::vector<std::string> lines = pairs_.warnings(step_size);
   auto const time = [&](double number) { return spoken_units().text(number, dimensions::time, 3); };
   MeshGrid const grid = make_grid(box(), cells_);
   double widest = 0, particles = 0, frequency2 = 0, crossing = 0;
@@ -83,7 +84,7 @@ std::vector<std::string> MeshScheme::warnings(double step_size) {
           fmt::format("warning: {}; the mesh will heat the plasma until the Debye length is about {} of a "
                       "cell: take a finer mesh{}",
                       cold ? "a species is cold" : fmt::format("the Debye length is {:.3g} of a cell", debye), quiet,
-                      order_ < 3 ? " or a higher assignment" : ""));
+                      order_ < 3 ? " or a smoother assignment" : ""));
     if (per_step > 2)
       lines.push_back(fmt::format("warning: wp dt is {:.3g}; above 2 the leap-frog is unstable: take a step below {}",
                                   per_step, time(0.2 * std::abs(step_size) / per_step)));
