@@ -74,7 +74,7 @@ std::vector<LoadKind> make_kinds() {
       {"sinusoidal", "a density with a wave", true,
        of({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}, {"amplitude"}, {"quiet"}})},
       {"barometric", "the barometric density along the last axis", true, of({{"temperature"}, {"acceleration"}})},
-      {"plummer", "Plummer's cluster of stars, at rest in its own gravity, with masses and velocities", true,
+      {"plummer-sphere", "Plummer's cluster of stars, at rest in its own gravity, with masses and velocities", true,
        of({{"mass"}, {"radius"}, {"G"}, {"centre"}, {"drift"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file", "an XYZ file; its `Lattice` has to be the box along axes that are periodic in both (`pbc`)", false,

@@ -135,7 +135,7 @@ void Loader::load(AnyEnsemble& particles) {
                      .gravity = options_.acceleration,
                      .boltzmann_constant = reading_.boltzmann_constant(),
                      .seed = seed});
-  } else if (kind == "plummer") {
+  } else if (kind == "plummer-sphere") {
     std::array<double, 3> const none{0, 0, 0};
     double const newton = reading_.context.base.is_reduced() ? 1 : reading_.context.base(constants::gravitation);
     plummer_load(particles, {.mass = options_.mass,

@@ -119,7 +119,7 @@ TEST(Examples, ThreeBodiesComeBackAfterOnePeriod) {
   EXPECT_NE(example.out().find("after one period"), std::string::npos);
 }
 
-// 2 T + W = 0, T = 1/4: those of a cluster in equilibrium, to the noise of 5000 stars.
+// 2 T + W = 0, T = 1/4: those of a cluster in equilibrium, to the noise of 3000 stars.
 TEST(Examples, PlummersClusterStaysAsItIs) {
   Example const example("plummer");
   ASSERT_TRUE(example.good());
