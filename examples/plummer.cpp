@@ -12,7 +12,7 @@ void plummer(Program& program) {
   MultipoleScheme scheme(Box({-2, -2, -2}, {2, 2, 2}), gravity(1, 0.05), 5e-3);
   scheme.add(stars);
   Simulation simulation(scheme, 0.025);
-  auto const virial = [&] { return -0.5 * simulation.measure().potential / kinetic_energy(simulation.ensembles()); };
+  auto const virial = [&] { return -0.5 * simulation.measure().potential / kinetic_energy(stars); };
   auto const inside = [&] {  // half of the mass is within 1.305 radius
     return mean(stars, [&](auto const& p) { return magnitude(p.position) < 1.305 * radius ? 1.0 : 0.0; });
   };

