@@ -21,8 +21,8 @@ MultipoleKernels kernels_for(int dimension) {
 
 /// Pairs that take as long as one translation of an expansion.
 double pairs_of_a_translation(int dimension, int order) {
-  double const n = order + 1;
-  return dimension == 3 ? 60 + 0.2 * n * n * n : 20 + n * n;
+  double const p = order;
+  return dimension == 3 ? 50 + 4.6 * p * p : 20 + p * p;
 }
 
 /// And as long as to evaluate one at one particle.
@@ -355,6 +355,11 @@ std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particle
   for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
              [&](std::size_t begin, std::size_t end) { kernels_.near(&law_, task, begin, end); });
   return field;
+}
+
+template <int D>
+double MultipoleField<D>::work() const {
+  return static_cast<double>(cost_.pairs) + static_cast<double>(cost_.translations) * pairs_of_a_translation_;
 }
 
 template <int D>

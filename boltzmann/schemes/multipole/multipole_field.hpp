@@ -50,6 +50,8 @@ class MultipoleField {
   std::vector<double> direct(std::vector<Point> const& particles, std::vector<std::size_t> const& chosen,
                              int threads) const;
   MultipoleCost const& cost() const { return cost_; }
+  /// The same in one number: pairs that take about as long.
+  double work() const;
   std::size_t bytes() const;
 
  private:

@@ -51,6 +51,7 @@ struct MultipoleScheme::Engine {
   virtual std::vector<double> const& potential() const = 0;
   virtual MultipoleChoice const& choice() const = 0;
   virtual MultipoleCost const& cost() const = 0;
+  virtual double work() const = 0;  ///< of the last calculation, in pairs
   virtual std::size_t bytes() const = 0;
 };
 
@@ -94,6 +95,7 @@ struct MultipoleScheme::EngineIn final : Engine {
   std::vector<double> const& potential() const override { return multipoles.potential(); }
   MultipoleChoice const& choice() const override { return multipoles.choice(); }
   MultipoleCost const& cost() const override { return multipoles.cost(); }
+  double work() const override { return multipoles.work(); }
   std::size_t bytes() const override { return multipoles.bytes() + points.capacity() * sizeof(Point); }
 
   MultipoleField<D> multipoles;
@@ -211,19 +213,31 @@ void MultipoleScheme::tune(bool with_potential) {
   // What one interaction may do at worst: seldom, but a few particles with such errors are not seen among the samples.
   double const most = worst_of_one * tolerance_ * field;
   criterion_ = criterion_ == 0 ? 4 * tolerance_ * field : std::min(criterion_, most);
-  for (int attempt = 0;; ++attempt) {
+  // A lower order is tried where the error is still far below: it may be cheaper, though it leaves more to pairs.
+  double cheapest = 0;  // what the order before took; 0: there was none
+  auto const calculate = [&] {
     engine_->choose({order_, leaf, criterion_});
     engine_->calculate(with_potential, threads());
     measured_ = error_of(chosen, exact);
+  };
+  for (int attempt = 0;; ++attempt) {
+    calculate();
     bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
-    if (engine_->cost().translations == 0 || (enough && (!too_much || attempt >= 8))) return;
-    double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
-    if (enough && criterion_ >= most) {  // then a lower order is enough
-      if (order_ == 2) return;
-      --order_;
+    double const cost = engine_->work();
+    if (cheapest > 0 && !(enough && cost < cheapest)) {
+      ++order_;
+      return calculate();
     }
-    criterion_ =
-        enough ? std::min(criterion_ * std::min(change, 20.0), most) : criterion_ * std::max(0.8 * change, 0.01);
+    if (engine_->cost().translations == 0 || (enough && (!too_much || attempt >= 12))) return;
+    double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
+    if (enough && criterion_ >= most) {
+      if (order_ == 2) return;
+      cheapest = cost;
+      --order_;
+    } else {
+      criterion_ =
+          enough ? std::min(criterion_ * std::min(change, 20.0), most) : criterion_ * std::max(0.8 * change, 0.01);
+    }
   }
 }
 
