@@ -22,7 +22,8 @@ std::size_t sample_count(std::size_t particles) {
 }
 
 constexpr std::size_t checked_every = 64;
-constexpr double worst_of_one = 8;  // times the tolerance
+/// Times the mean: where a sample is further off, a few particles may have errors that no sample shows.
+constexpr double usual_largest = 5;
 
 /// Below, to sum all pairs is as fast.
 constexpr std::size_t summed_directly = 1500;
@@ -154,22 +155,25 @@ double MultipoleScheme::typical_square(std::vector<double> squares) {
   return kept > 0 ? sum.value() / static_cast<double>(kept) : 0;
 }
 
-/// The error of the last calculation for the samples, as a part of what they feel; 0 where they feel nothing.
-double MultipoleScheme::error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const {
+MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t> const& chosen,
+                                                        std::vector<double> const& exact) const {
   auto const D = static_cast<std::size_t>(box().dimension());
   CompensatedSum errors;
+  double largest = 0;
   std::vector<double> squares;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     double const strength = engine_->strength(chosen[k]);
-    double sum = 0;
+    double sum = 0, error = 0;
     for (std::size_t a = 0; a < D; ++a) {
-      errors += square(strength * (engine_->field()[chosen[k] * D + a] - exact[k * D + a]));
+      error += square(strength * (engine_->field()[chosen[k] * D + a] - exact[k * D + a]));
       sum += square(strength * exact[k * D + a]);
     }
+    errors += error;
+    largest = std::max(largest, error);
     squares.push_back(sum);
   }
-  double const typical = typical_square(squares);
-  return typical > 0 ? std::sqrt(errors.value() / static_cast<double>(chosen.size()) / typical) : 0;
+  double const typical = typical_square(squares), mean = errors.value() / static_cast<double>(chosen.size());
+  return {typical > 0 ? std::sqrt(mean / typical) : 0, mean > 0 ? std::sqrt(largest / mean) : 0};
 }
 
 std::vector<std::size_t> MultipoleScheme::choose_samples() const {
@@ -210,29 +214,33 @@ void MultipoleScheme::tune(bool with_potential) {
     engine_->calculate(with_potential, threads());
     return;
   }
-  // What one interaction may do at worst: seldom, but a few particles with such errors are not seen among the samples.
-  double const most = worst_of_one * tolerance_ * field;
-  criterion_ = criterion_ == 0 ? 4 * tolerance_ * field : std::min(criterion_, most);
+  if (criterion_ == 0) criterion_ = 4 * tolerance_ * field;
   // A lower order is tried where the error is still far below: it may be cheaper, though it leaves more to pairs.
-  double cheapest = 0;  // what the order before took; 0: there was none
+  struct {
+    int order;
+    double criterion, cost;
+  } before{0, 0, 0};
+  double most = 0;  // that one interaction may do at worst
   auto const calculate = [&] {
     engine_->choose({order_, leaf, criterion_});
     engine_->calculate(with_potential, threads());
-    measured_ = error_of(chosen, exact);
+    SampledError const error = error_of(chosen, exact);
+    measured_ = error.mean;
+    most = (error.largest < usual_largest ? 100 : 8) * tolerance_ * field;
   };
   for (int attempt = 0;; ++attempt) {
     calculate();
     bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
     double const cost = engine_->work();
-    if (cheapest > 0 && !(enough && cost < cheapest)) {
-      ++order_;
+    if (before.order > 0 && !(enough && cost < before.cost)) {
+      order_ = before.order, criterion_ = before.criterion;
       return calculate();
     }
     if (engine_->cost().translations == 0 || (enough && (!too_much || attempt >= 12))) return;
     double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
     if (enough && criterion_ >= most) {
       if (order_ == 2) return;
-      cheapest = cost;
+      before = {order_, criterion_, cost};
       --order_;
     } else {
       criterion_ =
@@ -321,7 +329,7 @@ MultipoleAccuracy MultipoleScheme::accuracy() {
   bool const direct = engine_->cost().translations == 0;
   MultipoleAccuracy accuracy;
   if (!direct) {
-    accuracy.measured = error_of(chosen, engine_->exact(chosen, threads()));
+    accuracy.measured = error_of(chosen, engine_->exact(chosen, threads())).mean;
     accuracy.order = engine_->choice().order;
   }
   accuracy.nodes = engine_->cost().nodes;

@@ -81,7 +81,12 @@ class MultipoleScheme final : public Scheme {
   std::vector<std::size_t> choose_samples() const;
   std::size_t leaf() const;
   static double typical_square(std::vector<double> squares);
-  double error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const;
+  /// The error of the last calculation for samples, as a part of what they feel (0 where they feel nothing); the largest
+  /// over that mean.
+  struct SampledError {
+    double mean, largest;
+  };
+  SampledError error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const;
   void tune(bool with_potential);
 
   LaplaceLaw law_;
