@@ -80,7 +80,7 @@ double time_of(std::size_t count, double tolerance, bool cluster, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::size_t const most = argc > 1 ? static_cast<std::size_t>(std::atof(argv[1])) : 1'000'000;
+  std::size_t const most = argc > 1 ? static_cast<std::size_t>(std::atof(argv[1])) : 100'000;
   for (bool const cluster : {false, true})
     for (double const tolerance : {1e-3, 1e-6, 1e-9}) {
       double before = 0;
