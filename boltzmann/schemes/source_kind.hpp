@@ -2,6 +2,7 @@
 // says.
 #pragma once
 
+#include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
 
@@ -31,6 +32,9 @@ struct SourceKind {
   double sign = 0;             ///< +1: equal strengths repel, -1: they attract, 0: the class does not say
   bool newton = false;         ///< equations of motion are Newton's, and no other field evolves
   int mass = 0, velocity = 0;  ///< where they stand in the row
+
+  /// Error, beginning with the scheme's name, if the class and a law with this constant disagree on who attracts whom.
+  void check(AnyEnsemble const& ensemble, double constant, char const* scheme) const;
 };
 
 template <class P>

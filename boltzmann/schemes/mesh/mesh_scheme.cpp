@@ -134,11 +134,7 @@ void MeshScheme::form(PoissonForm form) {
 void MeshScheme::background(bool yes) { background_ = yes; }
 
 void MeshScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) {
-  if (kind.sign * law_.constant < 0)
-    throw Error(fmt::format("mesh: class {} of '{}' {}, but with the constant {} equal strengths {}; use {}",
-                            ensemble.class_name(), ensemble.name(), kind.sign > 0 ? "repels its like" : "attracts",
-                            law_.constant, law_.constant > 0 ? "repel" : "attract",
-                            kind.sign > 0 ? "coulomb(k)" : "gravity(G)"));
+  kind.check(ensemble, law_.constant, "mesh");
   if (std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& l) { return l->ensemble == &ensemble; })) return;
   Scheme::add(ensemble);
   loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kind, {}}));

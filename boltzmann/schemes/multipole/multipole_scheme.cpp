@@ -127,11 +127,7 @@ MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double toleranc
 MultipoleScheme::~MultipoleScheme() = default;
 
 void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) {
-  if (kind.sign * law_.constant < 0)
-    throw Error(fmt::format("multipoles: class {} of '{}' {}, but with the constant {} equal strengths {}; use {}",
-                            ensemble.class_name(), ensemble.name(), kind.sign > 0 ? "repels its like" : "attracts",
-                            law_.constant, law_.constant > 0 ? "repel" : "attract",
-                            kind.sign > 0 ? "coulomb(k)" : "gravity(G)"));
+  kind.check(ensemble, law_.constant, "multipoles");
   if (std::any_of(loaded_.begin(), loaded_.end(), [&](Loaded const& one) { return one.ensemble == &ensemble; })) return;
   Scheme::add(ensemble);
   loaded_.push_back({&ensemble, kind, {}});

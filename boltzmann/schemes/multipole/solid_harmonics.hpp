@@ -44,7 +44,7 @@ class SolidHarmonics {
   template <Translation kind>
   static void translate(ExpansionView const& tables, Vector<3, Real> const& shift, Real from_radius, Real to_radius,
                         Real* in, Real* out) {
-    Turn const turn(tables.order, shift);
+    Turn turn(tables.order, shift);
     Axis axis;
     axis.template prepare<kind>(tables.order, turn.distance, turn.inverse, from_radius, to_radius);
     about_z(tables.order, turn.cos_first, turn.sin_first, in);
@@ -52,10 +52,11 @@ class SolidHarmonics {
     about_z(tables.order, turn.cos_second, turn.sin_second, out);
     exchange(tables, out, in);
     along_z<kind>(tables, axis, in, out);
+    turn.reverse(tables.order);
     exchange(tables, out, in);
-    back_about_z(tables.order, turn.cos_second, turn.sin_second, in);
+    about_z(tables.order, turn.cos_second, turn.sin_second, in);
     exchange(tables, in, out);
-    back_about_z(tables.order, turn.cos_first, turn.sin_first, out);
+    about_z(tables.order, turn.cos_first, turn.sin_first, out);
   }
 
   /// Adds strength Y_n^m(y) of W particles to sums, without the factors of the tables.
@@ -141,6 +142,11 @@ class SolidHarmonics {
              cos_second, sin_second);
     }
 
+    /// From then on the turns lead back.
+    void reverse(int order) {
+      for (int m = 1; m <= order; ++m) sin_first[m] = -sin_first[m], sin_second[m] = -sin_second[m];
+    }
+
     static void powers(int order, Real c, Real s, Real* cosines, Real* sines) {
       cosines[0] = 1.0, sines[0] = 0.0;
       for (int m = 1; m <= order; ++m) {
@@ -187,15 +193,6 @@ class SolidHarmonics {
         Real &re = numbers[real_at(n, m)], &im = numbers[imaginary_at(n, m)];
         Real const turned = re * cosines[m] + im * sines[m];
         im = im * cosines[m] - re * sines[m];
-        re = turned;
-      }
-  }
-  static void back_about_z(int order, Real const* cosines, Real const* sines, Real* numbers) {
-    for (int n = 1; n <= order; ++n)
-      for (int m = 1; m <= n; ++m) {
-        Real &re = numbers[real_at(n, m)], &im = numbers[imaginary_at(n, m)];
-        Real const turned = re * cosines[m] - im * sines[m];
-        im = im * cosines[m] + re * sines[m];
         re = turned;
       }
   }
