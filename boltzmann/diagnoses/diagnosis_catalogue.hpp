@@ -25,8 +25,8 @@ std::vector<DiagnosisKind> const& diagnosis_kinds();
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or
 /// missing, or a parameter is given that the kind does not look at.
 ///
-/// Where a law gives no energy (EnergyAndVirial::unknown), energies are NaN and the columns stay; likewise a mean over no
-/// particles.
+/// Where a law gives no energy (EnergyAndVirial::unknown), energies are NaN and the columns stay; likewise a mean over
+/// no particles.
 std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters);
 
 }  // namespace boltzmann

@@ -14,7 +14,8 @@ struct HeatFluxOptions {
   double since = 0;         ///< means and spreads are taken from this time on
 };
 
-/// Temperature of the wall at the low end of an axis less that at its high end. Error if they have no different temperatures.
+/// Temperature of the wall at the low end of an axis less that at its high end. Error if they have no different
+/// temperatures.
 double temperature_difference(Box const& box, int axis);
 
 /// Means over the whole layer of length L between walls at temperatures T0 (low end) and T1 (high end):

@@ -1,8 +1,9 @@
 // Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
 //
-// Numbers are in the simulation's units, of the state as it stands. Every function is a compensated sum in the order of the particles, so that results do not depend on threads. What a
-// class does not have does not count: an ensemble without mass or velocity (Tracer particles, vortices) adds nothing to
-// mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0.
+// Numbers are in the simulation's units, of the state as it stands. Every function is a compensated sum in the order of
+// the particles, so that results do not depend on threads. What a class does not have does not count: an ensemble
+// without mass or velocity (Tracer particles, vortices) adds nothing to mass, momentum, kinetic energy and temperature.
+// Components beyond the dimension are 0.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -50,8 +51,8 @@ bool has_velocities(AnyEnsemble const& ensemble);
 /// The field "velocity", or the influence in a class without one (Tracer); a view. Error if the class has neither.
 Velocities velocities_of(AnyEnsemble const& ensemble);
 
-/// The mean of what(p) over the particles p of an ensemble for which where(p) holds, without `where` over all of them: a
-/// number or a Vector; NaN of none.
+/// The mean of what(p) over the particles p of an ensemble for which where(p) holds, without `where` over all of them:
+/// a number or a Vector; NaN of none.
 ///   double const error = mean(gas, [&](auto const& p) { return magnitude(p.velocity - exact(p.position)); });
 template <class P, class What, class Where>
 auto mean(Ensemble<P> const& ensemble, What const& what, Where const& where) {

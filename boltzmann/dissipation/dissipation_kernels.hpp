@@ -44,8 +44,8 @@ struct DissipationTask {
   PairNoise noise;
 };
 
-/// A pair, for Shardlow's splitting: rows of the two, and the row (an image, perhaps) where the second stands as seen by the
-/// first.
+/// A pair, for Shardlow's splitting: rows of the two, and the row (an image, perhaps) where the second stands as seen
+/// by the first.
 struct DissipationPair {
   std::uint32_t first, second, seen;
 };

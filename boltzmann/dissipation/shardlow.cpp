@@ -1,4 +1,5 @@
-// Shardlow's splitting: one pair after the other, each by an implicit step that keeps its momentum and its energy (Shardlow).
+// Shardlow's splitting: one pair after the other, each by an implicit step that keeps its momentum and its energy
+// (Shardlow).
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/core/threads.hpp>

@@ -50,8 +50,8 @@ class TextFile {
 /// The whole content of a file; Error if it can't be read.
 std::string read_text(std::string const& path);
 
-/// A new file that is there whole or not at all: path + ".part", which gets its name when it is finished, and goes if it
-/// is not.
+/// A new file that is there whole or not at all: path + ".part", which gets its name when it is finished, and goes if
+/// it is not.
 class PartFile {
  public:
   explicit PartFile(std::string path) : path_(std::move(path)), file_(path_ + ".part", TextFile::Mode::replace) {}

@@ -65,9 +65,9 @@ std::vector<std::array<double, 3>> filling_sites(Filling const& filling, int dim
 /// The length, area or volume that each site has.
 double site_volume(Filling const& filling, int dimension);
 
-/// Puts particle k on site k; an ensemble without particles gets one for each site, and is drawn with the diameter of the
-/// spacing unless it has one. Returns how many were placed: all of the ensemble. Error if it has particles, but not as
-/// many as there are sites.
+/// Puts particle k on site k; an ensemble without particles gets one for each site, and is drawn with the diameter of
+/// the spacing unless it has one. Returns how many were placed: all of the ensemble. Error if it has particles, but not
+/// as many as there are sites.
 ///   block_load(atoms, {Lattice::triangular, r0, {25, 10}})
 std::size_t block_load(AnyEnsemble& ensemble, LatticeBlock const& block);
 /// The same on the sites of a filling; each particle gets its share of the mass where a density is given, and the range

@@ -1,5 +1,5 @@
-// Plummer's sphere: a cluster of stars in equilibrium with its own gravity (Plummer 1911; Aarseth, Henon and Wielen 1974,
-// Astron. Astrophys. 37:183).
+// Plummer's sphere: a cluster of stars in equilibrium with its own gravity (Plummer 1911; Aarseth, Henon and Wielen
+// 1974, Astron. Astrophys. 37:183).
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -18,9 +18,9 @@ struct PlummerOptions {
   std::uint64_t seed = 1;
 };
 
-/// Gives each particle the same share of the mass, a position of the density 3 M / (4 pi a^3) (1 + r^2/a^2)^(-5/2), and a
-/// velocity of the distribution f ~ (-E)^(7/2) in which the cluster stays as it is; its potential energy is -(3 pi / 32)
-/// G M^2 / a, twice its kinetic energy. Centre of mass and momentum are then those that were asked for, exactly.
+/// Gives each particle the same share of the mass, a position of the density 3 M / (4 pi a^3) (1 + r^2/a^2)^(-5/2), and
+/// a velocity of the distribution f ~ (-E)^(7/2) in which the cluster stays as it is; its potential energy is -(3 pi /
+/// 32) G M^2 / a, twice its kinetic energy. Centre of mass and momentum are then those that were asked for, exactly.
 /// Error if space has not three dimensions, the class has no mass or velocity, or mass, radius or G is not positive.
 void plummer_load(AnyEnsemble& ensemble, PlummerOptions const& options);
 

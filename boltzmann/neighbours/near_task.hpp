@@ -15,9 +15,9 @@ inline constexpr std::size_t list_padding = 8;
 /// What kernels may read behind the last candidate.
 inline constexpr std::size_t candidate_padding = 16;
 
-/// Positions are compared as whole numbers of steps, so many in the reach of a sorted copy, modulo 2^32: differences are
-/// exact, however far from the origin, and where two that are 4096 reaches apart look near, the pair kernel's cut-off
-/// knows better.
+/// Positions are compared as whole numbers of steps, so many in the reach of a sorted copy, modulo 2^32: differences
+/// are exact, however far from the origin, and where two that are 4096 reaches apart look near, the pair kernel's
+/// cut-off knows better.
 inline constexpr double steps_of_reach = 1 << 20;
 
 /// Where candidates are: columns of positions, `candidate_padding` readable ones behind them, and the item of each.

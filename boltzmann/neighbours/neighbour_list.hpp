@@ -12,10 +12,10 @@
 
 namespace boltzmann {
 
-/// The full list: for every owned row of a target sorted copy the rows of a source sorted copy, owned and ghosts, that were
-/// within cutoff + skin of it, by the references of both; not itself. An entry is item_of_row() of a source row. A row
-/// begins with those within cutoff + skin / 4, then come rings to cutoff + 2 skin / 4, ... (ascending; `list_rings` in
-/// all): while nothing has moved further than half a ring's share of the skin, what lies behind that ring can't be
+/// The full list: for every owned row of a target sorted copy the rows of a source sorted copy, owned and ghosts, that
+/// were within cutoff + skin of it, by the references of both; not itself. An entry is item_of_row() of a source row. A
+/// row begins with those within cutoff + skin / 4, then come rings to cutoff + 2 skin / 4, ... (ascending; `list_rings`
+/// in all): while nothing has moved further than half a ring's share of the skin, what lies behind that ring can't be
 /// within the cut-off, and isn't read. Rows are padded with the source's sentinel.
 class NeighbourList {
  public:

@@ -18,9 +18,9 @@ namespace boltzmann {
 /// Why lists of this cut-off can't have so long a skin, in one line; empty if they can.
 std::string skin_refused(double cutoff, double skin);
 
-/// One sorted copy for each ensemble, and lists between them, each with a cut-off of its own. Lists reach cutoff + skin;
-/// they are built anew when particles have moved too far for that, and around a few particles that are ahead of all
-/// others (knock-on atoms) neighbours are found anew alone.
+/// One sorted copy for each ensemble, and lists between them, each with a cut-off of its own. Lists reach cutoff +
+/// skin; they are built anew when particles have moved too far for that, and around a few particles that are ahead of
+/// all others (knock-on atoms) neighbours are found anew alone.
 class Neighbourhood {
  public:
   /// The box outlives the neighbourhood. `cutoff` is what the default skin, 0.12 of a cut-off, is a share of; without

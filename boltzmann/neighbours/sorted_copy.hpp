@@ -1,5 +1,5 @@
-// SortedCopy: a scheme's own copy of an ensemble, sorted in space, with the images (ghosts) of periodic axes and of walls
-// behind the owned particles.
+// SortedCopy: a scheme's own copy of an ensemble, sorted in space, with the images (ghosts) of periodic axes and of
+// walls behind the owned particles.
 #pragma once
 
 #include <boltzmann/boundaries/images.hpp>
@@ -55,9 +55,9 @@ class SortedCopy {
   /// And with walls where they stood at an earlier build (built_edges()).
   void build(double reach, std::span<double const> references, Box::Edges const& edges, int threads = 1);
 
-  /// Copies the ensemble's rows of now into the sorted copy's order and moves the images along, those beyond walls as the
-  /// walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the last
-  /// time. PhysicsFailure if a position is not finite.
+  /// Copies the ensemble's rows of now into the sorted copy's order and moves the images along, those beyond walls as
+  /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
+  /// last time. PhysicsFailure if a position is not finite.
   bool refresh(int threads);
   /// The images of blocks [first_block, last_block) from their owned rows, for walls as they were at the last refresh.
   void refresh_images(std::size_t first_block, std::size_t last_block, int threads);

@@ -60,8 +60,8 @@ struct Picture {
                                                    ///< for each axis; empty: all
   std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()
   std::optional<int> cells = {};     ///< of the grid, along the longest side of the picture
-  /// Of a profile at most, fewer if they had less than 50 particles in the mean; 300 without it. Of a histogram; without
-  /// it 10 to 200 of a width that fits (see histograms()).
+  /// Of a profile at most, fewer if they had less than 50 particles in the mean; 300 without it. Of a histogram;
+  /// without it 10 to 200 of a width that fits (see histograms()).
   std::optional<int> bins = {};
 };
 

@@ -82,8 +82,8 @@ OptionTable const& members() {
   return table;
 }
 
-/// A further drawing is an entry here with its three functions, which picture_scene.hpp declares and a source of its own
-/// (picture_....cpp) has.
+/// A further drawing is an entry here with its three functions, which picture_scene.hpp declares and a source of its
+/// own (picture_....cpp) has.
 std::vector<Drawing> make_drawings() {  // long: a table, an entry for each drawing
   std::vector<OptionKey> const style{{"colour"}, {"size"}};
   std::vector<OptionKey> const ends{{"low"}, {"high"}};

@@ -48,8 +48,8 @@ class Program {
   /// --hours stops it the program ends: nothing that follows is done. Error if the command line gives a seed that
   /// nothing uses.
   RunReport run(Recording& recording, std::uint64_t steps);
-  /// Runs for a time, or that of the command line, in steps of at most the simulation's that end there exactly. Error if
-  /// it is not positive.
+  /// Runs for a time, or that of the command line, in steps of at most the simulation's that end there exactly. Error
+  /// if it is not positive.
   RunReport run_for(Recording& recording, double time);
 
   /// --help was asked for; what there is, in lines.

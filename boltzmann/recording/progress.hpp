@@ -32,9 +32,9 @@ struct RunReport {
   std::string condition;       ///< of Recording::stop_when, if it has ended the run; else empty
 };
 
-/// Says what schemes and dissipations advise (Scheme::warnings, Dissipation::warnings; if quiet, their warnings only), and runs with a
-/// progress line, both on standard error: on a terminal one that is rewritten five times a second, elsewhere one line
-/// for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
+/// Says what schemes and dissipations advise (Scheme::warnings, Dissipation::warnings; if quiet, their warnings only),
+/// and runs with a progress line, both on standard error: on a terminal one that is rewritten five times a second,
+/// elsewhere one line for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
 RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});
 
 /// "2.3 s", "3 min 05 s", "2 h 07 min".

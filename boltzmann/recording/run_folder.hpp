@@ -16,7 +16,8 @@ class RunFolder {
   std::string const& name() const { return name_; }
   std::string path(std::string const& file) const { return name_ + "/" + file; }
 
-  /// Error if a run can't begin here: it can't be written, or holds a run that is not to be overwritten. Writes nothing.
+  /// Error if a run can't begin here: it can't be written, or holds a run that is not to be overwritten. Writes
+  /// nothing.
   void check() const;
   /// Makes and locks it, and removes what an older run has left, these further files too.
   void begin(std::span<std::string const> others);

@@ -45,8 +45,8 @@ struct BoundMaterial {
   std::shared_ptr<void const> material;
 };
 
-/// For fluids (class Smooth) and solids (class Solid). Error, "ideal-gas: specific_heat = 0 must be positive", if the numbers
-/// don't go together.
+/// For fluids (class Smooth) and solids (class Solid). Error, "ideal-gas: specific_heat = 0 must be positive", if the
+/// numbers don't go together.
 BoundMaterial bind_material(MaterialChoice const& choice, Matter matter, int dimension);
 
 }  // namespace boltzmann

@@ -168,8 +168,8 @@ void load_schemes(Reading& reading);
 void add_to_mesh(Item const& table, Reading& reading);
 void add_to_multipole(Item const& table, Reading& reading);
 void add_to_smooth(Item const& table, Reading& reading);
-/// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit. False: something is
-/// wrong with those that are there.
+/// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit. False: something
+/// is wrong with those that are there.
 bool add_sources(Item const& table, char const* heading, double constant,
                  std::function<void(AnyEnsemble&, SourceKind const&)> const& add, Reading& reading);
 /// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.

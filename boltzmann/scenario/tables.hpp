@@ -65,7 +65,8 @@ struct OutputOptions {
 };
 OptionTable const& output_options();
 
-/// [box] and [[influences]], which are read by code of their own (box and run: read_space.cpp); beside these keys, influences have parameters.
+/// [box] and [[influences]], which are read by code of their own (box and run: read_space.cpp); beside these keys,
+/// influences have parameters.
 OptionTable const& box_options();
 OptionTable const& influence_options();
 /// Of [[dissipation]] between pairs, beside the keys of its kind.

@@ -103,8 +103,8 @@ class Scheme {
   /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite
   /// if unknown.
   virtual double length_scale(AnyEnsemble const& ensemble) const = 0;
-  /// The step in which particles that meet at the speeds they have come a quarter of their law's length closer: a longer
-  /// one does not follow them, forces may need a shorter one. Infinite if unknown.
+  /// The step in which particles that meet at the speeds they have come a quarter of their law's length closer: a
+  /// longer one does not follow them, forces may need a shorter one. Infinite if unknown.
   virtual double collision_step() const { return __builtin_inf(); }
   /// The longest step that makes sense for the state as it stands (the Courant step); infinite if unknown.
   virtual double longest_step() { return __builtin_inf(); }

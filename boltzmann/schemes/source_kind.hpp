@@ -1,5 +1,5 @@
-// What a scheme of fields (mesh, multipoles) must know of a particle class: its strength, and whether it moves as Newton
-// says.
+// What a scheme of fields (mesh, multipoles) must know of a particle class: its strength, and whether it moves as
+// Newton says.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -17,7 +17,8 @@ concept BeginsWithForce = requires(Influence const& influence) {
   requires std::is_same_v<std::decay_t<decltype(influence.force)>, Vector<D>>;
 };
 
-/// Classes that such a scheme can act on: particles with mass and velocity, whose influence is a force or begins with one.
+/// Classes that such a scheme can act on: particles with mass and velocity, whose influence is a force or begins with
+/// one.
 template <class P>
 concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimension>> ||
                           BeginsWithForce<typename P::Influence, P::dimension>)&&requires(P const& p) {

@@ -13,8 +13,8 @@ namespace boltzmann {
 std::uint64_t rows_checksum(std::span<AnyEnsemble* const> ensembles, bool with_influences = false);
 
 /// While a run goes on nobody else changes particles: influences hold from their calculation until particles move.
-/// Between two runs anybody may change them: influences are then found anew, except those of velocities inside the step,
-/// which can't be had again from its end; they are kept, and hold for rows of the same checksum.
+/// Between two runs anybody may change them: influences are then found anew, except those of velocities inside the
+/// step, which can't be had again from its end; they are kept, and hold for rows of the same checksum.
 class Freshness {
  public:
   /// While it lives, a run goes on.

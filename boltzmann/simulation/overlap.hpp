@@ -1,4 +1,5 @@
-// Overlap: particles that begin too near each other, the usual cause of a failure in the first step. Private to this room.
+// Overlap: particles that begin too near each other, the usual cause of a failure in the first step. Private to this
+// room.
 #pragma once
 
 #include <boltzmann/schemes/scheme.hpp>

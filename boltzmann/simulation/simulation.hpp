@@ -24,12 +24,12 @@ class Simulation {
 
   /// A further scheme that adds its influences (its ensembles may be the same or others).
   void add(Scheme& scheme);
-  /// A dissipation that acts after every step, for the time of the step (it must outlive the simulation). Its ensembles are
-  /// advanced by leap-frog. A run with dissipations can't go backwards.
+  /// A dissipation that acts after every step, for the time of the step (it must outlive the simulation). Its ensembles
+  /// are advanced by leap-frog. A run with dissipations can't go backwards.
   void add(Dissipation& dissipation);
 
-  /// How an ensemble is advanced, if not as its class usually is (usual_method). A class with equations of motion of its
-  /// own has no usual method.
+  /// How an ensemble is advanced, if not as its class usually is (usual_method). A class with equations of motion of
+  /// its own has no usual method.
   template <class P>
   void integrate(Ensemble<P>& ensemble, Method method) {
     integrate(ensemble, make_integrator(ensemble, method));
@@ -57,13 +57,13 @@ class Simulation {
   /// In the order in which they are called.
   std::vector<Adaptation const*> adaptations() const;
 
-  /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this dissipation in
-  /// place of the simulation's own, on velocities relative to the common one of each ensemble: a body is brought to a
-  /// temperature. Nobody observes these steps, they are not counted, and moving walls stand still.
+  /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this
+  /// dissipation in place of the simulation's own, on velocities relative to the common one of each ensemble: a body is
+  /// brought to a temperature. Nobody observes these steps, they are not counted, and moving walls stand still.
   void equilibrate(std::shared_ptr<Dissipation> dissipation, std::uint64_t steps);
 
-  /// Makes ready and refuses what can't run: an ensemble without an integrator, particles where they can't be, influences
-  /// that are not finite (two particles at one place). Error with one line. run() calls it once.
+  /// Makes ready and refuses what can't run: an ensemble without an integrator, particles where they can't be,
+  /// influences that are not finite (two particles at one place). Error with one line. run() calls it once.
   void check();
 
   /// Advances by so many steps; less if stop() is called (from an observer, a signal handler or another thread): the

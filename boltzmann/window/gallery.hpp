@@ -30,8 +30,8 @@ class Gallery {
   /// {"name", "title", "description", "text", "parameters", "absent", "own"}, where the last are keys that its tables
   /// could have, too; of a scenario with mistakes no parameters, but "errors".
   nlohmann::json scenario(std::string const& name) const;
-  /// Would it run? If not, "errors": [{"path": which of those set is wrong, or null, "message"}]. Either way "absent" as
-  /// it is with these values, as far as it is known.
+  /// Would it run? If not, "errors": [{"path": which of those set is wrong, or null, "message"}]. Either way "absent"
+  /// as it is with these values, as far as it is known.
   nlohmann::json check(std::string const& name, nlohmann::json const& set) const;
   /// The same, and whether its results may go into the folder `out`, which is below the present one ("": a new one).
   nlohmann::json check_run(std::string const& name, nlohmann::json const& set, std::string const& out) const;

@@ -19,7 +19,8 @@ namespace boltzmann::web {
 
 namespace websocket = boost::beast::websocket;
 
-/// Is closed when its clock runs out, so that nothing that the other side does or leaves undone holds anything for long.
+/// Is closed when its clock runs out, so that nothing that the other side does or leaves undone holds anything for
+/// long.
 class Browser : public std::enable_shared_from_this<Browser> {
  public:
   /// `forget` is called when it has left; events and limits must outlive it.

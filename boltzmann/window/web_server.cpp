@@ -1,8 +1,8 @@
 // The web server, on Boost.Beast.
 //
-// Everything happens on one thread. Who connects is a Connection: it has asked for nothing yet, or is being answered; one
-// request a connection. Who opens a socket becomes a Browser. Each keeps a clock of its own and is closed when it runs
-// out, so that nothing that the other side does or leaves undone can hold anything for long.
+// Everything happens on one thread. Who connects is a Connection: it has asked for nothing yet, or is being answered;
+// one request a connection. Who opens a socket becomes a Browser. Each keeps a clock of its own and is closed when it
+// runs out, so that nothing that the other side does or leaves undone can hold anything for long.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/window/web_browser.hpp>
 

@@ -1,4 +1,5 @@
-// Walls of reflecting axes: pistons, momentum mirrors and open ends, against exact bounces and in two frames of reference.
+// Walls of reflecting axes: pistons, momentum mirrors and open ends, against exact bounces and in two frames of
+// reference.
 #include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>

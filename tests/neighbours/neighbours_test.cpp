@@ -1,4 +1,5 @@
-// Cells, lists, connections and sorted copies against brute force: random, clustered, equal and far-off points in 1D to 3D.
+// Cells, lists, connections and sorted copies against brute force: random, clustered, equal and far-off points in 1D to
+// 3D.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/neighbours/cells.hpp>
 #include <boltzmann/neighbours/connection.hpp>

@@ -39,7 +39,8 @@ TEST(DpdeOracle, CoefficientsBalance) {
 }
 
 /// The distribution of a pair's relative kinetic energy K for constant heat capacities: K^(D/2 - 1) (E_i - K/2)^(C_i/k)
-/// (E_j - K/2)^(C_j/k), with E = eps + K/2 of each, which the dissipation of a pair conserves. In y = sqrt(K), so that 1D is regular.
+/// (E_j - K/2)^(C_j/k), with E = eps + K/2 of each, which the dissipation of a pair conserves. In y = sqrt(K), so that
+/// 1D is regular.
 Tabulated stationary(int dimension, double ei, double ej, double ci, double cj) {
   double const end = std::sqrt(2 * std::min(ei, ej));
   return Tabulated(
@@ -163,9 +164,10 @@ TYPED_TEST(DpdePair, KeepsMomentumAndEnergyToRounding) {
       }
 }
 
-// dp = -a v + s U up to a factor that each method has. DissipatingPair apart again, U must be normal: its mean tells the friction
-// (at a great velocity), its variance the noise. An error of 1 % in the friction, of 2 % in the noise is found. A step
-// changes an internal energy by (a v^2 - s U v) / 2, about 13 - 3.6 U here: with 42 there is enough for any U < 15.
+// dp = -a v + s U up to a factor that each method has. DissipatingPair apart again, U must be normal: its mean tells
+// the friction (at a great velocity), its variance the noise. An error of 1 % in the friction, of 2 % in the noise is
+// found. A step changes an internal energy by (a v^2 - s U v) / 2, about 13 - 3.6 U here: with 42 there is enough for
+// any U < 15.
 TYPED_TEST(DpdePair, FrictionAndNoiseAreTheOracles) {
   constexpr int D = TypeParam::value;
   std::size_t const count = 20000;

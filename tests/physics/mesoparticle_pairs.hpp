@@ -1,4 +1,5 @@
-// Many pairs of mesoparticles, each far from all others, that stay where they are: what a dissipation does to two particles.
+// Many pairs of mesoparticles, each far from all others, that stay where they are: what a dissipation does to two
+// particles.
 #pragma once
 
 #include <boltzmann/core/random.hpp>

@@ -236,8 +236,8 @@ TEST(Schemes, TakeParticlesThatAreRezoned) {
   EXPECT_EQ(run->simulation->measure().per_particle[0].size(), gas.size());
 }
 
-// Lane and Emden's star with n = 1, M = R = G = 1: W = -3 M^2 / (5 - n) R = -3/4, and by the virial theorem 3 U = -W for
-// P = K rho^2, whose energy is that of its pressure. Nothing moves: pressure and weight cancel.
+// Lane and Emden's star with n = 1, M = R = G = 1: W = -3 M^2 / (5 - n) R = -3/4, and by the virial theorem 3 U = -W
+// for P = K rho^2, whose energy is that of its pressure. Nothing moves: pressure and weight cancel.
 std::unique_ptr<ScenarioSimulation> star_of(double spacing, std::vector<std::string> more) {
   Overrides overrides;
   overrides.set = {"ensembles.gas.load.spacing=" + std::to_string(spacing), "mesh.cells=40"};

@@ -1,4 +1,5 @@
-// Multipoles: the tolerance is kept whatever the shape, nothing depends on threads or on who looks, and the special cases.
+// Multipoles: the tolerance is kept whatever the shape, nothing depends on threads or on who looks, and the special
+// cases.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/particles/laplace.hpp>
@@ -272,8 +273,55 @@ TEST(Multipoles, AtOnePlaceAreOneLine) {
   for (double const x : influences(stars)) ASSERT_TRUE(std::isfinite(x));
   EXPECT_NEAR(magnitude(stars.influence_on(3) - stars.influence_on(300)), 0, 1e-12 * magnitude(stars.influence_on(3)));
   stars[5].position[1] = std::nan("");
-  EXPECT_NE(message<PhysicsFailure>([&] { soft.calculate(); }).find("particle 5 of 'stars' is at a position that is not finite"),
+  EXPECT_NE(message<PhysicsFailure>([&] {
+              soft.calculate();
+            }).find("particle 5 of 'stars' is at a position that is not finite"),
             std::string::npos);
+}
+
+// A hundredth of the particles feel anything: the tolerance is that of their forces.
+TEST(Multipoles, AreExactForTheFewThatFeelThem) {
+  Ensemble<Coulomb<3>> charges("charges", 20000);
+  auto const all = places<3>(Shape::cube, 20000, 41);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    charges[i].position = all[i];
+    charges[i].charge = i % 100 == 0 ? 1 : 0;
+  }
+  MultipoleScheme scheme(wide<3>(), coulomb(2), 1e-6);
+  scheme.add(charges);
+  scheme.calculate();
+  double errors = 0, squares = 0;
+  for (std::size_t i = 0; i < all.size(); i += 100) {
+    auto const force = direct(charges, i, coulomb(2));
+    errors += norm2(charges.influence_on(i) - force), squares += norm2(force);
+  }
+  EXPECT_LT(std::sqrt(errors / squares), 1e-6);
+}
+
+// One that has flown off as far as one can, and one that is further than that.
+TEST(Multipoles, BearOneThatHasEscaped) {
+  for (double const far : {1e6, 1e30, 1e139}) {
+    Ensemble<Kepler<3>> stars("stars", 2500);
+    fill(stars, Shape::cube, 43);
+    stars[7].position = {far, -far, 0.5 * far};
+    MultipoleScheme scheme(wide<3>(1e150), gravity(1), 1e-5);
+    scheme.add(stars);
+    scheme.calculate();
+    PairScheme pairs(wide<3>(1e150));
+    auto const mine = influences(stars);
+    pairs.internal(stars, gravity(1));
+    pairs.calculate();
+    double errors = 0, squares = 0;
+    auto const exact = influences(stars);
+    for (std::size_t k = 0; k < mine.size(); ++k) errors += square(mine[k] - exact[k]), squares += square(exact[k]);
+    EXPECT_LT(std::sqrt(errors / squares), 1e-5) << far;
+  }
+  Ensemble<Kepler<3>> stars("stars", 2500);
+  stars[9].position = {0, 1e200, 0};
+  MultipoleScheme scheme(wide<3>(1e150), gravity(1), 1e-5);
+  scheme.add(stars);
+  EXPECT_EQ(message<PhysicsFailure>([&] { scheme.calculate(); }),
+            "particle 9 of 'stars' is at a position that is not finite, or too far to be squared");
 }
 
 TEST(Multipoles, RefuseWhatTheyCantDo) {

@@ -65,8 +65,9 @@ class MeshScheme : public Scheme {
   void precision(Precision precision) { precision_ = precision; }
   Precision precision() const { return precision_; }
 
-  /// The particles of an ensemble make the field and feel it: by their strength(), or under gravity by their mass if the
-  /// class has no other strength. Further schemes may act on the same ensemble (gravity on a gas of smooth particles).
+  /// The particles of an ensemble make the field and feel it: by their strength(), or under gravity by their mass if
+  /// the class has no other strength. Further schemes may act on the same ensemble (gravity on a gas of smooth
+  /// particles).
   template <class P>
   void add(Ensemble<P>& ensemble) {
     static_assert(ForcedParticle<P>, "a mesh acts on classes with mass and velocity, and a force as influence");

@@ -1,5 +1,5 @@
-// Axes of Poisson's equation: the modes in which the Laplacian is a factor, and differences on the nodes. Private to the
-// solver.
+// Axes of Poisson's equation: the modes in which the Laplacian is a factor, and differences on the nodes. Private to
+// the solver.
 #pragma once
 
 #include <boltzmann/schemes/mesh/poisson.hpp>

@@ -10,16 +10,17 @@
 namespace boltzmann {
 namespace {
 
-/// Y_n^m(z, y, x) = sum_k B[m][k] Y_n^k(x, y, z), Y_n^m = r^n P_n^m(cos theta) exp(i m phi) / (n + m)!, m and k from -n.
+/// Y_n^m(z, y, x) = sum_k B[m][k] Y_n^k(x, y, z), Y_n^m = r^n P_n^m(cos theta) exp(i m phi) / (n + m)!, m and k from
+/// -n.
 class Exchange {
  public:
   Exchange() : n_(0), values_{1} {}
 
   double operator()(int m, int k) const { return std::abs(m) > n_ || std::abs(k) > n_ ? 0 : values_[index(n_, m, k)]; }
 
-  /// From n to n + 1. d/dz of Y is the Y of n - 1; exchanged, it is d/dx, which is half the difference of two neighbours:
-  /// that gives all k but the outermost. These follow from the matrix being symmetric once each Y is divided by its norm,
-  /// the corners from d/dy, which is not exchanged.
+  /// From n to n + 1. d/dz of Y is the Y of n - 1; exchanged, it is d/dx, which is half the difference of two
+  /// neighbours: that gives all k but the outermost. These follow from the matrix being symmetric once each Y is
+  /// divided by its norm, the corners from d/dy, which is not exchanged.
   void advance() {
     Exchange const old = *this;
     int const n = ++n_;
@@ -51,8 +52,8 @@ class Exchange {
   std::vector<double> values_;
 };
 
-/// Real parts are even in y and imaginary ones odd, and Y_n^m has the parity of n + m in z: four dense blocks for each n,
-/// of the real parts of even and odd m, then of the imaginary ones.
+/// Real parts are even in y and imaginary ones odd, and Y_n^m has the parity of n + m in z: four dense blocks for each
+/// n, of the real parts of even and odd m, then of the imaginary ones.
 void add_blocks(Exchange const& exchange, int n, std::vector<double>& swap) {
   for (int const imaginary : {0, 1})
     for (int const odd : {0, 1}) {

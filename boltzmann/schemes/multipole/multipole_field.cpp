@@ -94,8 +94,8 @@ void MultipoleField<D>::gather(std::size_t number) {
 ///   D = a ((p + 2) P_p / (e a^2))^(1/(p+3))   in 3D (2D: a (P_p / (e a))^(1/(p+2)))
 /// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
 ///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
-/// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the power
-/// 1), which margin() a allows for.
+/// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
+/// power 1), which margin() a allows for.
 template <int D>
 void MultipoleField<D>::limit(std::size_t number) {
   double const a = tree_.nodes()[number].radius;
@@ -105,7 +105,7 @@ void MultipoleField<D>::limit(std::size_t number) {
   for (int n = 0; n <= p; ++n) {
     double power = 0;
     if constexpr (D == 3)
-      for (int k = 0; k <= 2 * n; ++k) power += (k > 0 && k != 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];
+      for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
     else
       power = (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
     power = std::sqrt(power);
@@ -232,8 +232,9 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
     for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
     children[k].radius = child.radius;
   }
-  for (std::size_t k = 0; k < node.children; ++k) children[k].numbers = next[first + k].local.data();
-  kernels_.hand_down(tables_.view(), visit.local.data(), node.radius, children.data(), node.children);
+  std::array<double*, 8> locals;
+  for (std::size_t k = 0; k < node.children; ++k) locals[k] = next[first + k].local.data();
+  kernels_.hand_down(tables_.view(), visit.local.data(), node.radius, children.data(), locals.data(), node.children);
 }
 
 template <int D>

@@ -1,9 +1,9 @@
 // MultipoleField: the field of point strengths by expansions over a tree, O(N). Private to this room.
 //
-// Moments are gathered from the leaves up. Then each node meets the nodes that could influence it: those far enough give
-// its local expansion something (its own order of sums, W of them at a time), those too near are looked at closer, in
-// their children or its own; a node hands what it has down to its children, and a leaf evaluates it and sums the near
-// particles directly. Every target owns its sums, so that the result has the same bits for any number of threads.
+// Moments are gathered from the leaves up. Then each node meets the nodes that could influence it: those far enough
+// give its local expansion something (its own order of sums, W of them at a time), those too near are looked at closer,
+// in their children or its own; a node hands what it has down to its children, and a leaf evaluates it and sums the
+// near particles directly. Every target owns its sums, so that the result has the same bits for any number of threads.
 #pragma once
 
 #include <boltzmann/laws/laplace.hpp>

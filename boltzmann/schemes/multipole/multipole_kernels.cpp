@@ -68,8 +68,8 @@ class Kernels {
     carry<Translation::moments_to_local>(tables, sources, count, radius, local);
   }
 
-  static void hand_down(ExpansionView const& tables, double const* local, double radius, Shifted* children,
-                        std::size_t count) {
+  static void hand_down(ExpansionView const& tables, double const* local, double radius, Shifted const* children,
+                        double* const* locals, std::size_t count) {
     int const numbers = static_cast<int>(expansion_numbers(D, tables.order));
     Real in[most], out[most];
     for (std::size_t first = 0; first < count; first += W) {
@@ -78,10 +78,8 @@ class Kernels {
       Real to;
       lanes(children + first, count - first, shift, to);
       Series::template translate<Translation::local>(tables, shift, radius, to, in, out);
-      for (std::size_t lane = 0; lane < W && first + lane < count; ++lane) {
-        auto* const numbers_of = const_cast<double*>(children[first + lane].numbers);
-        for (int i = 0; i < numbers; ++i) numbers_of[i] = out[i][static_cast<int>(lane)];
-      }
+      for (std::size_t lane = 0; lane < W && first + lane < count; ++lane)
+        for (int i = 0; i < numbers; ++i) locals[first + lane][i] = out[i][static_cast<int>(lane)];
     }
   }
 
@@ -281,8 +279,7 @@ class Kernels {
 template <int D, int W = native_width<double>>
 constexpr MultipoleKernels kernels() {
   using K = Kernels<D, W>;
-  return {W,
-          K::moments,
+  return {K::moments,
           K::gather,
           K::interact,
           K::hand_down,

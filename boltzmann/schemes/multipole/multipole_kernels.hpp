@@ -26,27 +26,26 @@ struct NodeParticles {
 };
 
 struct MultipoleKernels {
-  std::size_t width = 0;  ///< expansions that are carried at a time
-  /// The moments of particles.
+  /// The moments of particles (P2M).
   void (*moments)(ExpansionView const& tables, NodeParticles const& particles, double* moments) = nullptr;
-  /// Sums the moments of children, about a centre with this radius.
+  /// Sums the moments of children, about a centre with this radius (M2M).
   void (*gather)(ExpansionView const& tables, Shifted const* children, std::size_t count, double radius,
                  double* moments) = nullptr;
-  /// Adds what the moments of other nodes make to the local expansion of a node of this radius.
+  /// Adds what the moments of other nodes make to the local expansion of a node of this radius (M2L).
   void (*interact)(ExpansionView const& tables, Shifted const* sources, std::size_t count, double radius,
                    double* local) = nullptr;
-  /// The local expansion of a node for its children: into `numbers` of each.
-  void (*hand_down)(ExpansionView const& tables, double const* local, double radius, Shifted* children,
-                    std::size_t count) = nullptr;
-  /// Adds `constant` times the field of a local expansion, D numbers a particle; and the potential, unless null.
+  /// The local expansion of a node for its children, whose own stand in `locals` then (L2L).
+  void (*hand_down)(ExpansionView const& tables, double const* local, double radius, Shifted const* children,
+                    double* const* locals, std::size_t count) = nullptr;
+  /// Adds `constant` times the field of a local expansion, D numbers a particle; and the potential, unless null (L2P).
   void (*evaluate)(ExpansionView const& tables, NodeParticles const& particles, double const* local, double constant,
                    double* field, double* potential) = nullptr;
-  /// The same of the moments of a node with this centre and radius, which lies apart from the particles.
+  /// The same of the moments of a node with this centre and radius, which lies apart from the particles (M2P).
   void (*evaluate_moments)(ExpansionView const& tables, NodeParticles const& particles, double const* moments,
                            double constant, double* field, double* potential) = nullptr;
-  /// Adds what particles make to the local expansion about a centre with this radius, which lies apart from them.
+  /// Adds what particles make to the local expansion about a centre with this radius, which lies apart from them (P2L).
   void (*expand)(ExpansionView const& tables, NodeParticles const& particles, double* local) = nullptr;
-  PairKernel near = nullptr;          ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength
+  PairKernel near = nullptr;          ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength (P2P)
   PairKernel near_measure = nullptr;  ///< half the potential
 };
 

@@ -1,5 +1,5 @@
-// MultipoleScheme: gravity and electrostatics of any distribution of particles in open space, in 2D and 3D, by multipole
-// expansions over a tree: O(N), with an accuracy that is kept.
+// MultipoleScheme: gravity and electrostatics of any distribution of particles in open space, in 2D and 3D, by
+// multipole expansions over a tree: O(N), with an accuracy that is kept.
 //
 //   MultipoleScheme scheme(Box({-9, -9, -9}, {9, 9, 9}), gravity(1, 0.01), 1e-4);
 //   scheme.add(stars);
@@ -21,17 +21,18 @@ namespace boltzmann {
 
 /// What a scheme of multipoles has found and chosen.
 struct MultipoleAccuracy {
-  double measured =
-      0;          ///< the error of 200 particles' influences against direct sums, as `tolerance`; 0: summed directly
+  /// The error of 200 particles' influences against direct sums, as `tolerance`; 0: summed directly.
+  double measured = 0;
   int order = 0;  ///< of the expansions; 0: everything is summed directly
   std::size_t nodes = 0, translations = 0, pairs = 0;  ///< of the last calculation
 };
 
 class MultipoleScheme final : public Scheme {
  public:
-  /// `tolerance`: the error of influences, sqrt(sum |error|^2 / sum |influence|^2) over all particles. What the expansions
-  /// need for it is found when the scheme first calculates, by comparing with direct sums for 200 particles or more, and looked
-  /// at again every 64 calculations. Few particles are summed directly.
+  /// `tolerance`: the error of influences, sqrt(sum |error|^2 / sum |influence|^2) over all particles (those in the
+  /// second sum without the fiftieth that feels most, so that a close pair does not count for all). What the expansions
+  /// need for it is found when the scheme first calculates, by comparing with direct sums for 200 particles or more,
+  /// and looked at again every 64 calculations. Few particles are summed directly.
   /// Error if the box is not of 2 or 3 dimensions, has periodic axes, mirrors or regions, or if the tolerance is not
   /// between 1e-10 and 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
@@ -41,8 +42,8 @@ class MultipoleScheme final : public Scheme {
   /// C of div E = C rho.
   double constant() const { return law_.constant; }
 
-  /// The particles of an ensemble influence each other: by their strength(), or under gravity by their mass if the class
-  /// has no other strength. Further schemes may act on the same ensemble.
+  /// The particles of an ensemble influence each other: by their strength(), or under gravity by their mass if the
+  /// class has no other strength. Further schemes may act on the same ensemble.
   template <class P>
   void add(Ensemble<P>& ensemble) {
     static_assert(ForcedParticle<P>, "multipoles act on classes with mass and velocity, and a force as influence");
@@ -81,8 +82,8 @@ class MultipoleScheme final : public Scheme {
   std::vector<std::size_t> choose_samples() const;
   std::size_t leaf() const;
   static double typical_square(std::vector<double> squares);
-  /// The error of the last calculation for samples, as a part of what they feel (0 where they feel nothing); the largest
-  /// over that mean.
+  /// The error of the last calculation for samples, as a part of what they feel (0 where they feel nothing); the
+  /// largest over that mean.
   struct SampledError {
     double mean, largest;
   };

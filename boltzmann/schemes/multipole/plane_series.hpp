@@ -3,7 +3,8 @@
 //   sum q ln(z - z_q) = a_0 ln z + sum_k a_k / z^k,   a_0 = sum q, a_k = -sum q z_q^k / k      far from the strengths
 //   sum q ln(z - z_q) = sum_l b_l z^l                                                          away from them
 //
-// Coefficients are stored over powers of the radius of their node, the real part of k at 2 k, the imaginary one behind it.
+// Coefficients are stored over powers of the radius of their node, the real part of k at 2 k, the imaginary one behind
+// it.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>

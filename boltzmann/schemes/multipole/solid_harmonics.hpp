@@ -1,13 +1,14 @@
-// Solid harmonics: expansions of 1/r in 3D, W of them at a time (Dehnen 2014, Comp. Astrophys. Cosmol. 1:1, appendix A).
+// Solid harmonics: expansions of 1/r in 3D, W of them at a time (Dehnen 2014, Comp. Astrophys. Cosmol. 1:1, appendix
+// A).
 //
 //   Y_n^m = r^n P_n^m(cos theta) exp(i m phi) / (n + m)!      1/|x - y| = sum conj(Y_n^m(y)) T_n^m(x),   |y| < |x|
 //   T_n^m = (n - m)! P_n^m(cos theta) exp(i m phi) / r^(n+1)
 //
-// Moments are M_n^m = sum q Y_n^m(y), local expansions F_n^m give the potential sum conj(Y_n^m(x)) F_n^m. Both are stored
-// times sqrt((n - m)! (n + m)!) or its inverse, which makes rotations orthogonal, and over powers of the radius of their
-// node, so that all numbers are of the size of the strengths. To translate them they are turned until the shift points
-// along z, where a translation mixes orders n and leaves m alone: O(p^3) in all. Turns about z multiply by cos and sin;
-// the others are turns about z between two exchanges of x and z, whose matrices are constant and sparse.
+// Moments are M_n^m = sum q Y_n^m(y), local expansions F_n^m give the potential sum conj(Y_n^m(x)) F_n^m. Both are
+// stored times sqrt((n - m)! (n + m)!) or its inverse, which makes rotations orthogonal, and over powers of the radius
+// of their node, so that all numbers are of the size of the strengths. To translate them they are turned until the
+// shift points along z, where a translation mixes orders n and leaves m alone: O(p^3) in all. Turns about z multiply by
+// cos and sin; the others are turns about z between two exchanges of x and z, whose matrices are constant and sparse.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -265,8 +266,8 @@ class SolidHarmonics {
     }
   }
 
-  /// Sums over the orders k of what came in, for four orders n: moments to local of (n + k)! (the signs and powers of the
-  /// distance stand outside), moments of steps[n - k] and local of steps[k - n].
+  /// Sums over the orders k of what came in, for four orders n: moments to local of (n + k)! (the signs and powers of
+  /// the distance stand outside), moments of steps[n - k] and local of steps[k - n].
   template <Translation kind>
   [[gnu::always_inline]] static void mix(ExpansionView const& tables, Axis const& axis, int n, int m, Real const* re,
                                          Real const* im, Real* sum_re, Real* sum_im) {

@@ -32,8 +32,8 @@ struct Ends {
   }
 };
 
-/// Which axes are cut: those that are not much shorter than the longest, and of these no more than it takes to come down
-/// to `leaf` particles.
+/// Which axes are cut: those that are not much shorter than the longest, and of these no more than it takes to come
+/// down to `leaf` particles.
 template <int D>
 std::array<bool, 3> cuts(Ends<D> const& ends, std::size_t count, std::size_t leaf) {
   std::array<int, 3> order{0, 1, 2};

@@ -28,8 +28,8 @@ class Tree {
  public:
   using Point = Row<PointSource<D>>;
 
-  /// Of these particles (finite positions), with at most so many in a leaf; more only at one place. The same tree for any
-  /// number of threads.
+  /// Of these particles (finite positions), with at most so many in a leaf; more only at one place. The same tree for
+  /// any number of threads.
   void build(std::vector<Point> particles, std::size_t leaf, int threads);
 
   /// In the order of the leaves; particle k was number()[k].
