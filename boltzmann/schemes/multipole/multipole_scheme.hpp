@@ -23,7 +23,7 @@ namespace boltzmann {
 struct MultipoleAccuracy {
   /// The error of 200 particles' influences against direct sums, as `tolerance`; 0: summed directly.
   double measured = 0;
-  int order = 0;  ///< of the expansions; 0: everything is summed directly
+  int order = 0;                                       ///< of the expansions; 0: everything is summed directly
   std::size_t nodes = 0, translations = 0, pairs = 0;  ///< of the last calculation
 };
 
