@@ -4,6 +4,7 @@
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/schemes/mesh/ewald.hpp>
 #include <boltzmann/schemes/multipole/multipole_field.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
@@ -279,6 +280,115 @@ TEST(Multipoles, AtOnePlaceAreOneLine) {
             std::string::npos);
 }
 
+// In a box that repeats: Ewald's sums, of charges that are neutral together and of such that are not, in boxes of any
+// edges; a few particles and many; forces and energies.
+template <int D>
+void expect_ewald(std::size_t count, Vector<D> const& edges, double tolerance, bool neutral, int seed) {
+  Ensemble<Coulomb<D>> charges("charges", count);
+  std::mt19937_64 random(test_seed(seed));
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vector<D>> all;
+  std::vector<double> strengths;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int a = 0; a < D; ++a) charges[i].position[a] = edges[a] * (uniform(random) - 0.3);
+    charges[i].charge = neutral ? (i % 2 == 0 ? 1 : -1) : 1;
+    all.push_back(charges[i].position);
+    strengths.push_back(charges[i].charge);
+  }
+  Vector<D> low, high;
+  for (int a = 0; a < D; ++a) low[a] = -0.3 * edges[a], high[a] = 0.7 * edges[a];
+  MultipoleScheme scheme(Box(low, high, Boundary::periodic), coulomb(2), tolerance);
+  scheme.add(charges);
+  scheme.calculate();
+  auto const exact = ewald_sums<D>(all, strengths, edges, coulomb(2).constant);
+  double errors = 0, squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    errors += norm2(charges.influence_on(i) - exact.force[i]);
+    squares += norm2(exact.force[i]);
+  }
+  std::string const what = std::to_string(count) + " particles, tolerance " + std::to_string(tolerance);
+  EXPECT_LT(std::sqrt(errors), tolerance * std::sqrt(squares) + 1e-14 * static_cast<double>(count)) << what;
+  auto const measured = scheme.measure();
+  double of_all = 0;
+  for (double const potential : exact.potential) of_all += potential * potential;
+  EXPECT_NEAR(measured.potential, exact.energy, 2 * tolerance * std::sqrt(of_all * static_cast<double>(count))) << what;
+  EXPECT_NE(measured.no_virial, "");
+}
+TEST(MultipolesInPeriodicBoxes, AreEwaldSums3D) {
+  int seed = 200;
+  for (double const tolerance : {1e-3, 1e-6, 1e-10})
+    for (std::size_t const count : {1UL, 2UL, 20UL, 1000UL})
+      for (bool const neutral : {true, false})
+        expect_ewald<3>(count, seed % 2 == 0 ? Vector{2., 2., 2.} : Vector{1., 3., 1.5}, tolerance, neutral, seed++);
+}
+TEST(MultipolesInPeriodicBoxes, AreEwaldSums2D) {
+  int seed = 300;
+  for (double const tolerance : {1e-3, 1e-6, 1e-10})
+    for (std::size_t const count : {1UL, 2UL, 20UL, 1000UL})
+      for (bool const neutral : {true, false})
+        expect_ewald<2>(count, seed % 2 == 0 ? Vector{2., 2.} : Vector{1., 4.}, tolerance, neutral, seed++);
+}
+
+// Rows and layers: a few charges, neutral together, with very many images of each.
+template <int D>
+void expect_images(std::array<Boundary, D> const& boundaries, std::size_t count, double tolerance, int seed) {
+  Vector<D> low, high;
+  double const edges[] = {1, 1.3, 0.8};
+  for (int a = 0; a < D; ++a) low[a] = 0, high[a] = edges[a];
+  Box const box(low, high, boundaries);
+  Ensemble<Coulomb<D>> charges("charges", count);
+  std::mt19937_64 random(test_seed(seed));
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int a = 0; a < D; ++a) charges[i].position[a] = high[a] * uniform(random);
+    charges[i].charge = i % 2 == 0 ? 1 : -1;
+  }
+  auto const law = coulomb(1);
+  MultipoleScheme scheme(box, law, tolerance);
+  scheme.add(charges);
+  scheme.calculate();
+  int axes = 0;
+  for (auto const boundary : boundaries) axes += boundary == Boundary::periodic;
+  auto const sum = [&](std::size_t i, int shells) {
+    Vector<D> force{};
+    auto other = charges[0];
+    std::array<int, 3> most{};
+    for (int a = 0; a < D; ++a) most[a] = box.periodic(a) ? shells : 0;
+    for (std::size_t j = 0; j < count; ++j)
+      for (int x = -most[0]; x <= most[0]; ++x)
+        for (int y = -most[1]; y <= most[1]; ++y)
+          for (int z = -most[2]; z <= most[2]; ++z) {
+            other = charges[j];
+            int const shift[] = {x, y, z};
+            bool self = i == j;
+            for (int a = 0; a < D; ++a) other.position[a] += shift[a] * edges[a], self = self && shift[a] == 0;
+            if (!self) force += law(charges[i], other).force;
+          }
+    return force;
+  };
+  double errors = 0, squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    // With n images along an axis the field of dipoles misses c / n^k + d / n^(k+2) + ...
+    double const k = std::pow(3.0, D - axes);
+    Vector<D> const few = sum(i, 10), more = sum(i, 31), most = sum(i, 94);
+    Vector<D> const better = (more * k - few) * (1 / (k - 1)), best = (most * k - more) * (1 / (k - 1));
+    Vector<D> const exact = (best * (9 * k) - better) * (1 / (9 * k - 1));
+    errors += norm2(charges.influence_on(i) - exact), squares += norm2(exact);
+  }
+  EXPECT_LT(std::sqrt(errors), tolerance * std::sqrt(squares)) << std::sqrt(errors / squares);
+}
+TEST(MultipolesInPeriodicBoxes, AreRowsAndLayers) {
+  auto const open = Boundary::open, periodic = Boundary::periodic;
+  expect_images<2>({periodic, open}, 6, 1e-7, 400);
+  expect_images<2>({open, periodic}, 6, 1e-7, 401);
+  expect_images<3>({periodic, open, open}, 6, 1e-7, 402);
+  expect_images<3>({open, periodic, open}, 6, 1e-7, 403);
+  expect_images<3>({open, open, periodic}, 6, 1e-7, 404);
+  expect_images<3>({open, periodic, periodic}, 6, 1e-7, 405);
+  expect_images<3>({periodic, open, periodic}, 6, 1e-7, 406);
+  expect_images<3>({periodic, periodic, open}, 6, 1e-7, 407);
+}
+
 // A hundredth of the particles feel anything: the tolerance is that of their forces.
 TEST(Multipoles, AreExactForTheFewThatFeelThem) {
   Ensemble<Coulomb<3>> charges("charges", 20000);
@@ -333,8 +443,8 @@ TEST(Multipoles, RefuseWhatTheyCantDo) {
   EXPECT_NE(refused(open, gravity(1), std::nan("")).find("between 1e-10 and 0.1"), std::string::npos);
   EXPECT_NE(refused(open, LaplaceLaw{0}, 1e-3).find("the constant of the law is 0"), std::string::npos);
   EXPECT_NE(refused(wide<1>(), gravity(1), 1e-3).find("one dimension"), std::string::npos);
-  Box const periodic(Vector{0., 0.}, Vector{1., 1.}, {Boundary::open, Boundary::periodic});
-  EXPECT_NE(refused(periodic, gravity(1), 1e-3).find("axis y is periodic"), std::string::npos);
+  Box const mirrors(Vector{0., 0.}, Vector{1., 1.}, {Boundary::open, Boundary::mirror});
+  EXPECT_NE(refused(mirrors, gravity(1), 1e-3).find("axis y is mirror"), std::string::npos);
   MultipoleScheme scheme(open, gravity(1), 1e-3);
   Ensemble<Coulomb<3>> charges("charges", 3);
   EXPECT_NE(message([&] { scheme.add(charges); }).find("class Coulomb of 'charges' repels its like"),

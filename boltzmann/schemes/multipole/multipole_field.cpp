@@ -1,4 +1,5 @@
 // Moments up, meetings, local expansions down.
+#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/multipole/multipole_field.hpp>
@@ -13,11 +14,14 @@ namespace {
 
 constexpr std::size_t node_grain = 32;
 constexpr std::size_t parallel_visits = 64;
-constexpr double nearest = 1.1;  // of what an expansion's radius is: nearer, it hardly converges
+constexpr double softened_images = 3;  // of the radius of all: what is nearer is softened
+constexpr double nearest = 1.1;        // of what an expansion's radius is: nearer, it hardly converges
 
 MultipoleKernels kernels_for(int dimension) {
   return for_instruction_set([&](auto set) { return multipole_kernels<decltype(set)::value>().of[dimension - 2]; });
 }
+
+double distance_of(std::array<double, 3> const& r) { return std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]); }
 
 /// Pairs that take as long as one translation of an expansion.
 double pairs_of_a_translation(int dimension, int order) {
@@ -36,12 +40,12 @@ double pairs_of_an_evaluation(int dimension, int order) {
 /// What a thread needs besides.
 template <int D>
 struct MultipoleField<D>::Workspace {
-  std::vector<std::uint32_t> open;
-  std::vector<std::uint32_t> far;       ///< their moments to the local expansion
-  std::vector<std::uint32_t> outside;   ///< their moments to the particles of a wide leaf
-  std::vector<std::uint32_t> expanded;  ///< particles of wide leaves to the local expansion
-  std::vector<std::uint32_t> near;      ///< particles to particles
-  std::vector<std::uint32_t> later;     ///< for the children
+  std::vector<Other> open;
+  std::vector<Other> far;       ///< their moments to the local expansion
+  std::vector<Other> outside;   ///< their moments to the particles of a wide leaf
+  std::vector<Other> expanded;  ///< particles of wide leaves to the local expansion
+  std::vector<Other> near;      ///< particles to particles
+  std::vector<Other> later;     ///< for the children
   std::vector<Shifted> shifted;
   std::vector<Point> sources;
   std::vector<double> energy, virial;
@@ -49,8 +53,8 @@ struct MultipoleField<D>::Workspace {
 };
 
 template <int D>
-MultipoleField<D>::MultipoleField(LaplaceLaw const& law)
-    : law_(law), kernels_(kernels_for(D)), tables_(D, choice_.order) {
+MultipoleField<D>::MultipoleField(LaplaceLaw const& law, ImageLattice const& lattice)
+    : law_(law), lattice_(lattice), kernels_(kernels_for(D)), tables_(D, choice_.order) {
   choose(choice_);
 }
 
@@ -146,16 +150,90 @@ double MultipoleField<D>::local_limit(TreeNode const& target, double reach, std:
   return std::max(nearest * target.radius, source_size_[source] * reach + margin() * target.radius);
 }
 
+/// How far a node has to be from a target's centre to act on all of it by an expansion.
 template <int D>
-bool MultipoleField<D>::far(TreeNode const& target, double reach, std::uint32_t number) const {
+double MultipoleField<D>::needed(TreeNode const& target, double reach, std::uint32_t number) const {
   TreeNode const& source = tree_.nodes()[number];
+  return std::max({target.radius + std::max(nearest * source.radius, source_limit_[number]),
+                   source.radius + local_limit(target, reach, number),
+                   target.radius + source.radius + soft_limit_[number]});
+}
+
+template <int D>
+bool MultipoleField<D>::far(TreeNode const& target, double reach, Other const& other) const {
+  auto const place = centre(other);
   double square = 0;
-  for (int a = 0; a < D; ++a) square += (target.centre[a] - source.centre[a]) * (target.centre[a] - source.centre[a]);
-  double const soft = soft_limit_[number];
-  double const needed =
-      std::max({target.radius + std::max(nearest * source.radius, source_limit_[number]),
-                source.radius + local_limit(target, reach, number), target.radius + source.radius + soft});
+  for (int a = 0; a < D; ++a) square += (target.centre[a] - place[a]) * (target.centre[a] - place[a]);
+  double const needed = this->needed(target, reach, other.node);
   return square > needed * needed;
+}
+
+template <int D>
+std::array<double, 3> MultipoleField<D>::centre(Other const& other) const {
+  auto place = tree_.nodes()[other.node].centre;
+  for (int a = 0; a < D; ++a) place[a] += images_[other.image][a];
+  return place;
+}
+
+/// Where a place in the box stands for those in an image.
+template <int D>
+std::array<double, 3> MultipoleField<D>::seen_from(Other const& other, std::array<double, 3> const& place) const {
+  auto seen = place;
+  for (int a = 0; a < D; ++a) seen[a] -= images_[other.image][a];
+  return seen;
+}
+
+/// Those images are met that are too near for the expansions of the whole box; to be on the safe side, since all
+/// further ones do the same to it, by a tenth of the error.
+template <int D>
+void MultipoleField<D>::choose_images() {
+  if (lattice_.periodic_axes() == 0) return;
+  TreeNode const& root = tree_.nodes().front();
+  double const wanted = std::pow(10, 1.0 / (choice_.order + 2)) * needed(root, reach_of(root), 0);
+  images_ = lattice_.within(std::max(wanted, law_.softening > 0 ? softened_images * root.radius : 0));
+  double const distance = distance_of(images_.back());
+  if (!far_images_ || far_images_->order() != choice_.order || far_images_->distance() != distance)
+    far_images_.emplace(D, lattice_, distance, choice_.order);
+  find_background();
+}
+
+template <int D>
+void MultipoleField<D>::find_background() {
+  background_ = {};
+  if (lattice_.periodic_axes() < D) return;
+  TreeNode const& root = tree_.nodes().front();
+  double volume = 1;
+  for (int a = 0; a < D; ++a) volume *= lattice_.edges[a];
+  background_.of_square = D == 3 ? 2 * pi / (3 * volume) : pi / (2 * volume);
+  CompensatedSum strength, second, first[3];
+  for (auto const& p : tree_.particles()) {
+    strength += p.amount;
+    for (int a = 0; a < D; ++a) {
+      double const x = p.position[a] - root.centre[a];
+      second += p.amount * x * x;
+      first[a] += p.amount * x;
+    }
+  }
+  background_.strength = strength.value(), background_.second = second.value();
+  for (int a = 0; a < D; ++a) background_.first[a] = first[a].value();
+}
+
+/// What makes the box neutral is spread over all space: its potential is c sum q |x - y|^2.
+template <int D>
+void MultipoleField<D>::add_background(NodeParticles const& particles, double* field, double* potential) const {
+  double const c = law_.constant / (D == 3 ? 4 * pi : 2 * pi) * background_.of_square;
+  if (c == 0) return;
+  auto const& origin = tree_.nodes().front().centre;
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    double const* const place = particles.rows + i * row_stride<PointSource<D>>;
+    double value = background_.second;
+    for (int a = 0; a < D; ++a) {
+      double const x = place[a] - origin[a];
+      field[i * D + a] -= 2 * c * (background_.strength * x - background_.first[a]);
+      value += x * (background_.strength * x - 2 * background_.first[a]);
+    }
+    if (potential) potential[i] += c * value;
+  }
 }
 
 /// Whether all particles of a node are further than this from a place.
@@ -170,33 +248,39 @@ bool MultipoleField<D>::clear_of(TreeNode const& node, std::array<double, 3> con
   return true;
 }
 
+/// What the radius of a target counts for in needed().
+template <int D>
+double MultipoleField<D>::reach_of(TreeNode const& target) const {
+  double const p = choice_.order;
+  return std::pow(target.radius, p / (p + (D == 3 ? 2 : 1)));
+}
+
 /// Sorts those that a node has to meet by what is done with them.
 template <int D>
-void MultipoleField<D>::meet(std::uint32_t number, std::vector<std::uint32_t> const& others, Workspace& work) const {
+void MultipoleField<D>::meet(std::uint32_t number, std::vector<Other> const& others, Workspace& work) const {
   TreeNode const& target = tree_.nodes()[number];
-  int const p = choice_.order;
-  double const reach = std::pow(target.radius, static_cast<double>(p) / (p + (D == 3 ? 2 : 1)));
+  double const reach = reach_of(target);
   auto const count = [](TreeNode const& node) { return static_cast<double>(node.size()); };
   for (auto* list : {&work.far, &work.outside, &work.expanded, &work.near, &work.later}) list->clear();
   work.open.assign(others.begin(), others.end());
   for (std::size_t i = 0; i < work.open.size(); ++i) {
-    std::uint32_t const other = work.open[i];
-    TreeNode const& source = tree_.nodes()[other];
+    Other const other = work.open[i];
+    TreeNode const& source = tree_.nodes()[other.node];
     bool const leaves = target.leaf() && source.leaf();
-    double const soft = soft_limit_[other];
+    double const soft = soft_limit_[other.node];
     // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
     if (target.leaf() && target.radius > 1.5 * source.radius && count(source) > pairs_of_an_evaluation_ &&
-        clear_of(target, source.centre, std::max(nearest * source.radius + soft, source_limit_[other])))
+        clear_of(target, centre(other), std::max(nearest * source.radius + soft, source_limit_[other.node])))
       work.outside.push_back(other);
     else if (source.leaf() && source.radius > 1.5 * target.radius && count(target) > pairs_of_an_evaluation_ &&
-             clear_of(source, target.centre, local_limit(target, reach, other) + soft))
+             clear_of(source, seen_from(other, target.centre), local_limit(target, reach, other.node) + soft))
       work.expanded.push_back(other);
     else if (far(target, reach, other))
       (leaves && count(target) * count(source) < pairs_of_a_translation_ ? work.near : work.far).push_back(other);
     else if (leaves)
       work.near.push_back(other);
     else if (!source.leaf() && (target.leaf() || source.radius >= target.radius))
-      for (std::uint32_t k = 0; k < source.children; ++k) work.open.push_back(source.child + k);
+      for (std::uint32_t k = 0; k < source.children; ++k) work.open.push_back({source.child + k, other.image});
     else
       work.later.push_back(other);
   }
@@ -208,22 +292,23 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
   meet(visit.node, *visit.others, work);
   work.shifted.resize(work.far.size());
   for (std::size_t i = 0; i < work.far.size(); ++i) {
-    TreeNode const& source = tree_.nodes()[work.far[i]];
-    for (int a = 0; a < D; ++a) work.shifted[i].shift[a] = node.centre[a] - source.centre[a];
-    work.shifted[i].radius = source.radius;
-    work.shifted[i].numbers = moments(work.far[i]);
+    auto const place = centre(work.far[i]);
+    for (int a = 0; a < D; ++a) work.shifted[i].shift[a] = node.centre[a] - place[a];
+    work.shifted[i].radius = tree_.nodes()[work.far[i].node].radius;
+    work.shifted[i].numbers = moments(work.far[i].node);
   }
   work.translations += work.far.size();
   if (!work.far.empty())
     kernels_.interact(tables_.view(), work.shifted.data(), work.shifted.size(), node.radius, visit.local.data());
-  for (std::uint32_t const other : work.expanded) {
-    NodeParticles particles = particles_of(tree_.nodes()[other]);
-    std::copy_n(node.centre.begin(), 3, particles.centre);
+  if (visit.node == 0 && far_images_) far_images_->add(tables_.view(), moments(0), node.radius, visit.local.data());
+  for (Other const& other : work.expanded) {
+    NodeParticles particles = particles_of(tree_.nodes()[other.node]);
+    std::copy_n(seen_from(other, node.centre).begin(), 3, particles.centre);
     particles.radius = node.radius;
     kernels_.expand(tables_.view(), particles, visit.local.data());
   }
   if (node.leaf()) return finish_leaf(node, visit.local, work);
-  auto const later = std::make_shared<std::vector<std::uint32_t> const>(work.later);
+  auto const later = std::make_shared<std::vector<Other> const>(work.later);
   std::array<Shifted, 8> children;
   std::size_t const first = next.size();
   for (std::size_t k = 0; k < node.children; ++k) {
@@ -253,10 +338,14 @@ void MultipoleField<D>::finish_leaf(TreeNode const& leaf, std::vector<double> co
   auto const& particles = tree_.particles();
   // The leaf's own stand first, so that the kernel knows who is the same.
   work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
-  for (std::uint32_t const other : work.near) {
-    TreeNode const& source = tree_.nodes()[other];
-    if (&source != &leaf)
-      work.sources.insert(work.sources.end(), particles.begin() + source.begin, particles.begin() + source.end);
+  for (Other const& other : work.near) {
+    TreeNode const& source = tree_.nodes()[other.node];
+    if (&source == &leaf && other.image == 0) continue;
+    std::size_t const first = work.sources.size();
+    work.sources.insert(work.sources.end(), particles.begin() + source.begin, particles.begin() + source.end);
+    if (other.image == 0) continue;
+    for (std::size_t i = first; i < work.sources.size(); ++i)
+      for (int a = 0; a < D; ++a) work.sources[i].position[a] += images_[other.image][a];
   }
   PairTask task;
   task.target = task.source = &work.sources.front().position[0];
@@ -280,11 +369,11 @@ void MultipoleField<D>::finish_leaf(TreeNode const& leaf, std::vector<double> co
   double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
   NodeParticles own = particles_of(leaf);
   kernels_.evaluate(tables_.view(), own, local.data(), constant, task.influence, potential);
-  for (std::uint32_t const other : work.outside) {
-    TreeNode const& source = tree_.nodes()[other];
-    std::copy_n(source.centre.begin(), 3, own.centre);
-    own.radius = source.radius;
-    kernels_.evaluate_moments(tables_.view(), own, moments(other), constant, task.influence, potential);
+  add_background(own, task.influence, potential);
+  for (Other const& other : work.outside) {
+    std::copy_n(centre(other).begin(), 3, own.centre);
+    own.radius = tree_.nodes()[other.node].radius;
+    kernels_.evaluate_moments(tables_.view(), own, moments(other.node), constant, task.influence, potential);
   }
 }
 
@@ -298,11 +387,13 @@ void MultipoleField<D>::calculate(std::vector<Point> particles, bool with_potent
   cost_ = {tree_.nodes().size(), 0, 0};
   if (count == 0) return put_in_order(with_potential, threads);
   gather(threads);
+  choose_images();
   // The uppermost nodes one by one, until there are enough for all threads.
   Workspace work;
   std::vector<Visit> open, next;
-  open.push_back({0, std::vector<double>(tables_.size(), 0.0),
-                  std::make_shared<std::vector<std::uint32_t> const>(std::vector<std::uint32_t>{0})});
+  std::vector<Other> roots(images_.size());
+  for (std::size_t i = 0; i < roots.size(); ++i) roots[i].image = static_cast<std::uint32_t>(i);
+  open.push_back({0, std::vector<double>(tables_.size(), 0.0), std::make_shared<std::vector<Other> const>(roots)});
   while (!open.empty() && open.size() < parallel_visits) {
     next.clear();
     for (auto& one : open) visit(std::move(one), work, next);
@@ -335,7 +426,7 @@ void MultipoleField<D>::put_in_order(bool with_potential, int threads) {
 
 template <int D>
 std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particles,
-                                              std::vector<std::size_t> const& chosen, int threads) const {
+                                              std::vector<std::size_t> const& chosen, double error, int threads) const {
   std::vector<Point> sources;  // the chosen first, so that the kernel knows who is the same
   sources.reserve(particles.size());
   for (std::size_t const i : chosen) sources.push_back(particles[i]);
@@ -353,8 +444,40 @@ std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particle
   task.target_row_stride = task.source_row_stride = row_stride<PointSource<D>>;
   task.same = task.overwrite = true;
   task.influence = field.data();
-  for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
-             [&](std::size_t begin, std::size_t end) { kernels_.near(&law_, task, begin, end); });
+  auto const add_pairs = [&] {
+    for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
+               [&](std::size_t begin, std::size_t end) { kernels_.near(&law_, task, begin, end); });
+  };
+  add_pairs();
+  if (lattice_.periodic_axes() == 0 || chosen.empty()) return field;
+
+  // Images: nearby ones like the box itself, all others by expansions of the highest order about the middle of all.
+  MultipoleField whole(law_, lattice_);
+  whole.choose({highest_expansion_order, particles.size() + 1, 1});
+  whole.tree_.build(particles, particles.size() + 1, threads);
+  whole.gather(threads);
+  whole.find_background();
+  double const radius = whole.tree_.nodes().front().radius;
+  auto const images = lattice_.within(
+      std::max(softened_images * radius, radius * (1 + std::pow(error, -1.0 / (highest_expansion_order + 1)))));
+  std::vector<Point> image(sources);
+  task.source = &image.front().position[0];
+  task.same = task.overwrite = false;
+  for (auto const& shift : images) {
+    if (&shift == &images.front()) continue;
+    for (std::size_t i = 0; i < image.size(); ++i)
+      for (int a = 0; a < D; ++a) image[i].position[a] = sources[i].position[a] + shift[a];
+    add_pairs();
+  }
+  NodeParticles targets = whole.particles_of(whole.tree_.nodes().front());
+  targets.rows = task.target;
+  targets.count = chosen.size();
+  std::vector<double> local(whole.tables_.size(), 0.0);
+  FarImages(D, lattice_, distance_of(images.back()), highest_expansion_order)
+      .add(whole.tables_.view(), whole.moments(0), radius, local.data());
+  double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
+  kernels_.evaluate(whole.tables_.view(), targets, local.data(), constant, field.data(), nullptr);
+  whole.add_background(targets, field.data(), nullptr);
   return field;
 }
 

@@ -35,6 +35,16 @@ int order_for(double tolerance, int dimension) {
   return std::clamp(static_cast<int>(std::lround(order)), 2, highest_expansion_order);
 }
 
+ImageLattice lattice_of(Box const& box) {
+  ImageLattice lattice;
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.periodic(a)) lattice.edges[a] = box.length(a);
+  return lattice;
+}
+
+/// Truth is so much better than what is compared with it.
+constexpr double better = 1e-3;
+
 }  // namespace
 
 /// The field of points in two or three dimensions.
@@ -46,8 +56,9 @@ struct MultipoleScheme::Engine {
   virtual double strength(std::size_t i) const = 0;
   virtual void choose(MultipoleChoice const& choice) = 0;
   virtual void calculate(bool with_potential, int threads) = 0;
-  /// The field at these particles by direct sums.
-  virtual std::vector<double> exact(std::vector<std::size_t> const& particles, int threads) const = 0;
+  /// The field at these particles by direct sums, to this part of it.
+  virtual std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const = 0;
+  virtual double spacing() const = 0;  ///< in the mean, of neighbours
   virtual std::vector<double> const& field() const = 0;
   virtual std::vector<double> const& potential() const = 0;
   virtual MultipoleChoice const& choice() const = 0;
@@ -60,7 +71,9 @@ template <int D>
 struct MultipoleScheme::EngineIn final : Engine {
   using Point = typename MultipoleField<D>::Point;
 
-  explicit EngineIn(LaplaceLaw const& law) : multipoles(law) {}
+  EngineIn(LaplaceLaw const& law, Box const& box) : multipoles(law, lattice_of(box)) {
+    for (int a = 0; a < D; ++a) low[a] = box.low(a), edges[a] = box.periodic(a) ? box.length(a) : 0;
+  }
 
   void collect(std::vector<Loaded> const& loaded, int threads) override {
     std::size_t total = 0;
@@ -74,7 +87,7 @@ struct MultipoleScheme::EngineIn final : Engine {
                    for (std::size_t i = begin; i < end; ++i) {
                      Point& point = points[at + i];
                      for (int a = 0; a < D; ++a) {
-                       double const x = point.position[a] = ensemble.row(i)[a];
+                       double const x = point.position[a] = inside(ensemble.row(i)[a], a);
                        if (!(std::abs(x) < furthest))
                          throw PhysicsFailure(fmt::format("particle {} of '{}' is at a position that is not finite{}",
                                                           i, ensemble.name(),
@@ -90,8 +103,22 @@ struct MultipoleScheme::EngineIn final : Engine {
   double strength(std::size_t i) const override { return points[i].amount; }
   void choose(MultipoleChoice const& choice) override { multipoles.choose(choice); }
   void calculate(bool with_potential, int threads) override { multipoles.calculate(points, with_potential, threads); }
-  std::vector<double> exact(std::vector<std::size_t> const& particles, int threads) const override {
-    return multipoles.direct(points, particles, threads);
+  std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const override {
+    return multipoles.direct(points, particles, error, threads);
+  }
+  double spacing() const override {
+    std::array<double, 3> least{}, most{};
+    double volume = 1, shortest = 0;
+    for (int a = 0; a < D; ++a)
+      if (edges[a] > 0 && !(shortest > 0 && shortest < edges[a])) shortest = edges[a];
+    for (int a = 0; a < D; ++a) {
+      if (points.empty()) return 1;
+      least[a] = most[a] = points.front().position[a];
+      for (auto const& p : points)
+        least[a] = std::min(least[a], p.position[a]), most[a] = std::max(most[a], p.position[a]);
+      volume *= edges[a] > 0 ? edges[a] : std::max(most[a] - least[a], shortest);
+    }
+    return std::pow(volume / static_cast<double>(points.size()), 1.0 / D);
   }
   std::vector<double> const& field() const override { return multipoles.field(); }
   std::vector<double> const& potential() const override { return multipoles.potential(); }
@@ -100,8 +127,12 @@ struct MultipoleScheme::EngineIn final : Engine {
   double work() const override { return multipoles.work(); }
   std::size_t bytes() const override { return multipoles.bytes() + points.capacity() * sizeof(Point); }
 
+  /// Into the box, along periodic axes.
+  double inside(double x, int a) const { return edges[a] > 0 ? x - edges[a] * std::floor((x - low[a]) / edges[a]) : x; }
+
   MultipoleField<D> multipoles;
   std::vector<Point> points;
+  std::array<double, D> low, edges;
 };
 
 MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
@@ -113,16 +144,16 @@ MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double toleranc
   if (box.dimension() == 1)
     throw Error("multipoles: the box has one dimension, where a mesh or pairs do it; expansions are for 2 and 3");
   for (int a = 0; a < box.dimension(); ++a)
-    if (box.boundary(a) == Boundary::periodic || box.boundary(a) == Boundary::mirror)
+    if (box.boundary(a) == Boundary::mirror)
       throw Error(
-          fmt::format("multipoles: axis {} is {}; the field is that of open space (in periodic boxes a mesh with "
-                      "an accuracy does it)",
-                      "xyz"[a], to_string(box.boundary(a))));
-  if (!box.regions().empty()) throw Error("multipoles: the box has regions; the field is that of open space");
+          fmt::format("multipoles: axis {} is mirror; there are fields of open and of periodic axes (a mesh "
+                      "has them between walls)",
+                      "xyz"[a]));
+  if (!box.regions().empty()) throw Error("multipoles: the box has regions, which the field would not feel");
   if (box.dimension() == 2)
-    engine_ = std::make_unique<EngineIn<2>>(law);
+    engine_ = std::make_unique<EngineIn<2>>(law, box);
   else
-    engine_ = std::make_unique<EngineIn<3>>(law);
+    engine_ = std::make_unique<EngineIn<3>>(law, box);
 }
 
 MultipoleScheme::~MultipoleScheme() = default;
@@ -152,15 +183,30 @@ double MultipoleScheme::typical_square(std::vector<double> squares) {
   return kept > 0 ? sum.value() / static_cast<double>(kept) : 0;
 }
 
+/// Of the field 1/r^(D-1) of a unit strength.
+double MultipoleScheme::constant_of_points() const {
+  return std::abs(law_.constant) / (box().dimension() == 3 ? 4 * pi : 2 * pi);
+}
+
+/// In a crystal all that a particle feels may cancel: errors are measured by a thousandth of what a neighbour does.
+double MultipoleScheme::least_field() const {
+  if (!box().any_periodic()) return 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < engine_->count(); ++i) squares += square(engine_->strength(i));
+  return 1e-3 * constant_of_points() * std::sqrt(squares / static_cast<double>(engine_->count())) *
+         std::pow(engine_->spacing(), 1 - box().dimension());
+}
+
 MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t> const& chosen,
                                                         std::vector<double> const& exact) const {
   auto const D = static_cast<std::size_t>(box().dimension());
   CompensatedSum errors;
   double largest = 0;
+  double const least = square(least_field());
   std::vector<double> squares;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     double const strength = engine_->strength(chosen[k]);
-    double sum = 0, error = 0;
+    double sum = square(strength) * least, error = 0;
     for (std::size_t a = 0; a < D; ++a) {
       error += square(strength * (engine_->field()[chosen[k] * D + a] - exact[k * D + a]));
       sum += square(strength * exact[k * D + a]);
@@ -198,14 +244,13 @@ std::size_t MultipoleScheme::leaf() const {
 /// of it, where there is one: what is promised of all particles then holds for all.
 void MultipoleScheme::tune(bool with_potential) {
   auto const chosen = choose_samples();
-  auto const exact = engine_->exact(chosen, threads());
+  auto const exact = engine_->exact(chosen, better * tolerance_, threads());
   if (order_ == 0) order_ = order_for(tolerance_, box().dimension());
   std::size_t const leaf = this->leaf();
   auto const D = static_cast<std::size_t>(box().dimension());
-  std::vector<double> squares(chosen.size(), 0.0);
+  std::vector<double> squares(chosen.size(), square(least_field()));
   for (std::size_t i = 0; i < exact.size(); ++i) squares[i / D] += square(exact[i]);
-  double const typical = std::sqrt(typical_square(squares));
-  double const field = typical / (std::abs(law_.constant) / (box().dimension() == 3 ? 4 * pi : 2 * pi));
+  double const field = std::sqrt(typical_square(squares)) / constant_of_points();
   if (!std::isfinite(field) || field == 0) {  // two at one place, or nobody who acts: whoever looks will say so
     engine_->choose({order_, leaf, 1});
     engine_->calculate(with_potential, threads());
@@ -233,7 +278,12 @@ void MultipoleScheme::tune(bool with_potential) {
       order_ = before.order, criterion_ = before.criterion;
       return calculate();
     }
-    if (engine_->cost().translations == 0 || (enough && (!too_much || attempt >= 12))) return;
+    if (everything_is_summed() || (enough && (!too_much || attempt >= 12))) return;
+    if (attempt >= 60)
+      throw PhysicsFailure(
+          fmt::format("multipoles: the tolerance {:.0e} is not reached, the error is {:.1e}: what "
+                      "particles feel cancels to less than rounding allows",
+                      tolerance_, measured_));
     double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
     if (enough && criterion_ >= most) {
       if (order_ == 2) return;
@@ -246,9 +296,13 @@ void MultipoleScheme::tune(bool with_potential) {
   }
 }
 
+bool MultipoleScheme::everything_is_summed() const {
+  return engine_->cost().translations == 0 && !box().any_periodic();
+}
+
 void MultipoleScheme::calculate_field(bool with_potential) {
   collect();
-  if (engine_->count() <= summed_directly) {
+  if (engine_->count() <= summed_directly && !box().any_periodic()) {
     measured_ = 0;
     engine_->choose({2, engine_->count() + 1, 1});
     engine_->calculate(with_potential, threads());
@@ -314,8 +368,11 @@ EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
     measures.per_particle.push_back(std::move(energies));
   }
   measures.potential = potential.value();
-  for (std::size_t a = 0; a < D; ++a)
-    for (std::size_t b = 0; b < D; ++b) measures.virial[a][b] = virial[a][b].value();
+  if (box().any_periodic())
+    measures.no_virial = "multipoles in a periodic box don't have it (P3M does)";
+  else
+    for (std::size_t a = 0; a < D; ++a)
+      for (std::size_t b = 0; b < D; ++b) measures.virial[a][b] = virial[a][b].value();
   return measures;
 }
 
@@ -323,10 +380,10 @@ MultipoleAccuracy MultipoleScheme::accuracy() {
   Look const look(*this);
   calculate_field(false);
   auto const chosen = choose_samples();
-  bool const direct = engine_->cost().translations == 0;
+  bool const direct = everything_is_summed();
   MultipoleAccuracy accuracy;
   if (!direct) {
-    accuracy.measured = error_of(chosen, engine_->exact(chosen, threads())).mean;
+    accuracy.measured = error_of(chosen, engine_->exact(chosen, better * tolerance_, threads())).mean;
     accuracy.order = engine_->choice().order;
   }
   accuracy.nodes = engine_->cost().nodes;
@@ -356,7 +413,7 @@ std::string MultipoleScheme::summary() const { return fmt::format("multipoles, e
 std::string MultipoleScheme::report() const {
   if (calculations_ == 0) return "";
   auto const& cost = engine_->cost();
-  if (cost.translations == 0) return fmt::format("multipoles: {} pairs, all summed directly", cost.pairs);
+  if (everything_is_summed()) return fmt::format("multipoles: {} pairs, all summed directly", cost.pairs);
   return fmt::format(
       "multipoles of order {}: error {:.1e} of {:.0e}; {} nodes, {:.3g} translations and {:.3g} pairs a step",
       engine_->choice().order, measured_, tolerance_, cost.nodes, static_cast<double>(cost.translations),

@@ -1,5 +1,5 @@
-// MultipoleScheme: gravity and electrostatics of any distribution of particles in open space, in 2D and 3D, by
-// multipole expansions over a tree: O(N), with an accuracy that is kept.
+// MultipoleScheme: gravity and electrostatics of any distribution of particles in 2D and 3D, in open space or with
+// periodic axes, by multipole expansions over a tree: O(N), with an accuracy that is kept.
 //
 //   MultipoleScheme scheme(Box({-9, -9, -9}, {9, 9, 9}), gravity(1, 0.01), 1e-4);
 //   scheme.add(stars);
@@ -33,8 +33,11 @@ class MultipoleScheme final : public Scheme {
   /// second sum without the fiftieth that feels most, so that a close pair does not count for all). What the expansions
   /// need for it is found when the scheme first calculates, by comparing with direct sums for 200 particles or more,
   /// and looked at again every 64 calculations. Few particles are summed directly.
-  /// Error if the box is not of 2 or 3 dimensions, has periodic axes, mirrors or regions, or if the tolerance is not
-  /// between 1e-10 and 0.1.
+  /// Along periodic axes everything repeats for ever. If all axes are, potentials are those of ewald_sums(): a uniform
+  /// background makes the box neutral, and nothing is polarised from outside. If some are, potentials go to
+  /// -(C/2) |z|/area from layers, -(C/2 pi) ln r / edge from rows of strength 1. A softening acts nearby.
+  /// Error if the box is not of 2 or 3 dimensions, has mirrors or regions, or if the tolerance is not between 1e-10 and
+  /// 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
   ~MultipoleScheme() override;
 
@@ -82,6 +85,9 @@ class MultipoleScheme final : public Scheme {
   std::vector<std::size_t> choose_samples() const;
   std::size_t leaf() const;
   static double typical_square(std::vector<double> squares);
+  double constant_of_points() const;
+  double least_field() const;
+  bool everything_is_summed() const;
   /// The error of the last calculation for samples, as a part of what they feel (0 where they feel nothing); the
   /// largest over that mean.
   struct SampledError {
