@@ -235,7 +235,8 @@ TEST(Species, AWrongOneInARunStopsIt) {
 
 TEST(SpeciesTable, RefusesSpeciesThatItDoesNotHave) {
   SpeciesTable<3> table;
-  for (auto const& [a, b] : {std::pair(3, 0), std::pair(0, 3), std::pair(-1, 0), std::pair(0, -1)}) {
+  for (auto const& [first, second] : {std::pair(3, 0), std::pair(0, 3), std::pair(-1, 0), std::pair(0, -1)}) {
+    int const a = first, b = second;  // lambdas don't capture bindings everywhere
     EXPECT_EQ(message([&] { table.set(a, b, {1.0}); }),
               "there are no species " + std::to_string(a) + " and " + std::to_string(b) + ": of 3 they are 0 to 2");
     EXPECT_THROW(table.get(a, b), Error);
