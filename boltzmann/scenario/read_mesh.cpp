@@ -12,29 +12,30 @@
 #include <stdexcept>
 
 namespace boltzmann {
-namespace {
 
-std::optional<std::vector<std::size_t>> read_cells(Item const& item, Reading& reading) {
+std::optional<std::vector<std::size_t>> read_cells(Item const& item, char const* key, Reading& reading) {
   std::vector<std::size_t> cells;
   if (!item.is(Item::Kind::array)) {
-    auto const n = read_integer(item, "cells", 1, 1'000'000'000, reading.context);
+    auto const n = read_integer(item, key, 1, 1'000'000'000, reading.context);
     if (!n) return std::nullopt;
     cells.assign(static_cast<std::size_t>(std::max(reading.dimension, 1)), static_cast<std::size_t>(*n));
     return cells;
   }
   if (reading.dimension > 0 && item.elements.size() != static_cast<std::size_t>(reading.dimension)) {
-    reading.mistake(item.place, fmt::format("cells: {} number{} for {} ax{}; give one for all, or one for each",
+    reading.mistake(item.place, fmt::format("{}: {} number{} for {} ax{}; give one for all, or one for each", key,
                                             item.elements.size(), item.elements.size() == 1 ? "" : "s",
                                             reading.dimension, reading.dimension == 1 ? "is" : "es"));
     return std::nullopt;
   }
   for (auto const& element : item.elements) {
-    auto const n = read_integer(element, "cells", 1, 1'000'000'000, reading.context);
+    auto const n = read_integer(element, key, 1, 1'000'000'000, reading.context);
     if (!n) return std::nullopt;
     cells.push_back(static_cast<std::size_t>(*n));
   }
   return cells;
 }
+
+namespace {
 
 FieldBoundary read_end(Item const& item, Reading& reading) {
   return read_word(item, "boundary", field_boundary_words(), reading.context).value_or(FieldBoundary::periodic);
@@ -80,7 +81,7 @@ void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
 void read_plain_mesh(Section& section, MeshOptions const& options, LaplaceLaw const& law, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Item const* item = section.need("cells", "cells = 64");
-  auto const cells = item ? read_cells(*item, reading) : std::nullopt;
+  auto const cells = item ? read_cells(*item, "cells", reading) : std::nullopt;
   Item const* boundary = section.find("boundary");
   if (!cells) return;
   catch_errors(reading, item->place, [&] {
@@ -129,20 +130,20 @@ void add_to_mesh(Item const& table, Reading& reading) {
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {
   if (!reading.mesh.usable) return false;
   if (!reading.mesh.fields.empty()) return true;
-  auto* mesh = reading.result->scheme<MeshScheme>();
-  if (!mesh) {
-    reading.mistake(place, fmt::format("{} needs a mesh, but the scenario has no [mesh]", what));
-    return reading.mesh.usable = false;
-  }
+  std::vector<Scheme*> schemes;
+  for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
   for (auto const& ensemble : reading.ensembles)
     if (!ensemble.particles) return false;
   try {
-    reading.mesh.fields = mesh->mesh_fields();
+    reading.mesh.fields = mesh_fields_of(schemes);
   } catch (std::runtime_error const& failure) {  // of the user's input or, with particles outside, of the physics
     reading.mistake(place_of(failure.what(), reading), failure.what());
-    reading.mesh.usable = false;
+    return reading.mesh.usable = false;
   }
-  return reading.mesh.usable;
+  if (!reading.mesh.fields.empty()) return true;
+  reading.mistake(place,
+                  fmt::format("{} needs a mesh, but the scenario has no [mesh], and no 'grid' in [multipole]", what));
+  return reading.mesh.usable = false;
 }
 
 }  // namespace boltzmann

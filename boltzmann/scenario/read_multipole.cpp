@@ -1,4 +1,4 @@
-// Reads [multipole]: gravity or electrostatics of open space by expansions.
+// Reads [multipole]: gravity or electrostatics by expansions.
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -13,10 +13,15 @@ void read_multipole(Item const& table, Reading& reading) {
   auto const law = read_field_law(section, multipole_options(), reading);
   MultipoleOptions options;
   read_options(section, keys_but_of_the_law(multipole_options()), &options, {.dimension = reading.dimension});
+  Item const* grid = section.find("grid");
+  auto const cells = grid ? read_cells(*grid, "grid", reading) : std::nullopt;
   section.finish();
   if (!law || !reading.box || reading.context.mistakes.count() != before) return;
   catch_errors(reading, table.place, [&] {
-    reading.result->schemes.push_back(std::make_unique<MultipoleScheme>(*reading.box, *law, options.tolerance));
+    auto scheme = std::make_unique<MultipoleScheme>(*reading.box, *law, options.tolerance);
+    scheme->background(options.background);
+    if (cells) scheme->grid(*cells);
+    reading.result->schemes.push_back(std::move(scheme));
   });
 }
 
@@ -24,7 +29,8 @@ void add_to_multipole(Item const& table, Reading& reading) {
   if (auto* const scheme = reading.result->scheme<MultipoleScheme>())
     add_sources(
         table, "[multipole]", scheme->constant(),
-        [&](AnyEnsemble& ensemble, SourceKind const& kind) { scheme->add(ensemble, kind); }, reading);
+        [&](AnyEnsemble& ensemble, SourceKind const& kind) { scheme->add(ensemble, kind); }, reading,
+        [&](AnyEnsemble& ensemble, SourceKind const& kind) { scheme->add_test_particles(ensemble, kind); });
 }
 
 }  // namespace boltzmann

@@ -37,56 +37,64 @@ OptionTable keys_but_of_the_law(OptionTable const& all) {
 
 namespace {
 
-/// Whom the scheme may act on: those that are named, or all. Null where one could not be read.
-std::vector<ReadEnsemble*> chosen_ensembles(Section& section, Reading& reading) {
-  std::vector<ReadEnsemble*> on;
-  Item const* item = section.find("on");
-  if (!item) {
-    for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
-  } else if (!item->is(Item::Kind::array)) {
-    on.push_back(reading.ensemble(*item, "on"));
-  } else {
-    if (item->elements.empty())
-      reading.mistake(item->place, "on: no ensemble; name one or more, or leave it out: all that fit");
-    for (auto const& word : item->elements) {
-      on.push_back(reading.ensemble(word, "on"));
-      if (on.back() && std::find(on.begin(), on.end() - 1, on.back()) != on.end() - 1)
-        reading.mistake(word.place, fmt::format("on: '{}' twice", on.back()->name));
-    }
+/// Those that a key names. Null where one could not be read.
+std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Reading& reading) {
+  std::vector<ReadEnsemble*> named;
+  Item const* item = section.find(key);
+  if (!item) return named;
+  if (!item->is(Item::Kind::array)) return {reading.ensemble(*item, key)};
+  if (item->elements.empty())
+    reading.mistake(item->place, fmt::format("{}: no ensemble; name one or more, or leave it out", key));
+  for (auto const& word : item->elements) {
+    named.push_back(reading.ensemble(word, key));
+    if (named.back() && std::find(named.begin(), named.end() - 1, named.back()) != named.end() - 1)
+      reading.mistake(word.place, fmt::format("{}: '{}' twice", key, named.back()->name));
   }
-  return on;
+  return named;
 }
 
 }  // namespace
 
-bool add_sources(Item const& table, char const* heading, double constant,
-                 std::function<void(AnyEnsemble&, SourceKind const&)> const& add, Reading& reading) {
+bool add_sources(Item const& table, char const* heading, double constant, AddToField const& add, Reading& reading,
+                 AddToField const& test) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, heading, reading.context);
-  bool const chosen = section.has("on"), repel = constant > 0;
+  bool const repel = constant > 0;
   char const* const fitting = repel ? "Coulomb" : "Kepler";
-  auto const refuse = [&](std::string const& what) {
-    reading.mistake(section.place("on"), what);
+  auto const fits = [&](SourceKind const& kind) { return kind.strengths != nullptr && kind.sign * constant > 0; };
+  auto const kind_of = [&](ReadEnsemble const& ensemble) { return ensemble.kind->in(reading.dimension)->source; };
+  auto const give = [&](ReadEnsemble& ensemble, char const* key, AddToField const& to) {
+    SourceKind const kind = kind_of(ensemble);
+    Place const place = section.has(key) ? section.place(key) : ensemble.place;
+    if (fits(kind)) return catch_errors(reading, place, [&] { to(*ensemble.particles, kind); });
+    if (!kind.strengths)
+      reading.mistake(place, fmt::format("{}: '{}' is of class {}, which makes no field; the class that does: {}", key,
+                                         ensemble.name, ensemble.kind->name, fitting));
+    else
+      reading.mistake(place, fmt::format("{}: '{}' is of class {}, which the law '{}' does not act on; write law = "
+                                         "\"{}\", or choose class {}",
+                                         key, ensemble.name, ensemble.kind->name, repel ? "coulomb" : "gravity",
+                                         repel ? "gravity" : "coulomb", fitting));
     return false;
   };
-  bool any = false;
-  for (auto* ensemble : chosen_ensembles(section, reading)) {
-    if (!ensemble || !ensemble->particles || !ensemble->kind) return false;
-    SourceKind const kind = ensemble->kind->in(reading.dimension)->source;
-    bool const can = kind.strengths != nullptr && kind.sign * constant > 0;
-    if (!chosen && !(can && kind.own)) continue;
-    if (!kind.strengths)
-      return refuse(fmt::format("on: '{}' is of class {}, which makes no field; the class that does: {}",
-                                ensemble->name, ensemble->kind->name, fitting));
-    if (!can)
-      return refuse(fmt::format(
-          "on: '{}' is of class {}, which the law '{}' does not act on; write law = \"{}\", "
-          "or choose class {}",
-          ensemble->name, ensemble->kind->name, repel ? "coulomb" : "gravity", repel ? "gravity" : "coulomb", fitting));
-    any = true;
-    catch_errors(reading, chosen ? section.place("on") : ensemble->place, [&] { add(*ensemble->particles, kind); });
-  }
-  if (!any && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
+  std::vector<ReadEnsemble*> const tests =
+      test ? named_ensembles(section, "test_particles", reading) : std::vector<ReadEnsemble*>{};
+  std::vector<ReadEnsemble*> on = named_ensembles(section, "on", reading);
+  if (!section.has("on"))
+    for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
+  for (auto const& all : {on, tests})
+    for (auto const* ensemble : all)
+      if (!ensemble || !ensemble->particles || !ensemble->kind) return false;
+  if (!section.has("on"))  // those that are made for it, but for test particles
+    std::erase_if(on, [&](ReadEnsemble const* ensemble) {
+      SourceKind const kind = kind_of(*ensemble);
+      return !fits(kind) || !kind.own || std::find(tests.begin(), tests.end(), ensemble) != tests.end();
+    });
+  for (auto* ensemble : on)
+    if (!give(*ensemble, "on", add)) return false;
+  for (auto* ensemble : tests)
+    if (!give(*ensemble, "test_particles", test)) return false;
+  if (on.empty() && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
     reading.mistake(table.place, fmt::format("{}: no ensemble makes a field; class {} does{}", heading, fitting,
                                              repel ? "" : ", and with 'on' any other that has a mass"));
   return reading.context.mistakes.count() == before;

@@ -146,6 +146,8 @@ void settle_run(Item& resolved, Reading& reading);
 /// Makes the schemes that the file has tables of.
 void read_schemes(Section& document, Reading& reading);
 void read_mesh(Item const& table, Reading& reading);
+/// A number of cells for each axis, from one for all or a list.
+std::optional<std::vector<std::size_t>> read_cells(Item const& item, char const* key, Reading& reading);
 void read_multipole(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
 /// The law that makes the field of a mesh or of multipoles, with k or G, and its softening if the table has it.
@@ -168,10 +170,11 @@ void load_schemes(Reading& reading);
 void add_to_mesh(Item const& table, Reading& reading);
 void add_to_multipole(Item const& table, Reading& reading);
 void add_to_smooth(Item const& table, Reading& reading);
-/// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit. False: something
-/// is wrong with those that are there.
-bool add_sources(Item const& table, char const* heading, double constant,
-                 std::function<void(AnyEnsemble&, SourceKind const&)> const& add, Reading& reading);
+/// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit; and those that
+/// `test_particles` names to `test`, if there is such a key. False: something is wrong with those that are there.
+using AddToField = std::function<void(AnyEnsemble&, SourceKind const&)>;
+bool add_sources(Item const& table, char const* heading, double constant, AddToField const& add, Reading& reading,
+                 AddToField const& test = {});
 /// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);

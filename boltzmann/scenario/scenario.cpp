@@ -2,6 +2,7 @@
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/scenario/sweep_values.hpp>
 #include <boltzmann/simulation/refusals.hpp>
 
@@ -147,6 +148,8 @@ Place place_of(std::string const& message, Reading const& reading) {
     return reading.smooth.wanted && !reading.run.skin ? reading.smooth.skin_place : reading.run.skin_place;
   if (message.starts_with("the step ")) return reading.run.step_place;
   if (message.starts_with("mesh: ")) return reading.mesh.background_place;
+  for (auto const& [entry, table] : reading.schemes)
+    if (entry->told.name == "multipole" && message.starts_with("multipoles: ")) return table->place;
   return reading.run.place;
 }
 

@@ -134,6 +134,21 @@ TEST(Examples, PlummersClusterStaysAsItIs) {
   EXPECT_NE(example.out().find("-W/2T"), std::string::npos);
 }
 
+// A pair of ions has the energy -1.747564594633182 (from the literature); in the middle of a cell nothing is felt.
+TEST(Examples, MadelungsConstantOfRockSalt) {
+  Example const example("madelung");
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  for (double const energy : table["total energy"]) EXPECT_NEAR(energy, -256 * 1.747564594633182, 1e-6);
+  double constant = 0, between = 1;
+  auto const line = example.out().substr(example.out().find("Madelung's constant"));
+  ASSERT_EQ(
+      std::sscanf(line.c_str(), "Madelung's constant %lf; the potential between eight ions %lf", &constant, &between),
+      2);
+  EXPECT_NEAR(constant, 1.747564594633182, 1e-8);
+  EXPECT_NEAR(between, 0, 1e-6);
+}
+
 TEST(Examples, PendulumsConserveEnergyAndExchangeIt) {
   Example const example("pendulums");
   ASSERT_TRUE(example.good());

@@ -299,6 +299,11 @@ void expect_ewald(std::size_t count, Vector<D> const& edges, double tolerance, b
   for (int a = 0; a < D; ++a) low[a] = -0.3 * edges[a], high[a] = 0.7 * edges[a];
   MultipoleScheme scheme(Box(low, high, Boundary::periodic), coulomb(2), tolerance);
   scheme.add(charges);
+  if (!neutral) {
+    EXPECT_NE(message([&] { scheme.calculate(); }).find("a periodic box has no field unless they cancel"),
+              std::string::npos);
+    scheme.background(true);
+  }
   scheme.calculate();
   auto const exact = ewald_sums<D>(all, strengths, edges, coulomb(2).constant);
   double errors = 0, squares = 0;
@@ -318,14 +323,14 @@ TEST(MultipolesInPeriodicBoxes, AreEwaldSums3D) {
   int seed = 200;
   for (double const tolerance : {1e-3, 1e-6, 1e-10})
     for (std::size_t const count : {1UL, 2UL, 20UL, 1000UL})
-      for (bool const neutral : {true, false})
+      for (bool const neutral : {count > 1, false})
         expect_ewald<3>(count, seed % 2 == 0 ? Vector{2., 2., 2.} : Vector{1., 3., 1.5}, tolerance, neutral, seed++);
 }
 TEST(MultipolesInPeriodicBoxes, AreEwaldSums2D) {
   int seed = 300;
   for (double const tolerance : {1e-3, 1e-6, 1e-10})
     for (std::size_t const count : {1UL, 2UL, 20UL, 1000UL})
-      for (bool const neutral : {true, false})
+      for (bool const neutral : {count > 1, false})
         expect_ewald<2>(count, seed % 2 == 0 ? Vector{2., 2.} : Vector{1., 4.}, tolerance, neutral, seed++);
 }
 
@@ -387,6 +392,72 @@ TEST(MultipolesInPeriodicBoxes, AreRowsAndLayers) {
   expect_images<3>({open, periodic, periodic}, 6, 1e-7, 405);
   expect_images<3>({periodic, open, periodic}, 6, 1e-7, 406);
   expect_images<3>({periodic, periodic, open}, 6, 1e-7, 407);
+}
+
+// Test particles feel what the others make, and nobody feels them; places are as good as particles.
+template <int D>
+void expect_test_particles(Boundary boundary) {
+  Ensemble<Coulomb<D>> charges("charges", 3000), tests("tests", 500);
+  auto const all = places<D>(Shape::cube, 3500, 51);
+  for (std::size_t i = 0; i < 3000; ++i) charges[i].position = all[i], charges[i].charge = i % 2 == 0 ? 1 : -1;
+  for (std::size_t i = 0; i < 500; ++i) tests[i].position = all[3000 + i], tests[i].charge = 3;
+  Vector<D> low, high;
+  for (int a = 0; a < D; ++a) low[a] = -0.5, high[a] = 0.5;
+  Box const box(low, high, boundary);
+  MultipoleScheme alone(box, coulomb(1), 1e-7), scheme(box, coulomb(1), 1e-7);
+  alone.add(charges);
+  alone.calculate();
+  auto const undisturbed = influences(charges);
+  auto const energy = alone.measure().potential;
+  scheme.add(charges);
+  scheme.add_test_particles(tests);
+  scheme.calculate();
+  auto const of_charges = influences(charges), of_tests = influences(tests);
+  double errors = 0, squares = 0, of_places = 0, potentials = 0;
+  for (std::size_t k = 0; k < of_charges.size(); ++k)
+    errors += square(of_charges[k] - undisturbed[k]), squares += square(undisturbed[k]);
+  EXPECT_LT(std::sqrt(errors / squares), 2e-7);
+  auto const there = alone.field_at<D>({all.begin() + 3000, all.end()});
+  double squares_there = 0;
+  for (std::size_t i = 0; i < 500; ++i) {
+    for (int a = 0; a < D; ++a)
+      of_places += square(of_tests[i * D + static_cast<std::size_t>(a)] - 3 * there[i].field[a]);
+    squares_there += 9 * norm2(there[i].field);
+    potentials += 3 * there[i].potential;
+  }
+  EXPECT_LT(std::sqrt(of_places / squares_there), 2e-7);
+  auto const measured = scheme.measure();
+  EXPECT_NEAR(measured.potential, energy + potentials, 1e-5 * std::abs(energy));
+  EXPECT_TRUE(measured.driven);
+  EXPECT_NE(measured.no_virial, "");
+  // The field on nodes is that at their places.
+  alone.grid(std::vector<std::size_t>(D, 4));
+  auto const fields = alone.mesh_fields();
+  ASSERT_EQ(fields.size(), 2U);
+  MeshGrid const& grid = fields[0]->grid;
+  Vector<D> place;
+  for (int a = 0; a < D; ++a) place[a] = grid.position(a, static_cast<std::size_t>(a) + 1);
+  auto const node = grid.index(1, 2, D == 3 ? 3 : 0);
+  auto const at_node = alone.field_at<D>({place})[0];
+  EXPECT_NEAR(fields[0]->components[0][node], at_node.potential, 1e-5 * std::abs(at_node.potential));
+  for (int a = 0; a < D; ++a)
+    EXPECT_NEAR(fields[1]->components[static_cast<std::size_t>(a)][node], at_node.field[a],
+                1e-5 * magnitude(at_node.field));
+}
+TEST(Multipoles, HaveTestParticles) {
+  for (auto const boundary : {Boundary::open, Boundary::periodic}) {
+    expect_test_particles<2>(boundary);
+    expect_test_particles<3>(boundary);
+  }
+  Ensemble<Coulomb<3>> charges("charges", 3);
+  MultipoleScheme scheme(wide<3>(), coulomb(1), 1e-7);
+  scheme.add(charges);
+  EXPECT_NE(message([&] { scheme.add_test_particles(charges); }).find("can't make the field and be test particles"),
+            std::string::npos);
+  EXPECT_NE(message<PhysicsFailure>([&] { scheme.field_at<3>({Vector<3>{}}); }).find("a particle is there"),
+            std::string::npos);
+  EXPECT_NE(message([&] { scheme.field_at<2>({Vector<2>{}}); }).find("places of 2 dimensions in a box of 3"),
+            std::string::npos);
 }
 
 // A hundredth of the particles feel anything: the tolerance is that of their forces.

@@ -26,8 +26,6 @@ constexpr double euler_gamma = 0.577215664901532860606512;
 constexpr double root_pi = 1.77245385090551602730;
 constexpr double reach = 7;  // exp(-reach^2) = 5e-22
 
-double length(Place const& r) { return std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]); }
-
 /// Calls use(place, how many are like it) for the whole multiples of steps (none along an axis where the step is 0)
 /// within a distance; of those that are mirror images of each other for one.
 template <class Use>
@@ -38,7 +36,7 @@ void each_within(Place const& steps, double distance, Use const& use) {
     for (double j = 0; j <= most[1]; ++j)
       for (double k = 0; k <= most[2]; ++k) {
         Place const place{i * steps[0], j * steps[1], k * steps[2]};
-        if (length(place) <= distance) use(place, (i > 0 ? 2. : 1.) * (j > 0 ? 2. : 1.) * (k > 0 ? 2. : 1.));
+        if (distance_of(place) <= distance) use(place, (i > 0 ? 2. : 1.) * (j > 0 ? 2. : 1.) * (k > 0 ? 2. : 1.));
       }
 }
 
@@ -133,7 +131,8 @@ std::vector<Place> ImageLattice::within(double distance) const {
       if (own) all.push_back(image);
     }
   });
-  std::stable_sort(all.begin(), all.end(), [](Place const& a, Place const& b) { return length(a) < length(b); });
+  std::stable_sort(all.begin(), all.end(),
+                   [](Place const& a, Place const& b) { return distance_of(a) < distance_of(b); });
   return all;
 }
 
@@ -142,7 +141,7 @@ double ImageLattice::next_after(double distance) const {
   for (double const edge : edges)
     if (edge > 0 && (shortest == 0 || edge < shortest)) shortest = edge;
   each_within(edges, distance + 1.001 * shortest, [&](Place const& place, double) {
-    double const r = length(place);
+    double const r = distance_of(place);
     if (r > distance && (next == 0 || r < next)) next = r;
   });
   return next;
@@ -202,7 +201,7 @@ FarImages::FarImages(int dimension, ImageLattice const& lattice, double distance
   constexpr double alpha = 2;
   double const first = dimension == 3 ? 0.5 : 0;
   each_within(steps, reach / alpha, [&](Place const& place, double count) {
-    double const r = length(place);
+    double const r = distance_of(place);
     if (r == 0) return;
     IncompleteGamma const gamma(first, alpha * alpha * r * r, 2 * order + 1);
     double const inverse = 1 / r, sign = r < near ? -count : count;
@@ -229,7 +228,7 @@ FarImages::FarImages(int dimension, ImageLattice const& lattice, double distance
     for (int a = 0; a < dimension; ++a)
       if (steps[a] > 0) along += k[a] * k[a];
     if (along == 0) return;
-    double const wave = length(k), inverse = 1 / wave;
+    double const wave = distance_of(k), inverse = 1 / wave;
     Place const direction{k[0] * inverse, k[1] * inverse, k[2] * inverse};
     harmonics.each(direction, [&](int n, int m, double value) {
       // 1/(2n - 1)!! = 2^n n! / (2n)!

@@ -5,10 +5,15 @@
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace boltzmann {
+
+inline double distance_of(std::array<double, 3> const& place) {
+  return std::sqrt(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]);
+}
 
 /// More images than this are not met.
 inline constexpr std::size_t most_images = 20'000;

@@ -21,8 +21,6 @@ MultipoleKernels kernels_for(int dimension) {
   return for_instruction_set([&](auto set) { return multipole_kernels<decltype(set)::value>().of[dimension - 2]; });
 }
 
-double distance_of(std::array<double, 3> const& r) { return std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]); }
-
 /// Pairs that take as long as one translation of an expansion.
 double pairs_of_a_translation(int dimension, int order) {
   double const p = order;

@@ -8,6 +8,7 @@ namespace boltzmann {
 /// The law and whom it acts on are read by the reader of the scenario.
 struct MultipoleOptions {
   double tolerance = 1e-4;
+  bool background = false;
 };
 OptionTable const& multipole_options();
 

@@ -52,8 +52,9 @@ struct MultipoleScheme::Engine {
   virtual ~Engine() = default;
   /// All particles of these ensembles with their strengths. PhysicsFailure if a position is not finite.
   virtual void collect(std::vector<Loaded> const& loaded, int threads) = 0;
+  /// Places that feel the field, behind the particles.
+  virtual void add(double const* places, std::size_t count) = 0;
   virtual std::size_t count() const = 0;
-  virtual double strength(std::size_t i) const = 0;
   virtual void choose(MultipoleChoice const& choice) = 0;
   virtual void calculate(bool with_potential, int threads) = 0;
   /// The field at these particles by direct sums, to this part of it.
@@ -93,14 +94,24 @@ struct MultipoleScheme::EngineIn final : Engine {
                                                           i, ensemble.name(),
                                                           std::isfinite(x) ? ", or too far to be squared" : ""));
                      }
-                     point.amount = one.strengths[i];
+                     point.amount = one.acts ? one.strengths[i] : 0;
                    }
                  });
       at += ensemble.size();
     }
   }
+  void add(double const* places, std::size_t count) override {
+    for (std::size_t k = 0; k < count; ++k) {
+      Point point{};
+      for (int a = 0; a < D; ++a) {
+        point.position[a] = inside(places[k * D + a], a);
+        if (!(std::abs(point.position[a]) < furthest))
+          throw Error(fmt::format("multipoles: place {} is not finite, or too far to be squared", k));
+      }
+      points.push_back(point);
+    }
+  }
   std::size_t count() const override { return points.size(); }
-  double strength(std::size_t i) const override { return points[i].amount; }
   void choose(MultipoleChoice const& choice) override { multipoles.choose(choice); }
   void calculate(bool with_potential, int threads) override { multipoles.calculate(points, with_potential, threads); }
   std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const override {
@@ -158,11 +169,19 @@ MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double toleranc
 
 MultipoleScheme::~MultipoleScheme() = default;
 
-void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) {
+void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) { load(ensemble, kind, true); }
+
+void MultipoleScheme::add_test_particles(AnyEnsemble& ensemble, SourceKind const& kind) { load(ensemble, kind, false); }
+
+void MultipoleScheme::load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts) {
   kind.check(ensemble, law_.constant, "multipoles");
-  if (std::any_of(loaded_.begin(), loaded_.end(), [&](Loaded const& one) { return one.ensemble == &ensemble; })) return;
+  for (auto const& one : loaded_)
+    if (one.ensemble == &ensemble) {
+      if (one.acts == acts) return;
+      throw Error(fmt::format("multipoles: '{}' can't make the field and be test particles", ensemble.name()));
+    }
   Scheme::add(ensemble);
-  loaded_.push_back({&ensemble, kind, {}});
+  loaded_.push_back({&ensemble, kind, acts, {}});
 }
 
 void MultipoleScheme::collect() {
@@ -170,7 +189,22 @@ void MultipoleScheme::collect() {
     one.strengths.resize(one.ensemble->size());
     one.kind.strengths(one.ensemble->row(0), 0, one.ensemble->size(), one.strengths.data());
   }
+  check_neutral();
   engine_->collect(loaded_, threads());
+}
+
+void MultipoleScheme::check_neutral() const {
+  for (int a = 0; a < box().dimension(); ++a)
+    if (background_ || !box().periodic(a)) return;
+  CompensatedSum total, all;
+  for (auto const& one : loaded_)
+    for (double const s : one.strengths)
+      if (one.acts) total += s, all += std::abs(s);
+  if (std::abs(total.value()) > 1e-9 * all.value())
+    throw Error(fmt::format(
+        "multipoles: the strengths sum to {:.6g}, and a periodic box has no field unless they cancel; add particles of "
+        "the other sign, or a uniform background: background(true), in scenarios background = true",
+        total.value()));
 }
 
 /// The mean square of what samples feel, without the fiftieth that feels most: a few that are near to each other would
@@ -188,24 +222,27 @@ double MultipoleScheme::constant_of_points() const {
   return std::abs(law_.constant) / (box().dimension() == 3 ? 4 * pi : 2 * pi);
 }
 
-/// In a crystal all that a particle feels may cancel: errors are measured by a thousandth of what a neighbour does.
+/// In a crystal all that a particle feels may cancel: errors are measured by a hundredth of what a neighbour does.
 double MultipoleScheme::least_field() const {
   if (!box().any_periodic()) return 0;
   double squares = 0;
-  for (std::size_t i = 0; i < engine_->count(); ++i) squares += square(engine_->strength(i));
-  return 1e-3 * constant_of_points() * std::sqrt(squares / static_cast<double>(engine_->count())) *
+  for (auto const& one : loaded_)
+    for (double const s : one.strengths)
+      if (one.acts) squares += s * s;
+  return 1e-2 * constant_of_points() * std::sqrt(squares / static_cast<double>(engine_->count())) *
          std::pow(engine_->spacing(), 1 - box().dimension());
 }
 
 MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t> const& chosen,
                                                         std::vector<double> const& exact) const {
   auto const D = static_cast<std::size_t>(box().dimension());
+  auto const strengths = strengths_of_all();
   CompensatedSum errors;
   double largest = 0;
   double const least = square(least_field());
   std::vector<double> squares;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    double const strength = engine_->strength(chosen[k]);
+    double const strength = strengths[chosen[k]];
     double sum = square(strength) * least, error = 0;
     for (std::size_t a = 0; a < D; ++a) {
       error += square(strength * (engine_->field()[chosen[k] * D + a] - exact[k * D + a]));
@@ -219,15 +256,23 @@ MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t>
   return {typical > 0 ? std::sqrt(mean / typical) : 0, mean > 0 ? std::sqrt(largest / mean) : 0};
 }
 
+/// Of particles, to what they feel.
+std::vector<double> MultipoleScheme::strengths_of_all() const {
+  std::vector<double> all;
+  for (auto const& one : loaded_) all.insert(all.end(), one.strengths.begin(), one.strengths.end());
+  return all;
+}
+
 /// Of those that feel something.
 std::vector<std::size_t> MultipoleScheme::choose_samples() const {
   std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < engine_->count(); ++i)
-    if (engine_->strength(i) != 0) all.push_back(i);
-  std::size_t const samples = sample_count(all.size(), engine_->count());
+  auto const strengths = strengths_of_all();
+  for (std::size_t i = 0; i < strengths.size(); ++i)
+    if (strengths[i] != 0) all.push_back(i);
+  std::size_t const samples = sample_count(all.size(), strengths.size());
   if (samples == all.size()) return all;
   std::vector<std::size_t> chosen;
-  Stream stream(0, 0, engine_->count(), Purpose::selection);
+  Stream stream(0, 0, strengths.size(), Purpose::selection);
   for (std::size_t k = 0; k < samples; ++k)
     chosen.push_back(all[static_cast<std::size_t>(stream.uniform() * static_cast<double>(all.size()))]);
   std::sort(chosen.begin(), chosen.end());
@@ -262,6 +307,8 @@ void MultipoleScheme::tune(bool with_potential) {
     int order;
     double criterion, cost;
   } before{0, 0, 0};
+  int in_vain = 0;
+  double last_measured = __builtin_inf();
   double most = 0;  // that one interaction may do at worst
   auto const calculate = [&] {
     engine_->choose({order_, leaf, criterion_});
@@ -279,7 +326,10 @@ void MultipoleScheme::tune(bool with_potential) {
       return calculate();
     }
     if (everything_is_summed() || (enough && (!too_much || attempt >= 12))) return;
-    if (attempt >= 60)
+    // More of expansions and pairs, and no better?
+    in_vain = !enough && measured_ > 0.7 * last_measured ? in_vain + 1 : 0;
+    last_measured = measured_;
+    if (in_vain == 4)
       throw PhysicsFailure(
           fmt::format("multipoles: the tolerance {:.0e} is not reached, the error is {:.1e}: what "
                       "particles feel cancels to less than rounding allows",
@@ -302,6 +352,10 @@ bool MultipoleScheme::everything_is_summed() const {
 
 void MultipoleScheme::calculate_field(bool with_potential) {
   collect();
+  choose_and_calculate(with_potential);
+}
+
+void MultipoleScheme::choose_and_calculate(bool with_potential) {
   if (engine_->count() <= summed_directly && !box().any_periodic()) {
     measured_ = 0;
     engine_->choose({2, engine_->count() + 1, 1});
@@ -354,10 +408,12 @@ EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
   CompensatedSum potential;
   std::array<std::array<CompensatedSum, 3>, 3> virial;
   std::size_t at = 0;
+  bool reaction = true;
   for (auto const& one : loaded_) {
+    reaction = reaction && one.acts;
     std::vector<double> energies(one.ensemble->size());
     for (std::size_t i = 0; i < energies.size(); ++i) {
-      energies[i] = 0.5 * one.strengths[i] * engine_->potential()[at + i];
+      energies[i] = (one.acts ? 0.5 : 1) * one.strengths[i] * engine_->potential()[at + i];
       potential += energies[i];
       // The sum over pairs of r_a F_b, since the forces of all cancel: that over particles of their place and force.
       for (std::size_t a = 0; a < D; ++a)
@@ -368,12 +424,74 @@ EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
     measures.per_particle.push_back(std::move(energies));
   }
   measures.potential = potential.value();
+  measures.driven = !reaction;  // who makes the field works on them
   if (box().any_periodic())
     measures.no_virial = "multipoles in a periodic box don't have it (P3M does)";
+  else if (!reaction)
+    measures.no_virial = "test particles feel forces that nobody feels in return";
   else
     for (std::size_t a = 0; a < D; ++a)
       for (std::size_t b = 0; b < D; ++b) measures.virial[a][b] = virial[a][b].value();
   return measures;
+}
+
+void MultipoleScheme::calculate_at(double const* places, std::size_t count, std::vector<double>& field,
+                                   std::vector<double>& potential) {
+  Look const look(*this);
+  collect();
+  std::size_t const particles = engine_->count();
+  auto const D = static_cast<std::ptrdiff_t>(box().dimension());
+  engine_->add(places, count);
+  choose_and_calculate(true);
+  auto const from = static_cast<std::ptrdiff_t>(particles);
+  field.assign(engine_->field().begin() + from * D, engine_->field().end());
+  potential.assign(engine_->potential().begin() + from, engine_->potential().end());
+  for (std::size_t k = 0; k < count; ++k)
+    if (!std::isfinite(potential[k]))
+      throw PhysicsFailure(fmt::format("multipoles: the field at place {} is not finite: a particle is there", k));
+}
+
+template <int D>
+std::vector<MultipoleScheme::FieldAt<D>> MultipoleScheme::field_at(std::vector<Vector<D>> const& places) {
+  if (D != box().dimension())
+    throw Error(fmt::format("multipoles: places of {} dimensions in a box of {}", D, box().dimension()));
+  std::vector<double> field, potential;
+  calculate_at(places.empty() ? nullptr : &places.front()[0], places.size(), field, potential);
+  std::vector<FieldAt<D>> all(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (int a = 0; a < D; ++a) all[k].field[a] = field[k * D + static_cast<std::size_t>(a)];
+    all[k].potential = potential[k];
+  }
+  return all;
+}
+template std::vector<MultipoleScheme::FieldAt<2>> MultipoleScheme::field_at(std::vector<Vector<2>> const&);
+template std::vector<MultipoleScheme::FieldAt<3>> MultipoleScheme::field_at(std::vector<Vector<3>> const&);
+
+void MultipoleScheme::grid(std::vector<std::size_t> const& cells) {
+  using namespace dimensions;
+  grid_ = make_grid(box(), cells);
+  potential_ = {"potential", energy / charge, *grid_, {}};
+  field_ = {"field", energy / charge / length, *grid_, {}};
+}
+
+std::vector<MeshField const*> MultipoleScheme::mesh_fields() {
+  if (!grid_) return {};
+  auto const D = static_cast<std::size_t>(box().dimension());
+  std::size_t const nodes = grid_->size();
+  std::vector<double> places(nodes * D), field, potential;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    std::size_t rest = n;
+    for (std::size_t a = 0; a < D; ++a) {
+      places[n * D + a] = grid_->position(static_cast<int>(a), rest % grid_->nodes[a]);
+      rest /= grid_->nodes[a];
+    }
+  }
+  calculate_at(places.data(), nodes, field, potential);
+  potential_.components = {std::move(potential)};
+  field_.components.assign(D, std::vector<double>(nodes));
+  for (std::size_t n = 0; n < nodes; ++n)
+    for (std::size_t a = 0; a < D; ++a) field_.components[a][n] = field[n * D + a];
+  return {&potential_, &field_};
 }
 
 MultipoleAccuracy MultipoleScheme::accuracy() {

@@ -8,6 +8,7 @@
 
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/mesh/mesh_field.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/schemes/source_kind.hpp>
 
@@ -33,9 +34,9 @@ class MultipoleScheme final : public Scheme {
   /// second sum without the fiftieth that feels most, so that a close pair does not count for all). What the expansions
   /// need for it is found when the scheme first calculates, by comparing with direct sums for 200 particles or more,
   /// and looked at again every 64 calculations. Few particles are summed directly.
-  /// Along periodic axes everything repeats for ever. If all axes are, potentials are those of ewald_sums(): a uniform
-  /// background makes the box neutral, and nothing is polarised from outside. If some are, potentials go to
-  /// -(C/2) |z|/area from layers, -(C/2 pi) ln r / edge from rows of strength 1. A softening acts nearby.
+  /// Along periodic axes everything repeats for ever. If all axes are, strengths have to cancel, or to have a
+  /// background; nothing is polarised from outside, as in ewald_sums(). If some are, potentials far from a strength go
+  /// to -(C/2) |z|/area by a layer, -(C/2 pi) ln r / edge by a row. A softening acts on what is nearby.
   /// Error if the box is not of 2 or 3 dimensions, has mirrors or regions, or if the tolerance is not between 1e-10 and
   /// 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
@@ -54,6 +55,31 @@ class MultipoleScheme final : public Scheme {
   }
   /// For code that knows classes only at run time. Error if the law and the class disagree on who attracts whom.
   void add(AnyEnsemble& ensemble, SourceKind const& kind);
+
+  /// These particles feel the field without making it (test particles).
+  template <class P>
+  void add_test_particles(Ensemble<P>& ensemble) {
+    static_assert(ForcedParticle<P>, "multipoles act on classes with mass and velocity, and a force as influence");
+    add_test_particles(ensemble, source_kind<P>());
+  }
+  void add_test_particles(AnyEnsemble& ensemble, SourceKind const& kind);
+  /// A uniform background that makes a box with periodic axes alone neutral.
+  void background(bool yes) { background_ = yes; }
+
+  /// The field of the particles at places that need not be theirs, and its potential: influence and energy of a
+  /// particle there are its strength times these. As accurate as influences; it takes as long. PhysicsFailure if a
+  /// particle is at such a place (and the law is not softened).
+  template <int D>
+  struct FieldAt {
+    Vector<D> field;
+    double potential;
+  };
+  template <int D>
+  std::vector<FieldAt<D>> field_at(std::vector<Vector<D>> const& places);
+  /// Lets mesh_fields() have the potential and the field on the nodes of a grid with so many cells, for pictures and
+  /// files; no particle feels it. Error unless there is a number for each axis.
+  void grid(std::vector<std::size_t> const& cells);
+  std::vector<MeshField const*> mesh_fields() override;
 
   /// The error as it stands, and what was chosen; chooses if that has not been done. Measuring costs 200 N pairs.
   MultipoleAccuracy accuracy();
@@ -77,11 +103,19 @@ class MultipoleScheme final : public Scheme {
   struct Loaded {
     AnyEnsemble* ensemble;
     SourceKind kind;
-    std::vector<double> strengths;
+    bool acts;
+    std::vector<double> strengths;  ///< to what is felt
   };
 
+  void load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts);
+  void check_neutral() const;
   void collect();
   void calculate_field(bool with_potential);
+  /// Field and potential at so many places of D numbers.
+  void calculate_at(double const* places, std::size_t count, std::vector<double>& field,
+                    std::vector<double>& potential);
+  void choose_and_calculate(bool with_potential);
+  std::vector<double> strengths_of_all() const;
   std::vector<std::size_t> choose_samples() const;
   std::size_t leaf() const;
   static double typical_square(std::vector<double> squares);
@@ -104,6 +138,9 @@ class MultipoleScheme final : public Scheme {
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
   std::size_t until_check_ = 0, calculations_ = 0;
+  bool background_ = false;
+  std::optional<MeshGrid> grid_;
+  MeshField potential_, field_;  // on its nodes
 };
 
 }  // namespace boltzmann
