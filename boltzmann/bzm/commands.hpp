@@ -78,6 +78,14 @@ int show_schema(std::string const& name);
 int check(std::string const& scenario, Overrides const& overrides);
 int new_scenario(std::string const& name);
 
+struct AccuracyOptions {
+  std::string scenario;
+  Overrides overrides;
+  std::string out;  ///< a picture; empty: none
+};
+/// What the tolerances of a scenario's multipoles cost, and reach.
+int accuracy(AccuracyOptions const& options);
+
 struct BuildOptions {
   std::string program, out;
   bool dry = false;

@@ -279,6 +279,13 @@ class CommandLine {
                   [this] { return check(name_, overrides_); });
     sub->add_option("scenario", name_, "a file, the name of a shipped scenario, or -: standard input")->required();
     scenario_options(sub, overrides_);
+    sub = command("accuracy", "what each tolerance of multipoles costs, for the particles of a scenario",
+                  [this] { return accuracy(accuracy_options_); });
+    sub->add_option("scenario", accuracy_options_.scenario,
+                    "a file, the name of a shipped scenario, or -: standard input")
+        ->required();
+    scenario_options(sub, accuracy_options_.overrides);
+    sub->add_option("-o,--out", accuracy_options_.out, "draw seconds over errors: .png .svg .pdf")->type_name("FILE");
     sub = command("new", "write a commented scenario to start from", [this] { return new_scenario(name_); });
     sub->add_option("name", name_, "the scenario's name; NAME.toml is written here")->required();
   }
@@ -319,6 +326,7 @@ class CommandLine {
   std::string name_;
   Overrides overrides_;
   bool schema_ = false;
+  AccuracyOptions accuracy_options_;
   BuildOptions build_options_;
   std::string folder_;
   BenchOptions bench_options_;

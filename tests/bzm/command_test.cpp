@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace boltzmann::command_test {
 namespace {
@@ -658,6 +659,28 @@ TEST(Render, AMovieNeedsFfmpegAndSaysSo) {
     EXPECT_GT(fs::file_size(folder / "movie.mp4"), 1000U);
   else
     expect_one_line(movie, 2, {"ffmpeg", "frames/"});
+}
+
+// A line for each tolerance, none of which is exceeded, and a picture of them.
+TEST(Bzm, TellsWhatTolerancesCost) {
+  Folder folder;
+  auto const outcome = bzm({"accuracy", "plummer", "--threads", "1", "--out", "cost.png"}, folder.string());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "All influences on 10000 particles by multipoles, 1 thread:");
+  std::getline(lines, line);
+  int rows = 0;
+  double tolerance = 0, error = 0, order = 0, translations = 0, pairs = 0, seconds = 0;
+  for (; lines >> tolerance >> error >> order >> translations >> pairs >> seconds; ++rows) {
+    EXPECT_LT(error, tolerance);
+    EXPECT_GT(seconds, 0);
+    EXPECT_LT(pairs, 1.1e8);
+  }
+  EXPECT_EQ(rows, 10);
+  EXPECT_GT(fs::file_size(fs::path(folder.string()) / "cost.png"), 1000U);
+  expect_one_line(bzm({"accuracy", "copper"}, folder.string()), 2, {"the scenario has no [multipole]"});
 }
 
 }  // namespace

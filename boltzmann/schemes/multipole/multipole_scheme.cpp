@@ -1,4 +1,5 @@
 // From ensembles to points and back, and how an accuracy is kept.
+#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
@@ -40,6 +41,11 @@ ImageLattice lattice_of(Box const& box) {
   for (int a = 0; a < box.dimension(); ++a)
     if (box.periodic(a)) lattice.edges[a] = box.length(a);
   return lattice;
+}
+
+void check_tolerance(double tolerance) {
+  if (!(tolerance >= 1e-10 && tolerance <= 0.1))
+    throw Error(fmt::format("multipoles: a tolerance of {}; it must be between 1e-10 and 0.1", tolerance));
 }
 
 /// Truth is so much better than what is compared with it.
@@ -150,8 +156,7 @@ MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double toleranc
     : Scheme(box), law_(law), tolerance_(tolerance) {
   law.check();
   if (law.constant == 0) throw Error("multipoles: the constant of the law is 0: nobody would feel anything");
-  if (!(tolerance >= 1e-10 && tolerance <= 0.1))
-    throw Error(fmt::format("multipoles: a tolerance of {}; it must be between 1e-10 and 0.1", tolerance));
+  check_tolerance(tolerance);
   if (box.dimension() == 1)
     throw Error("multipoles: the box has one dimension, where a mesh or pairs do it; expansions are for 2 and 3");
   for (int a = 0; a < box.dimension(); ++a)
@@ -508,6 +513,25 @@ MultipoleAccuracy MultipoleScheme::accuracy() {
   accuracy.translations = engine_->cost().translations;
   accuracy.pairs = engine_->cost().pairs;
   return accuracy;
+}
+
+MultipoleScheme::Price MultipoleScheme::price_of(double tolerance) {
+  check_tolerance(tolerance);
+  Look const look(*this);
+  double const own = std::exchange(tolerance_, tolerance);
+  criterion_ = 0, order_ = 0;
+  try {
+    calculate_field(false);
+    auto const since = Clock::now();
+    calculate_field(false);
+    double const seconds = seconds_since(since);
+    Price const price{accuracy(), seconds};
+    tolerance_ = own;
+    return price;
+  } catch (...) {
+    tolerance_ = own;
+    throw;
+  }
 }
 
 double MultipoleScheme::length_scale(AnyEnsemble const&) const {

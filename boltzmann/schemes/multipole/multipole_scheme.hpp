@@ -83,6 +83,12 @@ class MultipoleScheme final : public Scheme {
 
   /// The error as it stands, and what was chosen; chooses if that has not been done. Measuring costs 200 N pairs.
   MultipoleAccuracy accuracy();
+  /// The same with another tolerance for these particles, and the seconds that it takes to calculate all influences.
+  struct Price {
+    MultipoleAccuracy accuracy;
+    double seconds;
+  };
+  Price price_of(double tolerance);
 
   void add_influences(double time) override;
   EnergyAndVirial measure(double time = 0) override;
