@@ -98,8 +98,7 @@ class Harmonics {
       double now = top.real(), before = 0;
       for (int n = m; n <= order_; ++n) {
         if (n % 2 == 0) use(n, m, now);
-        double const next =
-            ((2 * n + 1) * z * now - std::sqrt(double(n * n - m * m)) * square * before) / norm(n + 1, m);
+        double const next = ((2 * n + 1) * z * now - norm(n, m) * square * before) / norm(n + 1, m);
         before = now;
         now = next;
       }
@@ -109,6 +108,123 @@ class Harmonics {
  private:
   static double norm(int n, int m) { return std::sqrt(double(n * n - m * m)); }
   int dimension_, order_;
+};
+
+/// The sums over far images, in units of the nearest of them, where all are of the size of 1.
+class LatticeSums {
+ public:
+  LatticeSums(int dimension, ImageLattice const& lattice, double distance, double unit, int order)
+      : dimension_(dimension),
+        order_(order),
+        unit_(unit),
+        near_(0.5 * (distance / unit + 1)),
+        harmonics_(dimension, 2 * order),
+        sums_(static_cast<std::size_t>(order + 1) * (order + 1), 0.0) {
+    for (int a = 0; a < dimension; ++a) {
+      steps_[a] = lattice.edges[a] / unit;
+      if (steps_[a] > 0)
+        volume_ *= steps_[a];
+      else
+        open_[a] = 1;
+    }
+    int const axes = lattice.periodic_axes();
+    if (axes == 1) {
+      add_row();
+    } else {
+      add_images();
+      axes == dimension ? add_box() : add_layers();
+    }
+  }
+  std::vector<double> const& sums() const { return sums_; }
+
+ private:
+  static constexpr double alpha = 2;
+
+  void add(int n, int m, double value) { sums_[static_cast<std::size_t>(n / 2 * (order_ + 1) + m / 2)] += value; }
+  /// The powers of 1/r that T_n has.
+  int power(int n) const { return dimension_ == 3 ? n + 1 : n; }
+  static double sign(int n) { return n / 2 % 2 != 0 ? -1 : 1; }
+  /// 1 / (2n - 1)!! = 2^n n! / (2n)!, or 1 / (2^n (n - 1)!), 1/2 for n = 0.
+  double logarithm_of_factor(int n) const {
+    if (dimension_ == 3) return n * std::log(2.) + std::lgamma(n + 1.) - std::lgamma(2. * n + 1);
+    return n > 0 ? -n * std::log(2.) - std::lgamma(double(n)) : -std::log(2.);
+  }
+
+  /// One periodic axis: zeta functions. Far from a row the potential is -(2/L) ln r, from one in 2D -(pi/L) |y|.
+  void add_row() {
+    Place direction{};
+    for (int a = 0; a < dimension_; ++a) direction[a] = 1 - open_[a];
+    double const edge = volume_, first = std::floor(near_ / edge);
+    harmonics_.each(direction, [&](int n, int m, double value) {
+      if (n > 0) add(n, m, value * 2 * std::pow(edge, -power(n)) * tail_of_zeta(power(n), first));
+    });
+    double harmonic = 0, logarithms = -std::log(2 * pi / (edge * unit_));
+    for (double i = 1; i <= first; ++i) harmonic += 1 / i, logarithms += 2 * std::log(i * edge * unit_);
+    add(0, 0, dimension_ == 3 ? 2 / edge * (euler_gamma - harmonic - std::log(2 * edge * unit_)) : logarithms);
+  }
+
+  void add_images() {
+    each_within(steps_, reach / alpha, [&](Place const& place, double count) {
+      double const r = distance_of(place), inverse = 1 / r;
+      if (r == 0) return;
+      bool const near = r < near_;
+      IncompleteGamma const gamma(0.5 * dimension_ - 1, alpha * alpha * r * r, 2 * order_ + 1);
+      Place const direction{place[0] * inverse, place[1] * inverse, place[2] * inverse};
+      harmonics_.each(direction, [&](int n, int m, double value) {
+        if (power(n) > 0) add(n, m, count * (near ? -gamma.p(n) : gamma.q(n)) * value * std::pow(inverse, power(n)));
+      });
+      if (dimension_ == 2)  // of -ln r
+        add(0, 0, count * (0.5 * exponential_integral(alpha * alpha * r * r) + (near ? std::log(r * unit_) : 0)));
+    });
+  }
+
+  /// Those that vary along periodic axes, in a box of this volume that has a length along open axes, too.
+  void add_waves(double volume) {
+    double const furthest = 2 * alpha * (reach + std::sqrt(static_cast<double>(order_)));
+    Place waves{};
+    for (int a = 0; a < dimension_; ++a) waves[a] = 2 * pi / (steps_[a] > 0 ? steps_[a] : length_of_open_axis());
+    each_within(waves, furthest, [&](Place const& k, double count) {
+      double varies = 0;
+      for (int a = 0; a < dimension_; ++a) varies += (1 - open_[a]) * k[a];
+      if (varies == 0) return;
+      double const wave = distance_of(k), inverse = 1 / wave;
+      Place const direction{k[0] * inverse, k[1] * inverse, k[2] * inverse};
+      double const f = count * 4 * pi / volume * inverse * inverse;
+      harmonics_.each(direction, [&](int n, int m, double value) {
+        double const exponent = logarithm_of_factor(n) + n * std::log(wave) - wave * wave / (4 * alpha * alpha);
+        add(n, m, sign(n) * f * std::exp(exponent) * value);
+      });
+    });
+  }
+
+  /// All axes: waves, and what is left of the mean and of the box's own cloud.
+  void add_box() {
+    add_waves(volume_);
+    if (dimension_ == 3)
+      add(0, 0, -pi / (alpha * alpha * volume_) - 2 * alpha / root_pi);
+    else
+      add(0, 0, -pi / (2 * alpha * alpha * volume_) - 0.5 * (euler_gamma + 2 * std::log(alpha / unit_)));
+  }
+
+  /// Two periodic axes of three: along the open one k is dense, as dense as the sum needs to be the integral; what
+  /// varies along it alone is integrated by hand.
+  void add_layers() {
+    double const area = volume_;
+    add_waves(area * length_of_open_axis());
+    harmonics_.each(open_, [&](int n, int m, double value) {
+      if (n == 0) return add(0, 0, -2 * root_pi / (alpha * area) - 2 * alpha / root_pi);
+      double const exponent = logarithm_of_factor(n) + (n - 1) * std::log(2 * alpha) + std::lgamma(0.5 * (n - 1));
+      add(n, m, sign(n) * 2 / area * std::exp(exponent) * value);
+    });
+  }
+  double length_of_open_axis() const { return std::max(6.5 * *std::max_element(steps_.begin(), steps_.end()), 3.5); }
+
+  int dimension_, order_;
+  double unit_, near_;
+  Harmonics harmonics_;
+  Place steps_{}, open_{};  // open_: 1 along open axes
+  double volume_ = 1;       // of the periodic axes
+  std::vector<double> sums_;
 };
 
 }  // namespace
@@ -148,114 +264,17 @@ double ImageLattice::next_after(double distance) const {
 }
 
 FarImages::FarImages(int dimension, ImageLattice const& lattice, double distance, int order)
-    : dimension_(dimension), order_(order), distance_(distance), unit_(lattice.next_after(distance)) {
-  sums_.assign(static_cast<std::size_t>(order + 1) * (order + 1), 0.0);
-  auto const add = [&](int n, int m, double value) {
-    sums_[static_cast<std::size_t>(n / 2 * (order + 1) + m / 2)] += value;
-  };
+    : dimension_(dimension),
+      order_(order),
+      distance_(distance),
+      unit_(lattice.next_after(distance)),
+      sums_(LatticeSums(dimension, lattice, distance, unit_, order).sums()) {
   auto const width = static_cast<std::size_t>(4 * order) + 1;
   binomials_.assign(width * width, 0.0);
   for (std::size_t n = 0; n < width; ++n)
     for (std::size_t k = 0; k <= n; ++k)
       binomials_[n * width + k] =
           k == 0 || k == n ? 1 : binomials_[(n - 1) * width + k - 1] + binomials_[(n - 1) * width + k];
-
-  Harmonics const harmonics(dimension, 2 * order);
-  Place steps{};  // in units of the nearest far image, where all sums are of the size of 1
-  double volume = 1, longest = 0;
-  int axes = 0, open = 0;
-  for (int a = 0; a < dimension; ++a)
-    if (lattice.edges[a] > 0) {
-      steps[a] = lattice.edges[a] / unit_;
-      volume *= steps[a];
-      longest = std::max(longest, steps[a]);
-      ++axes;
-    } else {
-      open = a;
-    }
-  double const near = 0.5 * (distance / unit_ + 1);
-
-  if (axes == 1) {
-    Place direction{};
-    double edge = 0;
-    for (int a = 0; a < dimension; ++a)
-      if (steps[a] > 0) direction[a] = 1, edge = steps[a];
-    double const first = std::floor(near / edge);
-    harmonics.each(direction, [&](int n, int m, double value) {
-      double const s = dimension == 3 ? n + 1 : n;
-      if (n > 0) add(n, m, value * 2 * std::pow(edge, -s) * tail_of_zeta(s, first));
-    });
-    // Far from a row the potential is -(2/L) ln r, from one in 2D -(pi/L) |y|.
-    if (dimension == 3) {
-      double harmonic = 0;
-      for (double i = 1; i <= first; ++i) harmonic += 1 / i;
-      add(0, 0, 2 / edge * (euler_gamma - harmonic - std::log(2 * edge * unit_)));
-    } else {
-      double logarithms = -std::log(2 * pi / (edge * unit_));
-      for (double i = 1; i <= first; ++i) logarithms += 2 * std::log(i * edge * unit_);
-      add(0, 0, logarithms);
-    }
-    return;
-  }
-
-  constexpr double alpha = 2;
-  double const first = dimension == 3 ? 0.5 : 0;
-  each_within(steps, reach / alpha, [&](Place const& place, double count) {
-    double const r = distance_of(place);
-    if (r == 0) return;
-    IncompleteGamma const gamma(first, alpha * alpha * r * r, 2 * order + 1);
-    double const inverse = 1 / r, sign = r < near ? -count : count;
-    Place const direction{place[0] * inverse, place[1] * inverse, place[2] * inverse};
-    harmonics.each(direction, [&](int n, int m, double value) {
-      double const part = r < near ? gamma.p(n) : gamma.q(n);
-      if (dimension == 3)
-        add(n, m, sign * part * value * std::pow(inverse, n + 1));
-      else if (n > 0)
-        add(n, m, sign * part * value * std::pow(inverse, n));
-    });
-    if (dimension == 2) {
-      double const cloud = 0.5 * exponential_integral(alpha * alpha * r * r);
-      add(0, 0, count * (r < near ? cloud + std::log(r * unit_) : cloud));
-    }
-  });
-  // Along an open axis k is dense: as dense as the sum needs to be the integral.
-  Place waves{};
-  for (int a = 0; a < dimension; ++a) waves[a] = 2 * pi / (steps[a] > 0 ? steps[a] : std::max(6.5 * longest, 3.5));
-  if (axes < dimension) volume *= 2 * pi / waves[open];
-  double const furthest = 2 * alpha * (reach + std::sqrt(static_cast<double>(order)));
-  each_within(waves, furthest, [&](Place const& k, double count) {
-    double along = 0;
-    for (int a = 0; a < dimension; ++a)
-      if (steps[a] > 0) along += k[a] * k[a];
-    if (along == 0) return;
-    double const wave = distance_of(k), inverse = 1 / wave;
-    Place const direction{k[0] * inverse, k[1] * inverse, k[2] * inverse};
-    harmonics.each(direction, [&](int n, int m, double value) {
-      // 1/(2n - 1)!! = 2^n n! / (2n)!
-      double const size = dimension == 3 ? n * std::log(2 * wave) + std::lgamma(n + 1.) - std::lgamma(2. * n + 1)
-                                         : (n > 0 ? n * std::log(wave / 2) - std::lgamma(double(n)) : std::log(0.5));
-      double const f = count * 4 * pi / volume * std::exp(size - wave * wave / (4 * alpha * alpha)) * inverse * inverse;
-      add(n, m, (n / 2 % 2 != 0 ? -f : f) * value);
-    });
-  });
-  if (axes == dimension) {
-    if (dimension == 3)
-      add(0, 0, -pi / (alpha * alpha * volume) - 2 * alpha / root_pi);
-    else
-      add(0, 0, -pi / (2 * alpha * alpha * volume) - 0.5 * (euler_gamma + 2 * std::log(alpha / unit_)));
-    return;
-  }
-  // Layers: the waves along the open axis alone.
-  double const area = volume * waves[open] / (2 * pi);
-  Place direction{};
-  direction[open] = 1;
-  harmonics.each(direction, [&](int n, int m, double value) {
-    if (n == 0) return add(0, 0, -2 * root_pi / (alpha * area) - 2 * alpha / root_pi);
-    double const size = n * std::log(2.) + std::lgamma(n + 1.) - std::lgamma(2. * n + 1) +
-                        (n - 1) * std::log(2 * alpha) + std::lgamma(0.5 * (n - 1));
-    double const f = 2 / area * std::exp(size);
-    add(n, m, (n / 2 % 2 != 0 ? -f : f) * value);
-  });
 }
 
 void FarImages::add(ExpansionView const& tables, double const* moments, double radius, double* local) const {
