@@ -175,8 +175,8 @@ TEST(Examples, IonsGetTheEnergyOfTheirField) {
   EXPECT_LT(table.drift("total energy"), 1e-4 * table["total energy"].front());
 }
 
-// Rigid spheres would be 1.381 apart at 6.09 (by the orbit of physics/galaxies_test.cpp, which holds early times against
-// it). These deform each other, and lose energy of their orbit.
+// Rigid spheres would be 1.381 apart at 6.09 (by the orbit of physics/galaxies_test.cpp, which holds early times
+// against it). These deform each other, and lose energy of their orbit.
 TEST(Examples, GalaxiesPassEachOther) {
   Example const example("galaxies");
   ASSERT_TRUE(example.good());
