@@ -133,18 +133,20 @@ void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const&
     Stream stream(key, 0, i, Purpose::position);
     std::array<double, 3> x{};
     int draws = 0;
+    auto const there = [&] { return allowed(box, x.data()) && (!options.where || options.where(x.data())); };
     do {
       if (++draws > longest_search) {
         if (!keep_apart)
-          throw Error(
-              fmt::format("random load: the regions leave no place for particle {} of '{}'", i, ensemble.name()));
+          throw Error(fmt::format("random load: {} no place for particle {} of '{}'",
+                                  options.where ? "'where' and regions leave" : "the regions leave", i,
+                                  ensemble.name()));
         throw Error(
             fmt::format("random load: found no place for particle {} of '{}' with the minimum distance {}; for {} "
                         "particles in this box it must be well below {:.3g}",
                         i, ensemble.name(), minimum_distance, ensemble.size(), jamming_distance(box, ensemble.size())));
       }
       for (int a = 0; a < box.dimension(); ++a) x[a] = on_axis(box, a, stream.uniform());
-    } while (!allowed(box, x.data()) || (placed && !placed->free(x.data())));
+    } while (!there() || (placed && !placed->free(x.data())));
     std::copy_n(x.data(), box.dimension(), ensemble.row(i));
     if (placed) placed->add(i);
   }

@@ -19,10 +19,11 @@ namespace boltzmann {
 struct RandomLoadOptions {
   double minimum_distance = 0;
   std::uint64_t seed = 1;
+  std::function<bool(double const*)> where{};  ///< of a place, only where it is true; without it everywhere
 };
 
-/// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in.
-/// With a minimum distance, particle i is drawn again until it is that far from particles 0..i-1 (nearest images on
+/// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in, and
+/// where `where` says so: a box as small as the shape finds places fast. With a minimum distance, particle i is drawn again until it is that far from particles 0..i-1 (nearest images on
 /// periodic axes). Error if no place is found: the box is too full; the message says about how far it can go.
 void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const& options = {});
 

@@ -4,6 +4,7 @@
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
@@ -31,9 +32,13 @@ class Loader {
 
  private:
   double read_block();
-  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
   void refuse_overlapping_ends(std::array<double, 3> const& lengths);
+  void read_corners();
+  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
   double read_fill();
+  void read_where();
+  bool is_wanted(double const* place);
+  void load_random(AnyEnsemble& particles);
   double read_positions();
   double read_file();
 
@@ -46,6 +51,9 @@ class Loader {
   std::size_t count_ = 0;
   LatticeBlock block_;
   bool centred_ = true;
+  std::array<double, 3> low_{}, high_{};
+  std::optional<FormulaNames> names_;
+  std::optional<Formula> where_;
   std::optional<double> volume_;
   Wave wave_;
   std::vector<double> positions_;

@@ -89,6 +89,7 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   double own_count = 0;  // from what is loaded
   if (*name == "block") own_count = read_block();
   if (*name == "fill") own_count = read_fill();
+  if (*name == "random") read_corners(), read_where();
   if (*name == "sinusoidal") wave_ = wave_of(options_, section_, reading_);
   if (*name == "positions") own_count = read_positions();
   if (*name == "file") own_count = read_file();
@@ -122,7 +123,7 @@ void Loader::load(AnyEnsemble& particles) {
     refuse_overlapping_ends(repeat_lengths(block_, particles.dimension()));
     block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
   } else if (kind == "random") {
-    random_load(particles, *reading_.box, {.minimum_distance = options_.minimum_distance, .seed = seed});
+    load_random(particles);
   } else if (kind == "quiet") {
     quiet_load(particles, *reading_.box);
   } else if (kind == "sinusoidal" && options_.quiet) {
@@ -209,40 +210,67 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
   }
 }
 
-double Loader::read_fill() {
+/// The block from low to high, without them the box.
+void Loader::read_corners() {
   int const dimension = reading_.dimension;
   std::size_t const before = reading_.context.mistakes.count();
-  std::array<double, 3> low{}, high{};
-  Item const *low_item = section_.find("low"), *high_item = section_.find("high"), *where = section_.find("where");
+  Item const *low_item = section_.find("low"), *high_item = section_.find("high");
   for (int a = 0; a < dimension && reading_.box; ++a) {
-    low[static_cast<std::size_t>(a)] = reading_.box->low(a);
-    high[static_cast<std::size_t>(a)] = reading_.box->high(a);
+    low_[static_cast<std::size_t>(a)] = reading_.box->low(a);
+    high_[static_cast<std::size_t>(a)] = reading_.box->high(a);
   }
-  for (auto const& [item, edge] : {std::pair(low_item, &low), std::pair(high_item, &high)})
+  for (auto const& [item, edge] : {std::pair(low_item, &low_), std::pair(high_item, &high_)})
     if (item && dimension > 0)
       if (auto const at =
               read_vector(*item, item == low_item ? "low" : "high", dimension, dimensions::length, reading_.context))
         std::copy(at->begin(), at->end(), edge->begin());
   if (reading_.box)
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-      if (!(low[a] < high[a]) && reading_.context.mistakes.count() == before)
+      if (!(low_[a] < high_[a]) && reading_.context.mistakes.count() == before)
         reading_.mistake(
             high_item ? high_item->place : low_item->place,
-            fmt::format("{}: {} must be {} {} along {}", high_item ? "high" : "low", high_item ? high[a] : low[a],
-                        high_item ? "above" : "below", high_item ? low[a] : high[a], "xyz"[a]));
-  FormulaNames names(std::max(dimension, 1));
-  auto const formula =
-      where && dimension > 0 ? read_formula(*where, "where", names, {}, reading_) : std::optional<Formula>{};
+            fmt::format("{}: {} must be {} {} along {}", high_item ? "high" : "low", high_item ? high_[a] : low_[a],
+                        high_item ? "above" : "below", high_item ? low_[a] : high_[a], "xyz"[a]));
+}
+
+void Loader::read_where() {
+  Item const* where = section_.find("where");
+  names_.emplace(std::max(reading_.dimension, 1));
+  if (where && reading_.dimension > 0) where_ = read_formula(*where, "where", *names_, {}, reading_);
+}
+
+bool Loader::is_wanted(double const* place) { return !where_ || names_->evaluate(*where_, place) != 0; }
+
+void Loader::load_random(AnyEnsemble& particles) {
+  Box const& box = *reading_.box;
+  std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(box.dimension()); ++a) {  // images stay where the axis is whole
+    int const axis = static_cast<int>(a);
+    if (low_[a] == box.low(axis) && high_[a] == box.high(axis)) boundaries[a] = box.boundary(axis);
+  }
+  Box part(box.dimension(), low_, high_, boundaries);
+  RandomLoadOptions options{.minimum_distance = options_.minimum_distance, .seed = reading_.run.seed};
+  if (where_) options.where = [&](double const* place) { return is_wanted(place); };
+  if (!section_.has("low") && !section_.has("high")) return random_load(particles, box, options);
+  for (auto const& region : box.regions()) part.install(region);
+  random_load(particles, part, options);
+}
+
+double Loader::read_fill() {
+  int const dimension = reading_.dimension;
+  std::size_t const before = reading_.context.mistakes.count();
+  read_corners();
+  read_where();
   if (!section_.has("spacing") || !reading_.box || reading_.context.mistakes.count() != before) return 0;
   double count = 0;
   catch_errors(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
-    Filling const filling{block_.kind, block_.spacing, low, high};
+    Filling const filling{block_.kind, block_.spacing, low_, high_};
     count = static_cast<double>(filling_count(filling, dimension));
     if (variant_ && !fits_memory(count, *variant_, section_.place("spacing"), reading_)) return;
     volume_ = site_volume(filling, dimension);
     count = 0;
     for (auto const& place : filling_sites(filling, dimension)) {
-      if (formula && names.evaluate(*formula, place.data()) == 0) continue;
+      if (!is_wanted(place.data())) continue;
       positions_.insert(positions_.end(), place.begin(), place.begin() + dimension);
       ++count;
     }

@@ -241,6 +241,31 @@ TEST(RandomLoad, RespectsRegions) {
   EXPECT_THROW(random_load(atoms, box), Error);
 }
 
+// A ball: r^3 / R^3 is uniform. Places that are not refused are those of a load without `where`.
+TEST(RandomLoad, IsUniformWhereItIsSaid) {
+  constexpr std::size_t n = 5000;
+  Ensemble<Newton<3>> ball("ball", n), cube("ball", n);
+  Box const box({-2, -2, -2}, {2, 2, 2});
+  auto const radius = [](double const* x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); };
+  random_load(ball, box, {.seed = test_seed(5), .where = [&](double const* x) { return radius(x) < 2; }});
+  random_load(cube, box, {.seed = test_seed(5)});
+  std::vector<double> inside;
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_LT(radius(ball.row(i)), 2);
+    inside.push_back(radius(ball.row(i)));
+    same += ball[i].position[0] == cube[i].position[0];
+  }
+  EXPECT_LT(kolmogorov_smirnov(inside, [](double r) { return r * r * r / 8; }), kolmogorov_smirnov_limit);
+  EXPECT_NEAR(static_cast<double>(same), n * pi / 6, 5 * std::sqrt(n / 4.0));
+  try {
+    random_load(ball, box, {.where = [](double const*) { return false; }});
+    FAIL() << "placed particles where nothing is allowed";
+  } catch (Error const& error) {
+    EXPECT_NE(std::string(error.what()).find("'where'"), std::string::npos) << error.what();
+  }
+}
+
 TEST(RandomField, DrawsFromAnyVariable) {
   Ensemble<Newton<1>> electrons("electrons", 20000);
   Ripple const ripple(0, 2, 3 * pi, 0.4, 0.5, 1);

@@ -190,6 +190,25 @@ TEST(Scenario, TemperatureIsThatOfTheFile) {
   EXPECT_NEAR(40 * 1.66053906660e-27 * square / (3 * 1999 * 1.380649e-23), 300, 1e-6);
 }
 
+TEST(Scenario, RandomParticlesFillAPartOfTheBox) {
+  std::string const text =
+      "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0]\nhigh = [8, 8]\nboundary = \"periodic\"\n[run]\nstep = 0.1\n"
+      "steps = 1\n[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\nmass = 1\nnumber = 500\n"
+      "load = { kind = \"random\", low = [2, 0], high = [4, 8], where = \"x + y < 6\", minimum_distance = 0.05 }\n";
+  auto const scenario = parse_scenario(text, "t.toml");
+  AnyEnsemble const& a = *scenario->ensembles[0];
+  ASSERT_EQ(a.size(), 500U);
+  double highest = 0, lowest = 8;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double const x = a.row(i)[0], y = a.row(i)[1];
+    EXPECT_TRUE(x > 2 && x < 4 && x + y < 6) << x << ' ' << y;
+    highest = std::max(highest, y), lowest = std::min(lowest, y);
+  }
+  EXPECT_GT(highest, 3.5);
+  EXPECT_LT(lowest, 0.1);
+  EXPECT_EQ(parse_scenario(scenario->resolved, "stored.toml")->ensembles[0]->row(7)[0], a.row(7)[0]);
+}
+
 // Two masses on a spring, of two ensembles whose rows have different lengths (class Tethered is longer in 3D), over
 // every way to say it: the frequency is sqrt(k / reduced mass).
 TEST(Scenario, LawsRunBetweenClassesOfDifferentRows) {

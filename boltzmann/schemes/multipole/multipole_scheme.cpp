@@ -534,9 +534,8 @@ MultipoleScheme::Price MultipoleScheme::price_of(double tolerance) {
   }
 }
 
-double MultipoleScheme::length_scale(AnyEnsemble const&) const {
-  return law_.softening > 0 ? law_.softening : __builtin_inf();
-}
+// No step has to resolve a softening: among many particles one that passes near gives far less than all others do.
+double MultipoleScheme::length_scale(AnyEnsemble const&) const { return __builtin_inf(); }
 
 std::string MultipoleScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
   return law_.softening > 0 ? "" : at_one_place(ensemble, i);
