@@ -269,6 +269,11 @@ void read_run(Section& document, Reading& reading) {
   run.cutoff_place = section.place("cutoff");
   run.skin = options.skin;
   run.skin_place = section.place("skin");
+  run.tolerance = options.tolerance;
+  run.tolerance_place = section.place("tolerance");
+  run.substeps = options.substeps;
+  run.substeps_place = section.place("substeps");
+  if (run.substeps) catch_errors(reading, run.substeps_place, [&] { check(*run.substeps); });
   if (Item const* stop = section.find("stop")) run.stop = *stop;
   section.finish();
   if (run.cutoff && reading.box)
