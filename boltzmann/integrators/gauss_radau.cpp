@@ -252,7 +252,8 @@ double GaussRadau::correct(std::size_t node, int threads) {
   double worst = 0;
   for (std::size_t k = 0; node == order && k < parts_.size(); ++k) {
     Extent change, rate;
-    for (std::size_t i = begin_[k]; i < begin_[k + 1]; ++i) change.take(x_node_[i]), rate.take(rates_[i]);
+    for (std::size_t i = begin_[k]; i < begin_[k + 1]; ++i)
+      change.take(x_node_[i]), rate.take(start_rates_[i]), rate.take(rates_[i]);
     if (!change.finite() || !rate.finite()) return std::numeric_limits<double>::quiet_NaN();
     if (rate.largest > 0) worst = std::max(worst, change.largest / rate.largest);
   }
@@ -292,9 +293,10 @@ double GaussRadau::growth(double h) const {
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const& part = parts_[k];
     bool const second = part.equations->second_order();
-    Extent last, rate, change, motion;
+    Extent last, rate, change, motion;  // the rate may have become zero, beyond a cut-off
     for (std::size_t i = begin_[k]; i < begin_[k + 1]; ++i) {
-      last.take(b_[order - 1][i]), rate.take(rates_[i]), change.take(b_[0][i] * (x_[i] - origin_[i]));
+      last.take(b_[order - 1][i]), rate.take(start_rates_[i]), rate.take(rates_[i]);
+      change.take(b_[0][i] * (x_[i] - origin_[i]));
       motion.take(h * (second ? v_[i] + 0.5 * h * start_rates_[i] : start_rates_[i]));
     }
     if (rate.largest > 0) error = std::max(error, last.largest / rate.largest);

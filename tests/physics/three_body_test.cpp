@@ -27,7 +27,7 @@ TEST(ThreeBody, Figure8Closes) {
 }
 
 // Through all encounters to the escape of the mass 3. Positions of the masses 3 and 4 from a calculation in quadruple
-// precision (extrapolation of order 28, relative tolerance 1e-27); what is wrong grows some 10^12 times on the way.
+// precision (extrapolation of order 28, relative tolerance 1e-27); what is wrong grows some 10^10 times on the way.
 TEST(ThreeBody, PythagoreanToTheEscape) {
   auto const run = shipped("pythagorean");
   auto& bodies = *run->ensembles.front();
