@@ -14,6 +14,8 @@
 
 namespace boltzmann {
 
+class AnyEnsemble;
+
 /// How an ensemble is advanced. The orders hold where all ensembles that influence each other have the same method, and
 /// for the leap-frogs where influences depend on positions (and time) only; otherwise the result is first order in the
 /// step.
@@ -25,6 +27,8 @@ enum class Method {
   reversible_leap_frog,
   random_walk,  ///< Eq 3.13
   deactivate,
+  symplectic_4,  ///< kicks and drifts of fourth order
+  gauss_radau,   ///< in steps of its own, which a tolerance determines: all ensembles together (gauss_radau.hpp)
 };
 
 Words<Method> const& method_words();
@@ -69,6 +73,22 @@ struct FixedPoint {
   double position = 0, velocity = 0, force = 0;
 };
 
+/// The numbers of an ensemble that change in time, side by side, for a method that advances all ensembles together:
+/// either all of them with first derivatives, or positions and velocities with accelerations.
+class EquationsOfMotion {
+ public:
+  virtual ~EquationsOfMotion() = default;
+  virtual AnyEnsemble& ensemble() = 0;
+  /// True for positions with velocities and accelerations; the arrays of velocities are not touched otherwise.
+  virtual bool second_order() const = 0;
+  /// Of each particle.
+  virtual std::size_t numbers() const = 0;
+  virtual void read(double* numbers, double* velocities) = 0;
+  virtual void write(double const* numbers, double const* velocities) = 0;
+  /// Their derivatives, from the rows and the influences of now.
+  virtual void rates(double* rates) = 0;
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -81,6 +101,8 @@ class Integrator {
   virtual Motion advance(int stage, StepContext const& context) = 0;
   /// False if some particles are treated in another way than method() has it.
   virtual bool same_for_all() const { return true; }
+  /// What a method without stages works on, which advances all ensembles together; null for methods of stages.
+  virtual EquationsOfMotion* equations_of_motion() { return nullptr; }
   /// Puts the state on a grid (reversible leap-frog only).
   virtual void prepare(FixedPoint const&) {}
 

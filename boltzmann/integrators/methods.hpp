@@ -26,9 +26,17 @@ inline constexpr bool has_velocity = requires(P p) {
 };
 
 /// Calls f(x, ...) for one number, or for each component of vectors.
+template <class F>
+[[gnu::always_inline]] inline void each_component(F const& f, double const& x) {
+  f(x);
+}
 template <class F, class... Real>
 [[gnu::always_inline]] inline void each_component(F const& f, double& x, Real&... more) {
   f(x, more...);
+}
+template <class F, int D>
+[[gnu::always_inline]] inline void each_component(F const& f, Vector<D> const& x) {
+  for (int a = 0; a < D; ++a) f(x.component[a]);
 }
 template <class F, int D, class... V>
 [[gnu::always_inline]] inline void each_component(F const& f, Vector<D>& x, V&... more) {
@@ -42,6 +50,12 @@ template <class F, int D, class... T>
 [[gnu::always_inline]] inline void each_component(F const& f, Tensor<D>& x, T&... more) {
   for (int a = 0; a < D; ++a)
     for (int b = 0; b < D; ++b) f(x.component[a][b], more.component[a][b]...);
+}
+
+template <class F, int D>
+[[gnu::always_inline]] inline void each_component(F const& f, Tensor<D> const& x) {
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < D; ++b) f(x.component[a][b]);
 }
 
 /// True for the position among the fields that the equations of motion name.
@@ -59,6 +73,7 @@ template <class P>
 class MovingRows {
  public:
   explicit MovingRows(AnyEnsemble& ensemble) : ensemble_(ensemble) {}
+  AnyEnsemble& whole() const { return ensemble_; }
   std::size_t size() const { return ensemble_.size(); }
   std::size_t stride() const { return ensemble_.stride(); }
   double* row(std::size_t i) const { return ensemble_.row(i); }
@@ -186,6 +201,116 @@ class Alternating : public MethodOf<P> {
     this->each(function);
     if (this->move_.not_finite == LargestMove::nobody) this->move_ = drifted;
   }
+};
+
+/// Kicks and drifts in turn, of fourth order where influences depend on positions (and time) only: the method SRKN6b
+/// of S. Blanes and P. C. Moan, J. Comput. Appl. Math. 142, 313 (2002), Table 3. It is symmetric, so its second half
+/// are the coefficients of the first in the opposite order. The last kick of a step and the first of the next have the
+/// same influences: six evaluations a step.
+template <class P>
+class Symplectic4 final : public Alternating<P> {
+ public:
+  using Alternating<P>::Alternating;
+  int stages() const override { return 7; }
+  double time_after(int stage) const override {
+    double time = 0;
+    for (int k = 0; k <= stage; ++k) time += drifts[k];
+    return stage >= 5 ? 1 : time;
+  }
+  Motion advance(int stage, StepContext const& context) override {
+    double const of_kick = kicks[stage] * context.dt, of_drift = drifts[stage] * context.dt;
+    auto const plain = [](double& x, double dx) { x += dx; };
+    if (stage == 6) {
+      this->each_again([this, of_kick, plain](std::size_t i, LargestMove& move) {
+        this->kick(i, of_kick, plain);
+        move.take(norm2(this->ensemble_[i].velocity), i);
+      });
+      return Motion::none;
+    }
+    if (stage == 0) {
+      start_.resize(this->ensemble_.size());
+      for (std::size_t i = 0; i < start_.size(); ++i) start_[i] = this->ensemble_[i].position;
+    }
+    this->each([this, of_kick, of_drift, plain](std::size_t i, LargestMove& move) {
+      this->kick(i, of_kick, plain);
+      LargestMove part;
+      this->drift(i, of_drift, part, plain);
+      move.take(norm2(this->ensemble_[i].position - start_[i]), i);
+    });
+    return stage == 5 ? Motion::final : Motion::intermediate;
+  }
+
+ private:
+  static constexpr double b1 = 0.0829844064174052, b2 = 0.396309801498368, b3 = -0.0390563049223486;
+  static constexpr double a1 = 0.245298957184271, a2 = 0.604872665711080, a3 = 0.5 - (a1 + a2);
+  static constexpr double kicks[] = {b1, b2, b3, 1 - 2 * (b1 + b2 + b3), b3, b2, b1};
+  static constexpr double drifts[] = {a1, a2, a3, a3, a2, a1, 0};
+
+  std::vector<decltype(P::position)> start_;
+};
+
+/// What Gauss-Radau works on: positions, velocities and accelerations of all that moves as Newton says; of other
+/// classes every number that changes in time, and its rate.
+template <class P>
+class GaussRadauMethod final : public MethodOf<P>, public EquationsOfMotion {
+ public:
+  using MethodOf<P>::MethodOf;
+  int stages() const override { return 0; }
+  double time_after(int) const override { return 1; }
+  Motion advance(int, StepContext const&) override { return Motion::none; }
+  EquationsOfMotion* equations_of_motion() override { return this; }
+
+  AnyEnsemble& ensemble() override { return this->ensemble_.whole(); }
+  bool second_order() const override { return newton; }
+  std::size_t numbers() const override {
+    if (newton) return P::dimension;
+    std::size_t count = 0;
+    P const none{};
+    P::equations(none, typename P::Influence{},
+                 [&](auto, auto const& derivative) { count += sizeof(derivative) / sizeof(double); });
+    return count;
+  }
+  void read(double* numbers, double* velocities) override {
+    std::size_t const count = this->numbers();
+    this->each([this, numbers, velocities, count](std::size_t i, LargestMove&) {
+      P& p = this->ensemble_[i];
+      double* to = numbers + count * i;
+      if constexpr (newton) {
+        for (std::size_t a = 0; a < P::dimension; ++a) to[a] = p.position[a];
+        for (std::size_t a = 0; a < P::dimension; ++a) velocities[count * i + a] = p.velocity[a];
+      } else {
+        this->equations(i, [&](auto member, auto const&) { each_component([&](double& x) { *to++ = x; }, p.*member); });
+      }
+    });
+  }
+  void write(double const* numbers, double const* velocities) override {
+    std::size_t const count = this->numbers();
+    this->each([this, numbers, velocities, count](std::size_t i, LargestMove&) {
+      P& p = this->ensemble_[i];
+      double const* from = numbers + count * i;
+      if constexpr (newton) {
+        for (std::size_t a = 0; a < P::dimension; ++a) p.position[a] = from[a];
+        for (std::size_t a = 0; a < P::dimension; ++a) p.velocity[a] = velocities[count * i + a];
+      } else {
+        this->equations(i,
+                        [&](auto member, auto const&) { each_component([&](double& x) { x = *from++; }, p.*member); });
+      }
+    });
+    this->move_ = {};
+  }
+  void rates(double* rates) override {
+    std::size_t const count = this->numbers();
+    this->each([this, rates, count](std::size_t i, LargestMove&) {
+      double* to = rates + count * i;
+      this->equations(i, [&](auto member, auto const& derivative) {
+        if constexpr (!newton || !is_position<P, decltype(member)>)
+          each_component([&](double const& rate) { *to++ = rate; }, derivative);
+      });
+    });
+  }
+
+ private:
+  static constexpr bool newton = std::is_same_v<P, Newton<P::dimension>>;
 };
 
 /// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, seen from the whole steps.
@@ -422,6 +547,13 @@ std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
     case Method::reversible_leap_frog:
       if constexpr (has_velocity<P>) return std::make_unique<ReversibleLeapFrog<P>>(ensemble, method);
       break;
+    case Method::symplectic_4:
+      if constexpr (has_velocity<P> && !depends_on_velocity<P>)
+        return std::make_unique<Symplectic4<P>>(ensemble, method);
+      break;
+    case Method::gauss_radau:
+      if constexpr (!has_viscosity<P>) return std::make_unique<GaussRadauMethod<P>>(ensemble, method);
+      break;
   }
   return nullptr;
 }
@@ -460,8 +592,9 @@ std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method
               to_string(method) + ": " +
               (detail::has_viscosity<P>        ? "viscous vortices diffuse; use random-walk (or the class Inviscid)"
                : method == Method::random_walk ? "the class has no viscosity; use euler, rk2 or rk4"
-                                               : "the class has no velocity that a force could change; use euler, "
-                                                 "rk2 or rk4"));
+               : detail::has_velocity<P> ? "its influences depend on velocities; use leap-frog, rk4 or gauss-radau"
+                                         : "the class has no velocity that a force could change; use euler, "
+                                           "rk2, rk4 or gauss-radau"));
 }
 
 }  // namespace boltzmann

@@ -261,6 +261,7 @@ void read_run(Section& document, Reading& reading) {
     run.steps = read_integer(*steps, "steps", 0, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0);
   }
   RunOptions options;
+  std::size_t const before = reading.context.mistakes.count();
   read_options(section, run_options(), &options, {.dimension = reading.dimension});
   run.seed = static_cast<std::uint64_t>(options.seed);
   run.threads = options.threads;
@@ -269,6 +270,12 @@ void read_run(Section& document, Reading& reading) {
   run.cutoff_place = section.place("cutoff");
   run.skin = options.skin;
   run.skin_place = section.place("skin");
+  run.tolerance = options.tolerance;
+  run.tolerance_place = section.place("tolerance");
+  run.substeps = options.substeps;
+  run.substeps_place = section.place("substeps");
+  if (run.substeps && reading.context.mistakes.count() == before)
+    catch_errors(reading, run.substeps_place, [&] { check(*run.substeps); });
   if (Item const* stop = section.find("stop")) run.stop = *stop;
   section.finish();
   if (run.cutoff && reading.box)

@@ -41,7 +41,8 @@ struct ReadEnsemble {
 };
 
 struct ReadRun {
-  std::optional<double> step, cutoff, skin;
+  std::optional<double> step, cutoff, skin, tolerance;
+  std::optional<SubstepOptions> substeps;
   std::optional<double> courant;  ///< instead of the step: which part of the Courant step
   std::optional<double> time;     ///< instead of the number of steps
   std::int64_t steps = 0;
@@ -49,7 +50,7 @@ struct ReadRun {
   int threads = 0;
   bool cutoff_known = true;  ///< false: there is one, but it could not be read
   std::optional<Item> stop;  ///< the condition that ends the run, once the diagnoses are known
-  Place place, cutoff_place, skin_place, step_place, time_place;
+  Place place, cutoff_place, skin_place, step_place, time_place, tolerance_place, substeps_place;
 };
 
 struct ReadMesh {

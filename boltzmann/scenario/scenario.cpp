@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -56,6 +57,16 @@ void build(Item& document, Reading& reading) {
     result.simulation->speak_in(result.base);
   });
   if (!result.simulation) return;
+  bool const radau = std::any_of(reading.ensembles.begin(), reading.ensembles.end(), [](ReadEnsemble const& ensemble) {
+    return ensemble.integrator && ensemble.integrator->method() == Method::gauss_radau;
+  });
+  if (reading.run.tolerance && !radau)
+    reading.mistake(reading.run.tolerance_place,
+                    "tolerance: it is that of gauss-radau, by which no ensemble moves; write integrator = "
+                    "\"gauss-radau\" in [[ensembles]]");
+  else if (reading.run.tolerance)
+    result.simulation->tolerance(*reading.run.tolerance);
+  if (reading.run.substeps) result.simulation->divide_steps(*reading.run.substeps);
   for (auto& ensemble : reading.ensembles)
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
@@ -147,6 +158,7 @@ Place place_of(std::string const& message, Reading const& reading) {
   if (message.starts_with("the skin "))
     return reading.smooth.wanted && !reading.run.skin ? reading.smooth.skin_place : reading.run.skin_place;
   if (message.starts_with("the step ")) return reading.run.step_place;
+  if (message.starts_with("substeps") || message.starts_with("steps ")) return reading.run.substeps_place;
   if (message.starts_with("mesh: ")) return reading.mesh.background_place;
   for (auto const& [entry, table] : reading.schemes)
     if (entry->told.name == "multipole" && message.starts_with("multipoles: ")) return table->place;

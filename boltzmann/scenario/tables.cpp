@@ -13,6 +13,20 @@ namespace {
 
 using namespace option;
 
+OptionTable const& substep_options() {
+  static OptionTable const all = [] {
+    using S = SubstepOptions;
+    OptionTable options;
+    options.add("distance", &S::distance, number(dimensions::length, positive),
+                "no particle moves further in a substep, by its velocity or by its acceleration");
+    options.add("energy", &S::energy, number(dimensions::energy, positive),
+                "no force does more work on a particle in a substep");
+    options.add("courant", &S::courant, number(dimensions::none, positive), "this part of the Courant step");
+    return options;
+  }();
+  return all;
+}
+
 OptionTable make_run_options() {
   OptionTable all;
   all.add_said("step", "a time; with `[smooth]` also `\"courant\"`, or `{ courant = 0.5 }`",
@@ -30,6 +44,20 @@ OptionTable make_run_options() {
           "by how much neighbour lists reach further than the cut-off, at most 4 cut-offs; it changes the speed, not "
           "the result",
           "chosen for you");
+  all.add("tolerance", &RunOptions::tolerance, number(dimensions::none, {1e-14, 0.01}),
+          "of `gauss-radau`: how large the last term of its series may be in each of its steps, in parts of the first",
+          "1e-9, as exact as doubles are");
+  all.add_of<RunOptions>(
+      "substeps",
+      [](RunOptions& run) -> OptionPlace {
+        return OptionGroup{&substep_options(), [&run]() -> void* { return &run.substeps.emplace(); }};
+      },
+      group("{ distance = 0.01 }"),
+      "of `leap-frog` and `symplectic-4`: each step is divided into so many equal parts, 2^n of them, that in a "
+      "substep "
+      "no particle moves further than `distance`, no force does more work on it than `energy`, and that it is the part "
+      "`courant` of the Courant step; one of these three, or several",
+      "steps are not divided");
   all.add_said("stop", "a [condition](#stop)", "ends the run before its last step", "none");
   all.at("step").needed = "0.01";
   return all;

@@ -6,6 +6,7 @@
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/simulation/substeps.hpp>
 
 #include <array>
 #include <cstdint>
@@ -20,7 +21,8 @@ namespace boltzmann {
 struct RunOptions {
   std::int64_t seed = 1;
   int threads = 0;
-  std::optional<double> cutoff, skin;
+  std::optional<double> cutoff, skin, tolerance;
+  std::optional<SubstepOptions> substeps;
 };
 OptionTable const& run_options();
 

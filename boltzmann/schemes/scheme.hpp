@@ -100,6 +100,9 @@ class Scheme {
 
   /// Whether influences on this ensemble are known to depend on velocities.
   virtual bool velocity_dependent(AnyEnsemble const& /*ensemble*/) const { return false; }
+  /// Whether influences are the same, but for rounding, if all particles are shifted by one vector, and calculating
+  /// them there costs no more: an integrator may then put the origin where the digits of positions are needed.
+  virtual bool translation_invariant() const { return false; }
   /// The shortest length over which a law on this ensemble changes; no particle may move further in one step. Infinite
   /// if unknown.
   virtual double length_scale(AnyEnsemble const& ensemble) const = 0;

@@ -118,6 +118,18 @@ void Simulation::step_size(double size) {
   influences_.outdated();
 }
 
+void Simulation::tolerance(double tolerance) {
+  if (!(tolerance >= 1e-14 && tolerance <= 0.01))
+    throw Error(fmt::format("the tolerance is a number between 1e-14 and 0.01, not {}", tolerance));
+  gauss_radau_.tolerance(tolerance);
+}
+
+void Simulation::divide_steps(SubstepOptions const& options) {
+  boltzmann::check(options);
+  substeps_ = options;
+  checked_ = false;
+}
+
 void Simulation::threads(int count) {
   for (auto* scheme : schemes_) scheme->threads(count);
   for (auto* dissipation : dissipations_) dissipation->threads(count);
@@ -149,14 +161,16 @@ void Simulation::check() {
   std::erase_if(parts_, [&](Part const& p) {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
+  check_methods();
   take_lengths();
   check_dissipations();
+  if (substeps_) check_substeps();
   if (reversible && !changes_.empty())
     throw Error("the reversible leap-frog can't take back what an adaptation does between steps; use leap-frog");
   if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
   for (auto* scheme : schemes_) {
     double const longest = scheme->longest_step();
-    if (std::abs(step_size_) > max_courant * longest)
+    if (std::abs(step_size_) > max_courant * longest && !(substeps_ && substeps_->courant))
       throw Error(
           fmt::format("the step {} is far above the longest that makes sense, {} (sound and diffusion "
                       "must not outrun it)",
@@ -186,6 +200,51 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   part->home = *std::find_if(schemes_.begin(), schemes_.end(),
                              [&](Scheme const* scheme) { return scheme->supervises(ensemble); });
   return *part;
+}
+
+/// Those that advance all ensembles together don't mix with others.
+void Simulation::check_methods() {
+  std::vector<GaussRadau::Part> together;
+  Part const* other = nullptr;
+  for (auto* ensemble : ensembles_) {
+    Part const& part = *part_of(*ensemble);
+    Method const method = part.integrator->method();
+    for (auto const* scheme : schemes_)
+      if (method == Method::symplectic_4 && scheme->velocity_dependent(*ensemble))
+        throw Error("influences on ensemble '" + ensemble->name() +
+                    "' depend on velocities, which symplectic-4 can't follow; use leap-frog, rk4 or gauss-radau");
+    if (method == Method::gauss_radau && !part.integrator->same_for_all())
+      throw Error("some particles of ensemble '" + ensemble->name() +
+                  "' are frozen, which gauss-radau does not know; put them into an ensemble with deactivate");
+    if (auto* equations = part.integrator->equations_of_motion())
+      together.push_back({equations});
+    else if (method != Method::deactivate)
+      other = &part;
+  }
+  if (!together.empty() && other)
+    throw Error("ensemble '" + together.front().equations->ensemble().name() +
+                "' moves by gauss-radau, which advances all ensembles together; '" + other->ensemble->name() +
+                "' moves by " + to_string(other->integrator->method()) + ": use gauss-radau for all (or deactivate)");
+  gauss_radau_.shift_origin(
+      together.size() == ensembles_.size() &&
+      std::all_of(together.begin(), together.end(), [](auto const& part) { return part.equations->second_order(); }) &&
+      std::all_of(schemes_.begin(), schemes_.end(), [](Scheme* scheme) { return scheme->translation_invariant(); }));
+  gauss_radau_.parts(std::move(together));
+}
+
+void Simulation::check_substeps() const {
+  for (auto* ensemble : ensembles_) {
+    Method const method = this->method(*ensemble);
+    if (method != Method::leap_frog && method != Method::symplectic_4 && method != Method::deactivate)
+      throw Error("steps are divided into substeps where leap-frog or symplectic-4 advances; ensemble '" +
+                  ensemble->name() + "' moves by " + to_string(method));
+  }
+  if (!dissipations_.empty() || !equilibrations_.empty())
+    throw Error(
+        "steps with friction and noise can't be divided into substeps: their random numbers are of whole steps");
+  if (substeps_->courant && std::none_of(schemes_.begin(), schemes_.end(),
+                                         [](Scheme* scheme) { return std::isfinite(scheme->longest_step()); }))
+    throw Error("substeps: no scheme of the simulation has a Courant step; give distance or energy");
 }
 
 void Simulation::check_influences() const {
@@ -274,8 +333,27 @@ void Simulation::calculate(double time) {
 }
 
 void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
+  if (!gauss_radau_.parts().empty())
+    advance_by_gauss_radau(dt);
+  else if (substeps_)
+    advance_in_substeps(dt);
+  else
+    advance(time(), dt);
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
-  double const start = time();
+  if (!dissipations.empty()) calculate(time() + dt);
+  for (auto* dissipation : dissipations) dissipation->advance(context);
+  for (auto const& part : parts_) check_moves(part);
+  for (auto const* scheme : schemes_)
+    if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))
+      throw PhysicsFailure(
+          fmt::format("sound has become so fast that the step {} is far above the longest that makes "
+                      "sense, {}",
+                      told_time(std::abs(dt)), told_time(scheme->sound_step())));
+}
+
+/// By the stages of the integrators.
+void Simulation::advance(double start, double dt) {
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double passed = 0;
   for (int stage = 0; stage < stages_; ++stage) {
     calculate(start + passed * dt);
@@ -287,26 +365,105 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
       passed = part.time_after[stage];
       if (motion != Motion::final) continue;
       move_walls(start + passed * dt);
-      try {
-        work_ += part.home->box().apply(*part.ensemble, part.home->threads());
-      } catch (PhysicsFailure const& failure) {
-        throw PhysicsFailure(failure.what() + advice());
+      keep_in_box(part);
+    }
+  }
+}
+
+/// Puts back what has left the box during a step.
+void Simulation::keep_in_box(Part& part) {
+  try {
+    work_ += part.home->box().apply(*part.ensemble, part.home->threads());
+  } catch (PhysicsFailure const& failure) {
+    throw PhysicsFailure(failure.what() + advice());
+  }
+}
+
+void Simulation::advance_by_gauss_radau(double dt) {
+  double const start = time();
+  double passed = 0;
+  std::function<void(double)> const influences = [this, &start, &passed](double since) {
+    influences_.outdated();
+    calculate(start + passed + since);
+  };
+  for (std::size_t k = 0; auto const& part : parts_)
+    if (part.integrator->equations_of_motion()) gauss_radau_.parts()[k++].max_move = std::sqrt(part.longest_move2);
+  while (passed != dt) {
+    calculate(start + passed);
+    double const rest = dt - passed, size = gauss_radau_.step(rest, schemes_.front()->threads(), influences);
+    passed = size == rest ? dt : passed + size;
+    influences_.outdated();
+    move_walls(start + passed);
+    for (auto& part : parts_) keep_in_box(part);
+  }
+}
+
+/// Block steps (J. Makino, P. Hut, M. Kaplan and H. Saygin, New Astron. 12, 124 (2006)): a substep is dt / 2^n and
+/// begins at a multiple of itself. It is the longest that is allowed both where it begins and where it ends.
+void Simulation::advance_in_substeps(double dt) {
+  constexpr std::uint64_t whole = std::uint64_t{1} << 40;
+  double const start = time(), unit = dt / static_cast<double>(whole);
+  auto const moment = [&](std::uint64_t at) {
+    return at == whole ? start + dt : start + static_cast<double>(at) * unit;
+  };
+  auto const longer = [&](std::uint64_t size, double allowed) {
+    return std::abs(static_cast<double>(size) * unit) > allowed;
+  };
+  calculate(start);
+  double allowed = longest_substep(*substeps_, ensembles_, schemes_);
+  for (std::uint64_t at = 0; at < whole;) {
+    std::uint64_t size = at == 0 ? whole : at & (~at + 1);
+    while (size > 0 && longer(size, allowed)) size /= 2;
+    double const work = work_;
+    keep_rows();
+    for (bool fits = false; !fits;) {
+      if (size == 0)
+        throw PhysicsFailure(
+            fmt::format("substeps would have to be shorter than a 10^12th of the step, {}", told_time(allowed)));
+      advance(moment(at), static_cast<double>(size) * unit);
+      calculate(moment(at + size));
+      double const at_end = longest_substep(*substeps_, ensembles_, schemes_);
+      fits = !longer(size, at_end);
+      if (fits) {
+        allowed = at_end;
+        at += size;
+        ++substep_counts_.done;
+        for (auto const& part : parts_) check_moves(part);
+      } else {
+        restore_rows();
+        move_walls(moment(at));
+        work_ = work;
+        size /= 2;
+        ++substep_counts_.repeated;
       }
     }
   }
-  if (!dissipations.empty()) calculate(start + passed * dt);
-  for (auto* dissipation : dissipations) dissipation->advance(context);
-  for (auto const& part : parts_) check_moves(part);
-  for (auto const* scheme : schemes_)
-    if (std::abs(dt) > max_courant * scheme->sound_step())
-      throw PhysicsFailure(
-          fmt::format("sound has become so fast that the step {} is far above the longest that makes "
-                      "sense, {}",
-                      told_time(std::abs(dt)), told_time(scheme->sound_step())));
+}
+
+/// Rows and influences, for a substep that may be too long.
+void Simulation::keep_rows() {
+  before_substep_.clear();
+  for (auto const* ensemble : ensembles_) {
+    double const *row = ensemble->row(0), *influence = ensemble->influence(0);
+    before_substep_.insert(before_substep_.end(), row, row + ensemble->size() * ensemble->stride());
+    before_substep_.insert(before_substep_.end(), influence, influence + ensemble->size() * ensemble->influence_size());
+  }
+}
+
+void Simulation::restore_rows() {
+  double const* from = before_substep_.data();
+  for (auto* ensemble : ensembles_) {
+    std::size_t const rows = ensemble->size() * ensemble->stride(),
+                      influences = ensemble->size() * ensemble->influence_size();
+    std::copy_n(from, rows, ensemble->row(0));
+    std::copy_n(from + rows, influences, ensemble->influence(0));
+    from += rows + influences;
+  }
+  influences_.calculated();
 }
 
 std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
-  if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty()) return nullptr;
+  if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty() || substeps_) return nullptr;
   std::vector<Mover> movers;
   for (auto const& part : parts_) {
     Method const method = part.integrator->method();
@@ -577,6 +734,7 @@ std::vector<double> Simulation::state() const {
     }
   }
   for (auto const& change : changes_) add(change.adaptation->state());
+  if (!gauss_radau_.parts().empty()) add(gauss_radau_.state());
   return state;
 }
 
@@ -611,6 +769,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
       at += count;
     }
   for (auto const& change : changes_) change.adaptation->restore(next());
+  if (!gauss_radau_.parts().empty()) gauss_radau_.restore(next());
   take_lengths();
   update_derived_fields();
   influences_.restored(with_influences, ensembles_);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <boltzmann/dissipation/dissipation.hpp>
+#include <boltzmann/integrators/gauss_radau.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
 #include <boltzmann/simulation/freshness.hpp>
+#include <boltzmann/simulation/substeps.hpp>
 
 #include <atomic>
 #include <concepts>
@@ -84,6 +86,16 @@ class Simulation {
   /// For the steps to come; time() goes on from where it is. Between two run(), or from an observer. Error unless it is
   /// finite and not zero (negative: backwards).
   void step_size(double size);
+  /// Of ensembles that move by gauss-radau: how large the last term of the series may be in each of their steps, in
+  /// parts of the first. Error unless it is between 1e-14 and 0.01.
+  void tolerance(double tolerance);
+  GaussRadau const& gauss_radau() const { return gauss_radau_; }
+  /// Steps are divided from now on: into 2^n equal parts, and these again, as short as the options ask where they
+  /// begin and where they end. So steps end when they should, and a run backwards divides them alike. Ensembles move by
+  /// leap-frog or symplectic-4 then. Error if an option is not positive.
+  void divide_steps(SubstepOptions const& options);
+  /// How many substeps there were so far in divided steps, and how many that were too long and done again.
+  SubstepCounts const& substeps() const { return substep_counts_; }
   /// Of the random numbers of steps; loaders take theirs as an argument.
   std::uint64_t seed() const { return seed_; }
   void seed(std::uint64_t seed) { seed_ = seed; }
@@ -132,6 +144,14 @@ class Simulation {
   };
 
   void advance(double dt, std::vector<Dissipation*> const& dissipations);
+  void advance(double start, double dt);
+  void advance_by_gauss_radau(double dt);
+  void advance_in_substeps(double dt);
+  void keep_rows();
+  void restore_rows();
+  void check_methods();
+  void check_substeps() const;
+  void keep_in_box(Part& part);
   std::unique_ptr<FusedSteps> fused_steps(double dt);
   bool observation_due() const;
   void run(std::uint64_t steps, int direction);
@@ -164,6 +184,10 @@ class Simulation {
   std::vector<Change> changes_;
   std::vector<Equilibration> equilibrations_;
   std::vector<std::function<void(Simulation const&)>> progress_;
+  GaussRadau gauss_radau_;
+  std::optional<SubstepOptions> substeps_;
+  SubstepCounts substep_counts_;
+  std::vector<double> before_substep_;
   FixedPoint grid_;
   Scheme::SmallSystem small_system_;
   double step_size_;

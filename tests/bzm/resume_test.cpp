@@ -52,9 +52,10 @@ TEST_P(KilledAndResumed, LeavesWhatARunWithoutAStopLeaves) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, KilledAndResumed,
-                         testing::Combine(testing::Values("copper", "rod", "three-body", "cylinder", "atmosphere",
-                                                          "two-stream", "langmuir", "electron-gas-2d", "molten-salt",
-                                                          "dam-break", "convection", "penetration", "sod"),
+                         testing::Combine(testing::Values("copper", "rod", "three-body", "pythagorean", "cylinder",
+                                                          "atmosphere", "two-stream", "langmuir", "electron-gas-2d",
+                                                          "molten-salt", "dam-break", "convection", "penetration",
+                                                          "sod"),
                                           testing::Values("1", "2")),
                          [](auto const& info) {
                            std::string name = std::get<0>(info.param) + "_" + std::get<1>(info.param);

@@ -367,6 +367,11 @@ bool PairScheme::velocity_dependent(AnyEnsemble const& ensemble) const {
                  [&](External const& external) { return external.ensemble == &ensemble && !external.taken; });
 }
 
+bool PairScheme::translation_invariant() const {
+  return box().all_open() && box().regions().empty() && external_.empty() &&
+         std::all_of(near_.begin(), near_.end(), [](auto const& near) { return near->all_pairs(); });
+}
+
 double PairScheme::length_scale(AnyEnsemble const& ensemble) const {
   double shortest = no_cutoff;
   for (auto const& near : near_)

@@ -99,6 +99,8 @@ class PairScheme final : public Scheme {
   EnergyAndVirial measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
+  /// Of pairs without cut-offs in open space, on which nothing acts from outside.
+  bool translation_invariant() const override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   /// True if equal particles of this ensemble are acted on equally, wherever they are: by nothing but uniform fields.
