@@ -3,6 +3,7 @@
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/multipole/multipole_field.hpp>
+#include <boltzmann/schemes/multipole/solid_harmonics.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -31,6 +32,13 @@ double pairs_of_a_translation(int dimension, int order) {
 double pairs_of_an_evaluation(int dimension, int order) {
   double const n = order + 1;
   return dimension == 3 ? 10 + 0.7 * n * n : 5 + n;
+}
+
+template <int D>
+Vector<D> between(std::array<double, 3> const& from, std::array<double, 3> const& to) {
+  Vector<D> r;
+  for (int a = 0; a < D; ++a) r[a] = to[a] - from[a];
+  return r;
 }
 
 }  // namespace
@@ -97,7 +105,8 @@ void MultipoleField<D>::gather(std::size_t number) {
 /// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
 ///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
 /// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
-/// power 1), which margin() a allows for.
+/// power 1), which margin() a allows for. What two terms of a softening's lack are off by is less than e beyond
+///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)).
 template <int D>
 void MultipoleField<D>::limit(std::size_t number) {
   double const a = tree_.nodes()[number].radius;
@@ -118,11 +127,13 @@ void MultipoleField<D>::limit(std::size_t number) {
   if constexpr (D == 3) {
     source_limit_[number] = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
     source_size_[number] = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
-    soft_limit_[number] = std::pow(1.5 * soft * largest / e, 0.25);
+    soft_limit_[number] = std::pow(10 * soft * largest / e, 1.0 / 6);
+    soft_size_[number] = std::cbrt(a);
   } else {
     source_limit_[number] = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
     source_size_[number] = std::pow(largest / e, 1.0 / (p + 1));
-    soft_limit_[number] = std::cbrt(soft * largest / e);
+    soft_limit_[number] = std::pow(5 * soft * largest / e, 0.2);
+    soft_size_[number] = std::pow(a, 0.4);
   }
 }
 
@@ -133,6 +144,7 @@ void MultipoleField<D>::gather(int threads) {
   source_limit_.resize(nodes.size());
   source_size_.resize(nodes.size());
   soft_limit_.resize(nodes.size());
+  soft_size_.resize(nodes.size());
   int const useful = threads_for(tree_.particles().size(), 4, threads);
   for_ranges(nodes.size(), node_grain, useful, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -154,7 +166,7 @@ double MultipoleField<D>::needed(TreeNode const& target, double reach, std::uint
   TreeNode const& source = tree_.nodes()[number];
   return std::max({target.radius + std::max(nearest * source.radius, source_limit_[number]),
                    source.radius + local_limit(target, reach, number),
-                   target.radius + source.radius + soft_limit_[number]});
+                   soft_limit_[number] * std::max(soft_size_[index_of(target)], soft_size_[number])});
 }
 
 template <int D>
@@ -266,12 +278,14 @@ void MultipoleField<D>::meet(std::uint32_t number, std::vector<Other> const& oth
     TreeNode const& source = tree_.nodes()[other.node];
     bool const leaves = target.leaf() && source.leaf();
     double const soft = soft_limit_[other.node];
+    double const soft_outside = soft * soft_size_[other.node], soft_inside = soft * soft_size_[number];
     // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
     if (target.leaf() && target.radius > 1.5 * source.radius && count(source) > pairs_of_an_evaluation_ &&
-        clear_of(target, centre(other), std::max(nearest * source.radius + soft, source_limit_[other.node])))
+        clear_of(target, centre(other), std::max({nearest * source.radius, soft_outside, source_limit_[other.node]})))
       work.outside.push_back(other);
     else if (source.leaf() && source.radius > 1.5 * target.radius && count(target) > pairs_of_an_evaluation_ &&
-             clear_of(source, seen_from(other, target.centre), local_limit(target, reach, other.node) + soft))
+             clear_of(source, seen_from(other, target.centre),
+                      std::max(local_limit(target, reach, other.node), soft_inside)))
       work.expanded.push_back(other);
     else if (far(target, reach, other))
       (leaves && count(target) * count(source) < pairs_of_a_translation_ ? work.near : work.far).push_back(other);
@@ -305,13 +319,15 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
     particles.radius = node.radius;
     kernels_.expand(tables_.view(), particles, visit.local.data());
   }
-  if (node.leaf()) return finish_leaf(node, visit.local, work);
+  add_lack(visit, work);
+  if (node.leaf()) return finish_leaf(node, visit, work);
   auto const later = std::make_shared<std::vector<Other> const>(work.later);
   std::array<Shifted, 8> children;
   std::size_t const first = next.size();
   for (std::size_t k = 0; k < node.children; ++k) {
     TreeNode const& child = tree_.nodes()[node.child + k];
-    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(tables_.size()), later});
+    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(tables_.size()), later,
+                    visit.lack.at(between<D>(node.centre, child.centre))});
     for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
     children[k].radius = child.radius;
   }
@@ -331,8 +347,59 @@ void MultipoleField<D>::visit_below(Visit first, Workspace& work) {
   }
 }
 
+/// Strength and dipole, from the moments of a node.
 template <int D>
-void MultipoleField<D>::finish_leaf(TreeNode const& leaf, std::vector<double> const& local, Workspace& work) {
+typename SofteningLack<D>::Moments MultipoleField<D>::source_of_lack(std::size_t number) const {
+  double const* const m = moments(number);
+  double const radius = tree_.nodes()[number].radius;
+  if constexpr (D == 2) {
+    return {m[0], Vector{-m[2], -m[3]} * radius};
+  } else {
+    double const root = -std::sqrt(2.0) * radius;
+    return {m[0], Vector{root * m[multipole::real_at(1, 1)], root * m[multipole::imaginary_at(1, 1)],
+                         radius * m[multipole::real_at(1, 0)]}};
+  }
+}
+
+/// What the local expansion of a node lacks.
+template <int D>
+void MultipoleField<D>::add_lack(Visit& visit, Workspace const& work) const {
+  if (law_.softening == 0) return;
+  auto const& place = tree_.nodes()[visit.node].centre;
+  for (Other const& other : work.far)
+    visit.lack.add(source_of_lack(other.node), between<D>(centre(other), place), law_.softening);
+  for (Other const& other : work.expanded) {
+    TreeNode const& source = tree_.nodes()[other.node];
+    auto const seen = seen_from(other, place);
+    for (std::uint32_t i = source.begin; i < source.end; ++i) {
+      Point const& p = tree_.particles()[i];
+      Vector<D> r;
+      for (int a = 0; a < D; ++a) r[a] = seen[a] - p.position[a];
+      visit.lack.add({p.amount, {}}, r, law_.softening);
+    }
+  }
+}
+
+/// The same at the particles of a leaf, and what they lack of moments that are evaluated at them.
+template <int D>
+void MultipoleField<D>::add_lack(NodeParticles const& particles, Visit const& visit, Workspace const& work,
+                                 double* field, double* potential) const {
+  if (law_.softening == 0) return;
+  double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    std::array<double, 3> place{};
+    std::copy_n(particles.rows + i * row_stride<PointSource<D>>, D, place.begin());
+    SofteningLack<D> lack = visit.lack.at(between<D>(tree_.nodes()[visit.node].centre, place));
+    for (Other const& other : work.outside)
+      lack.add(source_of_lack(other.node), between<D>(centre(other), place), law_.softening);
+    auto const slope = lack.slope({});
+    for (int a = 0; a < D; ++a) field[i * D + a] -= constant * slope[a];
+    if (potential) potential[i] += constant * lack.value({});
+  }
+}
+
+template <int D>
+void MultipoleField<D>::finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work) {
   auto const& particles = tree_.particles();
   // The leaf's own stand first, so that the kernel knows who is the same.
   work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
@@ -366,8 +433,9 @@ void MultipoleField<D>::finish_leaf(TreeNode const& leaf, std::vector<double> co
   }
   double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
   NodeParticles own = particles_of(leaf);
-  kernels_.evaluate(tables_.view(), own, local.data(), constant, task.influence, potential);
+  kernels_.evaluate(tables_.view(), own, visit.local.data(), constant, task.influence, potential);
   add_background(own, task.influence, potential);
+  add_lack(own, visit, work, task.influence, potential);
   for (Other const& other : work.outside) {
     std::copy_n(centre(other).begin(), 3, own.centre);
     own.radius = tree_.nodes()[other.node].radius;
@@ -486,10 +554,10 @@ double MultipoleField<D>::work() const {
 
 template <int D>
 std::size_t MultipoleField<D>::bytes() const {
-  return tree_.bytes() +
-         (4 * moments_.capacity() + source_limit_.capacity() + source_size_.capacity() + soft_limit_.capacity() +
-          sorted_field_.capacity() + sorted_potential_.capacity() + field_.capacity() + potential_.capacity()) *
-             sizeof(double);
+  return tree_.bytes() + (4 * moments_.capacity() + source_limit_.capacity() + source_size_.capacity() +
+                          soft_limit_.capacity() + soft_size_.capacity() + sorted_field_.capacity() +
+                          sorted_potential_.capacity() + field_.capacity() + potential_.capacity()) *
+                             sizeof(double);
 }
 
 template class MultipoleField<2>;

@@ -11,6 +11,7 @@
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
 #include <boltzmann/schemes/multipole/multipole_kernels.hpp>
+#include <boltzmann/schemes/multipole/softening.hpp>
 #include <boltzmann/schemes/multipole/tree.hpp>
 
 #include <array>
@@ -69,12 +70,14 @@ class MultipoleField {
     std::uint32_t node = 0;
     std::vector<double> local;
     std::shared_ptr<std::vector<Other> const> others;
+    SofteningLack<D> lack = {};  ///< of the local expansion, if the law is softened
   };
   struct Workspace;
   struct alignas(32) Block {
     double numbers[4];
   };
 
+  std::size_t index_of(TreeNode const& node) const { return static_cast<std::size_t>(&node - tree_.nodes().data()); }
   NodeParticles particles_of(TreeNode const& node) const;
   double const* moments(std::size_t node) const { return moments_[node * tables_.size() / 4].numbers; }
   double* moments(std::size_t node) { return moments_[node * tables_.size() / 4].numbers; }
@@ -95,7 +98,11 @@ class MultipoleField {
   void choose_images();
   void find_background();
   void add_background(NodeParticles const& particles, double* field, double* potential) const;
-  void finish_leaf(TreeNode const& leaf, std::vector<double> const& local, Workspace& work);
+  void finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work);
+  typename SofteningLack<D>::Moments source_of_lack(std::size_t node) const;
+  void add_lack(Visit& visit, Workspace const& work) const;
+  void add_lack(NodeParticles const& particles, Visit const& visit, Workspace const& work, double* field,
+                double* potential) const;
   void put_in_order(bool with_potential, int threads);
 
   LaplaceLaw law_;
@@ -105,8 +112,8 @@ class MultipoleField {
   ExpansionTables tables_;
   Tree<D> tree_;
   std::vector<Block> moments_;
-  std::vector<double> source_limit_, source_size_, soft_limit_;  // of each node: see far()
-  std::vector<std::array<double, 3>> images_{{0, 0, 0}};         // that are met; the first is the box itself
+  std::vector<double> source_limit_, source_size_, soft_limit_, soft_size_;  // of each node: see far()
+  std::vector<std::array<double, 3>> images_{{0, 0, 0}};  // that are met; the first is the box itself
   std::optional<FarImages> far_images_;
   struct {
     double of_square = 0;                            // its potential at a distance 1, of unit strength
