@@ -66,14 +66,21 @@ std::vector<std::string> dependencies() {
 
 // What is meant by the compiler's messages that laws on many particles at once lead to.
 std::vector<std::string> hints(std::string const& messages) {
-  std::set<std::string> called;  // with packs, as in "no matching function for call to 'exp(boltzmann::Pack<double>&)'"
+  // With packs, as in "no matching function for call to 'exp(boltzmann::Pack<double>&)'"; clang++ says "for call to
+  // 'exp'", and of what in a note.
+  std::set<std::string> called;
   std::istringstream lines(messages);
-  for (std::string line; std::getline(lines, line);)
+  std::string of_clang;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("no known conversion from 'boltzmann::Pack<") != std::string::npos && !of_clang.empty())
+      called.insert(of_clang);
     for (auto const* name : {"exp", "log", "pow", "sqrt", "sin", "cos", "tanh", "erf", "erfc", "abs", "min", "max"}) {
+      if (line.find(fmt::format("call to '{}'", name)) != std::string::npos) of_clang = name;
       auto const call = line.find("call to "), at = line.find(fmt::format("{}(", name), call);
       if (call == std::string::npos || at == std::string::npos || line.find("Pack<", at) == std::string::npos) continue;
       if (std::islower(static_cast<unsigned char>(line[at - 1])) == 0) called.insert(name);
     }
+  }
   std::vector<std::string> all;
   for (auto const& name : called)
     all.push_back(fmt::format("a law is compiled for several particles at once: write {0}(x), not std::{0}(x)", name));
