@@ -13,6 +13,8 @@
 namespace boltzmann::bzm {
 
 int accuracy(AccuracyOptions const& options) {
+  if (!options.out.empty() && !ends_as_picture(options.out))
+    throw Error("'" + options.out + "' ends in none of .png, .svg, .pdf");
   auto const scenario = load_scenario(read_scenario(find_scenario(options.scenario)), options.overrides);
   auto* const scheme = scenario->scheme<MultipoleScheme>();
   if (!scheme)
@@ -29,17 +31,17 @@ int accuracy(AccuracyOptions const& options) {
   std::vector<double> errors, seconds;
   for (int digits = 1; digits <= 10; ++digits) {
     double const tolerance = std::pow(10.0, -digits);
-    auto const price = scheme->price_of(tolerance);
-    auto const& found = price.accuracy;
+    auto const trial = scheme->try_tolerance(tolerance);
+    auto const& found = trial.accuracy;
     if (found.order == 0) {
       fmt::print("  {:9.0e}  {:>9}  {:>5}  {:>12}  {:12.4g}  {:9.3g}\n", tolerance, "rounding", "", "",
-                 static_cast<double>(found.pairs), price.seconds);
+                 static_cast<double>(found.pairs), trial.seconds);
       if (errors.empty()) break;  // so few that this goes for all
     } else {
       fmt::print("  {:9.0e}  {:9.1e}  {:5}  {:12.4g}  {:12.4g}  {:9.3g}\n", tolerance, found.measured, found.order,
-                 static_cast<double>(found.translations), static_cast<double>(found.pairs), price.seconds);
+                 static_cast<double>(found.translations), static_cast<double>(found.pairs), trial.seconds);
       errors.push_back(found.measured);
-      seconds.push_back(price.seconds);
+      seconds.push_back(trial.seconds);
     }
     std::fflush(stdout);
   }

@@ -32,7 +32,7 @@ Output output_of(std::string const& out) {
     throw Error("say where the picture goes: -o picture.png, movie.mp4, or a folder for numbered pictures: frames/");
   if (out.back() == '/') return Output::numbered;
   std::string const extension = fs::path(out).extension().string();
-  if (extension == ".png" || extension == ".svg" || extension == ".pdf") return Output::picture;
+  if (ends_as_picture(out)) return Output::picture;
   if (extension == ".mp4" || extension == ".webm" || extension == ".gif") return Output::movie;
   throw Error("'" + out +
               "' ends in none of .png, .svg, .pdf (pictures), .mp4, .webm, .gif (movies) or / (numbered pictures)");

@@ -23,8 +23,8 @@ struct RandomLoadOptions {
 };
 
 /// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in, and
-/// where `where` says so: a box as small as the shape finds places fast. With a minimum distance, particle i is drawn again until it is that far from particles 0..i-1 (nearest images on
-/// periodic axes). Error if no place is found: the box is too full; the message says about how far it can go.
+/// where `where` says so: a box as small as the shape finds places fast. With a minimum distance, particle i is drawn
+/// again until it is that far from particles 0..i-1 (nearest images on periodic axes). Error if no place is found: the box is too full; the message says about how far it can go.
 void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const& options = {});
 
 /// One component of a field drawn from any random variable: RandomLoad of section B.9.1, for example with Ripple on

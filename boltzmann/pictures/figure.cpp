@@ -35,6 +35,12 @@ enum class Format { png, svg, pdf };
 
 constexpr std::array<char const*, 3> format_names{"png", "svg", "pdf"};
 
+/// The format that a path ends in; the end if it is none.
+auto format_of(std::string const& path) {
+  return std::find_if(format_names.begin(), format_names.end(),
+                      [&](char const* name) { return path.ends_with(std::string(".") + name); });
+}
+
 cairo_status_t put(void* bytes, unsigned char const* data, unsigned length) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<char const*>(data), length);
   return CAIRO_STATUS_SUCCESS;
@@ -134,13 +140,12 @@ void write_pdf(Canvas const& canvas, std::string const& path, FigureOptions cons
   write_whole(canvas, Format::pdf, path, options);
 }
 
+bool ends_as_picture(std::string const& path) { return format_of(path) != format_names.end(); }
+
 void write_picture(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
-  std::string const extension = std::filesystem::path(path).extension().string();
-  auto const found = std::find_if(format_names.begin(), format_names.end(),
-                                  [&](char const* name) { return extension == std::string(".") + name; });
-  if (found == format_names.end())
+  if (!ends_as_picture(path))
     throw Error("can't write picture '" + path + "': the name must end in .png, .svg or .pdf");
-  write_whole(canvas, static_cast<Format>(found - format_names.begin()), path, options);
+  write_whole(canvas, static_cast<Format>(format_of(path) - format_names.begin()), path, options);
 }
 
 PictureLayout layout_of(Canvas const& canvas, FigureOptions const& options) {

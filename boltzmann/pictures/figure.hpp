@@ -25,7 +25,9 @@ void write_svg(Canvas const& canvas, std::string const& path, FigureOptions cons
 /// The page is width x height at 150 pixels per inch, times scale.
 void write_pdf(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
 
-/// By the extension of the path: .png, .svg or .pdf; throws Error on any other.
+/// Whether a path ends in .png, .svg or .pdf.
+bool ends_as_picture(std::string const& path);
+/// By the extension of the path; throws Error if it ends in another.
 void write_picture(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
 
 /// The same picture in memory: the bytes of a file. `format` is "png", "svg" or "pdf"; Error on any other, and as

@@ -1,6 +1,7 @@
 // Which drawing is meant, and whether it can be drawn.
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
@@ -82,9 +83,7 @@ void check(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles, s
   Question const question{picture, ensembles, columns, sources, complain};
   auto const& drawing = drawing_named(picture.drawing);
   question.on("file", [&] {
-    auto const dot = picture.file.rfind('.');
-    std::string const extension = dot == std::string::npos ? "" : picture.file.substr(dot);
-    if (extension != ".png" && extension != ".svg" && extension != ".pdf")
+    if (!ends_as_picture(picture.file))
       throw Error("the picture '" + picture.file + "' ends in none of .png, .svg, .pdf");
     if (picture.file.find('/') != std::string::npos)
       throw Error("the picture '" + picture.file + "' is a name in the run's folder, without '/'");

@@ -1,6 +1,7 @@
 // Reads [sweep]: which keys take which values, how many seeds, what is tabulated and drawn of all runs; and makes the
 // scenario of one run of it.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/sweep_values.hpp>
 
@@ -223,12 +224,10 @@ void read_sweep_picture(Item const& table, SweepPlan& plan, Reading& reading) {
   if (!picture.time_series) picture.line = section.word("fit", {"line"}).has_value();
   picture.logarithmic = section.boolean("logarithmic");
   picture.file = section.text("file").value_or(picture.time_series ? "series.png" : "sweep.png");
-  auto const dot = picture.file.rfind('.');
-  std::string const extension = dot == std::string::npos ? "" : picture.file.substr(dot);
   Place const place = section.place("file");
-  if (extension != ".png" && extension != ".svg" && extension != ".pdf")
+  if (!ends_as_picture(picture.file))
     reading.mistake(place, fmt::format("file: '{}' ends in none of .png, .svg, .pdf", picture.file));
-  else if (dot == 0)
+  else if (picture.file.rfind('.') == 0)
     reading.mistake(place, fmt::format("file: '{}' has no name before its ending", picture.file));
   if (picture.file.find('/') != std::string::npos)
     reading.mistake(place, fmt::format("file: '{}' is a name in the folder of the sweep, without '/'", picture.file));

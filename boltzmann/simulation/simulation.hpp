@@ -143,38 +143,44 @@ class Simulation {
     std::uint64_t steps;
   };
 
+  static constexpr double max_courant = 4;  // the longest step that makes sense
+
+  // checks.cpp: before the first step.
+  Part const& ready_part(AnyEnsemble& ensemble);
+  void check_methods();
+  void check_substeps() const;
+  void check_influences() const;
+  void check_dissipations();
+  FixedPoint choose_grid() const;
+  void make_reversible(FixedPoint const& grid);
+
+  // advance.cpp: one step.
+  void move_walls(double time);
+  void calculate(double time);
   void advance(double dt, std::vector<Dissipation*> const& dissipations);
   void advance(double start, double dt);
+  void keep_in_box(Part& part);
   void advance_by_gauss_radau(double dt);
   void advance_in_substeps(double dt);
   void keep_rows();
   void restore_rows();
-  void check_methods();
-  void check_substeps() const;
-  void keep_in_box(Part& part);
   std::unique_ptr<FusedSteps> fused_steps(double dt);
-  bool observation_due() const;
-  void run(std::uint64_t steps, int direction);
-  void calculate(double time);
-  void move_walls(double time);
   void check_moves(Part const& part) const;
   void note_start();
   std::string advice() const;
+
+  void run(std::uint64_t steps, int direction);
+  Part* part_of(AnyEnsemble const& ensemble);
   UnitSystem const& base() const;
   std::string told_time(double number) const;
-  void observe_now() const;
-  void adapt_now();
+  void update_derived_fields() const;
+  void take_lengths();
   void accept_particles();
   void take_particles();
-  Part* part_of(AnyEnsemble const& ensemble);
-  Part const& ready_part(AnyEnsemble& ensemble);
-  void check_influences() const;
-  void check_dissipations();
+  void adapt_now();
+  bool observation_due() const;
+  void observe_now() const;
   void equilibrate_now();
-  void take_lengths();
-  void update_derived_fields() const;
-  void make_reversible(FixedPoint const& grid);
-  FixedPoint choose_grid() const;
 
   std::vector<Scheme*> schemes_;
   std::vector<Dissipation*> dissipations_;

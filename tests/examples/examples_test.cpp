@@ -150,10 +150,12 @@ TEST(Examples, MadelungsConstantOfRockSalt) {
   EXPECT_NEAR(between, 0, 1e-6);
 }
 
-/// The numbers that an example prints, in their order.
-std::vector<double> numbers(std::string const& out) {
+/// The numbers that an example prints after a word, in their order.
+std::vector<double> numbers_after(std::string const& word, std::string const& out) {
   std::vector<double> all;
-  for (std::size_t at = 0; at < out.size();) {
+  auto const first = out.find(word);
+  EXPECT_NE(first, std::string::npos) << "no '" << word << "' in " << out;
+  for (std::size_t at = first; at < out.size();) {
     bool const begins = std::isdigit(static_cast<unsigned char>(out[at])) && (at == 0 || out[at - 1] == ' ');
     std::size_t length = 1;
     if (begins) all.push_back(std::stod(out.substr(at), &length));
@@ -166,9 +168,7 @@ std::vector<double> numbers(std::string const& out) {
 TEST(Examples, ColdBallFallsAsTheExactSolution) {
   Example const example("cold_collapse");
   ASSERT_TRUE(example.good());
-  auto const at = example.out().find("radius ");
-  ASSERT_NE(at, std::string::npos) << example.out();
-  auto const radii = numbers(example.out().substr(at));
+  auto const radii = numbers_after("radius ", example.out());
   ASSERT_EQ(radii.size(), 2U) << example.out();
   EXPECT_NEAR(radii[1], 0.3508, 1e-4);
   EXPECT_NEAR(radii[0], radii[1], 0.02);
@@ -178,9 +178,7 @@ TEST(Examples, ColdBallFallsAsTheExactSolution) {
 TEST(Examples, IonsGetTheEnergyOfTheirField) {
   Example const example("ion_cluster", {"trajectory.h5", "checkpoint.h5", "picture.png", "spectrum.png"});
   ASSERT_TRUE(example.good());
-  auto const at = example.out().find("radius ");
-  ASSERT_NE(at, std::string::npos) << example.out();
-  auto const told = numbers(example.out().substr(at));
+  auto const told = numbers_after("radius ", example.out());
   ASSERT_EQ(told.size(), 3U) << example.out();
   EXPECT_NEAR(told[1] / told[2], 1, 0.02);
   auto const table = example.diagnoses();
@@ -195,9 +193,7 @@ TEST(Examples, IonsGetTheEnergyOfTheirField) {
 TEST(Examples, GalaxiesPassEachOther) {
   Example const example("galaxies");
   ASSERT_TRUE(example.good());
-  auto const at = example.out().find("nearest at ");
-  ASSERT_NE(at, std::string::npos) << example.out();
-  auto const told = numbers(example.out().substr(at));
+  auto const told = numbers_after("nearest at ", example.out());
   ASSERT_EQ(told.size(), 4U) << example.out();
   EXPECT_NEAR(told[0], 6.09, 0.25);
   EXPECT_NEAR(told[1], 1.381, 0.12);

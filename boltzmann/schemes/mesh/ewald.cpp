@@ -11,12 +11,13 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 
 namespace boltzmann {
 
 namespace {
 
-constexpr double euler_gamma = 0.577215664901532860606512;
+constexpr double euler_gamma = std::numbers::egamma;
 // The near sum ends at alpha r = reach, the far one at k = 2 alpha reach: exp(-reach^2) = 4e-18.
 constexpr double reach = 6.35;
 

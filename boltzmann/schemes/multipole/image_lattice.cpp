@@ -8,6 +8,7 @@
 // Without k = 0 nothing is polarised from outside ("tin foil"), and a uniform background neutralises the box.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/pack.hpp>
+#include <boltzmann/schemes/mesh/ewald.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
 #include <boltzmann/schemes/multipole/solid_harmonics.hpp>
 
@@ -16,14 +17,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 namespace boltzmann {
 namespace {
 
 using Place = std::array<double, 3>;
 
-constexpr double euler_gamma = 0.577215664901532860606512;
-constexpr double root_pi = 1.77245385090551602730;
+constexpr double euler_gamma = std::numbers::egamma;
 constexpr double reach = 7;  // exp(-reach^2) = 5e-22
 
 /// Calls use(place, how many are like it) for the whole multiples of steps (none along an axis where the step is 0)
@@ -75,7 +76,7 @@ double tail_of_zeta(double s, double first) {
                     s * (s + 1) * (s + 2) * (s + 3) * (s + 4) / (30240 * std::pow(last, 5)));
 }
 
-/// The real parts of normalised Y_n^m(r) (2D: of (x - i y)^n) for even n and m up to an order, in the order of the sums.
+/// The real parts of normalised Y_n^m(r) (2D: of (x - i y)^n) for even n and m up to an order.
 class Harmonics {
  public:
   Harmonics(int dimension, int order) : dimension_(dimension), order_(order) {}
@@ -232,7 +233,7 @@ class LatticeSums {
 std::vector<Place> ImageLattice::within(double distance) const {
   double expected = 1;
   for (double const edge : edges) expected *= edge > 0 ? 1 + 2 * distance / edge : 1;
-  if (!(expected <= 4. * most_images))
+  if (!(expected <= static_cast<double>(most_images)))
     throw PhysicsFailure(fmt::format(
         "multipoles: {:.2g} images of the periodic box would act one by one, so far do particles spread (or so long is "
         "the box) against its shortest edge; a mesh does that",

@@ -1,5 +1,5 @@
-// ImageLattice: the images of a periodic box, one axis or several. Those nearby are met one by one, all others act together
-// on the expansion of the box, by sums over the lattice that converge as Ewald's do. Private to this room.
+// ImageLattice: the images of a periodic box, one axis or several. Those nearby are met one by one, all others act
+// together on the expansion of the box, by sums over the lattice that converge as Ewald's do. Private to this room.
 #pragma once
 
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
@@ -15,15 +15,15 @@ inline double distance_of(std::array<double, 3> const& place) {
   return std::sqrt(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]);
 }
 
-/// More images than this are not met.
-inline constexpr std::size_t most_images = 20'000;
+/// No more images than this are met.
+inline constexpr std::size_t most_images = 80'000;
 
 struct ImageLattice {
   std::array<double, 3> edges{0, 0, 0};  ///< of the periodic axes; 0: open
 
   int periodic_axes() const { return (edges[0] > 0) + (edges[1] > 0) + (edges[2] > 0); }
   /// The places of the images no further than this, that of the box itself first, in ascending distance.
-  /// PhysicsFailure if these are more than most_images.
+  /// PhysicsFailure if the block around them has more than most_images.
   std::vector<std::array<double, 3>> within(double distance) const;
   /// The distance of the nearest image that is further than this.
   double next_after(double distance) const;

@@ -55,6 +55,12 @@ struct MultipoleField<D>::Workspace {
   std::vector<Shifted> shifted;
   std::vector<Point> sources;
   std::vector<double> energy, virial;
+  /// Of `outside`, for softened laws.
+  struct Softened {
+    typename SofteningCorrection<D>::Moments moments;
+    std::array<double, 3> centre;
+  };
+  std::vector<Softened> softened;
   std::size_t translations = 0, pairs = 0;
 };
 
@@ -105,7 +111,7 @@ void MultipoleField<D>::gather(std::size_t number) {
 /// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
 ///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
 /// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
-/// power 1), which margin() a allows for. What two terms of a softening's lack are off by is less than e beyond
+/// power 1), which margin() a allows for. What two terms of a softening's series are off by is less than e beyond
 ///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)).
 template <int D>
 void MultipoleField<D>::limit(std::size_t number) {
@@ -319,7 +325,7 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
     particles.radius = node.radius;
     kernels_.expand(tables_.view(), particles, visit.local.data());
   }
-  add_lack(visit, work);
+  add_softening(visit, work);
   if (node.leaf()) return finish_leaf(node, visit, work);
   auto const later = std::make_shared<std::vector<Other> const>(work.later);
   std::array<Shifted, 8> children;
@@ -327,7 +333,7 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
   for (std::size_t k = 0; k < node.children; ++k) {
     TreeNode const& child = tree_.nodes()[node.child + k];
     next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(tables_.size()), later,
-                    visit.lack.at(between<D>(node.centre, child.centre))});
+                    visit.softening.at(between<D>(node.centre, child.centre))});
     for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
     children[k].radius = child.radius;
   }
@@ -349,7 +355,7 @@ void MultipoleField<D>::visit_below(Visit first, Workspace& work) {
 
 /// Strength and dipole, from the moments of a node.
 template <int D>
-typename SofteningLack<D>::Moments MultipoleField<D>::source_of_lack(std::size_t number) const {
+typename SofteningCorrection<D>::Moments MultipoleField<D>::softened_source(std::size_t number) const {
   double const* const m = moments(number);
   double const radius = tree_.nodes()[number].radius;
   if constexpr (D == 2) {
@@ -361,13 +367,13 @@ typename SofteningLack<D>::Moments MultipoleField<D>::source_of_lack(std::size_t
   }
 }
 
-/// What the local expansion of a node lacks.
+/// To the local expansion of a node.
 template <int D>
-void MultipoleField<D>::add_lack(Visit& visit, Workspace const& work) const {
+void MultipoleField<D>::add_softening(Visit& visit, Workspace const& work) const {
   if (law_.softening == 0) return;
   auto const& place = tree_.nodes()[visit.node].centre;
   for (Other const& other : work.far)
-    visit.lack.add(source_of_lack(other.node), between<D>(centre(other), place), law_.softening);
+    visit.softening.add(softened_source(other.node), between<D>(centre(other), place), law_.softening);
   for (Other const& other : work.expanded) {
     TreeNode const& source = tree_.nodes()[other.node];
     auto const seen = seen_from(other, place);
@@ -375,26 +381,28 @@ void MultipoleField<D>::add_lack(Visit& visit, Workspace const& work) const {
       Point const& p = tree_.particles()[i];
       Vector<D> r;
       for (int a = 0; a < D; ++a) r[a] = seen[a] - p.position[a];
-      visit.lack.add({p.amount, {}}, r, law_.softening);
+      visit.softening.add({p.amount, {}}, r, law_.softening);
     }
   }
 }
 
-/// The same at the particles of a leaf, and what they lack of moments that are evaluated at them.
+/// To the particles of a leaf: of its local expansion, and of moments that are evaluated at them.
 template <int D>
-void MultipoleField<D>::add_lack(NodeParticles const& particles, Visit const& visit, Workspace const& work,
-                                 double* field, double* potential) const {
+void MultipoleField<D>::add_softening(NodeParticles const& particles, Visit const& visit, Workspace& work,
+                                      double* field, double* potential) const {
   if (law_.softening == 0) return;
+  work.softened.clear();
+  for (Other const& other : work.outside) work.softened.push_back({softened_source(other.node), centre(other)});
   double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
   for (std::size_t i = 0; i < particles.count; ++i) {
     std::array<double, 3> place{};
     std::copy_n(particles.rows + i * row_stride<PointSource<D>>, D, place.begin());
-    SofteningLack<D> lack = visit.lack.at(between<D>(tree_.nodes()[visit.node].centre, place));
-    for (Other const& other : work.outside)
-      lack.add(source_of_lack(other.node), between<D>(centre(other), place), law_.softening);
-    auto const slope = lack.slope({});
+    auto correction = visit.softening.at(between<D>(tree_.nodes()[visit.node].centre, place));
+    for (auto const& source : work.softened)
+      correction.add(source.moments, between<D>(source.centre, place), law_.softening);
+    auto const slope = correction.slope({});
     for (int a = 0; a < D; ++a) field[i * D + a] -= constant * slope[a];
-    if (potential) potential[i] += constant * lack.value({});
+    if (potential) potential[i] += constant * correction.value({});
   }
 }
 
@@ -435,7 +443,7 @@ void MultipoleField<D>::finish_leaf(TreeNode const& leaf, Visit const& visit, Wo
   NodeParticles own = particles_of(leaf);
   kernels_.evaluate(tables_.view(), own, visit.local.data(), constant, task.influence, potential);
   add_background(own, task.influence, potential);
-  add_lack(own, visit, work, task.influence, potential);
+  add_softening(own, visit, work, task.influence, potential);
   for (Other const& other : work.outside) {
     std::copy_n(centre(other).begin(), 3, own.centre);
     own.radius = tree_.nodes()[other.node].radius;

@@ -70,7 +70,7 @@ class MultipoleField {
     std::uint32_t node = 0;
     std::vector<double> local;
     std::shared_ptr<std::vector<Other> const> others;
-    SofteningLack<D> lack = {};  ///< of the local expansion, if the law is softened
+    SofteningCorrection<D> softening = {};  ///< of the local expansion, if the law is softened
   };
   struct Workspace;
   struct alignas(32) Block {
@@ -99,10 +99,10 @@ class MultipoleField {
   void find_background();
   void add_background(NodeParticles const& particles, double* field, double* potential) const;
   void finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work);
-  typename SofteningLack<D>::Moments source_of_lack(std::size_t node) const;
-  void add_lack(Visit& visit, Workspace const& work) const;
-  void add_lack(NodeParticles const& particles, Visit const& visit, Workspace const& work, double* field,
-                double* potential) const;
+  typename SofteningCorrection<D>::Moments softened_source(std::size_t node) const;
+  void add_softening(Visit& visit, Workspace const& work) const;
+  void add_softening(NodeParticles const& particles, Visit const& visit, Workspace& work, double* field,
+                     double* potential) const;
   void put_in_order(bool with_potential, int threads);
 
   LaplaceLaw law_;

@@ -377,7 +377,7 @@ void MultipoleScheme::choose_and_calculate(bool with_potential) {
 
 void MultipoleScheme::add_influences(double /*time*/) {
   calculate_field(false);
-  ++calculations_;
+  last_ = chosen_and_taken();
   auto const D = static_cast<std::size_t>(box().dimension());
   std::size_t at = 0;
   for (auto const& one : loaded_) {
@@ -502,20 +502,20 @@ std::vector<MeshField const*> MultipoleScheme::mesh_fields() {
 MultipoleAccuracy MultipoleScheme::accuracy() {
   Look const look(*this);
   calculate_field(false);
+  MultipoleAccuracy accuracy = chosen_and_taken();
   auto const chosen = choose_samples();
-  bool const direct = everything_is_summed();
-  MultipoleAccuracy accuracy;
-  if (!direct) {
+  if (accuracy.order > 0)
     accuracy.measured = error_of(chosen, engine_->exact(chosen, better * tolerance_, threads())).mean;
-    accuracy.order = engine_->choice().order;
-  }
-  accuracy.nodes = engine_->cost().nodes;
-  accuracy.translations = engine_->cost().translations;
-  accuracy.pairs = engine_->cost().pairs;
   return accuracy;
 }
 
-MultipoleScheme::Price MultipoleScheme::price_of(double tolerance) {
+/// As it stands after a calculation.
+MultipoleAccuracy MultipoleScheme::chosen_and_taken() const {
+  auto const& cost = engine_->cost();
+  return {measured_, everything_is_summed() ? 0 : engine_->choice().order, cost.nodes, cost.translations, cost.pairs};
+}
+
+MultipoleScheme::Trial MultipoleScheme::try_tolerance(double tolerance) {
   check_tolerance(tolerance);
   Look const look(*this);
   double const own = std::exchange(tolerance_, tolerance);
@@ -525,9 +525,9 @@ MultipoleScheme::Price MultipoleScheme::price_of(double tolerance) {
     auto const since = Clock::now();
     calculate_field(false);
     double const seconds = seconds_since(since);
-    Price const price{accuracy(), seconds};
+    Trial const trial{accuracy(), seconds};
     tolerance_ = own;
-    return price;
+    return trial;
   } catch (...) {
     tolerance_ = own;
     throw;
@@ -552,13 +552,12 @@ std::size_t MultipoleScheme::bytes() const { return engine_->bytes(); }
 std::string MultipoleScheme::summary() const { return fmt::format("multipoles, errors below {:.0e}", tolerance_); }
 
 std::string MultipoleScheme::report() const {
-  if (calculations_ == 0) return "";
-  auto const& cost = engine_->cost();
-  if (everything_is_summed()) return fmt::format("multipoles: {} pairs, all summed directly", cost.pairs);
+  if (!last_) return "";
+  if (last_->order == 0) return fmt::format("multipoles: {} pairs, all summed directly", last_->pairs);
   return fmt::format(
       "multipoles of order {}: error {:.1e} of {:.0e}; {} nodes, {:.3g} translations and {:.3g} pairs a step",
-      engine_->choice().order, measured_, tolerance_, cost.nodes, static_cast<double>(cost.translations),
-      static_cast<double>(cost.pairs));
+      last_->order, last_->measured, tolerance_, last_->nodes, static_cast<double>(last_->translations),
+      static_cast<double>(last_->pairs));
 }
 
 std::vector<double> MultipoleScheme::state() const {

@@ -84,11 +84,11 @@ class MultipoleScheme final : public Scheme {
   /// The error as it stands, and what was chosen; chooses if that has not been done. Measuring costs 200 N pairs.
   MultipoleAccuracy accuracy();
   /// The same with another tolerance for these particles, and the seconds that it takes to calculate all influences.
-  struct Price {
+  struct Trial {
     MultipoleAccuracy accuracy;
     double seconds;
   };
-  Price price_of(double tolerance);
+  Trial try_tolerance(double tolerance);
 
   void add_influences(double time) override;
   EnergyAndVirial measure(double time = 0) override;
@@ -133,6 +133,7 @@ class MultipoleScheme final : public Scheme {
   struct SampledError {
     double mean, largest;
   };
+  MultipoleAccuracy chosen_and_taken() const;
   SampledError error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const;
   void tune(bool with_potential);
 
@@ -143,7 +144,8 @@ class MultipoleScheme final : public Scheme {
   double criterion_ = 0;  // the error that one interaction may make; 0: not chosen yet
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
-  std::size_t until_check_ = 0, calculations_ = 0;
+  std::size_t until_check_ = 0;
+  std::optional<MultipoleAccuracy> last_;  // of the last influences
   bool background_ = false;
   std::optional<MeshGrid> grid_;
   MeshField potential_, field_;  // on its nodes

@@ -1,6 +1,6 @@
-// Softening: what a softened law lacks of 1/r (2D: of -ln r), K(r) = 1/sqrt(r^2 + eps^2) - 1/r, which no expansion in
-// harmonics has. It is small and smooth where expansions act, so that two terms of Taylor's series do. Private to this
-// room.
+// Softening: by what a softened law differs from 1/r (2D: from -ln r), K(r) = 1/sqrt(r^2 + eps^2) - 1/r, which no
+// expansion in harmonics has. It is small and smooth where expansions act, so that two terms of Taylor's series do.
+// Private to this room.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -10,7 +10,7 @@
 namespace boltzmann {
 
 template <int D>
-class SofteningLack {
+class SofteningCorrection {
  public:
   /// Strength and dipole of sources, about a centre.
   struct Moments {
@@ -29,8 +29,8 @@ class SofteningLack {
     }
   }
   /// The same about another place, at x from this.
-  SofteningLack at(Vector<D> const& x) const {
-    SofteningLack there = *this;
+  SofteningCorrection at(Vector<D> const& x) const {
+    SofteningCorrection there = *this;
     there.value_ = value(x);
     there.slope_ = slope(x);
     return there;

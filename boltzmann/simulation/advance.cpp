@@ -1,0 +1,218 @@
+// One step, by whatever advances the particles, and the checks that turn a failing one into one line.
+#include <boltzmann/simulation/overlap.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+
+void Simulation::move_walls(double time) {
+  for (auto* scheme : schemes_)
+    if (scheme->box().walls_move()) scheme->box().move_walls(time);
+}
+
+/// The influences on particles as they are, unless they stand there.
+void Simulation::calculate(double time) {
+  if (influences_.hold()) return;
+  move_walls(time);
+  if (small_system_.call) {
+    small_system_.call(small_system_.data);
+  } else if (schemes_.size() == 1) {
+    schemes_.front()->calculate(time);
+  } else {
+    for (auto* ensemble : ensembles_) ensemble->clear_influence();
+    for (auto* scheme : schemes_) scheme->add_influences(time);
+  }
+  influences_.calculated();
+}
+
+void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
+  if (!gauss_radau_.parts().empty())
+    advance_by_gauss_radau(dt);
+  else if (substeps_)
+    advance_in_substeps(dt);
+  else
+    advance(time(), dt);
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
+  if (!dissipations.empty()) calculate(time() + dt);
+  for (auto* dissipation : dissipations) dissipation->advance(context);
+  for (auto const& part : parts_) check_moves(part);
+  for (auto const* scheme : schemes_)
+    if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))
+      throw PhysicsFailure(
+          fmt::format("sound has become so fast that the step {} is far above the longest that makes "
+                      "sense, {}",
+                      told_time(std::abs(dt)), told_time(scheme->sound_step())));
+}
+
+/// By the stages of the integrators.
+void Simulation::advance(double start, double dt) {
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
+  double passed = 0;
+  for (int stage = 0; stage < stages_; ++stage) {
+    calculate(start + passed * dt);
+    for (auto& part : parts_) {
+      if (stage >= part.stages) continue;
+      Motion const motion = part.integrator->advance(stage, context);
+      if (motion == Motion::none) continue;
+      influences_.outdated();
+      passed = part.time_after[stage];
+      if (motion != Motion::final) continue;
+      move_walls(start + passed * dt);
+      keep_in_box(part);
+    }
+  }
+}
+
+/// Puts back what has left the box during a step.
+void Simulation::keep_in_box(Part& part) {
+  try {
+    work_ += part.home->box().apply(*part.ensemble, part.home->threads());
+  } catch (PhysicsFailure const& failure) {
+    throw PhysicsFailure(failure.what() + advice());
+  }
+}
+
+void Simulation::advance_by_gauss_radau(double dt) {
+  double const start = time();
+  double passed = 0;
+  std::function<void(double)> const influences = [this, &start, &passed](double since) {
+    influences_.outdated();
+    calculate(start + passed + since);
+  };
+  for (std::size_t k = 0; auto const& part : parts_)
+    if (part.integrator->equations_of_motion()) gauss_radau_.parts()[k++].max_move = std::sqrt(part.longest_move2);
+  while (passed != dt) {
+    calculate(start + passed);
+    double const rest = dt - passed, size = gauss_radau_.step(rest, schemes_.front()->threads(), influences);
+    passed = size == rest ? dt : passed + size;
+    influences_.outdated();
+    move_walls(start + passed);
+    for (auto& part : parts_) keep_in_box(part);
+  }
+}
+
+/// Block steps (J. Makino, P. Hut, M. Kaplan and H. Saygin, New Astron. 12, 124 (2006)): a substep is dt / 2^n and
+/// begins at a multiple of itself. It is the longest that is allowed both where it begins and where it ends.
+void Simulation::advance_in_substeps(double dt) {
+  constexpr std::uint64_t whole = std::uint64_t{1} << 40;
+  double const start = time(), unit = dt / static_cast<double>(whole);
+  auto const moment = [&](std::uint64_t at) {
+    return at == whole ? start + dt : start + static_cast<double>(at) * unit;
+  };
+  auto const longer = [&](std::uint64_t size, double allowed) {
+    return std::abs(static_cast<double>(size) * unit) > allowed;
+  };
+  calculate(start);
+  double allowed = longest_substep(*substeps_, ensembles_, schemes_);
+  for (std::uint64_t at = 0; at < whole;) {
+    std::uint64_t size = at == 0 ? whole : at & (~at + 1);
+    while (size > 0 && longer(size, allowed)) size /= 2;
+    double const work = work_;
+    keep_rows();
+    for (bool fits = false; !fits;) {
+      if (size == 0)
+        throw PhysicsFailure(
+            fmt::format("substeps would have to be shorter than a 10^12th of the step, {}", told_time(allowed)));
+      advance(moment(at), static_cast<double>(size) * unit);
+      calculate(moment(at + size));
+      double const at_end = longest_substep(*substeps_, ensembles_, schemes_);
+      fits = !longer(size, at_end);
+      if (fits) {
+        allowed = at_end;
+        at += size;
+        ++substep_counts_.done;
+        for (auto const& part : parts_) check_moves(part);
+      } else {
+        restore_rows();
+        move_walls(moment(at));
+        work_ = work;
+        size /= 2;
+        ++substep_counts_.repeated;
+      }
+    }
+  }
+}
+
+/// Rows and influences, for a substep that may be too long.
+void Simulation::keep_rows() {
+  before_substep_.clear();
+  for (auto const* ensemble : ensembles_) {
+    double const *row = ensemble->row(0), *influence = ensemble->influence(0);
+    before_substep_.insert(before_substep_.end(), row, row + ensemble->size() * ensemble->stride());
+    before_substep_.insert(before_substep_.end(), influence, influence + ensemble->size() * ensemble->influence_size());
+  }
+}
+
+void Simulation::restore_rows() {
+  double const* from = before_substep_.data();
+  for (auto* ensemble : ensembles_) {
+    std::size_t const rows = ensemble->size() * ensemble->stride(),
+                      influences = ensemble->size() * ensemble->influence_size();
+    std::copy_n(from, rows, ensemble->row(0));
+    std::copy_n(from + rows, influences, ensemble->influence(0));
+    from += rows + influences;
+  }
+  influences_.calculated();
+}
+
+std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
+  if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty() || substeps_) return nullptr;
+  std::vector<Mover> movers;
+  for (auto const& part : parts_) {
+    Method const method = part.integrator->method();
+    if ((method != Method::leap_frog && method != Method::deactivate) || !part.integrator->same_for_all())
+      return nullptr;
+    movers.push_back({part.ensemble, method == Method::leap_frog});
+  }
+  return schemes_.front()->fused_steps(movers, dt);
+}
+
+void Simulation::check_moves(Part const& part) const {
+  LargestMove const& move = part.integrator->largest_move();
+  if (move.not_finite == LargestMove::nobody && move.square <= part.longest_move2) return;
+  auto const& name = part.ensemble->name();
+  if (move.not_finite != LargestMove::nobody) {
+    std::string why;
+    for (auto const* scheme : schemes_)
+      if (why.empty()) why = scheme->explain(*part.ensemble, move.not_finite);
+    throw PhysicsFailure(
+        fmt::format("particle {} of '{}' has a position or velocity that is not finite (or beyond the range of the "
+                    "fixed-point grid){}{}",
+                    move.not_finite, name, why.empty() ? "" : ": ", why));
+  }
+  double const moved = std::sqrt(move.square), allowed = std::sqrt(part.longest_move2);
+  Dimension const unit = part.ensemble->fields().front().dimension;  // of what moves: a length, an angle
+  auto const length = [&](double number) { return base().text(number, unit); };
+  throw PhysicsFailure(fmt::format("particle {} of '{}' moved {} in one step, further than the length {} of its law{}",
+                                   move.particle, name, length(moved), length(allowed), advice()));
+}
+
+/// What a failure may be told of, from the state that check() has seen.
+void Simulation::note_start() {
+  start_ = step_;
+  collision_step_ = std::numeric_limits<double>::infinity();
+  for (auto const* scheme : schemes_) collision_step_ = std::min(collision_step_, scheme->collision_step());
+  overlap_ = overlap(schemes_, ensembles_, step_size_);
+}
+
+/// The cure of a step that has brought a particle too far, as far as it is known.
+std::string Simulation::advice() const {
+  if (step_ == start_ && !overlap_.empty()) return "; " + overlap_;
+  auto const told = [&](double number) { return base().text(number, dimensions::time, 3); };
+  double const safe = 0.1 * collision_step_;  // forces between atoms rise over a tenth of their law's length
+  if (std::abs(step_size_) > safe)
+    return fmt::format(
+        "; at the speeds of the start a step above {} does not follow collisions, and forces need a shorter one; a "
+        "tenth is safe to begin with: take a step below {}",
+        told(collision_step_), told(safe));
+  if (std::isfinite(safe))
+    return fmt::format("; the speeds of the start allow the step ({}), forces do not: begin with half", told(safe));
+  return "; take a shorter step";
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,182 @@
+// What is looked at before the first step, so that a wrong simulation is one line.
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+
+void Simulation::check() {
+  if (checked_) return;
+  small_system_ = {};
+  move_walls(time());
+  accept_particles();
+  ensembles_ = supervised_by(schemes_);
+  stages_ = 0;
+  bool reversible = false, inside_step = false;
+  for (auto* ensemble : ensembles_) {
+    Part const& part = ready_part(*ensemble);
+    Method const method = part.integrator->method();
+    for (auto const* scheme : schemes_)
+      inside_step = inside_step || (method == Method::leap_frog && scheme->velocity_dependent(*ensemble));
+    stages_ = std::max(stages_, part.stages);
+    reversible = reversible || method == Method::reversible_leap_frog;
+  }
+  std::erase_if(parts_, [&](Part const& p) {
+    return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
+  });
+  check_methods();
+  take_lengths();
+  check_dissipations();
+  if (substeps_) check_substeps();
+  if (reversible && !changes_.empty())
+    throw Error("the reversible leap-frog can't take back what an adaptation does between steps; use leap-frog");
+  if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
+  for (auto* scheme : schemes_) {
+    double const longest = scheme->longest_step();
+    if (std::abs(step_size_) > max_courant * longest && !(substeps_ && substeps_->courant))
+      throw Error(
+          fmt::format("the step {} is far above the longest that makes sense, {} (sound and diffusion "
+                      "must not outrun it)",
+                      told_time(std::abs(step_size_)), told_time(longest)));
+  }
+  influences_.inside_step(inside_step);
+  influences_.outdated();
+  calculate(time());
+  check_influences();
+  note_start();
+  checked_ = true;
+}
+
+/// The integrator of an ensemble, with its stages and with what it takes over from the schemes.
+Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
+  Part* part = part_of(ensemble);
+  if (!part) part = &parts_.emplace_back(Part{&ensemble, usual_integrator(ensemble), 0, 0, {}, nullptr});
+  part->integrator->threads(schemes_.front()->threads());
+  bool const takes = part->integrator->takes_rotations();
+  std::vector<Rotation> rotations;
+  for (auto* scheme : schemes_)
+    for (auto const& rotation : scheme->rotations(ensemble, takes)) rotations.push_back(rotation);
+  if (takes) part->integrator->rotate(std::move(rotations));
+  part->stages = part->integrator->stages();
+  part->time_after.clear();
+  for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
+  part->home = *std::find_if(schemes_.begin(), schemes_.end(),
+                             [&](Scheme const* scheme) { return scheme->supervises(ensemble); });
+  return *part;
+}
+
+/// Those that advance all ensembles together don't mix with others.
+void Simulation::check_methods() {
+  std::vector<GaussRadau::Part> together;
+  Part const* other = nullptr;
+  for (auto* ensemble : ensembles_) {
+    Part const& part = *part_of(*ensemble);
+    Method const method = part.integrator->method();
+    for (auto const* scheme : schemes_)
+      if (method == Method::symplectic_4 && scheme->velocity_dependent(*ensemble))
+        throw Error("influences on ensemble '" + ensemble->name() +
+                    "' depend on velocities, which symplectic-4 can't follow; use leap-frog, rk4 or gauss-radau");
+    if (method == Method::gauss_radau && !part.integrator->same_for_all())
+      throw Error("some particles of ensemble '" + ensemble->name() +
+                  "' are frozen, which gauss-radau does not know; put them into an ensemble with deactivate");
+    if (auto* equations = part.integrator->equations_of_motion())
+      together.push_back({equations});
+    else if (method != Method::deactivate)
+      other = &part;
+  }
+  if (!together.empty() && other)
+    throw Error("ensemble '" + together.front().equations->ensemble().name() +
+                "' moves by gauss-radau, which advances all ensembles together; '" + other->ensemble->name() +
+                "' moves by " + to_string(other->integrator->method()) + ": use gauss-radau for all (or deactivate)");
+  gauss_radau_.shift_origin(
+      together.size() == ensembles_.size() &&
+      std::all_of(together.begin(), together.end(), [](auto const& part) { return part.equations->second_order(); }) &&
+      std::all_of(schemes_.begin(), schemes_.end(), [](Scheme* scheme) { return scheme->translation_invariant(); }));
+  gauss_radau_.parts(std::move(together));
+}
+
+void Simulation::check_substeps() const {
+  for (auto* ensemble : ensembles_) {
+    Method const method = this->method(*ensemble);
+    if (method != Method::leap_frog && method != Method::symplectic_4 && method != Method::deactivate)
+      throw Error("steps are divided into substeps where leap-frog or symplectic-4 advances; ensemble '" +
+                  ensemble->name() + "' moves by " + to_string(method));
+  }
+  if (!dissipations_.empty() || !equilibrations_.empty())
+    throw Error(
+        "steps with friction and noise can't be divided into substeps: their random numbers are of whole steps");
+  if (substeps_->courant && std::none_of(schemes_.begin(), schemes_.end(),
+                                         [](Scheme* scheme) { return std::isfinite(scheme->longest_step()); }))
+    throw Error("substeps: no scheme of the simulation has a Courant step; give distance or energy");
+}
+
+void Simulation::check_influences() const {
+  for (auto* ensemble : ensembles_)
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      for (std::size_t c = 0; c < ensemble->influence_size(); ++c) {
+        if (std::isfinite(ensemble->influence(i)[c])) continue;
+        std::string why;
+        for (auto const* scheme : schemes_)
+          if (why.empty()) why = scheme->explain(*ensemble, i);
+        throw Error(why.empty() ? fmt::format("the influence on particle {} of '{}' is not finite at the start", i,
+                                              ensemble->name())
+                                : why);
+      }
+}
+
+void Simulation::check_dissipations() {
+  std::vector<Dissipation*> all = dissipations_;
+  for (auto const& equilibration : equilibrations_) all.push_back(equilibration.dissipation.get());
+  for (auto* dissipation : all) {
+    for (auto* ensemble : dissipation->ensembles()) {
+      auto const* part = part_of(*ensemble);
+      if (!part)
+        throw Error("friction and noise act on ensemble '" + ensemble->name() +
+                    "', which no scheme of the simulation supervises");
+      bool const all = part->integrator->same_for_all();
+      if (part->integrator->method() != Method::leap_frog || !all)
+        throw Error("friction and noise act on ensemble '" + ensemble->name() +
+                    "', which needs leap-frog for all its particles then, not " +
+                    (all ? to_string(part->integrator->method()) : "some that are frozen"));
+    }
+    dissipation->check();
+  }
+}
+
+FixedPoint Simulation::choose_grid() const {
+  double extent = 0, mass = std::numeric_limits<double>::infinity();
+  bool open = false;  // particles may fly off: leave them room for 512 boxes, and 4 otherwise
+  for (auto const* scheme : schemes_)
+    for (int a = 0; a < scheme->box().dimension(); ++a) {
+      Box const& box = scheme->box();
+      extent = std::max({extent, std::abs(box.low(a)), std::abs(box.high(a)), box.length(a)});
+      bool const walled = box.walled(a, Box::End::low) && box.walled(a, Box::End::high);
+      open = open || !(walled || box.periodic(a));
+    }
+  for (auto const& part : parts_)
+    if (Field const* field = part.ensemble->find_field("mass"))
+      for (std::size_t i = 0; i < part.ensemble->size(); ++i)
+        mass = std::min(mass, part.ensemble->row(i)[field->offset]);
+  if (!std::isfinite(mass) || !(mass > 0)) mass = 1;
+  auto const power_of_two = [](double x) { return std::exp2(std::floor(std::log2(x))); };
+  FixedPoint grid;
+  grid.position = power_of_two(extent * (open ? 0x1p-42 : 0x1p-49));
+  grid.velocity = power_of_two(grid.position / std::abs(step_size_) * 0x1p-4);
+  grid.force = power_of_two(grid.velocity * mass / std::abs(step_size_) * 0x1p-3);
+  return grid;
+}
+
+void Simulation::make_reversible(FixedPoint const& grid) {
+  grid_ = grid;
+  for (auto* scheme : schemes_) {
+    scheme->make_reversible(grid.force);
+    scheme->box().on_grid(grid.position);
+  }
+  for (auto& part : parts_) part.integrator->prepare(grid);
+}
+
+}  // namespace boltzmann
