@@ -25,15 +25,15 @@ void say(std::string const& line) {
   std::fflush(stdout);
 }
 
-void add_views(Stage& stage, ScenarioSimulation const& scenario) {
-  for (auto const& view : scenario.views) stage.add(view.name, view);
+void add_views(Views& views, ScenarioSimulation const& scenario) {
+  for (auto const& view : scenario.views) views.add(view.name, view);
 }
 
 RunReport run_on_stage(ScenarioSimulation const& scenario, Recording& recording, Clients& clients, std::int64_t steps,
                        bool play, bool quiet) {
-  Stage stage(*scenario.simulation, scenario.base, title_of(scenario, recording.folder()), recording.folder());
-  add_views(stage, scenario);
-  return run_live(stage, clients, &recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
+  Views views(*scenario.simulation, scenario.base, title_of(scenario, recording.folder()), recording.folder());
+  add_views(views, scenario);
+  return run_live(views, clients, &recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
                   {play, -1, scenario.name, scenario.description}, quiet);
 }
 
@@ -84,11 +84,11 @@ bool show_run(std::string const& folder, Clients& clients, bool announced = fals
                 "[output] stores a frame every 10 steps)");
   auto const scenario = load_stored_run(folder);
   auto const recording = make_recording(*scenario, folder, {.overwrite = true});  // only asked what it would draw
-  Stage stage(*scenario->simulation, scenario->base, title_of(*scenario, folder), folder);
-  add_views(stage, *scenario);
-  stage.take(*recording);
-  Replay show(stage, clients, scenario->name, scenario->description);
-  stage.add_usual();
+  Views views(*scenario->simulation, scenario->base, title_of(*scenario, folder), folder);
+  add_views(views, *scenario);
+  views.take(*recording);
+  Replay show(views, clients, scenario->name, scenario->description);
+  views.add_usual();
   std::optional<Announcement> announcement;
   if (announced) announcement.emplace("window", clients.address());
   return show.run();

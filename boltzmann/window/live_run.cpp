@@ -30,14 +30,14 @@ enum class Command { pause, play, rewind };
 }  // namespace
 
 struct LiveRun::State {
-  State(Stage& the_stage, Clients& the_audience, Recording* the_recording, LiveOptions the_options)
-      : stage(the_stage),
-        clients(the_audience),
+  State(Views& the_views, Clients& the_clients, Recording* the_recording, LiveOptions the_options)
+      : views(the_views),
+        clients(the_clients),
         recording(the_recording),
-        simulation(the_stage.simulation()),
+        simulation(the_views.simulation()),
         options(std::move(the_options)) {}
 
-  Stage& stage;
+  Views& views;
   Clients& clients;
   Recording* recording;
   Simulation& simulation;
@@ -201,8 +201,8 @@ struct LiveRun::State {
         {"velocity", velocity},
         {"text", exact ? std::string("back at the start, exactly")
                        : fmt::format("back at the start, which is missed by up to {} in position and {} in velocity",
-                                     stage.quantity(position, dimensions::length),
-                                     stage.quantity(velocity, dimensions::velocity))}};
+                                     views.quantity(position, dimensions::length),
+                                     views.quantity(velocity, dimensions::velocity))}};
     ++notice;
   }
 
@@ -292,15 +292,15 @@ struct LiveRun::State {
       if (given.is_number())
         size = given.get<double>();
       else if (given.is_string())
-        size = in_base(given.get<std::string>(), dimensions::time, stage.base());
+        size = in_base(given.get<std::string>(), dimensions::time, views.base());
       else
         throw Error("the step size is a number or a time with its unit, \"2 fs\"");
       if (!std::isfinite(size) || !(size > 0)) throw Error(fmt::format("the step size is above 0, not {}", size));
       for (auto* scheme : simulation.schemes())
         if (size > 4 * scheme->longest_step())
           throw Error(fmt::format("a step of {} is far above the longest that makes sense, {}",
-                                  stage.quantity(size, dimensions::time),
-                                  stage.quantity(scheme->longest_step(), dimensions::time)));
+                                  views.quantity(size, dimensions::time),
+                                  views.quantity(scheme->longest_step(), dimensions::time)));
       new_step_size = size;
     }
     if (request.contains("steps_per_frame")) {
@@ -315,8 +315,8 @@ struct LiveRun::State {
   }
 };
 
-LiveRun::LiveRun(Stage& stage, Clients& clients, Recording* recording, LiveOptions const& options)
-    : state_(std::make_shared<State>(stage, clients, recording, options)) {
+LiveRun::LiveRun(Views& views, Clients& clients, Recording* recording, LiveOptions const& options)
+    : state_(std::make_shared<State>(views, clients, recording, options)) {
   state_->show = this;
   if (recording)
     recording->on_row([weak = std::weak_ptr<State>(state_)](std::int64_t step, std::span<double const> values) {
@@ -326,7 +326,7 @@ LiveRun::LiveRun(Stage& stage, Clients& clients, Recording* recording, LiveOptio
       row.insert(row.end(), values.begin(), values.end());
       state->table.add(row);
     });
-  stage.simulation().observe_when([state = state_](std::int64_t step) { return state->look(step); },
+  views.simulation().observe_when([state = state_](std::int64_t step) { return state->look(step); },
                                   [state = state_](Simulation const&) { state->observe(); });
 }
 
@@ -390,7 +390,7 @@ void LiveRun::run(std::uint64_t steps) {
 
 json LiveRun::hello() const {
   State const& state = *state_;
-  json result = state.stage.describe();
+  json result = state.views.describe();
   result["type"] = "hello";
   result["kind"] = "live";
   result["name"] = state.options.name;
@@ -411,13 +411,13 @@ json LiveRun::status() const {
   bool const moving = state.command != Command::pause || state.goal;
   return {{"state", state.state_word()},
           {"step", state.simulation.step()},
-          {"time", state.stage.quantity(state.simulation.time(), dimensions::time)},
+          {"time", state.views.quantity(state.simulation.time(), dimensions::time)},
           {"time_number", state.simulation.time()},
           {"planned", state.target},
           {"steps_per_second", moving ? state.steps_per_second : 0.0},
           {"steps_per_frame", state.steps_per_frame},
           {"step_size_number", state.simulation.step_size()},
-          {"step_size", state.stage.quantity(state.simulation.step_size(), dimensions::time)},
+          {"step_size", state.views.quantity(state.simulation.step_size(), dimensions::time)},
           {"message", state.message},
           {"missed", state.missed}};
 }
@@ -476,24 +476,24 @@ json LiveRun::perform(json const& request) {
 }
 
 std::shared_ptr<Canvas const> LiveRun::draw(json const& view) {
-  return state_->stage.draw(view, state_->simulation.step(), state_->simulation.time());
+  return state_->views.draw(view, state_->simulation.step(), state_->simulation.time());
 }
 
 PictureFile LiveRun::picture(json const& request) {
-  return state_->stage.picture(request, state_->simulation.step(), state_->simulation.time());
+  return state_->views.picture(request, state_->simulation.step(), state_->simulation.time());
 }
 
 json LiveRun::particle(std::string const& ensemble, std::size_t number) const {
-  return state_->stage.particle(ensemble, number);
+  return state_->views.particle(ensemble, number);
 }
 
-RunReport run_live(Stage& stage, Clients& clients, Recording* recording, std::uint64_t steps,
+RunReport run_live(Views& views, Clients& clients, Recording* recording, std::uint64_t steps,
                    LiveOptions const& options, bool quiet) {
-  if (recording) stage.take(*recording);
-  stage.add_usual();
-  LiveRun live(stage, clients, recording, options);
+  if (recording) views.take(*recording);
+  views.add_usual();
+  LiveRun live(views, clients, recording, options);
   ProgressOptions const progress{quiet, 0, true, [&](std::uint64_t n) { live.run(n); }};
-  if (!recording) return run_with_progress(stage.simulation(), steps, progress);
+  if (!recording) return run_with_progress(views.simulation(), steps, progress);
   AddressFile const address(recording->folder(), clients.address());
   return run_with_progress(*recording, steps, progress);
 }

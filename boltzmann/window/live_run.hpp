@@ -3,7 +3,7 @@
 
 #include <boltzmann/recording/progress.hpp>
 #include <boltzmann/window/clients.hpp>
-#include <boltzmann/window/stage.hpp>
+#include <boltzmann/window/views.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -20,9 +20,9 @@ struct LiveOptions {
 
 class LiveRun final : public Source {
  public:
-  /// Adds an observer to the simulation of the stage, which stays there without effect when the run is gone.
+  /// Adds an observer to the simulation of the views, which stays there without effect when the run is gone.
   /// `recording` may be null.
-  LiveRun(Stage& stage, Clients& clients, Recording* recording, LiveOptions const& options = {});
+  LiveRun(Views& views, Clients& clients, Recording* recording, LiveOptions const& options = {});
   ~LiveRun() override;
   LiveRun(LiveRun const&) = delete;
   LiveRun& operator=(LiveRun const&) = delete;
@@ -45,9 +45,9 @@ class LiveRun final : public Source {
   std::shared_ptr<State> state_;
 };
 
-/// A run on a stage before an clients from its beginning to its end, with progress and records as run_with_progress
+/// A run that clients watch in views, from its beginning to its end, with progress and records as run_with_progress
 /// has them (which see). `recording` may be null. While it goes on, its folder says where the window is.
-RunReport run_live(Stage& stage, Clients& clients, Recording* recording, std::uint64_t steps,
+RunReport run_live(Views& views, Clients& clients, Recording* recording, std::uint64_t steps,
                    LiveOptions const& options = {}, bool quiet = false);
 
 }  // namespace boltzmann

@@ -22,12 +22,12 @@ constexpr auto steps_between_clocks = std::chrono::seconds(1);  // at the file, 
 
 }  // namespace
 
-Replay::Replay(Stage& stage, Clients& clients, std::string name, std::string description)
-    : stage_(stage),
+Replay::Replay(Views& views, Clients& clients, std::string name, std::string description)
+    : views_(views),
       clients_(clients),
       name_(std::move(name)),
       description_(std::move(description)),
-      path_(stage.folder() + "/trajectory.h5") {
+      path_(views.folder() + "/trajectory.h5") {
   std::error_code ignored;  // the reader will say what is wrong
   written_ = std::filesystem::last_write_time(path_, ignored);
   take(std::make_unique<TrajectoryReader>(path_));
@@ -39,10 +39,10 @@ Replay::Replay(Stage& stage, Clients& clients, std::string name, std::string des
 Replay::~Replay() { clients_.close(); }
 
 void Replay::read_table() {
-  std::string const path = stage_.folder() + "/diagnoses.csv";
+  std::string const path = views_.folder() + "/diagnoses.csv";
   if (!std::filesystem::exists(path)) return;
   CsvTable const stored = read_csv(path);
-  stage_.columns(stored.header);
+  views_.columns(stored.header);
   ShownTable fresh;
   fresh.number = table_.number;
   std::size_t const rows = stored.columns.empty() ? 0 : stored.columns[0].size();
@@ -63,7 +63,7 @@ void Replay::go_to(std::int64_t frame) {
   if (!reader_) throw Error("'" + path_ + "' can't be read at the moment");
   std::int64_t const wanted = std::clamp<std::int64_t>(frame, 0, frames() - 1);
   auto const fill = [&](std::int64_t with) {
-    for (auto* scheme : stage_.simulation().schemes())
+    for (auto* scheme : views_.simulation().schemes())
       for (auto* ensemble : scheme->ensembles()) reader_->load(static_cast<std::size_t>(with), *ensemble);
   };
   try {
@@ -113,7 +113,7 @@ void Replay::take(std::unique_ptr<TrajectoryReader> reader) {
 }
 
 bool Replay::run() {
-  Interrupt const interrupt(stage_.simulation());
+  Interrupt const interrupt(views_.simulation());
   clients_.open(*this);
   auto next_frame = Clock::now(), next_look = Clock::now() + steps_between_clocks;
   while (!quit_ && !interrupt.seen()) {
@@ -150,7 +150,7 @@ bool Replay::run() {
 }
 
 json Replay::hello() const {
-  json result = stage_.describe();
+  json result = views_.describe();
   std::string const stored = "this is a stored run; bzm resume goes on with it";
   result["type"] = "hello";
   result["kind"] = "replay";
@@ -170,7 +170,7 @@ json Replay::status() const {
                     : end            ? "done"
                                      : "paused"},
           {"step", step()},
-          {"time", stage_.quantity(time(), dimensions::time)},
+          {"time", views_.quantity(time(), dimensions::time)},
           {"time_number", time()},
           {"planned", steps_.back()},
           {"steps_per_second", 0},
@@ -216,10 +216,10 @@ json Replay::perform(json const& request) {
   return json::object();
 }
 
-std::shared_ptr<Canvas const> Replay::draw(json const& view) { return stage_.draw(view, step(), time()); }
-PictureFile Replay::picture(json const& request) { return stage_.picture(request, step(), time()); }
+std::shared_ptr<Canvas const> Replay::draw(json const& view) { return views_.draw(view, step(), time()); }
+PictureFile Replay::picture(json const& request) { return views_.picture(request, step(), time()); }
 json Replay::particle(std::string const& ensemble, std::size_t number) const {
-  return stage_.particle(ensemble, number);
+  return views_.particle(ensemble, number);
 }
 
 }  // namespace boltzmann

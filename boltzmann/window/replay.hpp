@@ -3,7 +3,7 @@
 
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/window/clients.hpp>
-#include <boltzmann/window/stage.hpp>
+#include <boltzmann/window/views.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -15,9 +15,9 @@ namespace boltzmann {
 
 class Replay final : public Source {
  public:
-  /// Shows the frames of folder/trajectory.h5 in the ensembles of the stage, and the table of folder/diagnoses.csv.
+  /// Shows the frames of folder/trajectory.h5 in the ensembles of the views, and the table of folder/diagnoses.csv.
   /// Error if there are none.
-  Replay(Stage& stage, Clients& clients, std::string name, std::string description);
+  Replay(Views& views, Clients& clients, std::string name, std::string description);
   ~Replay() override;
   Replay(Replay const&) = delete;
   Replay& operator=(Replay const&) = delete;
@@ -44,7 +44,7 @@ class Replay final : public Source {
   void read_table();
   void look_for_more();
 
-  Stage& stage_;
+  Views& views_;
   Clients& clients_;
   std::string name_, description_, path_;
   std::unique_ptr<TrajectoryReader> reader_;  // null while the file can't be read

@@ -1,4 +1,4 @@
-// One stage, one clients, one run.
+// Views of a simulation, the clients that look at them, and its run.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/recording/recording.hpp>
@@ -12,7 +12,7 @@ namespace boltzmann {
 struct Window::State {
   Recording* recording;
   WindowOptions options;
-  Stage stage;
+  Views views;
   Clients clients;
   std::optional<Announcement> announcement;
 
@@ -20,7 +20,7 @@ struct Window::State {
         std::string title, std::string folder)
       : recording(the_recording),
         options(std::move(the_options)),
-        stage(simulation, base, std::move(title), std::move(folder)),
+        views(simulation, base, std::move(title), std::move(folder)),
         clients(options.port) {
     simulation.check();
     if (!options.quiet) announcement.emplace("window", clients.address());
@@ -42,26 +42,26 @@ Window::~Window() { state_->clients.bye("the program has closed the window"); }
 
 void Window::install_drawing(std::string name, std::function<void(Canvas&)> draw) {
   if (name.empty()) throw Error("a diagnosis needs a name");
-  state_->stage.install(std::move(name), std::move(draw));
+  state_->views.install(std::move(name), std::move(draw));
 }
 
 void Window::add(std::string name, Picture picture) {
   if (name.empty()) throw Error("a diagnosis needs a name");
-  state_->stage.add(std::move(name), std::move(picture), Stage::Unfit::throws);
+  state_->views.add(std::move(name), std::move(picture), Views::Unfit::throws);
 }
 
 void Window::colours(std::vector<std::string> const& names) {
   std::vector<Colour> palette;
   for (auto const& name : names) palette.push_back(colour_named(name));
-  state_->stage.palette(std::move(palette));
+  state_->views.palette(std::move(palette));
 }
 
 std::string Window::address() const { return state_->clients.address(); }
-Simulation& Window::simulation() const { return state_->stage.simulation(); }
+Simulation& Window::simulation() const { return state_->views.simulation(); }
 
 RunReport Window::run(std::uint64_t steps) {
   State& state = *state_;
-  return run_live(state.stage, state.clients, state.recording, steps,
+  return run_live(state.views, state.clients, state.recording, steps,
                   {state.options.play, -1, state.options.name, state.options.description}, state.options.quiet);
 }
 

@@ -205,9 +205,9 @@ void read_message(std::string const& text) {
     Clients clients;
     Gallery gallery{folder()};
     GallerySource list{gallery, clients};
-    Stage stage{pair.simulation, UnitSystem::reduced(), "two", ""};
-    LiveRun live{stage, clients, nullptr};
-    Shows() { pair.simulation.check(), stage.add_usual(); }
+    Views views{pair.simulation, UnitSystem::reduced(), "two", ""};
+    LiveRun live{views, clients, nullptr};
+    Shows() { pair.simulation.check(), views.add_usual(); }
   };
   static Shows shows;
   json const request = nested_too_deep(text) ? json() : json::parse(text, nullptr, false);

@@ -52,14 +52,14 @@ class ReplayTest : public testing::Test {
   // A replay in a thread of its own.
   struct Shown {
     Balls stored;
-    Stage stage;
+    Views views;
     Clients clients;
     Replay replay;
     std::thread thread;
     explicit Shown(std::string const& folder)
-        : stage(stored.simulation, UnitSystem::reduced(), "balls", folder), replay(stage, clients, "balls", "") {
+        : views(stored.simulation, UnitSystem::reduced(), "balls", folder), replay(views, clients, "balls", "") {
       stored.simulation.check();
-      stage.add_usual();
+      views.add_usual();
       thread = std::thread([this] { replay.run(); });
     }
     ~Shown() { thread.join(); }
@@ -198,7 +198,7 @@ TEST_F(ReplayTest, StopsBeforeADamagedFrame) {
 TEST_F(ReplayTest, NeedsFrames) {
   Balls stored;
   Clients clients;
-  Stage nowhere(stored.simulation, UnitSystem::reduced(), "", folder_ + "-missing");
+  Views nowhere(stored.simulation, UnitSystem::reduced(), "", folder_ + "-missing");
   EXPECT_THROW(Replay(nowhere, clients, "", ""), Error);
 }
 

@@ -1,4 +1,4 @@
-// Stage: all that a window can show of a simulation, by name: pictures of it and the user's own drawings. The live run
+// Views: all that a window can show of a simulation, by name: pictures of it and the user's own drawings. The live run
 // and the stored one stand on it.
 #pragma once
 
@@ -17,11 +17,11 @@ namespace boltzmann {
 
 class Recording;
 
-class Stage {
+class Views {
  public:
-  /// The simulation and what else it reads must outlive the stage. `folder` is where diagnoses.csv and trajectory.h5
+  /// The simulation and what else it reads must outlive the views. `folder` is where diagnoses.csv and trajectory.h5
   /// are, or empty.
-  Stage(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder);
+  Views(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder);
 
   /// A drawing of the user's own, which it replaces if there is one of that name.
   void install(std::string name, std::function<void(Canvas&)> draw);

@@ -8,7 +8,7 @@
 #include <boltzmann/pictures/projection.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/window/option_json.hpp>
-#include <boltzmann/window/stage.hpp>
+#include <boltzmann/window/views.hpp>
 #include <boltzmann/window/wire.hpp>
 
 #include <fmt/format.h>
@@ -72,12 +72,12 @@ double number_or(json const& object, char const* key, double otherwise) {
   return found->get<double>();
 }
 
-Stage::Stage(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder)
+Views::Views(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder)
     : simulation_(simulation), base_(base), title_(std::move(title)), folder_(std::move(folder)) {}
 
-std::vector<AnyEnsemble*> Stage::ensembles() const { return supervised_by(simulation_.schemes()); }
+std::vector<AnyEnsemble*> Views::ensembles() const { return supervised_by(simulation_.schemes()); }
 
-std::vector<std::string> Stage::column_names() const {
+std::vector<std::string> Views::column_names() const {
   std::vector<std::string> names;
   for (std::size_t c = 2; c < header_.size(); ++c) {
     std::size_t const unit = header_[c].rfind(" (");
@@ -86,12 +86,12 @@ std::vector<std::string> Stage::column_names() const {
   return names;
 }
 
-void Stage::install(std::string name, std::function<void(Canvas&)> draw) {
+void Views::install(std::string name, std::function<void(Canvas&)> draw) {
   std::erase_if(entries_, [&](Entry const& entry) { return entry.name == name; });
   entries_.push_back({std::move(name), {}, std::move(draw)});
 }
 
-void Stage::add(std::string name, Picture picture, Unfit unfit) {
+void Views::add(std::string name, Picture picture, Unfit unfit) {
   for (auto const& entry : entries_)
     if (entry.name == name) return;
   bool const table = picture.drawing == "time-series";
@@ -106,13 +106,13 @@ void Stage::add(std::string name, Picture picture, Unfit unfit) {
   entries_.push_back({std::move(name), std::move(picture), {}, table});
 }
 
-PictureSources Stage::sources(Picture const& picture) const {
+PictureSources Views::sources(Picture const& picture) const {
   PictureSources all{{}, instruments_};
   if (picture.drawing == "mesh") all.mesh_fields = mesh_fields_of(simulation_.schemes());
   return all;
 }
 
-void Stage::take(Recording const& recording) {
+void Views::take(Recording const& recording) {
   header_ = recording.header();
   instruments_ = recording.instruments();
   for (auto const& picture : recording.pictures()) {
@@ -122,7 +122,7 @@ void Stage::take(Recording const& recording) {
   }
 }
 
-void Stage::add_usual() {
+void Views::add_usual() {
   add("Particles", {.drawing = "cartesian"});
   add("Phase space", {.drawing = "phase-space", .x = "position.x", .y = "velocity.x"});
   add("Measured", {.drawing = "time-series"});
@@ -138,9 +138,9 @@ void Stage::add_usual() {
   });
 }
 
-void Stage::columns(std::vector<std::string> header) { header_ = std::move(header); }
+void Views::columns(std::vector<std::string> header) { header_ = std::move(header); }
 
-json Stage::describe() const {
+json Views::describe() const {
   auto const length = base_.display(dimensions::length), time = base_.display(dimensions::time);
   double const step = simulation_.step_size();
   json result{{"title", title_},
@@ -159,7 +159,7 @@ json Stage::describe() const {
   return result;
 }
 
-void Stage::describe_box(json& result) const {
+void Views::describe_box(json& result) const {
   Box const& box = simulation_.schemes().front()->box();
   result["dimension"] = box.dimension();
   json sides{{"low", json::array()}, {"high", json::array()}, {"boundary", json::array()}};
@@ -171,7 +171,7 @@ void Stage::describe_box(json& result) const {
   result["box"] = sides;
 }
 
-void Stage::describe_ensembles(json& result) const {
+void Views::describe_ensembles(json& result) const {
   json &all = result["ensembles"] = json::array(), &together = result["quantities"] = json::array();
   std::vector<std::string> vectors, names;
   int number = 0;
@@ -204,7 +204,7 @@ void Stage::describe_ensembles(json& result) const {
   result["vectors"] = vectors;
 }
 
-void Stage::describe_pictures(json& result) const {
+void Views::describe_pictures(json& result) const {
   json& diagnoses = result["diagnoses"] = json::array();
   for (auto const& entry : entries_) {
     Picture const& p = entry.picture;
@@ -229,7 +229,7 @@ void Stage::describe_pictures(json& result) const {
   }
 }
 
-Stage::Entry const& Stage::entry(std::string const& name) const {
+Views::Entry const& Views::entry(std::string const& name) const {
   std::vector<std::string> names;
   for (auto const& entry : entries_) {
     if (entry.name == name) return entry;
@@ -238,7 +238,7 @@ Stage::Entry const& Stage::entry(std::string const& name) const {
   throw Error(fmt::format("there is no diagnosis '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
 }
 
-Canvas Stage::canvas(Entry const& entry, json const& view, std::int64_t step, double time) const {
+Canvas Views::canvas(Entry const& entry, json const& view, std::int64_t step, double time) const {
   if (entry.installed) {
     Canvas own;
     own.title(entry.name);
@@ -253,7 +253,7 @@ Canvas Stage::canvas(Entry const& entry, json const& view, std::int64_t step, do
       picture, {simulation_, base_, title_, step, time, folder_, instruments_, default_threads(), memory_.get()});
 }
 
-std::shared_ptr<Canvas const> Stage::draw(json const& view, std::int64_t step, double time) const {
+std::shared_ptr<Canvas const> Views::draw(json const& view, std::int64_t step, double time) const {
   Entry const& what = entry(text_or(view, "diagnosis", ""));
   if (what.table) return nullptr;
   // Its arrays come back when the last browser has been sent them.
@@ -264,7 +264,7 @@ std::shared_ptr<Canvas const> Stage::draw(json const& view, std::int64_t step, d
           }};
 }
 
-PictureFile Stage::picture(json const& request, std::int64_t step, double time) const {
+PictureFile Views::picture(json const& request, std::int64_t step, double time) const {
   if (!request.contains("view") || !request["view"].is_object()) throw Error("a picture is one of a \"view\"");
   json const& view = request["view"];
   std::string const format = text_or(request, "format", "png");
@@ -296,7 +296,7 @@ PictureFile Stage::picture(json const& request, std::int64_t step, double time) 
   return file;
 }
 
-json Stage::particle(std::string const& name, std::size_t number) const {
+json Views::particle(std::string const& name, std::size_t number) const {
   for (auto const* ensemble : ensembles()) {
     if (ensemble->name() != name || number >= ensemble->size()) continue;
     double const* row = ensemble->row(number);
@@ -329,6 +329,6 @@ json Stage::particle(std::string const& name, std::size_t number) const {
   return nullptr;
 }
 
-std::string Stage::quantity(double number, Dimension dimension) const { return base_.text(number, dimension, 5); }
+std::string Views::quantity(double number, Dimension dimension) const { return base_.text(number, dimension, 5); }
 
 }  // namespace boltzmann
