@@ -20,19 +20,24 @@ constexpr int threads_for(std::size_t items, double work, int threads) {
   return static_cast<double>(items) * work < 8192 ? 1 : threads;
 }
 
+namespace detail {
+/// Compiled once for one thread and for several: two copies may be optimised to other bits.
+template <class Function>
+[[gnu::noinline]] void call_range(void const* function, std::size_t begin, std::size_t end) {
+  (*static_cast<Function const*>(function))(begin, end);
+}
+}  // namespace detail
+
 /// Calls function(begin, end) for ranges of `grain` items that cover [0, size), on `threads` threads; on the caller's
 /// thread if there is only one range or thread. Which thread takes which range is open, so a function must write only
 /// what belongs to its own items; then the result has the same bits for any number of threads. An exception in a range
 /// is rethrown here (the one of the lowest range).
 template <class Function>
 void for_ranges(std::size_t size, std::size_t grain, int threads, Function const& function) {
-  if (threads <= 1 || size <= grain) {
-    if (size > 0) function(std::size_t{0}, size);
-    return;
-  }
-  detail::parallel_ranges(size, grain, threads, &function, [](void const* f, std::size_t begin, std::size_t end) {
-    (*static_cast<Function const*>(f))(begin, end);
-  });
+  if (threads > 1 && size > grain)
+    detail::parallel_ranges(size, grain, threads, &function, detail::call_range<Function>);
+  else if (size > 0)
+    detail::call_range<Function>(&function, 0, size);
 }
 
 }  // namespace boltzmann
