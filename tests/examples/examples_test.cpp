@@ -164,6 +164,16 @@ std::vector<double> numbers_after(std::string const& word, std::string const& ou
   return all;
 }
 
+// Planets turn Mercury's perihelion by 531.5 seconds of arc in a century (Clemence 1947).
+TEST(Examples, MercurysPerihelionMoves) {
+  Example const example("solar_system");
+  ASSERT_TRUE(example.good());
+  EXPECT_LT(example.diagnoses().drift("total energy"), 1e-12);
+  auto const numbers = numbers_after("has moved by", example.out());
+  ASSERT_FALSE(numbers.empty());
+  EXPECT_NEAR(numbers[0], 531.5, 5);
+}
+
 // The radius at nine tenths of the time of free fall: 5 % more of G would make it 0.30.
 TEST(Examples, ColdBallFallsAsTheExactSolution) {
   Example const example("cold_collapse");
