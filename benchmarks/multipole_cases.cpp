@@ -88,8 +88,8 @@ void one_case(int number, std::mt19937_64& random, Tally& tally) {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < count; ++i)
     if (count <= 2000 || random() % count < 2000) chosen.push_back(i);
-  MultipoleField<D> field(coulomb(1, softening), lattice);
-  std::vector<typename MultipoleField<D>::Point> points(count);
+  MultipoleField<Charges<D>> field(coulomb(1, softening), lattice);
+  std::vector<typename MultipoleField<Charges<D>>::Point> points(count);
   for (std::size_t i = 0; i < count; ++i) {
     points[i].amount = charges[i].charge;
     for (int a = 0; a < D; ++a) {

@@ -124,7 +124,7 @@ void add_to_mesh(Item const& table, Reading& reading) {
   auto* const mesh = reading.result->scheme<MeshScheme>();
   if (!mesh) return;
   auto const add = [&](AnyEnsemble& ensemble, SourceKind const& kind) { mesh->add(ensemble, kind); };
-  if (!add_sources(table, "[mesh]", mesh->constant(), add, reading)) reading.mesh.usable = false;
+  if (!add_sources(table, "[mesh]", LaplaceLaw{mesh->constant()}, add, reading)) reading.mesh.usable = false;
 }
 
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {

@@ -9,10 +9,13 @@
 
 namespace boltzmann {
 
-std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading) {
+std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading,
+                                         std::vector<std::string> const& other_laws) {
   bool const softened = keys.find("softening") != nullptr;
   Item const* word = section.need("law", "law = \"coulomb\"");
-  auto const name = word ? read_word(*word, "law", {"coulomb", "gravity"}, reading.context) : std::nullopt;
+  std::vector<std::string> words{"coulomb", "gravity"};
+  words.insert(words.end(), other_laws.begin(), other_laws.end());
+  auto const name = word ? read_word(*word, "law", words, reading.context) : std::nullopt;
   section.explain(*keys.find("law"));
   if (!name) {
     section.mark_used("k");
@@ -53,28 +56,52 @@ std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Re
   return named;
 }
 
+/// Whom a law can act between.
+class Fitting {
+ public:
+  explicit Fitting(std::optional<LaplaceLaw> const& law) : vortices_(!law), sign_(law ? law->constant : 0) {}
+
+  /// Whether it acts on an ensemble that nobody names.
+  bool is_made_for_it(SourceKind const& kind) const { return vortices_ ? kind.vorticity >= 0 : fits(kind) && kind.own; }
+  /// Why a class can't make the field, or as test particles can't feel it; empty if it can.
+  std::string lack(SourceKind const& kind, bool test) const {
+    if (vortices_ && test)
+      return kind.carried && kind.vorticity < 0 ? "" : "which feels no flow without making one; class Tracer does";
+    if (vortices_)
+      return kind.vorticity >= 0 ? "" : "which has no vorticity; classes that do: Vortex, Inviscid, Viscous";
+    if (fits(kind)) return "";
+    if (!kind.strengths) return fmt::format("which makes no field; the class that does: {}", name());
+    return fmt::format("which the law '{}' does not act on; write law = \"{}\", or choose class {}",
+                       sign_ > 0 ? "coulomb" : "gravity", sign_ > 0 ? "gravity" : "coulomb", name());
+  }
+  std::string nobody() const {
+    if (vortices_) return "no ensemble makes a flow; classes Vortex, Inviscid and Viscous do";
+    return fmt::format("no ensemble makes a field; class {} does{}", name(),
+                       sign_ > 0 ? "" : ", and with 'on' any other that has a mass");
+  }
+
+ private:
+  bool fits(SourceKind const& kind) const { return kind.strengths != nullptr && kind.sign * sign_ > 0; }
+  char const* name() const { return sign_ > 0 ? "Coulomb" : "Kepler"; }
+
+  bool vortices_;
+  double sign_;
+};
+
 }  // namespace
 
-bool add_sources(Item const& table, char const* heading, double constant, AddToField const& add, Reading& reading,
-                 AddToField const& test) {
+bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLaw> const& law, AddToField const& add,
+                 Reading& reading, AddToField const& test) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, heading, reading.context);
-  bool const repel = constant > 0;
-  char const* const fitting = repel ? "Coulomb" : "Kepler";
-  auto const fits = [&](SourceKind const& kind) { return kind.strengths != nullptr && kind.sign * constant > 0; };
+  Fitting const fitting(law);
   auto const kind_of = [&](ReadEnsemble const& ensemble) { return ensemble.kind->in(reading.dimension)->source; };
   auto const give = [&](ReadEnsemble& ensemble, char const* key, AddToField const& to) {
     SourceKind const kind = kind_of(ensemble);
     Place const place = section.has(key) ? section.place(key) : ensemble.place;
-    if (fits(kind)) return catch_errors(reading, place, [&] { to(*ensemble.particles, kind); });
-    if (!kind.strengths)
-      reading.mistake(place, fmt::format("{}: '{}' is of class {}, which makes no field; the class that does: {}", key,
-                                         ensemble.name, ensemble.kind->name, fitting));
-    else
-      reading.mistake(place, fmt::format("{}: '{}' is of class {}, which the law '{}' does not act on; write law = "
-                                         "\"{}\", or choose class {}",
-                                         key, ensemble.name, ensemble.kind->name, repel ? "coulomb" : "gravity",
-                                         repel ? "gravity" : "coulomb", fitting));
+    std::string const lack = fitting.lack(kind, std::string_view(key) == "test_particles");
+    if (lack.empty()) return catch_errors(reading, place, [&] { to(*ensemble.particles, kind); });
+    reading.mistake(place, fmt::format("{}: '{}' is of class {}, {}", key, ensemble.name, ensemble.kind->name, lack));
     return false;
   };
   std::vector<ReadEnsemble*> const tests =
@@ -88,15 +115,14 @@ bool add_sources(Item const& table, char const* heading, double constant, AddToF
   if (!section.has("on"))  // those that are made for it, but for test particles
     std::erase_if(on, [&](ReadEnsemble const* ensemble) {
       SourceKind const kind = kind_of(*ensemble);
-      return !fits(kind) || !kind.own || std::find(tests.begin(), tests.end(), ensemble) != tests.end();
+      return !fitting.is_made_for_it(kind) || std::find(tests.begin(), tests.end(), ensemble) != tests.end();
     });
   for (auto* ensemble : on)
     if (!give(*ensemble, "on", add)) return false;
   for (auto* ensemble : tests)
     if (!give(*ensemble, "test_particles", test)) return false;
   if (on.empty() && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
-    reading.mistake(table.place, fmt::format("{}: no ensemble makes a field; class {} does{}", heading, fitting,
-                                             repel ? "" : ", and with 'on' any other that has a mass"));
+    reading.mistake(table.place, fmt::format("{}: {}", heading, fitting.nobody()));
   return reading.context.mistakes.count() == before;
 }
 

@@ -152,7 +152,8 @@ std::optional<std::vector<std::size_t>> read_cells(Item const& item, char const*
 void read_multipole(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
 /// The law that makes the field of a mesh or of multipoles, with k or G, and its softening if the table has it.
-std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading);
+std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading,
+                                         std::vector<std::string> const& other_laws = {});
 /// The keys that this leaves.
 OptionTable keys_but_of_the_law(OptionTable const& all);
 void read_ensembles(Section& document, Reading& reading);
@@ -174,8 +175,8 @@ void add_to_smooth(Item const& table, Reading& reading);
 /// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit; and those that
 /// `test_particles` names to `test`, if there is such a key. False: something is wrong with those that are there.
 using AddToField = std::function<void(AnyEnsemble&, SourceKind const&)>;
-bool add_sources(Item const& table, char const* heading, double constant, AddToField const& add, Reading& reading,
-                 AddToField const& test = {});
+bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLaw> const& law, AddToField const& add,
+                 Reading& reading, AddToField const& test = {});
 /// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);

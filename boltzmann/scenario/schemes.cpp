@@ -23,7 +23,7 @@ std::vector<SchemeEntry> const& scheme_entries() {
        {},
        read_mesh,
        add_to_mesh},
-      {{"multipole", "[multipole]", "charges or masses influence each other, by expansions over a tree",
+      {{"multipole", "[multipole]", "charges, masses or vortices influence each other, by expansions over a tree",
         &multipole_options(), &multipole},
        {},
        read_multipole,

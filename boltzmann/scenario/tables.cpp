@@ -53,7 +53,8 @@ OptionTable make_run_options() {
         return OptionGroup{&substep_options(), [&run]() -> void* { return &run.substeps.emplace(); }};
       },
       group("{ distance = 0.01 }"),
-      "of `leap-frog` and `symplectic-4`: each step is divided into so many equal parts, 2^n of them, that in a substep "
+      "of `leap-frog` and `symplectic-4`: each step is divided into so many equal parts, 2^n of them, that in a "
+      "substep "
       "no particle moves further than `distance`, no force does more work on it than `energy`, and that it is the part "
       "`courant` of the Courant step; one of these three, or several",
       "steps are not divided");

@@ -1,10 +1,11 @@
-// What a scheme of fields (mesh, multipoles) must know of a particle class: its strength, and whether it moves as
-// Newton says.
+// What a scheme of fields (mesh, multipoles) must know of a particle class: its strength or vorticity, and whether it
+// moves as Newton says.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
+#include <boltzmann/particles/tracer.hpp>
 
 #include <concepts>
 #include <cstddef>
@@ -26,20 +27,30 @@ concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimens
   p.velocity;
 };
 
+/// Classes that a flow carries; those with vorticity make it.
+template <class P>
+concept CarriedParticle = std::derived_from<P, Tracer<P::dimension>>;
+
+template <class P>
+concept FieldParticle = ForcedParticle<P> || CarriedParticle<P>;
+
 struct SourceKind {
   /// strength() of particles begin ... end-1; of classes that have none the mass, which attracts.
   void (*strengths)(double const* rows, std::size_t begin, std::size_t end, double* strengths) = nullptr;
-  bool own = false;            ///< the class has a strength()
-  double sign = 0;             ///< +1: equal strengths repel, -1: they attract, 0: the class does not say
-  bool newton = false;         ///< equations of motion are Newton's, and no other field evolves
-  int mass = 0, velocity = 0;  ///< where they stand in the row
+  bool own = false;               ///< the class has a strength()
+  double sign = 0;                ///< +1: equal strengths repel, -1: they attract, 0: the class does not say
+  bool carried = false;           ///< a flow carries it (Tracer): what it feels is, or begins with, a velocity
+  int vorticity = -1, core = -1;  ///< of vortices, where they stand in the row
+  bool newton = false;            ///< equations of motion are Newton's, and no other field evolves
+  int mass = 0, velocity = 0;     ///< where they stand in the row
 
   /// Error, beginning with the scheme's name, if the class and a law with this constant disagree on who attracts whom.
   void check(AnyEnsemble const& ensemble, double constant, char const* scheme) const;
 };
 
+namespace detail {
 template <class P>
-SourceKind source_kind() {
+SourceKind strength_kind() {
   SourceKind kind;
   kind.own = requires(P const& p) { p.strength(); };
   kind.strengths = [](double const* rows, std::size_t begin, std::size_t end, double* strengths) {
@@ -58,6 +69,22 @@ SourceKind source_kind() {
   kind.mass = offset_of<P>(&P::mass);
   kind.velocity = offset_of<P>(&P::velocity);
   return kind;
+}
+}  // namespace detail
+
+template <FieldParticle P>
+SourceKind source_kind() {
+  SourceKind kind;
+  if constexpr (CarriedParticle<P>) {
+    kind.carried = true;
+    if constexpr (requires(P const& p) { p.vorticity, p.core; }) {
+      kind.vorticity = offset_of<P>(&P::vorticity);
+      kind.core = offset_of<P>(&P::core);
+    }
+    return kind;
+  } else {
+    return detail::strength_kind<P>();
+  }
 }
 
 }  // namespace boltzmann

@@ -22,6 +22,14 @@ struct ImageLattice {
   std::array<double, 3> edges{0, 0, 0};  ///< of the periodic axes; 0: open
 
   int periodic_axes() const { return (edges[0] > 0) + (edges[1] > 0) + (edges[2] > 0); }
+  /// Whether an image touches the box, or is it.
+  bool beside(std::array<double, 3> const& place) const {
+    for (int a = 0; a < 3; ++a)
+      if (std::abs(place[static_cast<std::size_t>(a)]) > 1.5 * edges[static_cast<std::size_t>(a)]) return false;
+    return true;
+  }
+  /// A distance within which all of these are.
+  double furthest_beside() const { return 1.0001 * distance_of(edges); }
   /// The places of the images no further than this, that of the box itself first, in ascending distance.
   /// PhysicsFailure if the block around them has more than most_images.
   std::vector<std::array<double, 3>> within(double distance) const;

@@ -2,6 +2,7 @@
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
+#include <boltzmann/schemes/multipole/curl.hpp>
 #include <boltzmann/schemes/multipole/multipole_field.hpp>
 #include <boltzmann/schemes/multipole/solid_harmonics.hpp>
 
@@ -15,8 +16,7 @@ namespace {
 
 constexpr std::size_t node_grain = 32;
 constexpr std::size_t parallel_visits = 64;
-constexpr double softened_images = 3;  // of the radius of all: what is nearer is softened
-constexpr double nearest = 1.1;        // of what an expansion's radius is: nearer, it hardly converges
+constexpr double nearest = 1.1;  // of what an expansion's radius is: nearer, it hardly converges
 
 MultipoleKernels kernels_for(int dimension) {
   return for_instruction_set([&](auto set) { return multipole_kernels<decltype(set)::value>().of[dimension - 2]; });
@@ -41,11 +41,23 @@ Vector<D> between(std::array<double, 3> const& from, std::array<double, 3> const
   return r;
 }
 
+template <int D>
+void add_to(double* sum, Vector<D> const& part) {
+  for (int a = 0; a < D; ++a) sum[a] += part[a];
+}
+
 }  // namespace
 
+/// Where expansions are evaluated.
+template <class Kind>
+struct MultipoleField<Kind>::Scratch {
+  std::vector<PlacedAmount> places;
+  std::vector<double> field, value, curl;
+};
+
 /// What a thread needs besides.
-template <int D>
-struct MultipoleField<D>::Workspace {
+template <class Kind>
+struct MultipoleField<Kind>::Workspace {
   std::vector<Other> open;
   std::vector<Other> far;       ///< their moments to the local expansion
   std::vector<Other> outside;   ///< their moments to the particles of a wide leaf
@@ -53,56 +65,96 @@ struct MultipoleField<D>::Workspace {
   std::vector<Other> near;      ///< particles to particles
   std::vector<Other> later;     ///< for the children
   std::vector<Shifted> shifted;
-  std::vector<Point> sources;
-  std::vector<double> energy, virial;
+  std::vector<Point> sources, bare;  ///< bare: of images that are not softened
   /// Of `outside`, for softened laws.
   struct Softened {
-    typename SofteningCorrection<D>::Moments moments;
+    SofteningMoments moments;
     std::array<double, 3> centre;
+    double square;
   };
   std::vector<Softened> softened;
+  Scratch scratch;
   std::size_t translations = 0, pairs = 0;
 };
 
-template <int D>
-MultipoleField<D>::MultipoleField(LaplaceLaw const& law, ImageLattice const& lattice)
+template <class Kind>
+MultipoleField<Kind>::MultipoleField(Law const& law, ImageLattice const& lattice)
     : law_(law), lattice_(lattice), kernels_(kernels_for(D)), tables_(D, choice_.order) {
   choose(choice_);
 }
 
-template <int D>
-void MultipoleField<D>::choose(MultipoleChoice const& choice) {
+template <class Kind>
+void MultipoleField<Kind>::choose(MultipoleChoice const& choice) {
   if (choice.order != choice_.order) tables_ = ExpansionTables(D, choice.order);
   choice_ = choice;
   pairs_of_a_translation_ = pairs_of_a_translation(D, choice.order);
   pairs_of_an_evaluation_ = pairs_of_an_evaluation(D, choice.order);
 }
 
-template <int D>
-NodeParticles MultipoleField<D>::particles_of(TreeNode const& node) const {
-  NodeParticles particles{&tree_.particles()[node.begin].position[0], node.size(), {}, node.radius};
+/// Places and amounts, where expansions read them.
+template <class Kind>
+NodeParticles MultipoleField<Kind>::particles_of(TreeNode const& node, int density,
+                                                 std::vector<PlacedAmount>& copy) const {
+  NodeParticles particles{nullptr, node.size(), {}, node.radius};
   std::copy_n(node.centre.begin(), 3, particles.centre);
+  Point const* const first = tree_.particles().data() + node.begin;
+  if constexpr (std::is_same_v<Point, PlacedAmount>) {
+    particles.rows = &first->position[0];
+  } else {
+    copy.resize(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i)
+      copy[i].position = first[i].position, copy[i].amount = Kind::amount(first[i], density);
+    particles.rows = &copy.front().position[0];
+  }
   return particles;
 }
 
-template <int D>
-void MultipoleField<D>::gather(std::size_t number) {
+template <class Kind>
+void MultipoleField<Kind>::gather(std::size_t number) {
   TreeNode const& node = tree_.nodes()[number];
   double* const own = moments(number);
-  std::fill_n(own, tables_.size(), 0.0);
+  std::fill_n(own, numbers(), 0.0);
   if (node.leaf()) {
-    kernels_.moments(tables_.view(), particles_of(node), own);
+    std::vector<PlacedAmount> copy;
+    for (int k = 0; k < Kind::densities; ++k)
+      kernels_.moments(tables_.view(), particles_of(node, k, copy), own + k * tables_.size());
   } else {
     std::array<Shifted, 8> children;
-    for (std::size_t k = 0; k < node.children; ++k) {
-      TreeNode const& child = tree_.nodes()[node.child + k];
-      for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
-      children[k].radius = child.radius;
-      children[k].numbers = moments(node.child + k);
+    for (std::size_t c = 0; c < node.children; ++c) {
+      TreeNode const& child = tree_.nodes()[node.child + c];
+      for (int a = 0; a < D; ++a) children[c].shift[a] = child.centre[a] - node.centre[a];
+      children[c].radius = child.radius;
+      children[c].numbers = moments(node.child + c);
     }
-    kernels_.gather(tables_.view(), children.data(), node.children, node.radius, own);
+    for (int k = 0; k < Kind::densities; ++k) {
+      kernels_.gather(tables_.view(), children.data(), node.children, node.radius, own + k * tables_.size());
+      for (std::size_t c = 0; c < node.children; ++c) children[c].numbers += tables_.size();
+    }
   }
+  if constexpr (Kind::own_cores) cores_[number] = cores(number);
   limit(number);
+}
+
+/// From those of the children, or of the particles.
+template <class Kind>
+typename MultipoleField<Kind>::Cores MultipoleField<Kind>::cores(std::size_t number) const {
+  TreeNode const& node = tree_.nodes()[number];
+  Cores all;
+  all.least = __builtin_inf();
+  auto const add = [&](Cores const& part) {
+    all.least = std::min(all.least, part.least);
+    all.most = std::max(all.most, part.most);
+    all.sum += part.sum, all.weight += part.weight;
+  };
+  for (std::size_t c = 0; c < node.children; ++c) add(cores_[node.child + c]);
+  for (std::size_t i = node.begin; node.leaf() && i < node.end; ++i) {
+    Point const& p = tree_.particles()[i];
+    double const square = Kind::core(law_, p) * Kind::core(law_, p);
+    double weight = 0;
+    for (int k = 0; k < Kind::densities; ++k) weight += std::abs(Kind::amount(p, k));
+    if (weight > 0) add({square, square, weight * square, weight});
+  }
+  return all;
 }
 
 /// With P_n the power of the moments of order n, a the radius, p the order, and e the error that is allowed, the first
@@ -112,45 +164,56 @@ void MultipoleField<D>::gather(std::size_t number) {
 ///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
 /// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
 /// power 1), which margin() a allows for. What two terms of a softening's series are off by is less than e beyond
-///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)).
-template <int D>
-void MultipoleField<D>::limit(std::size_t number) {
+///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)),
+/// and what one eps for all of a node is off by, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4).
+template <class Kind>
+void MultipoleField<Kind>::limit(std::size_t number) {
   double const a = tree_.nodes()[number].radius;
-  double const* const m = moments(number);
   int const p = choice_.order;
   double largest = 0, last = 0;
   for (int n = 0; n <= p; ++n) {
     double power = 0;
-    if constexpr (D == 3)
-      for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
-    else
-      power = (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
+    for (int density = 0; density < Kind::densities; ++density) {
+      double const* const m = moments(number) + density * tables_.size();
+      if constexpr (D == 3)
+        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
+      else
+        power += (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
+    }
     power = std::sqrt(power);
     largest = std::max(largest, power);
     if (n + 1 >= p) last = std::max(last, power);
   }
-  double const e = choice_.error, soft = law_.softening * law_.softening;
-  if constexpr (D == 3) {
-    source_limit_[number] = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
-    source_size_[number] = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
-    soft_limit_[number] = std::pow(10 * soft * largest / e, 1.0 / 6);
-    soft_size_[number] = std::cbrt(a);
+  double const e = choice_.error;
+  Limits& limits = limits_[number] = {};
+  double soft = 0;
+  if constexpr (!Kind::own_cores) {
+    soft = law_.softening * law_.softening;
+  } else if constexpr (D == 2) {
+    limits.core = std::sqrt(cores_[number].most);
   } else {
-    source_limit_[number] = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
-    source_size_[number] = std::pow(largest / e, 1.0 / (p + 1));
-    soft_limit_[number] = std::pow(5 * soft * largest / e, 0.2);
-    soft_size_[number] = std::pow(a, 0.4);
+    soft = cores_[number].mean();
+    limits.spread = std::pow(1.5 * std::max(0.0, cores_[number].most - cores_[number].least) * largest / e, 0.25);
+  }
+  if constexpr (D == 3) {
+    limits.source = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
+    limits.size = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
+    limits.soft = std::pow(10 * soft * largest / e, 1.0 / 6);
+    limits.soft_size = std::cbrt(a);
+  } else {
+    limits.source = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
+    limits.size = std::pow(largest / e, 1.0 / (p + 1));
+    limits.soft = std::pow(5 * soft * largest / e, 0.2);
+    limits.soft_size = std::pow(a, 0.4);
   }
 }
 
-template <int D>
-void MultipoleField<D>::gather(int threads) {
+template <class Kind>
+void MultipoleField<Kind>::gather(int threads) {
   auto const& nodes = tree_.nodes();
-  moments_.resize(nodes.size() * tables_.size() / 4);
-  source_limit_.resize(nodes.size());
-  source_size_.resize(nodes.size());
-  soft_limit_.resize(nodes.size());
-  soft_size_.resize(nodes.size());
+  moments_.resize(nodes.size() * numbers() / 4);
+  limits_.resize(nodes.size());
+  if constexpr (Kind::own_cores) cores_.resize(nodes.size());
   int const useful = threads_for(tree_.particles().size(), 4, threads);
   for_ranges(nodes.size(), node_grain, useful, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -158,103 +221,122 @@ void MultipoleField<D>::gather(int threads) {
   });
   for (std::size_t i = nodes.size(); i-- > 0;)
     if (!nodes[i].leaf()) gather(i);
+  if constexpr (Kind::own_cores)
+    softest_ = cores_.front().most;
+  else
+    softest_ = law_.softening * law_.softening;
 }
 
 /// How far sources have to be from the centre of a target.
-template <int D>
-double MultipoleField<D>::local_limit(TreeNode const& target, double reach, std::uint32_t source) const {
-  return std::max(nearest * target.radius, source_size_[source] * reach + margin() * target.radius);
+template <class Kind>
+double MultipoleField<Kind>::local_limit(TreeNode const& target, double reach, std::uint32_t source) const {
+  return std::max(nearest * target.radius, limits_[source].size * reach + margin() * target.radius);
 }
 
 /// How far a node has to be from a target's centre to act on all of it by an expansion.
-template <int D>
-double MultipoleField<D>::needed(TreeNode const& target, double reach, std::uint32_t number) const {
-  TreeNode const& source = tree_.nodes()[number];
-  return std::max({target.radius + std::max(nearest * source.radius, source_limit_[number]),
-                   source.radius + local_limit(target, reach, number),
-                   soft_limit_[number] * std::max(soft_size_[index_of(target)], soft_size_[number])});
+template <class Kind>
+double MultipoleField<Kind>::needed(TreeNode const& target, double reach, Other const& other) const {
+  TreeNode const& source = tree_.nodes()[other.node];
+  Limits const& limits = limits_[other.node];
+  double const needed = std::max(target.radius + std::max(nearest * source.radius, limits.source),
+                                 source.radius + local_limit(target, reach, other.node));
+  if (!beside_[other.image]) return needed;
+  return std::max({needed, limits.soft * std::max(limits_[index_of(target)].soft_size, limits.soft_size), limits.spread,
+                   target.radius + source.radius + limits.core});
 }
 
-template <int D>
-bool MultipoleField<D>::far(TreeNode const& target, double reach, Other const& other) const {
+template <class Kind>
+bool MultipoleField<Kind>::far(TreeNode const& target, double reach, Other const& other) const {
   auto const place = centre(other);
   double square = 0;
   for (int a = 0; a < D; ++a) square += (target.centre[a] - place[a]) * (target.centre[a] - place[a]);
-  double const needed = this->needed(target, reach, other.node);
+  double const needed = this->needed(target, reach, other);
   return square > needed * needed;
 }
 
-template <int D>
-std::array<double, 3> MultipoleField<D>::centre(Other const& other) const {
+template <class Kind>
+std::array<double, 3> MultipoleField<Kind>::centre(Other const& other) const {
   auto place = tree_.nodes()[other.node].centre;
   for (int a = 0; a < D; ++a) place[a] += images_[other.image][a];
   return place;
 }
 
 /// Where a place in the box stands for those in an image.
-template <int D>
-std::array<double, 3> MultipoleField<D>::seen_from(Other const& other, std::array<double, 3> const& place) const {
+template <class Kind>
+std::array<double, 3> MultipoleField<Kind>::seen_from(Other const& other, std::array<double, 3> const& place) const {
   auto seen = place;
   for (int a = 0; a < D; ++a) seen[a] -= images_[other.image][a];
   return seen;
 }
 
-/// Those images are met that are too near for the expansions of the whole box; to be on the safe side, since all
-/// further ones do the same to it, by a tenth of the error.
-template <int D>
-void MultipoleField<D>::choose_images() {
+/// Those images are met that are too near for the expansions of the whole box (to be on the safe side, since all
+/// further ones do the same to it, by a tenth of the error), and those beside it, which are softened.
+template <class Kind>
+void MultipoleField<Kind>::choose_images() {
   if (lattice_.periodic_axes() == 0) return;
   TreeNode const& root = tree_.nodes().front();
-  double const wanted = std::pow(10, 1.0 / (choice_.order + 2)) * needed(root, reach_of(root), 0);
-  images_ = lattice_.within(std::max(wanted, law_.softening > 0 ? softened_images * root.radius : 0));
+  beside_.assign(1, false);
+  double const wanted = std::pow(10, 1.0 / (choice_.order + 2)) * needed(root, reach_of(root), {});
+  images_ = lattice_.within(std::max(wanted, softest_ > 0 ? lattice_.furthest_beside() : 0));
+  beside_.clear();
+  for (auto const& shift : images_) beside_.push_back(lattice_.beside(shift));
   double const distance = distance_of(images_.back());
   if (!far_images_ || far_images_->order() != choice_.order || far_images_->distance() != distance)
     far_images_.emplace(D, lattice_, distance, choice_.order);
   find_background();
 }
 
-template <int D>
-void MultipoleField<D>::find_background() {
+template <class Kind>
+void MultipoleField<Kind>::find_background() {
   background_ = {};
   if (lattice_.periodic_axes() < D) return;
   TreeNode const& root = tree_.nodes().front();
   double volume = 1;
   for (int a = 0; a < D; ++a) volume *= lattice_.edges[a];
   background_.of_square = D == 3 ? 2 * pi / (3 * volume) : pi / (2 * volume);
-  CompensatedSum strength, second, first[3];
-  for (auto const& p : tree_.particles()) {
-    strength += p.amount;
-    for (int a = 0; a < D; ++a) {
-      double const x = p.position[a] - root.centre[a];
-      second += p.amount * x * x;
-      first[a] += p.amount * x;
+  for (int k = 0; k < Kind::densities; ++k) {
+    CompensatedSum strength, second, first[3];
+    for (auto const& p : tree_.particles()) {
+      double const amount = Kind::amount(p, k);
+      strength += amount;
+      for (int a = 0; a < D; ++a) {
+        double const x = p.position[a] - root.centre[a];
+        second += amount * x * x;
+        first[a] += amount * x;
+      }
     }
+    auto& all = background_.of[k];
+    all.strength = strength.value(), all.second = second.value();
+    for (int a = 0; a < D; ++a) all.first[a] = first[a].value();
   }
-  background_.strength = strength.value(), background_.second = second.value();
-  for (int a = 0; a < D; ++a) background_.first[a] = first[a].value();
 }
 
-/// What makes the box neutral is spread over all space: its potential is c sum q |x - y|^2.
-template <int D>
-void MultipoleField<D>::add_background(NodeParticles const& particles, double* field, double* potential) const {
-  double const c = law_.constant / (D == 3 ? 4 * pi : 2 * pi) * background_.of_square;
+/// What makes the box neutral is spread over all space: its potential is c sum q |x - y|^2. (Vorticity in 3D is neutral
+/// itself, so that this flow is uniform.)
+template <class Kind>
+void MultipoleField<Kind>::add_background(Target const& target, double* field, double* potential) const {
+  double const c = Kind::constant(law_) * background_.of_square;
   if (c == 0) return;
   auto const& origin = tree_.nodes().front().centre;
-  for (std::size_t i = 0; i < particles.count; ++i) {
-    double const* const place = particles.rows + i * row_stride<PointSource<D>>;
-    double value = background_.second;
-    for (int a = 0; a < D; ++a) {
-      double const x = place[a] - origin[a];
-      field[i * D + a] -= 2 * c * (background_.strength * x - background_.first[a]);
-      value += x * (background_.strength * x - 2 * background_.first[a]);
+  for (std::size_t i = 0; i < target.count; ++i) {
+    Vector<D> fields[Kind::densities];
+    for (int k = 0; k < Kind::densities; ++k) {
+      auto const& all = background_.of[k];
+      double value = all.second;
+      for (int a = 0; a < D; ++a) {
+        double const x = target.particles[i].position[a] - origin[a];
+        fields[k][a] = -2 * c * (all.strength * x - all.first[a]);
+        value += x * (all.strength * x - 2 * all.first[a]);
+      }
+      if (potential) potential[i] += c * value;
     }
-    if (potential) potential[i] += c * value;
+    add_fields(fields, field + i * Kind::width);
   }
 }
 
 /// Whether all particles of a node are further than this from a place.
-template <int D>
-bool MultipoleField<D>::clear_of(TreeNode const& node, std::array<double, 3> const& place, double distance) const {
+template <class Kind>
+bool MultipoleField<Kind>::clear_of(TreeNode const& node, std::array<double, 3> const& place, double distance) const {
   auto const& particles = tree_.particles();
   for (std::uint32_t i = node.begin; i < node.end; ++i) {
     double square = 0;
@@ -265,15 +347,15 @@ bool MultipoleField<D>::clear_of(TreeNode const& node, std::array<double, 3> con
 }
 
 /// What the radius of a target counts for in needed().
-template <int D>
-double MultipoleField<D>::reach_of(TreeNode const& target) const {
+template <class Kind>
+double MultipoleField<Kind>::reach_of(TreeNode const& target) const {
   double const p = choice_.order;
   return std::pow(target.radius, p / (p + (D == 3 ? 2 : 1)));
 }
 
 /// Sorts those that a node has to meet by what is done with them.
-template <int D>
-void MultipoleField<D>::meet(std::uint32_t number, std::vector<Other> const& others, Workspace& work) const {
+template <class Kind>
+void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& others, Workspace& work) const {
   TreeNode const& target = tree_.nodes()[number];
   double const reach = reach_of(target);
   auto const count = [](TreeNode const& node) { return static_cast<double>(node.size()); };
@@ -283,11 +365,16 @@ void MultipoleField<D>::meet(std::uint32_t number, std::vector<Other> const& oth
     Other const other = work.open[i];
     TreeNode const& source = tree_.nodes()[other.node];
     bool const leaves = target.leaf() && source.leaf();
-    double const soft = soft_limit_[other.node];
-    double const soft_outside = soft * soft_size_[other.node], soft_inside = soft * soft_size_[number];
+    Limits const& limits = limits_[other.node];
+    double soft_outside = 0, soft_inside = 0;
+    if (beside_[other.image]) {
+      soft_outside = std::max({limits.soft * limits.soft_size, limits.spread, source.radius + limits.core});
+      soft_inside = std::max({limits.soft * limits_[number].soft_size, target.radius + limits.core});
+    }
     // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
-    if (target.leaf() && target.radius > 1.5 * source.radius && count(source) > pairs_of_an_evaluation_ &&
-        clear_of(target, centre(other), std::max({nearest * source.radius, soft_outside, source_limit_[other.node]})))
+    if (evaluates_moments && target.leaf() && target.radius > 1.5 * source.radius &&
+        count(source) > pairs_of_an_evaluation_ &&
+        clear_of(target, centre(other), std::max({nearest * source.radius, soft_outside, limits.source})))
       work.outside.push_back(other);
     else if (source.leaf() && source.radius > 1.5 * target.radius && count(target) > pairs_of_an_evaluation_ &&
              clear_of(source, seen_from(other, target.centre),
@@ -304,8 +391,8 @@ void MultipoleField<D>::meet(std::uint32_t number, std::vector<Other> const& oth
   }
 }
 
-template <int D>
-void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& next) {
+template <class Kind>
+void MultipoleField<Kind>::visit(Visit visit, Workspace& work, std::vector<Visit>& next) {
   TreeNode const& node = tree_.nodes()[visit.node];
   meet(visit.node, *visit.others, work);
   work.shifted.resize(work.far.size());
@@ -315,15 +402,20 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
     work.shifted[i].radius = tree_.nodes()[work.far[i].node].radius;
     work.shifted[i].numbers = moments(work.far[i].node);
   }
-  work.translations += work.far.size();
-  if (!work.far.empty())
-    kernels_.interact(tables_.view(), work.shifted.data(), work.shifted.size(), node.radius, visit.local.data());
-  if (visit.node == 0 && far_images_) far_images_->add(tables_.view(), moments(0), node.radius, visit.local.data());
-  for (Other const& other : work.expanded) {
-    NodeParticles particles = particles_of(tree_.nodes()[other.node]);
-    std::copy_n(seen_from(other, node.centre).begin(), 3, particles.centre);
-    particles.radius = node.radius;
-    kernels_.expand(tables_.view(), particles, visit.local.data());
+  work.translations += Kind::densities * work.far.size();
+  for (int k = 0; k < Kind::densities; ++k) {
+    std::size_t const from = k * tables_.size();
+    double* const local = visit.local.data() + from;
+    if (!work.far.empty())
+      kernels_.interact(tables_.view(), work.shifted.data(), work.shifted.size(), node.radius, local);
+    for (auto& shifted : work.shifted) shifted.numbers += tables_.size();
+    if (visit.node == 0 && far_images_) far_images_->add(tables_.view(), moments(0) + from, node.radius, local);
+    for (Other const& other : work.expanded) {
+      NodeParticles particles = particles_of(tree_.nodes()[other.node], k, work.scratch.places);
+      std::copy_n(seen_from(other, node.centre).begin(), 3, particles.centre);
+      particles.radius = node.radius;
+      kernels_.expand(tables_.view(), particles, local);
+    }
   }
   add_softening(visit, work);
   if (node.leaf()) return finish_leaf(node, visit, work);
@@ -332,18 +424,24 @@ void MultipoleField<D>::visit(Visit visit, Workspace& work, std::vector<Visit>& 
   std::size_t const first = next.size();
   for (std::size_t k = 0; k < node.children; ++k) {
     TreeNode const& child = tree_.nodes()[node.child + k];
-    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(tables_.size()), later,
-                    visit.softening.at(between<D>(node.centre, child.centre))});
+    auto softening = visit.softening;
+    if (softened())
+      for (auto& one : softening) one = one.at(between<D>(node.centre, child.centre));
+    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(numbers()), later, softening});
     for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
     children[k].radius = child.radius;
   }
   std::array<double*, 8> locals;
-  for (std::size_t k = 0; k < node.children; ++k) locals[k] = next[first + k].local.data();
-  kernels_.hand_down(tables_.view(), visit.local.data(), node.radius, children.data(), locals.data(), node.children);
+  for (int density = 0; density < Kind::densities; ++density) {
+    std::size_t const from = density * tables_.size();
+    for (std::size_t k = 0; k < node.children; ++k) locals[k] = next[first + k].local.data() + from;
+    kernels_.hand_down(tables_.view(), visit.local.data() + from, node.radius, children.data(), locals.data(),
+                       node.children);
+  }
 }
 
-template <int D>
-void MultipoleField<D>::visit_below(Visit first, Workspace& work) {
+template <class Kind>
+void MultipoleField<Kind>::visit_below(Visit first, Workspace& work) {
   std::vector<Visit> open;
   open.push_back(std::move(first));
   while (!open.empty()) {
@@ -354,9 +452,10 @@ void MultipoleField<D>::visit_below(Visit first, Workspace& work) {
 }
 
 /// Strength and dipole, from the moments of a node.
-template <int D>
-typename SofteningCorrection<D>::Moments MultipoleField<D>::softened_source(std::size_t number) const {
-  double const* const m = moments(number);
+template <class Kind>
+typename MultipoleField<Kind>::SofteningMoments MultipoleField<Kind>::softened_source(std::size_t number,
+                                                                                      int density) const {
+  double const* const m = moments(number) + density * tables_.size();
   double const radius = tree_.nodes()[number].radius;
   if constexpr (D == 2) {
     return {m[0], Vector{-m[2], -m[3]} * radius};
@@ -367,99 +466,201 @@ typename SofteningCorrection<D>::Moments MultipoleField<D>::softened_source(std:
   }
 }
 
-/// To the local expansion of a node.
-template <int D>
-void MultipoleField<D>::add_softening(Visit& visit, Workspace const& work) const {
-  if (law_.softening == 0) return;
+template <class Kind>
+double MultipoleField<Kind>::softening2(std::size_t node) const {
+  if constexpr (Kind::own_cores) return cores_[node].mean();
+  return softest_;
+}
+
+/// To the local expansions of a node.
+template <class Kind>
+void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) const {
+  if (!softened()) return;
   auto const& place = tree_.nodes()[visit.node].centre;
-  for (Other const& other : work.far)
-    visit.softening.add(softened_source(other.node), between<D>(centre(other), place), law_.softening);
-  for (Other const& other : work.expanded) {
-    TreeNode const& source = tree_.nodes()[other.node];
-    auto const seen = seen_from(other, place);
-    for (std::uint32_t i = source.begin; i < source.end; ++i) {
-      Point const& p = tree_.particles()[i];
-      Vector<D> r;
-      for (int a = 0; a < D; ++a) r[a] = seen[a] - p.position[a];
-      visit.softening.add({p.amount, {}}, r, law_.softening);
+  for (int k = 0; k < Kind::densities; ++k) {
+    for (Other const& other : work.far)
+      if (beside_[other.image])
+        visit.softening[k].add(softened_source(other.node, k), between<D>(centre(other), place),
+                               softening2(other.node));
+    for (Other const& other : work.expanded) {
+      if (!beside_[other.image]) continue;
+      TreeNode const& source = tree_.nodes()[other.node];
+      auto const seen = seen_from(other, place);
+      for (std::uint32_t i = source.begin; i < source.end; ++i) {
+        Point const& p = tree_.particles()[i];
+        double const core = Kind::core(law_, p);
+        Vector<D> r;
+        for (int a = 0; a < D; ++a) r[a] = seen[a] - p.position[a];
+        visit.softening[k].add({Kind::amount(p, k), {}}, r, core * core);
+      }
     }
   }
 }
 
-/// To the particles of a leaf: of its local expansion, and of moments that are evaluated at them.
-template <int D>
-void MultipoleField<D>::add_softening(NodeParticles const& particles, Visit const& visit, Workspace& work,
-                                      double* field, double* potential) const {
-  if (law_.softening == 0) return;
+/// To the particles of a leaf: of its local expansions, and of moments that are evaluated at them.
+template <class Kind>
+void MultipoleField<Kind>::add_softening(Target const& target, Visit const& visit, Workspace& work, double* field,
+                                         double* potential) const {
+  if (!softened()) return;
+  double const constant = Kind::constant(law_);
   work.softened.clear();
-  for (Other const& other : work.outside) work.softened.push_back({softened_source(other.node), centre(other)});
-  double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
-  for (std::size_t i = 0; i < particles.count; ++i) {
+  for (Other const& other : work.outside)
+    if (beside_[other.image])
+      work.softened.push_back({softened_source(other.node, 0), centre(other), softening2(other.node)});
+  for (std::size_t i = 0; i < target.count; ++i) {
     std::array<double, 3> place{};
-    std::copy_n(particles.rows + i * row_stride<PointSource<D>>, D, place.begin());
-    auto correction = visit.softening.at(between<D>(tree_.nodes()[visit.node].centre, place));
-    for (auto const& source : work.softened)
-      correction.add(source.moments, between<D>(source.centre, place), law_.softening);
-    auto const slope = correction.slope({});
-    for (int a = 0; a < D; ++a) field[i * D + a] -= constant * slope[a];
-    if (potential) potential[i] += constant * correction.value({});
+    std::copy_n(&target.particles[i].position[0], D, place.begin());
+    auto const r = between<D>(target.centre, place);
+    Vector<D> fields[Kind::densities];
+    if constexpr (Kind::potential) {
+      auto correction = visit.softening[0].at(r);
+      for (auto const& source : work.softened)
+        correction.add(source.moments, between<D>(source.centre, place), source.square);
+      fields[0] = correction.slope({}) * -constant;
+      if (potential) potential[i] += constant * correction.value({});
+    } else if constexpr (D == 3) {
+      Vector<D> along[Kind::densities];
+      for (int k = 0; k < Kind::densities; ++k) {
+        fields[k] = visit.softening[k].slope(r) * -constant;
+        along[k] = visit.softening[k].curve(target.particles[i].vorticity) * -constant;
+      }
+      add_to<D>(field + i * Kind::width + D, Kind::velocity(along));
+    }
+    add_fields(fields, field + i * Kind::width);
   }
 }
 
-template <int D>
-void MultipoleField<D>::finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work) {
+/// The influence of fields of the densities.
+template <class Kind>
+void MultipoleField<Kind>::add_fields(Vector<D> const (&fields)[Kind::densities], double* influence) {
+  if constexpr (Kind::potential)
+    add_to<D>(influence, fields[0]);
+  else
+    add_to<D>(influence, Kind::velocity(fields));
+}
+
+/// What local expansions about the centre of a target make at its particles.
+template <class Kind>
+void MultipoleField<Kind>::add_local(Target const& target, double const* local, double* field, double* potential,
+                                     Scratch& scratch) const {
+  NodeParticles const places = places_of(target, scratch);
+  double const constant = Kind::constant(law_);
+  if constexpr (Kind::potential) {
+    kernels_.evaluate(tables_.view(), places, local, constant, field, potential);
+  } else if constexpr (D == 2) {
+    scratch.field.assign(target.count * D, 0.0);
+    kernels_.evaluate(tables_.view(), places, local, constant, scratch.field.data(), nullptr);
+    for (std::size_t i = 0; i < target.count; ++i)
+      add_fields({{scratch.field[i * D], scratch.field[i * D + 1]}}, field + i * D);
+  } else {
+    // Components of the velocity are harmonic, too: each is evaluated as a potential, with its slope.
+    scratch.curl.resize(numbers());
+    curl(tables_.view(), local, tables_.size(), target.radius, scratch.curl.data());
+    for (std::size_t a = 0; a < D; ++a) {
+      scratch.field.assign(target.count * D, 0.0);
+      scratch.value.assign(target.count, 0.0);
+      kernels_.evaluate(tables_.view(), places, scratch.curl.data() + a * tables_.size(), constant,
+                        scratch.field.data(), scratch.value.data());
+      for (std::size_t i = 0; i < target.count; ++i) {
+        double* const influence = field + i * Kind::width;
+        influence[a] += scratch.value[i];
+        for (std::size_t b = 0; b < D; ++b)
+          influence[D + a] -= target.particles[i].vorticity[static_cast<int>(b)] * scratch.field[i * D + b];
+      }
+    }
+  }
+}
+
+/// What the moments of a node make at particles outside of it.
+template <class Kind>
+void MultipoleField<Kind>::add_outside(Target const& target, Other const& source, double* field, double* potential,
+                                       Scratch& scratch) const {
+  Target about = target;
+  about.centre = centre(source);
+  about.radius = tree_.nodes()[source.node].radius;
+  NodeParticles const places = places_of(about, scratch);
+  double const constant = Kind::constant(law_);
+  if constexpr (Kind::potential)
+    return kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, field, potential);
+  scratch.field.assign(target.count * D, 0.0);
+  kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, scratch.field.data(), nullptr);
+  if constexpr (D == 2)
+    for (std::size_t i = 0; i < target.count; ++i)
+      add_fields({{scratch.field[i * D], scratch.field[i * D + 1]}}, field + i * D);
+}
+
+template <class Kind>
+NodeParticles MultipoleField<Kind>::places_of(Target const& target, Scratch& scratch) const {
+  NodeParticles places{nullptr, target.count, {}, target.radius};
+  std::copy_n(target.centre.begin(), 3, places.centre);
+  if constexpr (std::is_same_v<Point, PlacedAmount>) {
+    places.rows = &target.particles->position[0];
+  } else {
+    scratch.places.resize(target.count);
+    for (std::size_t i = 0; i < target.count; ++i) scratch.places[i].position = target.particles[i].position;
+    places.rows = &scratch.places.front().position[0];
+  }
+  return places;
+}
+
+template <class Kind>
+void MultipoleField<Kind>::add_near(Law const& law, PairTask const& task, Workspace& work) const {
+  work.pairs += task.targets * task.sources;
+  PairKernel const near = with_potential_ ? kernels_.near_with_potential : Kind::near(kernels_);
+  near(&law, task, 0, task.targets);
+}
+
+template <class Kind>
+void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work) {
   auto const& particles = tree_.particles();
   // The leaf's own stand first, so that the kernel knows who is the same.
   work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
+  work.bare.clear();
   for (Other const& other : work.near) {
     TreeNode const& source = tree_.nodes()[other.node];
     if (&source == &leaf && other.image == 0) continue;
-    std::size_t const first = work.sources.size();
-    work.sources.insert(work.sources.end(), particles.begin() + source.begin, particles.begin() + source.end);
+    bool const bare = softest_ > 0 && !beside_[other.image];
+    auto& sources = bare ? work.bare : work.sources;
+    std::size_t const first = sources.size();
+    sources.insert(sources.end(), particles.begin() + source.begin, particles.begin() + source.end);
     if (other.image == 0) continue;
-    for (std::size_t i = first; i < work.sources.size(); ++i)
-      for (int a = 0; a < D; ++a) work.sources[i].position[a] += images_[other.image][a];
+    for (std::size_t i = first; i < sources.size(); ++i)
+      for (int a = 0; a < D; ++a) sources[i].position[a] += images_[other.image][a];
   }
   PairTask task;
   task.target = task.source = &work.sources.front().position[0];
   task.targets = leaf.size();
   task.sources = work.sources.size();
-  task.target_row_stride = task.source_row_stride = row_stride<PointSource<D>>;
+  task.target_row_stride = task.source_row_stride = row_stride<typename Kind::Source>;
   task.same = task.overwrite = true;
-  task.influence = sorted_field_.data() + leaf.begin * D;
-  work.pairs += task.targets * task.sources;
-  kernels_.near(&law_, task, 0, task.targets);
-  double* potential = nullptr;
-  if (with_potential_) {
-    work.energy.assign(leaf.size(), 0.0);
-    work.virial.assign(9 * leaf.size(), 0.0);
-    task.energy = work.energy.data();
-    task.virial = work.virial.data();
-    kernels_.near_measure(&law_, task, 0, task.targets);
-    potential = sorted_potential_.data() + leaf.begin;
-    for (std::size_t i = 0; i < leaf.size(); ++i) potential[i] = 2 * work.energy[i];  // kernels give half
+  task.influence = sorted_field_.data() + leaf.begin * Kind::width;
+  double* const potential = with_potential_ ? sorted_potential_.data() + leaf.begin : nullptr;
+  task.energy = potential;
+  if (potential) std::fill_n(potential, leaf.size(), 0.0);
+  add_near(law_, task, work);
+  if (!work.bare.empty()) {
+    task.source = &work.bare.front().position[0];
+    task.sources = work.bare.size();
+    task.same = task.overwrite = false;
+    add_near(Kind::without_softening(law_, work.bare), task, work);
   }
-  double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
-  NodeParticles own = particles_of(leaf);
-  kernels_.evaluate(tables_.view(), own, visit.local.data(), constant, task.influence, potential);
+  for (std::size_t i = 0; potential && i < leaf.size(); ++i) potential[i] *= 2;  // kernels give half
+  Target const own{particles.data() + leaf.begin, leaf.size(), leaf.centre, leaf.radius};
+  add_local(own, visit.local.data(), task.influence, potential, work.scratch);
   add_background(own, task.influence, potential);
   add_softening(own, visit, work, task.influence, potential);
-  for (Other const& other : work.outside) {
-    std::copy_n(centre(other).begin(), 3, own.centre);
-    own.radius = tree_.nodes()[other.node].radius;
-    kernels_.evaluate_moments(tables_.view(), own, moments(other.node), constant, task.influence, potential);
-  }
+  for (Other const& other : work.outside) add_outside(own, other, task.influence, potential, work.scratch);
 }
 
-template <int D>
-void MultipoleField<D>::calculate(std::vector<Point> particles, bool with_potential, int threads) {
-  with_potential_ = with_potential;
+template <class Kind>
+void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_potential, int threads) {
+  with_potential_ = Kind::potential && with_potential;
   tree_.build(std::move(particles), choice_.leaf, threads);
   std::size_t const count = tree_.particles().size();
-  sorted_field_.resize(count * D);
-  sorted_potential_.resize(with_potential ? count : 0);
+  sorted_field_.resize(count * Kind::width);
+  sorted_potential_.resize(with_potential_ ? count : 0);
   cost_ = {tree_.nodes().size(), 0, 0};
-  if (count == 0) return put_in_order(with_potential, threads);
+  if (count == 0) return put_in_order(threads);
   gather(threads);
   choose_images();
   // The uppermost nodes one by one, until there are enough for all threads.
@@ -467,7 +668,7 @@ void MultipoleField<D>::calculate(std::vector<Point> particles, bool with_potent
   std::vector<Visit> open, next;
   std::vector<Other> roots(images_.size());
   for (std::size_t i = 0; i < roots.size(); ++i) roots[i].image = static_cast<std::uint32_t>(i);
-  open.push_back({0, std::vector<double>(tables_.size(), 0.0), std::make_shared<std::vector<Other> const>(roots)});
+  open.push_back({0, std::vector<double>(numbers(), 0.0), std::make_shared<std::vector<Other> const>(roots)});
   while (!open.empty() && open.size() < parallel_visits) {
     next.clear();
     for (auto& one : open) visit(std::move(one), work, next);
@@ -482,25 +683,27 @@ void MultipoleField<D>::calculate(std::vector<Point> particles, bool with_potent
   });
   cost_.translations = translations;
   cost_.pairs = pairs;
-  put_in_order(with_potential, threads);
+  put_in_order(threads);
 }
 
-template <int D>
-void MultipoleField<D>::put_in_order(bool with_potential, int threads) {
+template <class Kind>
+void MultipoleField<Kind>::put_in_order(int threads) {
   auto const& numbers = tree_.numbers();
   field_.resize(sorted_field_.size());
   potential_.resize(sorted_potential_.size());
   for_ranges(numbers.size(), 4096, threads_for(numbers.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      std::copy_n(sorted_field_.data() + k * D, D, field_.data() + std::size_t{numbers[k]} * D);
-      if (with_potential) potential_[numbers[k]] = sorted_potential_[k];
+      std::copy_n(sorted_field_.data() + k * Kind::width, Kind::width,
+                  field_.data() + std::size_t{numbers[k]} * Kind::width);
+      if (with_potential_) potential_[numbers[k]] = sorted_potential_[k];
     }
   });
 }
 
-template <int D>
-std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particles,
-                                              std::vector<std::size_t> const& chosen, double error, int threads) const {
+template <class Kind>
+std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& particles,
+                                                 std::vector<std::size_t> const& chosen, double error,
+                                                 int threads) const {
   std::vector<Point> sources;  // the chosen first, so that the kernel knows who is the same
   sources.reserve(particles.size());
   for (std::size_t const i : chosen) sources.push_back(particles[i]);
@@ -510,19 +713,19 @@ std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particle
       ++next;
     else
       sources.push_back(particles[i]);
-  std::vector<double> field(chosen.size() * D);
+  std::vector<double> field(chosen.size() * Kind::width);
   PairTask task;
   task.target = task.source = sources.empty() ? nullptr : &sources.front().position[0];
   task.targets = chosen.size();
   task.sources = sources.size();
-  task.target_row_stride = task.source_row_stride = row_stride<PointSource<D>>;
+  task.target_row_stride = task.source_row_stride = row_stride<typename Kind::Source>;
   task.same = task.overwrite = true;
   task.influence = field.data();
-  auto const add_pairs = [&] {
+  auto const add_pairs = [&](Law const& law) {
     for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
-               [&](std::size_t begin, std::size_t end) { kernels_.near(&law_, task, begin, end); });
+               [&](std::size_t begin, std::size_t end) { Kind::near(kernels_)(&law, task, begin, end); });
   };
-  add_pairs();
+  add_pairs(law_);
   if (lattice_.periodic_axes() == 0 || chosen.empty()) return field;
 
   // Images: nearby ones like the box itself, all others by expansions of the highest order about the middle of all.
@@ -533,42 +736,48 @@ std::vector<double> MultipoleField<D>::direct(std::vector<Point> const& particle
   whole.find_background();
   double const radius = whole.tree_.nodes().front().radius;
   auto const images = lattice_.within(
-      std::max(softened_images * radius, radius * (1 + std::pow(error, -1.0 / (highest_expansion_order + 1)))));
+      std::max(lattice_.furthest_beside(), radius * (1 + std::pow(error, -1.0 / (highest_expansion_order + 1)))));
   std::vector<Point> image(sources);
   task.source = &image.front().position[0];
   task.same = task.overwrite = false;
-  for (auto const& shift : images) {
-    if (&shift == &images.front()) continue;
-    for (std::size_t i = 0; i < image.size(); ++i)
-      for (int a = 0; a < D; ++a) image[i].position[a] = sources[i].position[a] + shift[a];
-    add_pairs();
+  for (bool const beside : {true, false}) {
+    Law const law = beside ? law_ : Kind::without_softening(law_, image);
+    for (auto const& shift : images) {
+      if (&shift == &images.front() || lattice_.beside(shift) != beside) continue;
+      for (std::size_t i = 0; i < image.size(); ++i)
+        for (int a = 0; a < D; ++a) image[i].position[a] = sources[i].position[a] + shift[a];
+      add_pairs(law);
+    }
   }
-  NodeParticles targets = whole.particles_of(whole.tree_.nodes().front());
-  targets.rows = task.target;
-  targets.count = chosen.size();
-  std::vector<double> local(whole.tables_.size(), 0.0);
-  FarImages(D, lattice_, distance_of(images.back()), highest_expansion_order)
-      .add(whole.tables_.view(), whole.moments(0), radius, local.data());
-  double const constant = law_.constant / (D == 3 ? 4 * pi : 2 * pi);
-  kernels_.evaluate(whole.tables_.view(), targets, local.data(), constant, field.data(), nullptr);
+  std::vector<double> local(whole.numbers(), 0.0);
+  FarImages const far(D, lattice_, distance_of(images.back()), highest_expansion_order);
+  for (int k = 0; k < Kind::densities; ++k) {
+    std::size_t const from = k * whole.tables_.size();
+    far.add(whole.tables_.view(), whole.moments(0) + from, radius, local.data() + from);
+  }
+  Scratch scratch;
+  Target const targets{sources.data(), chosen.size(), whole.tree_.nodes().front().centre, radius};
+  whole.add_local(targets, local.data(), field.data(), nullptr, scratch);
   whole.add_background(targets, field.data(), nullptr);
   return field;
 }
 
-template <int D>
-double MultipoleField<D>::work() const {
+template <class Kind>
+double MultipoleField<Kind>::work() const {
   return static_cast<double>(cost_.pairs) + static_cast<double>(cost_.translations) * pairs_of_a_translation_;
 }
 
-template <int D>
-std::size_t MultipoleField<D>::bytes() const {
-  return tree_.bytes() + (4 * moments_.capacity() + source_limit_.capacity() + source_size_.capacity() +
-                          soft_limit_.capacity() + soft_size_.capacity() + sorted_field_.capacity() +
-                          sorted_potential_.capacity() + field_.capacity() + potential_.capacity()) *
-                             sizeof(double);
+template <class Kind>
+std::size_t MultipoleField<Kind>::bytes() const {
+  return tree_.bytes() + moments_.capacity() * sizeof(Block) + limits_.capacity() * sizeof(Limits) +
+         cores_.capacity() * sizeof(Cores) +
+         (sorted_field_.capacity() + sorted_potential_.capacity() + field_.capacity() + potential_.capacity()) *
+             sizeof(double);
 }
 
-template class MultipoleField<2>;
-template class MultipoleField<3>;
+template class MultipoleField<Charges<2>>;
+template class MultipoleField<Charges<3>>;
+template class MultipoleField<Vortices<2>>;
+template class MultipoleField<Vortices<3>>;
 
 }  // namespace boltzmann

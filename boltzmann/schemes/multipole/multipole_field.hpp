@@ -7,10 +7,10 @@
 // In a periodic box it meets the nodes of images nearby, too; all further images act on the expansion of the root.
 #pragma once
 
-#include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
 #include <boltzmann/schemes/multipole/multipole_kernels.hpp>
+#include <boltzmann/schemes/multipole/multipole_kinds.hpp>
 #include <boltzmann/schemes/multipole/softening.hpp>
 #include <boltzmann/schemes/multipole/tree.hpp>
 
@@ -35,24 +35,27 @@ struct MultipoleCost {
   std::size_t nodes = 0, translations = 0, pairs = 0;
 };
 
-template <int D>
+template <class Kind>
 class MultipoleField {
  public:
-  using Point = typename Tree<D>::Point;
+  static constexpr int D = Kind::dimension;
+  using Law = typename Kind::Law;
+  using Point = Row<typename Kind::Source>;
 
   /// `lattice`: of periodic axes; particles stand inside of them.
-  explicit MultipoleField(LaplaceLaw const& law, ImageLattice const& lattice = {});
+  explicit MultipoleField(Law const& law, ImageLattice const& lattice = {});
 
   void choose(MultipoleChoice const& choice);
   MultipoleChoice const& choice() const { return choice_; }
 
-  /// The field at each of these particles (finite positions) on unit strength, and the potential if that is wanted.
+  /// What each of these particles (finite positions) feels, charges as a field on unit strength, and their potential if
+  /// that is wanted.
   void calculate(std::vector<Point> particles, bool with_potential, int threads);
-  /// D numbers for each particle, in the order in which they were given.
+  /// Kind::width numbers for each particle, in the order in which they were given.
   std::vector<double> const& field() const { return field_; }
   std::vector<double> const& potential() const { return potential_; }
-  /// The field at some of these particles (numbers in ascending order) by direct sums over all: D numbers for each. In
-  /// a periodic box images that are far away act through expansions, to an error of this part.
+  /// What some of these particles (numbers in ascending order) feel, by direct sums over all: Kind::width numbers for
+  /// each. In a periodic box images that are far away act through expansions, to an error of this part.
   std::vector<double> direct(std::vector<Point> const& particles, std::vector<std::size_t> const& chosen, double error,
                              int threads) const;
   MultipoleCost const& cost() const { return cost_; }
@@ -61,6 +64,9 @@ class MultipoleField {
   std::size_t bytes() const;
 
  private:
+  /// Slopes of a velocity are of local expansions.
+  static constexpr bool evaluates_moments = Kind::potential || D == 2;
+
   /// A node in the box or in an image.
   struct Other {
     std::uint32_t node = 0, image = 0;
@@ -70,20 +76,44 @@ class MultipoleField {
     std::uint32_t node = 0;
     std::vector<double> local;
     std::shared_ptr<std::vector<Other> const> others;
-    SofteningCorrection<D> softening = {};  ///< of the local expansion, if the law is softened
+    std::array<SofteningCorrection<D>, Kind::densities> softening = {};  ///< of the local expansions
+  };
+  using PlacedAmount = Row<PointSource<D>>;
+  using SofteningMoments = typename SofteningCorrection<D>::Moments;
+  /// Particles and the centre of the expansions about them.
+  struct Target {
+    Point const* particles;
+    std::size_t count;
+    std::array<double, 3> centre;
+    double radius;
   };
   struct Workspace;
+  struct Scratch;
   struct alignas(32) Block {
     double numbers[4];
   };
+  /// From where on a node may act by its moments: see limit() and far().
+  struct Limits {
+    double source = 0, size = 0, soft = 0, soft_size = 0, spread = 0;
+    double core = 0;  ///< of its particles that are further than this
+  };
+  /// What the particles of a node are softened by: squares of the least and of the most, and in the mean.
+  struct Cores {
+    double least = 0, most = 0, sum = 0, weight = 0;
+    double mean() const { return weight > 0 ? sum / weight : most; }
+  };
 
   std::size_t index_of(TreeNode const& node) const { return static_cast<std::size_t>(&node - tree_.nodes().data()); }
-  NodeParticles particles_of(TreeNode const& node) const;
-  double const* moments(std::size_t node) const { return moments_[node * tables_.size() / 4].numbers; }
-  double* moments(std::size_t node) { return moments_[node * tables_.size() / 4].numbers; }
+  NodeParticles particles_of(TreeNode const& node, int density, std::vector<PlacedAmount>& copy) const;
+  std::size_t numbers() const { return Kind::densities * tables_.size(); }
+  double const* moments(std::size_t node) const { return moments_[node * numbers() / 4].numbers; }
+  double* moments(std::size_t node) { return moments_[node * numbers() / 4].numbers; }
   void gather(int threads);
   void gather(std::size_t node);
   void limit(std::size_t node);
+  Cores cores(std::size_t node) const;
+  /// Whether expansions differ from those of points: then their corrections are wanted.
+  bool softened() const { return softest_ > 0 && !(Kind::own_cores && D == 2); }
   void visit(Visit visit, Workspace& work, std::vector<Visit>& next);
   void visit_below(Visit visit, Workspace& work);
   void meet(std::uint32_t target, std::vector<Other> const& others, Workspace& work) const;
@@ -92,32 +122,42 @@ class MultipoleField {
   std::array<double, 3> seen_from(Other const& image, std::array<double, 3> const& place) const;
   double margin() const { return D == 3 ? 3.2 / (choice_.order + 2) : 1.6 / (choice_.order + 1); }
   double local_limit(TreeNode const& target, double reach, std::uint32_t source) const;
-  double needed(TreeNode const& target, double reach, std::uint32_t source) const;
+  double needed(TreeNode const& target, double reach, Other const& source) const;
   bool far(TreeNode const& target, double reach, Other const& source) const;
   double reach_of(TreeNode const& target) const;
   void choose_images();
   void find_background();
-  void add_background(NodeParticles const& particles, double* field, double* potential) const;
+  double softening2(std::size_t node) const;
+  static void add_fields(Vector<D> const (&fields)[Kind::densities], double* influence);
+  NodeParticles places_of(Target const& target, Scratch& scratch) const;
+  void add_local(Target const& target, double const* local, double* field, double* potential, Scratch& scratch) const;
+  void add_outside(Target const& target, Other const& source, double* field, double* potential, Scratch& scratch) const;
+  void add_background(Target const& target, double* field, double* potential) const;
+  void add_near(Law const& law, PairTask const& task, Workspace& work) const;
   void finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work);
-  typename SofteningCorrection<D>::Moments softened_source(std::size_t node) const;
+  SofteningMoments softened_source(std::size_t node, int density) const;
   void add_softening(Visit& visit, Workspace const& work) const;
-  void add_softening(NodeParticles const& particles, Visit const& visit, Workspace& work, double* field,
-                     double* potential) const;
-  void put_in_order(bool with_potential, int threads);
+  void add_softening(Target const& target, Visit const& visit, Workspace& work, double* field, double* potential) const;
+  void put_in_order(int threads);
 
-  LaplaceLaw law_;
+  Law law_;
   ImageLattice lattice_;
   MultipoleChoice choice_;
   MultipoleKernels kernels_;
   ExpansionTables tables_;
-  Tree<D> tree_;
+  Tree<typename Kind::Source> tree_;
   std::vector<Block> moments_;
-  std::vector<double> source_limit_, source_size_, soft_limit_, soft_size_;  // of each node: see far()
+  std::vector<Limits> limits_;                            // of each node
+  std::vector<Cores> cores_;                              // of each node, if each particle has its own
+  double softest_ = 0;                                    // the square of the largest core of all
   std::vector<std::array<double, 3>> images_{{0, 0, 0}};  // that are met; the first is the box itself
+  std::vector<char> beside_{true};                        // of each: it is softened
   std::optional<FarImages> far_images_;
   struct {
-    double of_square = 0;                            // its potential at a distance 1, of unit strength
-    double strength = 0, second = 0, first[3] = {};  // of all particles, and times squares and places about the root
+    double of_square = 0;  // its potential at a distance 1, of unit strength
+    struct {
+      double strength = 0, second = 0, first[3] = {};  // of all particles, and times squares and places about the root
+    } of[Kind::densities];
   } background_;
   std::vector<double> sorted_field_, sorted_potential_, field_, potential_;
   MultipoleCost cost_;

@@ -1,7 +1,6 @@
 // Expansions, W at a time: moments of particles and nodes, what they make elsewhere, and the field there.
 #include <boltzmann/core/kernel_unit.hpp>
-#include <boltzmann/laws/laplace.hpp>
-#include <boltzmann/schemes/multipole/multipole_kernels.hpp>
+#include <boltzmann/schemes/multipole/multipole_kinds.hpp>
 #include <boltzmann/schemes/multipole/plane_series.hpp>
 #include <boltzmann/schemes/multipole/solid_harmonics.hpp>
 #include <boltzmann/schemes/pair/over_all.hpp>
@@ -287,7 +286,8 @@ constexpr MultipoleKernels kernels() {
           K::evaluate_moments,
           K::expand,
           detail::over_all<detail::Pass::influence, W, Probe<D>, PointSource<D>, LaplaceLaw>,
-          detail::over_all<detail::Pass::measure, W, Probe<D>, PointSource<D>, LaplaceLaw>};
+          detail::over_all<detail::Pass::with_energy, W, Probe<D>, PointSource<D>, LaplaceLaw>,
+          detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, BiotSavart>};
 }
 
 }  // namespace multipole

@@ -45,8 +45,9 @@ struct MultipoleKernels {
                            double constant, double* field, double* potential) = nullptr;
   /// Adds what particles make to the local expansion about a centre with this radius, which lies apart from them (P2L).
   void (*expand)(ExpansionView const& tables, NodeParticles const& particles, double* local) = nullptr;
-  PairKernel near = nullptr;          ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength (P2P)
-  PairKernel near_measure = nullptr;  ///< half the potential
+  PairKernel near = nullptr;  ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength (P2P)
+  PairKernel near_with_potential = nullptr;  ///< and half the potential
+  PairKernel near_vortices = nullptr;        ///< what Inviscid<D> feel of others by BiotSavart
 };
 
 /// By [dimension - 2].

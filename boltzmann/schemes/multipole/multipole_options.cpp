@@ -9,15 +9,22 @@ OptionTable const& multipole_options() {
     using namespace option;
     OptionTable all;
     add_field_keys(all);
+    all.at("law").kind.words = {"coulomb with `k`, gravity with `G`, or biot-savart"};
+    all.at("on").doc =
+        "who makes the field and feels it; gravity is made by the mass of any class, a flow by vorticity";
+    all.at("on").otherwise =
+        "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`, `Vortex`, `Inviscid`, `Viscous` for "
+        "`\"biot-savart\"`";
     all.add_said("softening", "a length, zero or more", "Plummer's length, within which the force is weaker", "0");
     all.add("tolerance", &MultipoleOptions::tolerance, number(dimensions::none, NumberRange{1e-10, 0.1}),
-            "error of all forces, as a part of their rms; it is measured, and kept");
+            "error of all forces or velocities, as a part of their rms; it is measured, and kept");
     all.add_said("test_particles", "the name of an ensemble, or a list", "who feels the field without making it",
                  "none");
     all.add("background", &MultipoleOptions::background, flag(),
             "a uniform background makes a box that is periodic along all axes neutral");
     all.add_said("grid", "a whole number, or a list with one for each axis",
-                 "cells of a grid with the potential and the field on its nodes, for pictures and files", "none");
+                 "cells of a grid with the potential and the field (or velocity) on its nodes, for pictures and files",
+                 "none");
     return all;
   }();
   return all;

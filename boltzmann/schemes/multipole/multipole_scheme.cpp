@@ -3,8 +3,7 @@
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
-#include <boltzmann/core/threads.hpp>
-#include <boltzmann/schemes/multipole/multipole_field.hpp>
+#include <boltzmann/schemes/multipole/multipole_engine.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 
 #include <fmt/format.h>
@@ -22,25 +21,21 @@ std::size_t sample_count(std::size_t candidates, std::size_t particles) {
 }
 
 constexpr std::size_t checked_every = 64;
-constexpr double furthest = 1e140;  // squares and sums of squares are numbers, too
 /// Times the mean: where a sample is further off, a few particles may have errors that no sample shows.
 constexpr double usual_largest = 5;
+/// What one interaction may do at worst, times the tolerance and what is felt.
+constexpr double most_even = 400, most_uneven = 100;
 
 /// Below, to sum all pairs is as fast.
 constexpr std::size_t summed_directly = 1500;
 
-/// The order at which expansions and pairs take about as long for this tolerance.
-int order_for(double tolerance, int dimension) {
-  double const digits = -std::log10(tolerance);
-  double const order = dimension == 3 ? 1 + 1.6 * digits : 3 + 2 * digits;
-  return std::clamp(static_cast<int>(std::lround(order)), 2, highest_expansion_order);
-}
+double digits_of(double tolerance) { return -std::log10(tolerance); }
 
-ImageLattice lattice_of(Box const& box) {
-  ImageLattice lattice;
-  for (int a = 0; a < box.dimension(); ++a)
-    if (box.periodic(a)) lattice.edges[a] = box.length(a);
-  return lattice;
+/// The order at which expansions and pairs take about as long for this tolerance. In a periodic box images take a share.
+int order_for(double tolerance, Box const& box) {
+  double const digits = digits_of(tolerance);
+  double const order = box.dimension() == 2 ? 3 + 2 * digits : box.any_periodic() ? 1 + 1.6 * digits : 2.5 + 2 * digits;
+  return std::clamp(static_cast<int>(std::lround(order)), 2, highest_expansion_order);
 }
 
 void check_tolerance(double tolerance) {
@@ -51,112 +46,7 @@ void check_tolerance(double tolerance) {
 /// Truth is so much better than what is compared with it.
 constexpr double better = 1e-3;
 
-}  // namespace
-
-/// The field of points in two or three dimensions.
-struct MultipoleScheme::Engine {
-  virtual ~Engine() = default;
-  /// All particles of these ensembles with their strengths. PhysicsFailure if a position is not finite.
-  virtual void collect(std::vector<Loaded> const& loaded, int threads) = 0;
-  /// Places that feel the field, behind the particles.
-  virtual void add(double const* places, std::size_t count) = 0;
-  virtual std::size_t count() const = 0;
-  virtual void choose(MultipoleChoice const& choice) = 0;
-  virtual void calculate(bool with_potential, int threads) = 0;
-  /// The field at these particles by direct sums, to this part of it.
-  virtual std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const = 0;
-  virtual double spacing() const = 0;  ///< in the mean, of neighbours
-  virtual std::vector<double> const& field() const = 0;
-  virtual std::vector<double> const& potential() const = 0;
-  virtual MultipoleChoice const& choice() const = 0;
-  virtual MultipoleCost const& cost() const = 0;
-  virtual double work() const = 0;  ///< of the last calculation, in pairs
-  virtual std::size_t bytes() const = 0;
-};
-
-template <int D>
-struct MultipoleScheme::EngineIn final : Engine {
-  using Point = typename MultipoleField<D>::Point;
-
-  EngineIn(LaplaceLaw const& law, Box const& box) : multipoles(law, lattice_of(box)) {
-    for (int a = 0; a < D; ++a) low[a] = box.low(a), edges[a] = box.periodic(a) ? box.length(a) : 0;
-  }
-
-  void collect(std::vector<Loaded> const& loaded, int threads) override {
-    std::size_t total = 0;
-    for (auto const& one : loaded) total += one.ensemble->size();
-    points.resize(total);
-    std::size_t at = 0;
-    for (auto const& one : loaded) {
-      AnyEnsemble const& ensemble = *one.ensemble;
-      for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads),
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i) {
-                     Point& point = points[at + i];
-                     for (int a = 0; a < D; ++a) {
-                       double const x = point.position[a] = inside(ensemble.row(i)[a], a);
-                       if (!(std::abs(x) < furthest))
-                         throw PhysicsFailure(fmt::format("particle {} of '{}' is at a position that is not finite{}",
-                                                          i, ensemble.name(),
-                                                          std::isfinite(x) ? ", or too far to be squared" : ""));
-                     }
-                     point.amount = one.acts ? one.strengths[i] : 0;
-                   }
-                 });
-      at += ensemble.size();
-    }
-  }
-  void add(double const* places, std::size_t count) override {
-    for (std::size_t k = 0; k < count; ++k) {
-      Point point{};
-      for (int a = 0; a < D; ++a) {
-        point.position[a] = inside(places[k * D + a], a);
-        if (!(std::abs(point.position[a]) < furthest))
-          throw Error(fmt::format("multipoles: place {} is not finite, or too far to be squared", k));
-      }
-      points.push_back(point);
-    }
-  }
-  std::size_t count() const override { return points.size(); }
-  void choose(MultipoleChoice const& choice) override { multipoles.choose(choice); }
-  void calculate(bool with_potential, int threads) override { multipoles.calculate(points, with_potential, threads); }
-  std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const override {
-    return multipoles.direct(points, particles, error, threads);
-  }
-  double spacing() const override {
-    std::array<double, 3> least{}, most{};
-    double volume = 1, shortest = 0;
-    for (int a = 0; a < D; ++a)
-      if (edges[a] > 0 && !(shortest > 0 && shortest < edges[a])) shortest = edges[a];
-    for (int a = 0; a < D; ++a) {
-      if (points.empty()) return 1;
-      least[a] = most[a] = points.front().position[a];
-      for (auto const& p : points)
-        least[a] = std::min(least[a], p.position[a]), most[a] = std::max(most[a], p.position[a]);
-      volume *= edges[a] > 0 ? edges[a] : std::max(most[a] - least[a], shortest);
-    }
-    return std::pow(volume / static_cast<double>(points.size()), 1.0 / D);
-  }
-  std::vector<double> const& field() const override { return multipoles.field(); }
-  std::vector<double> const& potential() const override { return multipoles.potential(); }
-  MultipoleChoice const& choice() const override { return multipoles.choice(); }
-  MultipoleCost const& cost() const override { return multipoles.cost(); }
-  double work() const override { return multipoles.work(); }
-  std::size_t bytes() const override { return multipoles.bytes() + points.capacity() * sizeof(Point); }
-
-  /// Into the box, along periodic axes.
-  double inside(double x, int a) const { return edges[a] > 0 ? x - edges[a] * std::floor((x - low[a]) / edges[a]) : x; }
-
-  MultipoleField<D> multipoles;
-  std::vector<Point> points;
-  std::array<double, D> low, edges;
-};
-
-MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
-    : Scheme(box), law_(law), tolerance_(tolerance) {
-  law.check();
-  if (law.constant == 0) throw Error("multipoles: the constant of the law is 0: nobody would feel anything");
-  check_tolerance(tolerance);
+void check_box(Box const& box) {
   if (box.dimension() == 1)
     throw Error("multipoles: the box has one dimension, where a mesh or pairs do it; expansions are for 2 and 3");
   for (int a = 0; a < box.dimension(); ++a)
@@ -166,10 +56,22 @@ MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double toleranc
                       "has them between walls)",
                       "xyz"[a]));
   if (!box.regions().empty()) throw Error("multipoles: the box has regions, which the field would not feel");
-  if (box.dimension() == 2)
-    engine_ = std::make_unique<EngineIn<2>>(law, box);
-  else
-    engine_ = std::make_unique<EngineIn<3>>(law, box);
+}
+
+}  // namespace
+
+MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
+    : Scheme(box), law_(law), tolerance_(tolerance) {
+  check_tolerance(tolerance);
+  check_box(box);
+  engine_ = multipole_engine(law, box);
+}
+
+MultipoleScheme::MultipoleScheme(Box box, BiotSavart const& law, double tolerance)
+    : Scheme(box), tolerance_(tolerance) {
+  check_tolerance(tolerance);
+  check_box(box);
+  engine_ = multipole_engine(law, box);
 }
 
 MultipoleScheme::~MultipoleScheme() = default;
@@ -179,37 +81,14 @@ void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) { load(
 void MultipoleScheme::add_test_particles(AnyEnsemble& ensemble, SourceKind const& kind) { load(ensemble, kind, false); }
 
 void MultipoleScheme::load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts) {
-  kind.check(ensemble, law_.constant, "multipoles");
+  engine_->check(ensemble, kind, acts);
   for (auto const& one : loaded_)
     if (one.ensemble == &ensemble) {
       if (one.acts == acts) return;
       throw Error(fmt::format("multipoles: '{}' can't make the field and be test particles", ensemble.name()));
     }
   Scheme::add(ensemble);
-  loaded_.push_back({&ensemble, kind, acts, {}});
-}
-
-void MultipoleScheme::collect() {
-  for (auto& one : loaded_) {
-    one.strengths.resize(one.ensemble->size());
-    one.kind.strengths(one.ensemble->row(0), 0, one.ensemble->size(), one.strengths.data());
-  }
-  check_neutral();
-  engine_->collect(loaded_, threads());
-}
-
-void MultipoleScheme::check_neutral() const {
-  for (int a = 0; a < box().dimension(); ++a)
-    if (background_ || !box().periodic(a)) return;
-  CompensatedSum total, all;
-  for (auto const& one : loaded_)
-    for (double const s : one.strengths)
-      if (one.acts) total += s, all += std::abs(s);
-  if (std::abs(total.value()) > 1e-9 * all.value())
-    throw Error(fmt::format(
-        "multipoles: the strengths sum to {:.6g}, and a periodic box has no field unless they cancel; add particles of "
-        "the other sign, or a uniform background: background(true), in scenarios background = true",
-        total.value()));
+  loaded_.push_back({&ensemble, kind, acts});
 }
 
 /// The mean square of what samples feel, without the fiftieth that feels most: a few that are near to each other would
@@ -222,62 +101,37 @@ double MultipoleScheme::typical_square(std::vector<double> squares) {
   return kept > 0 ? sum.value() / static_cast<double>(kept) : 0;
 }
 
-/// Of the field 1/r^(D-1) of a unit strength.
-double MultipoleScheme::constant_of_points() const {
-  return std::abs(law_.constant) / (box().dimension() == 3 ? 4 * pi : 2 * pi);
-}
-
-/// In a crystal all that a particle feels may cancel: errors are measured by a hundredth of what a neighbour does.
-double MultipoleScheme::least_field() const {
-  if (!box().any_periodic()) return 0;
-  double squares = 0;
-  for (auto const& one : loaded_)
-    for (double const s : one.strengths)
-      if (one.acts) squares += s * s;
-  return 1e-2 * constant_of_points() * std::sqrt(squares / static_cast<double>(engine_->count())) *
-         std::pow(engine_->spacing(), 1 - box().dimension());
-}
-
 MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t> const& chosen,
                                                         std::vector<double> const& exact) const {
-  auto const D = static_cast<std::size_t>(box().dimension());
-  auto const strengths = strengths_of_all();
-  CompensatedSum errors;
-  double largest = 0;
-  double const least = square(least_field());
-  std::vector<double> squares;
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    double const strength = strengths[chosen[k]];
-    double sum = square(strength) * least, error = 0;
-    for (std::size_t a = 0; a < D; ++a) {
-      error += square(strength * (engine_->field()[chosen[k] * D + a] - exact[k * D + a]));
-      sum += square(strength * exact[k * D + a]);
+  std::size_t const width = engine_->width();
+  SampledError worst;
+  for (int part = 0; part < engine_->parts(); ++part) {
+    CompensatedSum errors;
+    double largest = 0;
+    std::vector<double> felt;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      auto const squares =
+          engine_->compare(part, chosen[k], engine_->field().data() + chosen[k] * width, exact.data() + k * width);
+      errors += squares.error;
+      largest = std::max(largest, squares.error);
+      felt.push_back(squares.felt);
     }
-    errors += error;
-    largest = std::max(largest, error);
-    squares.push_back(sum);
+    double const typical = typical_square(felt), mean = errors.value() / static_cast<double>(chosen.size());
+    worst.mean = std::max(worst.mean, typical > 0 ? std::sqrt(mean / typical) : 0);
+    worst.largest = std::max(worst.largest, mean > 0 ? std::sqrt(largest / mean) : 0);
   }
-  double const typical = typical_square(squares), mean = errors.value() / static_cast<double>(chosen.size());
-  return {typical > 0 ? std::sqrt(mean / typical) : 0, mean > 0 ? std::sqrt(largest / mean) : 0};
-}
-
-/// Of particles, to what they feel.
-std::vector<double> MultipoleScheme::strengths_of_all() const {
-  std::vector<double> all;
-  for (auto const& one : loaded_) all.insert(all.end(), one.strengths.begin(), one.strengths.end());
-  return all;
+  return worst;
 }
 
 /// Of those that feel something.
 std::vector<std::size_t> MultipoleScheme::choose_samples() const {
   std::vector<std::size_t> all;
-  auto const strengths = strengths_of_all();
-  for (std::size_t i = 0; i < strengths.size(); ++i)
-    if (strengths[i] != 0) all.push_back(i);
-  std::size_t const samples = sample_count(all.size(), strengths.size());
+  for (std::size_t i = 0; i < engine_->count(); ++i)
+    if (engine_->feels(i)) all.push_back(i);
+  std::size_t const samples = sample_count(all.size(), engine_->count());
   if (samples == all.size()) return all;
   std::vector<std::size_t> chosen;
-  Stream stream(0, 0, strengths.size(), Purpose::selection);
+  Stream stream(0, 0, engine_->count(), Purpose::selection);
   for (std::size_t k = 0; k < samples; ++k)
     chosen.push_back(all[static_cast<std::size_t>(stream.uniform() * static_cast<double>(all.size()))]);
   std::sort(chosen.begin(), chosen.end());
@@ -286,51 +140,59 @@ std::vector<std::size_t> MultipoleScheme::choose_samples() const {
 }
 
 std::size_t MultipoleScheme::leaf() const {
-  int const order = order_for(tolerance_, box().dimension());
-  return box().dimension() == 2 || order < 8 ? 48 : order < 13 ? 64 : 100;
+  double const digits = digits_of(tolerance_);
+  return box().dimension() == 2 || digits < 4.1 ? 48 : digits < 7.2 ? 64 : 100;
 }
 
-/// Calculates with a criterion for which the error of the samples is between an eighth of the tolerance and two fifths
-/// of it, where there is one: what is promised of all particles then holds for all.
+/// Calculates with an order and a criterion for which the error of the samples is between an eighth of the tolerance and
+/// two fifths of it, where there is one: what is promised of all particles then holds for all. The first time it looks
+/// for the order that takes least work.
 void MultipoleScheme::tune(bool with_potential) {
   auto const chosen = choose_samples();
   auto const exact = engine_->exact(chosen, better * tolerance_, threads());
-  if (order_ == 0) order_ = order_for(tolerance_, box().dimension());
+  if (order_ == 0) order_ = order_for(tolerance_, box());
   std::size_t const leaf = this->leaf();
   auto const D = static_cast<std::size_t>(box().dimension());
-  std::vector<double> squares(chosen.size(), square(least_field()));
-  for (std::size_t i = 0; i < exact.size(); ++i) squares[i / D] += square(exact[i]);
-  double const field = std::sqrt(typical_square(squares)) / constant_of_points();
+  std::vector<double> squares(chosen.size(), square(engine_->least_field()));
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    for (std::size_t a = 0; a < D; ++a) squares[k] += square(exact[k * engine_->width() + a]);
+  double const field = std::sqrt(typical_square(squares)) / engine_->constant();
   if (!std::isfinite(field) || field == 0) {  // two at one place, or nobody who acts: whoever looks will say so
     engine_->choose({order_, leaf, 1});
     engine_->calculate(with_potential, threads());
     return;
   }
-  if (criterion_ == 0) criterion_ = 4 * tolerance_ * field;
-  // A lower order is tried where the error is still far below: it may be cheaper, though it leaves more to pairs.
-  struct {
-    int order;
-    double criterion, cost;
-  } before{0, 0, 0};
+  bool const first = criterion_ == 0;
+  Truth const truth{chosen, exact, field, with_potential};
+  Fit best = fit(order_, first ? 4 * tolerance_ * field : criterion_, truth);
+  // Higher orders leave less to pairs, and take longer: what takes most is tried to be lessened. (Not in a periodic box:
+  // each order has lattice sums of its own.)
+  int const step = best.of_pairs > 0.5 ? 2 : -2;
+  while (first && !box().any_periodic() && !everything_is_summed() && best.order + step >= 2 &&
+         best.order + step <= highest_expansion_order) {
+    Fit const next = fit(best.order + step, best.criterion * (step > 0 ? 4 : 0.25), truth);
+    if (!(next.work < 0.97 * best.work)) {
+      best = fit(best.order, best.criterion, truth);
+      break;
+    }
+    best = next;
+  }
+  order_ = best.order, criterion_ = best.criterion;
+}
+
+/// Calculates with expansions of this order, and a criterion that makes the error what it should be.
+MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, Truth const& truth) {
   int in_vain = 0;
   double last_measured = __builtin_inf();
-  double most = 0;  // that one interaction may do at worst
-  auto const calculate = [&] {
-    engine_->choose({order_, leaf, criterion_});
-    engine_->calculate(with_potential, threads());
-    SampledError const error = error_of(chosen, exact);
-    measured_ = error.mean;
-    most = (error.largest < usual_largest ? 100 : 8) * tolerance_ * field;
-  };
   for (int attempt = 0;; ++attempt) {
-    calculate();
+    engine_->choose({order, leaf(), criterion});
+    engine_->calculate(truth.with_potential, threads());
+    SampledError const error = error_of(truth.chosen, truth.exact);
+    measured_ = error.mean;
+    double const most = (error.largest < usual_largest ? most_even : most_uneven) * tolerance_ * truth.field;
     bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
-    double const cost = engine_->work();
-    if (before.order > 0 && !(enough && cost < before.cost)) {
-      order_ = before.order, criterion_ = before.criterion;
-      return calculate();
-    }
-    if (everything_is_summed() || (enough && (!too_much || attempt >= 12))) return;
+    if (everything_is_summed() || (enough && (!too_much || criterion >= most || attempt >= 12)))
+      return {order, criterion, engine_->work(), static_cast<double>(engine_->cost().pairs) / engine_->work()};
     // More of expansions and pairs, and no better?
     in_vain = !enough && measured_ > 0.7 * last_measured ? in_vain + 1 : 0;
     last_measured = measured_;
@@ -340,14 +202,7 @@ void MultipoleScheme::tune(bool with_potential) {
                       "particles feel cancels to less than rounding allows",
                       tolerance_, measured_));
     double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
-    if (enough && criterion_ >= most) {
-      if (order_ == 2) return;
-      before = {order_, criterion_, cost};
-      --order_;
-    } else {
-      criterion_ =
-          enough ? std::min(criterion_ * std::min(change, 20.0), most) : criterion_ * std::max(0.8 * change, 0.01);
-    }
+    criterion = enough ? std::min(criterion * std::min(change, 20.0), most) : criterion * std::max(0.8 * change, 0.01);
   }
 }
 
@@ -356,7 +211,7 @@ bool MultipoleScheme::everything_is_summed() const {
 }
 
 void MultipoleScheme::calculate_field(bool with_potential) {
-  collect();
+  engine_->collect(loaded_, background_, threads());
   choose_and_calculate(with_potential);
 }
 
@@ -378,18 +233,7 @@ void MultipoleScheme::choose_and_calculate(bool with_potential) {
 void MultipoleScheme::add_influences(double /*time*/) {
   calculate_field(false);
   last_ = chosen_and_taken();
-  auto const D = static_cast<std::size_t>(box().dimension());
-  std::size_t at = 0;
-  for (auto const& one : loaded_) {
-    AnyEnsemble& ensemble = *one.ensemble;
-    for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i)
-                   for (std::size_t a = 0; a < D; ++a)
-                     ensemble.influence(i)[a] += one.strengths[i] * engine_->field()[(at + i) * D + a];
-               });
-    at += ensemble.size();
-  }
+  engine_->add_influences(loaded_, threads());
 }
 
 /// Looking changes nothing that the next calculation depends on.
@@ -408,82 +252,67 @@ class MultipoleScheme::Look {
 EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
   Look const look(*this);
   calculate_field(true);
-  EnergyAndVirial measures = EnergyAndVirial::known();
-  auto const D = static_cast<std::size_t>(box().dimension());
-  CompensatedSum potential;
-  std::array<std::array<CompensatedSum, 3>, 3> virial;
-  std::size_t at = 0;
-  bool reaction = true;
-  for (auto const& one : loaded_) {
-    reaction = reaction && one.acts;
-    std::vector<double> energies(one.ensemble->size());
-    for (std::size_t i = 0; i < energies.size(); ++i) {
-      energies[i] = (one.acts ? 0.5 : 1) * one.strengths[i] * engine_->potential()[at + i];
-      potential += energies[i];
-      // The sum over pairs of r_a F_b, since the forces of all cancel: that over particles of their place and force.
-      for (std::size_t a = 0; a < D; ++a)
-        for (std::size_t b = 0; b < D; ++b)
-          virial[a][b] += one.ensemble->row(i)[a] * one.strengths[i] * engine_->field()[(at + i) * D + b];
-    }
-    at += energies.size();
-    measures.per_particle.push_back(std::move(energies));
-  }
-  measures.potential = potential.value();
-  measures.driven = !reaction;  // who makes the field works on them
-  if (box().any_periodic())
-    measures.no_virial = "multipoles in a periodic box don't have it (P3M does)";
-  else if (!reaction)
-    measures.no_virial = "test particles feel forces that nobody feels in return";
-  else
-    for (std::size_t a = 0; a < D; ++a)
-      for (std::size_t b = 0; b < D; ++b) measures.virial[a][b] = virial[a][b].value();
-  return measures;
+  return engine_->measure(loaded_);
 }
 
-void MultipoleScheme::calculate_at(double const* places, std::size_t count, std::vector<double>& field,
-                                   std::vector<double>& potential) {
-  Look const look(*this);
-  collect();
-  std::size_t const particles = engine_->count();
-  auto const D = static_cast<std::ptrdiff_t>(box().dimension());
+void MultipoleScheme::calculate_at(double const* places, std::size_t count) {
+  engine_->collect(loaded_, background_, threads());
   engine_->add(places, count);
   choose_and_calculate(true);
-  auto const from = static_cast<std::ptrdiff_t>(particles);
-  field.assign(engine_->field().begin() + from * D, engine_->field().end());
-  potential.assign(engine_->potential().begin() + from, engine_->potential().end());
-  for (std::size_t k = 0; k < count; ++k)
-    if (!std::isfinite(potential[k]))
-      throw PhysicsFailure(fmt::format("multipoles: the field at place {} is not finite: a particle is there", k));
+}
+
+template <int D>
+void MultipoleScheme::calculate_at(std::vector<Vector<D>> const& places) {
+  if (D != box().dimension())
+    throw Error(fmt::format("multipoles: places of {} dimensions in a box of {}", D, box().dimension()));
+  calculate_at(places.empty() ? nullptr : &places.front()[0], places.size());
 }
 
 template <int D>
 std::vector<MultipoleScheme::FieldAt<D>> MultipoleScheme::field_at(std::vector<Vector<D>> const& places) {
-  if (D != box().dimension())
-    throw Error(fmt::format("multipoles: places of {} dimensions in a box of {}", D, box().dimension()));
-  std::vector<double> field, potential;
-  calculate_at(places.empty() ? nullptr : &places.front()[0], places.size(), field, potential);
+  if (!law_) throw Error("multipoles: vortices make a flow, not a field: ask for velocity_at()");
+  Look const look(*this);
+  calculate_at(places);
+  std::size_t const from = engine_->count() - places.size();
   std::vector<FieldAt<D>> all(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
-    for (int a = 0; a < D; ++a) all[k].field[a] = field[k * D + static_cast<std::size_t>(a)];
-    all[k].potential = potential[k];
+    for (int a = 0; a < D; ++a) all[k].field[a] = engine_->field()[(from + k) * D + static_cast<std::size_t>(a)];
+    all[k].potential = engine_->potential()[from + k];
+    if (!std::isfinite(all[k].potential))
+      throw PhysicsFailure(fmt::format("multipoles: the field at place {} is not finite: a particle is there", k));
   }
   return all;
 }
 template std::vector<MultipoleScheme::FieldAt<2>> MultipoleScheme::field_at(std::vector<Vector<2>> const&);
 template std::vector<MultipoleScheme::FieldAt<3>> MultipoleScheme::field_at(std::vector<Vector<3>> const&);
 
+template <int D>
+std::vector<Vector<D>> MultipoleScheme::velocity_at(std::vector<Vector<D>> const& places) {
+  if (law_) throw Error("multipoles: charges and masses make a field, not a flow: ask for field_at()");
+  Look const look(*this);
+  calculate_at(places);
+  std::size_t const width = engine_->width(), from = engine_->count() - places.size();
+  std::vector<Vector<D>> all(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (int a = 0; a < D; ++a) all[k][a] = engine_->field()[(from + k) * width + static_cast<std::size_t>(a)];
+  return all;
+}
+template std::vector<Vector<2>> MultipoleScheme::velocity_at(std::vector<Vector<2>> const&);
+template std::vector<Vector<3>> MultipoleScheme::velocity_at(std::vector<Vector<3>> const&);
+
 void MultipoleScheme::grid(std::vector<std::size_t> const& cells) {
   using namespace dimensions;
   grid_ = make_grid(box(), cells);
   potential_ = {"potential", energy / charge, *grid_, {}};
   field_ = {"field", energy / charge / length, *grid_, {}};
+  if (!law_) field_ = {"velocity", velocity, *grid_, {}};
 }
 
 std::vector<MeshField const*> MultipoleScheme::mesh_fields() {
   if (!grid_) return {};
   auto const D = static_cast<std::size_t>(box().dimension());
-  std::size_t const nodes = grid_->size();
-  std::vector<double> places(nodes * D), field, potential;
+  std::size_t const nodes = grid_->size(), width = engine_->width();
+  std::vector<double> places(nodes * D);
   for (std::size_t n = 0; n < nodes; ++n) {
     std::size_t rest = n;
     for (std::size_t a = 0; a < D; ++a) {
@@ -491,11 +320,18 @@ std::vector<MeshField const*> MultipoleScheme::mesh_fields() {
       rest /= grid_->nodes[a];
     }
   }
-  calculate_at(places.data(), nodes, field, potential);
-  potential_.components = {std::move(potential)};
+  Look const look(*this);
+  calculate_at(places.data(), nodes);
+  std::size_t const from = engine_->count() - nodes;
   field_.components.assign(D, std::vector<double>(nodes));
   for (std::size_t n = 0; n < nodes; ++n)
-    for (std::size_t a = 0; a < D; ++a) field_.components[a][n] = field[n * D + a];
+    for (std::size_t a = 0; a < D; ++a) field_.components[a][n] = engine_->field()[(from + n) * width + a];
+  if (!law_) return {&field_};
+  potential_.components = {
+      {engine_->potential().begin() + static_cast<std::ptrdiff_t>(from), engine_->potential().end()}};
+  for (double const value : potential_.components[0])
+    if (!std::isfinite(value))
+      throw PhysicsFailure("multipoles: the field at a node of the grid is not finite: a particle is there");
   return {&potential_, &field_};
 }
 
@@ -538,7 +374,7 @@ MultipoleScheme::Trial MultipoleScheme::try_tolerance(double tolerance) {
 double MultipoleScheme::length_scale(AnyEnsemble const&) const { return __builtin_inf(); }
 
 std::string MultipoleScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
-  return law_.softening > 0 ? "" : at_one_place(ensemble, i);
+  return engine_->singular() ? at_one_place(ensemble, i) : "";
 }
 
 void MultipoleScheme::make_reversible(double /*quantum*/) {

@@ -1,5 +1,5 @@
-// MultipoleScheme: gravity and electrostatics of any distribution of particles in 2D and 3D, in open space or with
-// periodic axes, by multipole expansions over a tree: O(N), with an accuracy that is kept.
+// MultipoleScheme: gravity, electrostatics and vortex flow of any distribution of particles in 2D and 3D, in open space
+// or with periodic axes, by multipole expansions over a tree: O(N), with an accuracy that is kept.
 //
 //   MultipoleScheme scheme(Box({-9, -9, -9}, {9, 9, 9}), gravity(1, 0.01), 1e-4);
 //   scheme.add(stars);
@@ -7,6 +7,7 @@
 #pragma once
 
 #include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
 #include <boltzmann/schemes/scheme.hpp>
@@ -19,6 +20,9 @@
 #include <vector>
 
 namespace boltzmann {
+
+class MultipoleEngine;
+struct LoadedSources;
 
 /// What a scheme of multipoles has found and chosen.
 struct MultipoleAccuracy {
@@ -40,26 +44,33 @@ class MultipoleScheme final : public Scheme {
   /// Error if the box is not of 2 or 3 dimensions, has mirrors or regions, or if the tolerance is not between 1e-10 and
   /// 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
+  /// Vortices carry each other and fluid particles. In 3D the tolerance is kept for velocities and for what the flow
+  /// does to the vorticity of Inviscid and Viscous, each by itself. If all axes are periodic the vorticities have to
+  /// cancel (in 2D, or have a background that turns as a whole), and the flow is zero in the mean.
+  MultipoleScheme(Box box, BiotSavart const& law, double tolerance);
   ~MultipoleScheme() override;
 
   double tolerance() const { return tolerance_; }
-  /// C of div E = C rho.
-  double constant() const { return law_.constant; }
+  /// The law of charges or masses; none: vortices.
+  std::optional<LaplaceLaw> const& law() const { return law_; }
 
-  /// The particles of an ensemble influence each other: by their strength(), or under gravity by their mass if the
-  /// class has no other strength. Further schemes may act on the same ensemble.
+  /// The particles of an ensemble influence each other: by their strength(), under gravity by their mass if the class
+  /// has no other strength, vortices by their vorticity. Further schemes may act on the same ensemble. Error if the law
+  /// does not act between such particles.
   template <class P>
   void add(Ensemble<P>& ensemble) {
-    static_assert(ForcedParticle<P>, "multipoles act on classes with mass and velocity, and a force as influence");
+    static_assert(FieldParticle<P>,
+                  "multipoles act on classes with mass and velocity and a force as influence, and on Tracer's");
     add(ensemble, source_kind<P>());
   }
-  /// For code that knows classes only at run time. Error if the law and the class disagree on who attracts whom.
+  /// For code that knows classes only at run time.
   void add(AnyEnsemble& ensemble, SourceKind const& kind);
 
-  /// These particles feel the field without making it (test particles).
+  /// These particles feel the field without making it (test particles): of a class that could make it, or Tracer.
   template <class P>
   void add_test_particles(Ensemble<P>& ensemble) {
-    static_assert(ForcedParticle<P>, "multipoles act on classes with mass and velocity, and a force as influence");
+    static_assert(FieldParticle<P>,
+                  "multipoles act on classes with mass and velocity and a force as influence, and on Tracer's");
     add_test_particles(ensemble, source_kind<P>());
   }
   void add_test_particles(AnyEnsemble& ensemble, SourceKind const& kind);
@@ -68,7 +79,7 @@ class MultipoleScheme final : public Scheme {
 
   /// The field of the particles at places that need not be theirs, and its potential: influence and energy of a
   /// particle there are its strength times these. As accurate as influences; it takes as long. PhysicsFailure if a
-  /// particle is at such a place (and the law is not softened).
+  /// particle is at such a place (and the law is not softened). Error if the scheme is of vortices.
   template <int D>
   struct FieldAt {
     Vector<D> field;
@@ -76,8 +87,11 @@ class MultipoleScheme final : public Scheme {
   };
   template <int D>
   std::vector<FieldAt<D>> field_at(std::vector<Vector<D>> const& places);
-  /// Lets mesh_fields() have the potential and the field on the nodes of a grid with so many cells, for pictures and
-  /// files; no particle feels it. Error unless there is a number for each axis.
+  /// The velocity of the flow at places. Error unless the scheme is of vortices.
+  template <int D>
+  std::vector<Vector<D>> velocity_at(std::vector<Vector<D>> const& places);
+  /// Lets mesh_fields() have the potential and the field (of vortices the velocity) on the nodes of a grid with so many
+  /// cells, for pictures and files; no particle feels it. Error unless there is a number for each axis.
   void grid(std::vector<std::size_t> const& cells);
   std::vector<MeshField const*> mesh_fields() override;
 
@@ -103,44 +117,43 @@ class MultipoleScheme final : public Scheme {
 
  private:
   class Look;
-  struct Engine;
-  template <int D>
-  struct EngineIn;
-  struct Loaded {
-    AnyEnsemble* ensemble;
-    SourceKind kind;
-    bool acts;
-    std::vector<double> strengths;  ///< to what is felt
-  };
 
   void load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts);
-  void check_neutral() const;
-  void collect();
   void calculate_field(bool with_potential);
-  /// Field and potential at so many places of D numbers.
-  void calculate_at(double const* places, std::size_t count, std::vector<double>& field,
-                    std::vector<double>& potential);
+  /// At so many places of D numbers, behind the particles.
+  void calculate_at(double const* places, std::size_t count);
+  template <int D>
+  void calculate_at(std::vector<Vector<D>> const& places);
   void choose_and_calculate(bool with_potential);
-  std::vector<double> strengths_of_all() const;
   std::vector<std::size_t> choose_samples() const;
   std::size_t leaf() const;
   static double typical_square(std::vector<double> squares);
-  double constant_of_points() const;
-  double least_field() const;
   bool everything_is_summed() const;
   /// The error of the last calculation for samples, as a part of what they feel (0 where they feel nothing); the
   /// largest over that mean.
   struct SampledError {
-    double mean, largest;
+    double mean = 0, largest = 0;
   };
   MultipoleAccuracy chosen_and_taken() const;
   SampledError error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const;
   void tune(bool with_potential);
+  /// What samples feel by direct sums, and how strong a field is in the mean, over that of a unit strength.
+  struct Truth {
+    std::vector<std::size_t> const& chosen;
+    std::vector<double> const& exact;
+    double field;
+    bool with_potential;
+  };
+  struct Fit {
+    int order;
+    double criterion, work, of_pairs;
+  };
+  Fit fit(int order, double criterion, Truth const& truth);
 
-  LaplaceLaw law_;
+  std::optional<LaplaceLaw> law_;
   double tolerance_;
-  std::vector<Loaded> loaded_;
-  std::unique_ptr<Engine> engine_;
+  std::vector<LoadedSources> loaded_;
+  std::unique_ptr<MultipoleEngine> engine_;
   double criterion_ = 0;  // the error that one interaction may make; 0: not chosen yet
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet

@@ -18,9 +18,9 @@ class SofteningCorrection {
     Vector<D> dipole{};
   };
 
-  /// Adds what sources make about a place that lies at r from their centre.
-  void add(Moments const& source, Vector<D> const& r, double softening) {
-    auto const k = derivatives(dot(r, r), softening * softening);
+  /// Adds what sources make about a place that lies at r from their centre; with the square of their softening.
+  void add(Moments const& source, Vector<D> const& r, double softening2) {
+    auto const k = derivatives(dot(r, r), softening2);
     double const along = dot(r, source.dipole);
     value_ += source.strength * k.value - k.first * along;
     for (int a = 0; a < D; ++a) {
@@ -35,13 +35,14 @@ class SofteningCorrection {
     there.slope_ = slope(x);
     return there;
   }
-  /// The potential at x, and its gradient.
+  /// The potential at x, its gradient, and the derivative of that along direction d.
   double value(Vector<D> const& x) const { return value_ + 0.5 * dot(x, slope_ + slope(x)); }
-  Vector<D> slope(Vector<D> const& x) const {
-    Vector<D> slope = slope_;
+  Vector<D> slope(Vector<D> const& x) const { return slope_ + curve(x); }
+  Vector<D> curve(Vector<D> const& d) const {
+    Vector<D> along{};
     for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) slope[a] += curve_[a][b] * x[b];
-    return slope;
+      for (int b = 0; b < D; ++b) along[a] += curve_[a][b] * d[b];
+    return along;
   }
 
  private:

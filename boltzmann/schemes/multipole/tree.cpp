@@ -1,5 +1,7 @@
 // Boxes are cut in the middle of what they hold.
 #include <boltzmann/core/threads.hpp>
+#include <boltzmann/particles/vortex.hpp>
+#include <boltzmann/schemes/mesh/point_source.hpp>
 #include <boltzmann/schemes/multipole/tree.hpp>
 
 #include <algorithm>
@@ -15,7 +17,8 @@ template <int D>
 struct Ends {
   std::array<double, 3> low, high;
 
-  Ends(Row<PointSource<D>> const* particles, std::size_t count) {
+  template <class P>
+  Ends(P const* particles, std::size_t count) {
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < count; ++i)
@@ -50,8 +53,8 @@ std::array<bool, 3> cuts(Ends<D> const& ends, std::size_t count, std::size_t lea
 
 }  // namespace
 
-template <int D>
-void Tree<D>::surround(TreeNode& node) const {
+template <class P>
+void Tree<P>::surround(TreeNode& node) const {
   Point const* const first = particles_.data() + node.begin;
   Ends<D> const ends(first, node.size());
   for (int a = 0; a < D; ++a) node.centre[a] = 0.5 * ends.low[a] + 0.5 * ends.high[a];
@@ -65,8 +68,8 @@ void Tree<D>::surround(TreeNode& node) const {
   node.radius = std::sqrt(furthest);
 }
 
-template <int D>
-void Tree<D>::split(std::size_t number, std::size_t leaf) {
+template <class P>
+void Tree<P>::split(std::size_t number, std::size_t leaf) {
   TreeNode node = nodes_[number];
   Point* const first = particles_.data() + node.begin;
   std::size_t const count = node.size();
@@ -105,8 +108,8 @@ void Tree<D>::split(std::size_t number, std::size_t leaf) {
   nodes_[number] = node;
 }
 
-template <int D>
-void Tree<D>::build(std::vector<Point> particles, std::size_t leaf, int threads) {
+template <class P>
+void Tree<P>::build(std::vector<Point> particles, std::size_t leaf, int threads) {
   particles_ = std::move(particles);
   other_.resize(particles_.size());
   other_numbers_.resize(particles_.size());
@@ -125,14 +128,16 @@ void Tree<D>::build(std::vector<Point> particles, std::size_t leaf, int threads)
   for (auto& node : nodes_) node.radius = std::max(node.radius, least);
 }
 
-template <int D>
-std::size_t Tree<D>::bytes() const {
+template <class P>
+std::size_t Tree<P>::bytes() const {
   return (particles_.capacity() + other_.capacity()) * sizeof(Point) +
          (numbers_.capacity() + other_numbers_.capacity()) * sizeof(std::uint32_t) +
          nodes_.capacity() * sizeof(TreeNode);
 }
 
-template class Tree<2>;
-template class Tree<3>;
+template class Tree<PointSource<2>>;
+template class Tree<PointSource<3>>;
+template class Tree<Inviscid<2>>;
+template class Tree<Inviscid<3>>;
 
 }  // namespace boltzmann

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <boltzmann/particles/rows.hpp>
-#include <boltzmann/schemes/mesh/point_source.hpp>
 
 #include <array>
 #include <cstddef>
@@ -23,10 +22,11 @@ struct TreeNode {
   bool leaf() const { return children == 0; }
 };
 
-template <int D>
+template <class P>
 class Tree {
  public:
-  using Point = Row<PointSource<D>>;
+  static constexpr int D = P::dimension;
+  using Point = Row<P>;
 
   /// Of these particles (finite positions), with at most so many in a leaf; more only at one place. The same tree for
   /// any number of threads.

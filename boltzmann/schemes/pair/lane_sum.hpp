@@ -41,6 +41,7 @@ class LaneSum {
     Real const zero = 0.0;
     if constexpr (pass != Pass::measure) {
       for (std::size_t c = 0; c < components; ++c) influence_[c] += select(valid, influence[c], zero);
+      if constexpr (pass == Pass::with_energy) energy_ += select(valid, result.energy, zero);
     } else {
       if constexpr (has_energy<typename One::Result>) energy_ += select(valid, result.energy, zero);
       if constexpr (std::is_same_v<typename One::Influence, Vector<D, Real>>) {
@@ -56,9 +57,11 @@ class LaneSum {
   [[gnu::always_inline]] void store(PairTask const& task, std::size_t first, std::size_t begin, std::size_t end,
                                     bool overwrite) const {
     std::size_t const from = begin > first ? begin : first, to = end < first + W ? end : first + W;
-    if constexpr (pass == Pass::measure) {
+    if constexpr (pass == Pass::measure || pass == Pass::with_energy) {
       auto const energy = as_array<double>(energy_);
       for (std::size_t i = from; i < to; ++i) task.energy[i] += 0.5 * energy[i - first];
+    }
+    if constexpr (pass == Pass::measure) {
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) {
           auto const virial = as_array<double>(virial_[a * D + b]);

@@ -35,7 +35,8 @@ template <class Real, class Struct>
   return std::bit_cast<std::array<Real, sizeof(Struct) / sizeof(Real)>>(s);
 }
 
-enum class Pass { influence, reversible, measure };
+/// with_energy: influence and energy in one sum.
+enum class Pass { influence, reversible, measure, with_energy };
 
 /// A law inside a loop: plain parameters are copied, so that they stay in registers; tables are referred to.
 template <class Law>

@@ -1,0 +1,62 @@
+// What acts by expansions: the strengths of charges and masses, and the vorticity of vortices. Private to this room.
+#pragma once
+
+#include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/particles/rows.hpp>
+#include <boltzmann/schemes/mesh/point_source.hpp>
+#include <boltzmann/schemes/multipole/multipole_kernels.hpp>
+
+#include <vector>
+
+namespace boltzmann {
+
+/// Strengths make a potential; what is felt is its field, on unit strength.
+template <int D>
+struct Charges {
+  static constexpr int dimension = D;
+  using Source = PointSource<D>;
+  using Law = LaplaceLaw;
+  static constexpr int densities = 1;  ///< expansions beside each other
+  static constexpr int width = D;      ///< numbers of what a particle feels
+  static constexpr bool potential = true;
+  static constexpr bool own_cores = false;  ///< each source is softened as it says, not all as the law does
+
+  static double constant(Law const& law) { return law.constant / (D == 3 ? 4 * pi : 2 * pi); }
+  static double amount(Source const& p, int /*density*/) { return p.amount; }
+  static double core(Law const& law, Source const&) { return law.softening; }
+  static Law without_softening(Law const& law, std::vector<Row<Source>>&) { return {law.constant}; }
+  static PairKernel near(MultipoleKernels const& kernels) { return kernels.near; }
+};
+
+/// Each component of vorticity makes a field E_k as charges do; the velocity is - sum_k E_k x e_k. What is felt is a
+/// velocity, in 3D also the stretching of vorticity (Inviscid). In 2D a core ends at its radius.
+template <int D>
+struct Vortices {
+  static constexpr int dimension = D;
+  using Source = Inviscid<D>;
+  using Law = BiotSavart;
+  static constexpr int densities = D == 3 ? 3 : 1;
+  static constexpr int width = D == 3 ? 6 : 2;
+  static constexpr bool potential = false;
+  static constexpr bool own_cores = true;
+
+  static double constant(Law const&) { return D == 3 ? 1 / (4 * pi) : 1 / (2 * pi); }
+  static double amount(Source const& p, int density) { return p.vorticity[density]; }
+  static double core(Law const&, Source const& p) { return p.core; }
+  static Law without_softening(Law const& law, std::vector<Row<Source>>& sources) {
+    for (auto& p : sources) p.core = 0;
+    return law;
+  }
+  static PairKernel near(MultipoleKernels const& kernels) { return kernels.near_vortices; }
+
+  /// The velocity of these fields.
+  static Vector<D> velocity(Vector<D> const (&field)[densities]) {
+    if constexpr (D == 2)
+      return {-field[0][1], field[0][0]};
+    else
+      return {field[1][2] - field[2][1], field[2][0] - field[0][2], field[0][1] - field[1][0]};
+  }
+};
+
+}  // namespace boltzmann
