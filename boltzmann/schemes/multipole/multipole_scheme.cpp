@@ -125,13 +125,15 @@ MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t>
 
 /// Of those that feel something.
 std::vector<std::size_t> MultipoleScheme::choose_samples() const {
+  std::size_t particles = 0;  // and no places
+  for (auto const& one : loaded_) particles += one.ensemble->size();
   std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < engine_->count(); ++i)
+  for (std::size_t i = 0; i < particles; ++i)
     if (engine_->feels(i)) all.push_back(i);
-  std::size_t const samples = sample_count(all.size(), engine_->count());
+  std::size_t const samples = sample_count(all.size(), particles);
   if (samples == all.size()) return all;
   std::vector<std::size_t> chosen;
-  Stream stream(0, 0, engine_->count(), Purpose::selection);
+  Stream stream(0, 0, particles, Purpose::selection);
   for (std::size_t k = 0; k < samples; ++k)
     chosen.push_back(all[static_cast<std::size_t>(stream.uniform() * static_cast<double>(all.size()))]);
   std::sort(chosen.begin(), chosen.end());
@@ -184,6 +186,8 @@ void MultipoleScheme::tune(bool with_potential) {
 MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, Truth const& truth) {
   int in_vain = 0;
   double last_measured = __builtin_inf();
+  double good = 0;          // a criterion that was enough
+  bool has_failed = false;  // and one that was not: in a crystal errors jump, and nothing is between
   for (int attempt = 0;; ++attempt) {
     engine_->choose({order, leaf(), criterion});
     engine_->calculate(truth.with_potential, threads());
@@ -191,8 +195,10 @@ MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, Truth con
     measured_ = error.mean;
     double const most = (error.largest < usual_largest ? most_even : most_uneven) * tolerance_ * truth.field;
     bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
-    if (everything_is_summed() || (enough && (!too_much || criterion >= most || attempt >= 12)))
+    if (everything_is_summed() || (enough && (!too_much || criterion >= most || has_failed || attempt >= 12)))
       return {order, criterion, engine_->work(), static_cast<double>(engine_->cost().pairs) / engine_->work()};
+    has_failed = has_failed || !enough;
+    if (enough) good = criterion;
     // More of expansions and pairs, and no better?
     in_vain = !enough && measured_ > 0.7 * last_measured ? in_vain + 1 : 0;
     last_measured = measured_;
@@ -202,7 +208,10 @@ MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, Truth con
                       "particles feel cancels to less than rounding allows",
                       tolerance_, measured_));
     double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
-    criterion = enough ? std::min(criterion * std::min(change, 20.0), most) : criterion * std::max(0.8 * change, 0.01);
+    if (enough)
+      criterion = std::min(criterion * std::min(change, 20.0), most);
+    else
+      criterion = good > 0 ? good : criterion * std::max(0.8 * change, 0.01);
   }
 }
 
