@@ -8,7 +8,7 @@ namespace boltzmann::detail {
 
 template <class P>
 SourceKind source_kind_of() {
-  if constexpr (ForcedParticle<P>)
+  if constexpr (FieldParticle<P>)
     return source_kind<P>();
   else
     return {};
