@@ -30,7 +30,8 @@ std::vector<double> shares(MeshGrid const& grid, int axis) {
 MeshField const& named(std::span<MeshField const* const> fields, std::string_view name) {
   for (auto const* field : fields)
     if (field->name == name) return *field;
-  throw Error(fields.empty() ? "there is no mesh in this simulation" : fmt::format("the mesh has no {}", name));
+  throw Error(fields.empty() ? "there is no mesh in this simulation"
+                             : fmt::format("the mesh has no {}, only {}", name, join(mesh_quantities(fields))));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace boltzmann {
@@ -31,22 +32,40 @@ class Loader {
   void load(AnyEnsemble& particles);
 
  private:
+  /// How many places a kind has itself (0: as many as there are particles), and how it fills them.
+  struct Way {
+    std::string_view kind;
+    double (Loader::*read)();
+    void (Loader::*load)(AnyEnsemble& particles);
+  };
+  static Way const& way_of(std::string_view kind);
+
   double read_block();
   void refuse_overlapping_ends(std::array<double, 3> const& lengths);
+  void load_block(AnyEnsemble& particles);
   void read_corners();
-  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
-  double read_fill();
   void read_where();
   bool is_wanted(double const* place);
+  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
+  double read_fill();
+  double read_random();
   void load_random(AnyEnsemble& particles);
+  void load_quiet(AnyEnsemble& particles);
+  double read_wave();
+  void load_sinusoidal(AnyEnsemble& particles);
+  void load_barometric(AnyEnsemble& particles);
+  void load_plummer(AnyEnsemble& particles);
   double read_positions();
+  void load_places(AnyEnsemble& particles);
   double read_file();
+  void load_file(AnyEnsemble& particles);
 
   Reading& reading_;
   ClassVariant const* variant_;
   Section section_;
   Place place_;
   LoadKind const* kind_ = nullptr;
+  Way const* way_ = nullptr;
   LoadOptions options_;
   std::size_t count_ = 0;
   LatticeBlock block_;

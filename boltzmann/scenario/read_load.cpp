@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace boltzmann {
@@ -72,6 +73,24 @@ VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
   return ripple;
 }
 
+/// What each kind reads besides its options, and how it puts particles in their places.
+Loader::Way const& Loader::way_of(std::string_view kind) {
+  static std::array const all{
+      Way{"block", &Loader::read_block, &Loader::load_block},
+      Way{"fill", &Loader::read_fill, &Loader::load_places},
+      Way{"random", &Loader::read_random, &Loader::load_random},
+      Way{"quiet", nullptr, &Loader::load_quiet},
+      Way{"sinusoidal", &Loader::read_wave, &Loader::load_sinusoidal},
+      Way{"barometric", nullptr, &Loader::load_barometric},
+      Way{"plummer-sphere", nullptr, &Loader::load_plummer},
+      Way{"positions", &Loader::read_positions, &Loader::load_places},
+      Way{"file", &Loader::read_file, &Loader::load_file},
+  };
+  auto const found = std::find_if(all.begin(), all.end(), [&](Way const& way) { return way.kind == kind; });
+  if (found == all.end()) throw std::logic_error(fmt::format("nothing loads '{}'", kind));
+  return *found;
+}
+
 bool Loader::read(std::optional<std::size_t> number, Place const& number_place) {
   std::size_t const before = reading_.context.mistakes.count();
   Item const* word = section_.need("kind", "kind = \"block\"");
@@ -86,13 +105,8 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   read_options(section_, kind_->options, &options_, {.dimension = reading_.dimension});
   block_.kind = options_.lattice;
   block_.spacing = options_.spacing;
-  double own_count = 0;  // from what is loaded
-  if (*name == "block") own_count = read_block();
-  if (*name == "fill") own_count = read_fill();
-  if (*name == "random") read_corners(), read_where();
-  if (*name == "sinusoidal") wave_ = wave_of(options_, section_, reading_);
-  if (*name == "positions") own_count = read_positions();
-  if (*name == "file") own_count = read_file();
+  way_ = &way_of(*name);
+  double own_count = way_->read ? (this->*way_->read)() : 0;
   section_.finish();
   if (reading_.context.mistakes.count() != before) return false;
   if (kind_->counted) {
@@ -108,52 +122,62 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
     return false;
   }
   if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
-  if (*name == "fill" && own_count == 0) {
-    if (reading_.box) reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
-    return false;
-  }
   count_ = static_cast<std::size_t>(own_count);
   return count_ > 0;
 }
 
 void Loader::load(AnyEnsemble& particles) {
-  std::uint64_t const seed = reading_.run.seed;
-  std::string const& kind = kind_->name;
-  if (kind == "block") {
-    refuse_overlapping_ends(repeat_lengths(block_, particles.dimension()));
-    block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
-  } else if (kind == "random") {
-    load_random(particles);
-  } else if (kind == "quiet") {
-    quiet_load(particles, *reading_.box);
-  } else if (kind == "sinusoidal" && options_.quiet) {
+  (this->*way_->load)(particles);
+  if (options_.jitter > 0) jitter(particles, {.most = options_.jitter * block_.spacing, .seed = reading_.run.seed});
+}
+
+void Loader::load_block(AnyEnsemble& particles) {
+  refuse_overlapping_ends(repeat_lengths(block_, particles.dimension()));
+  block_load(particles, centred_ ? centred(block_, *reading_.box) : block_);
+}
+
+void Loader::load_quiet(AnyEnsemble& particles) { quiet_load(particles, *reading_.box); }
+
+double Loader::read_wave() {
+  wave_ = wave_of(options_, section_, reading_);
+  return 0;
+}
+
+void Loader::load_sinusoidal(AnyEnsemble& particles) {
+  if (options_.quiet)
     quiet_load(particles, *reading_.box, {.wave = wave_, .amplitude = options_.amplitude});
-  } else if (kind == "sinusoidal") {
-    sinusoidal_load(particles, *reading_.box, {.wave = wave_, .amplitude = options_.amplitude, .seed = seed});
-  } else if (kind == "barometric") {
-    barometric_load(particles, *reading_.box,
-                    {.temperature = options_.temperature,
-                     .gravity = options_.acceleration,
-                     .boltzmann_constant = reading_.boltzmann_constant(),
-                     .seed = seed});
-  } else if (kind == "plummer-sphere") {
-    std::array<double, 3> const none{0, 0, 0};
-    double const newton = reading_.context.base.is_reduced() ? 1 : reading_.context.base(constants::gravitation);
-    plummer_load(particles, {.mass = options_.mass,
-                             .radius = options_.radius,
-                             .G = options_.G.value_or(newton),
-                             .centre = options_.centre.value_or(none),
-                             .drift = options_.drift.value_or(none),
-                             .seed = seed});
-  } else if (kind == "positions" || kind == "fill") {
-    for (std::size_t i = 0; i < count_; ++i)
-      std::copy_n(positions_.data() + i * static_cast<std::size_t>(particles.dimension()), particles.dimension(),
-                  particles.row(i));
-  } else {
-    xyz_load(particles, frame_,
-             {.species = options_.species, .length = options_.length, .velocity = options_.velocity});
-  }
-  if (options_.jitter > 0) jitter(particles, {.most = options_.jitter * block_.spacing, .seed = seed});
+  else
+    sinusoidal_load(particles, *reading_.box,
+                    {.wave = wave_, .amplitude = options_.amplitude, .seed = reading_.run.seed});
+}
+
+void Loader::load_barometric(AnyEnsemble& particles) {
+  barometric_load(particles, *reading_.box,
+                  {.temperature = options_.temperature,
+                   .gravity = options_.acceleration,
+                   .boltzmann_constant = reading_.boltzmann_constant(),
+                   .seed = reading_.run.seed});
+}
+
+void Loader::load_plummer(AnyEnsemble& particles) {
+  std::array<double, 3> const none{0, 0, 0};
+  double const newton = reading_.context.base.is_reduced() ? 1 : reading_.context.base(constants::gravitation);
+  plummer_load(particles, {.mass = options_.mass,
+                           .radius = options_.radius,
+                           .G = options_.G.value_or(newton),
+                           .centre = options_.centre.value_or(none),
+                           .drift = options_.drift.value_or(none),
+                           .seed = reading_.run.seed});
+}
+
+/// Of `fill` and `positions`.
+void Loader::load_places(AnyEnsemble& particles) {
+  auto const dimension = static_cast<std::size_t>(particles.dimension());
+  for (std::size_t i = 0; i < count_; ++i) std::copy_n(positions_.data() + i * dimension, dimension, particles.row(i));
+}
+
+void Loader::load_file(AnyEnsemble& particles) {
+  xyz_load(particles, frame_, {.species = options_.species, .length = options_.length, .velocity = options_.velocity});
 }
 
 double Loader::read_block() {
@@ -241,6 +265,12 @@ void Loader::read_where() {
 
 bool Loader::is_wanted(double const* place) { return !where_ || names_->evaluate(*where_, place) != 0; }
 
+double Loader::read_random() {
+  read_corners();
+  read_where();
+  return 0;
+}
+
 void Loader::load_random(AnyEnsemble& particles) {
   Box const& box = *reading_.box;
   std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
@@ -275,6 +305,8 @@ double Loader::read_fill() {
       ++count;
     }
   });
+  if (count == 0 && reading_.context.mistakes.count() == before)
+    reading_.mistake(section_.place("where"), "where: no place is left; the formula is 0 everywhere");
   return count;
 }
 

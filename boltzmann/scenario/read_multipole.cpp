@@ -5,6 +5,8 @@
 #include <boltzmann/schemes/multipole/multipole_options.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 
+#include <memory>
+
 namespace boltzmann {
 namespace {
 
@@ -29,13 +31,14 @@ void read_multipole(Item const& table, Reading& reading) {
   read_options(section, keys_but_of_the_law(multipole_options()), &options, {.dimension = reading.dimension});
   Item const* grid = section.find("grid");
   auto const cells = grid ? read_cells(*grid, "grid", reading) : std::nullopt;
+  Place const place_of_background = section.has("background") ? section.place("background") : table.place;
   section.finish();
   if (!(law || vortices) || !reading.box || reading.context.mistakes.count() != before) return;
   catch_errors(reading, table.place, [&] {
     auto scheme = vortices ? std::make_unique<MultipoleScheme>(*reading.box, BiotSavart{}, options.tolerance)
                            : std::make_unique<MultipoleScheme>(*reading.box, *law, options.tolerance);
-    scheme->background(options.background);
     if (cells) scheme->grid(*cells);
+    catch_errors(reading, place_of_background, [&] { scheme->background(options.background); });
     reading.result->schemes.push_back(std::move(scheme));
   });
 }

@@ -224,6 +224,7 @@ void Section::explain_word(std::string key, std::string_view doc, std::vector<st
 void Section::refuse(std::string_view key, std::string const& what) {
   if (Item const* found = item(key)) mistake(found->place, about(key, what));
   refused_.emplace_back(key);
+  known_.emplace_back(key);
 }
 
 void Section::finish() {

@@ -17,7 +17,7 @@
 namespace boltzmann {
 
 /// [run]; its step, its length and what ends it are read by code. A new key is a member, a row of the table, and its
-/// use in read_run() (read_space.cpp).
+/// use in read_run() (read_box_and_run.cpp).
 struct RunOptions {
   std::int64_t seed = 1;
   int threads = 0;
@@ -67,7 +67,7 @@ struct OutputOptions {
 };
 OptionTable const& output_options();
 
-/// [box] and [[influences]], which are read by code of their own (box and run: read_space.cpp); beside these keys,
+/// [box] and [[influences]], which are read by code of their own (box and run: read_box_and_run.cpp); beside these keys,
 /// influences have parameters.
 OptionTable const& box_options();
 OptionTable const& influence_options();

@@ -1,11 +1,11 @@
 // The run's own thread does everything here: it steps, and between two steps it looks whether anybody wants something.
-#include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/window/address_file.hpp>
+#include <boltzmann/window/frame_pace.hpp>
 #include <boltzmann/window/live_run.hpp>
+#include <boltzmann/window/run_start.hpp>
 
 #include <fmt/format.h>
 
@@ -20,10 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double frames_per_second = 61;   // so that 60 come, whenever steps end
-constexpr double share_of_time = 0.035;    // that drawing may take from a run at full speed
-constexpr double min_run_seconds = 10;     // seconds that a run takes at least, unless told otherwise
-constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept for REWD
+constexpr double usual_frames = 610;  // of a run, unless told otherwise: some ten seconds
 
 enum class Command { pause, play, rewind };
 
@@ -35,7 +32,8 @@ struct LiveRun::State {
         clients(the_clients),
         recording(the_recording),
         simulation(the_views.simulation()),
-        options(std::move(the_options)) {}
+        options(std::move(the_options)),
+        pace(the_clients) {}
 
   Views& views;
   Clients& clients;
@@ -51,158 +49,49 @@ struct LiveRun::State {
   bool quit = false;
   std::optional<std::int64_t> goal, bound_for;  // where STEP goes, and where the present run() goes for it
   std::int64_t first = 0, target = 0, planned = 0;
-  std::int64_t steps_per_frame = 0;
   std::optional<double> new_step_size;
+  FramePace pace;
+  RunStart start;
 
   std::uint64_t scene = 1, notice = 1;
   std::string message;
   std::exception_ptr failure;
   json missed;
   ShownTable table;
-
-  // The pace.
-  std::int64_t decided_step = std::numeric_limits<std::int64_t>::min();  // the step that `due` is about
-  bool due = false;
-  std::int64_t since_frame = 0;                                  // steps
-  std::int64_t steps_since_clock = 0, steps_between_clocks = 1;  // steps without a look at the clock
-  Clock::time_point next_frame{}, next_affordable{}, begun_frame{}, last_look{};
-  // The speed.
-  Clock::time_point counted_since{};
-  std::int64_t counted_from = 0;
-  double steps_per_second = 0;
-  // The start.
-  std::vector<Checkpoint::Rows> start;
-  bool start_kept = false;
   bool told_of_end = false;  // that a condition of the recording has ended the run
 
-  // Called after every step, often more than once; what it says of a step holds until the next one.
-  bool look(std::int64_t step) {
-    if (!here || !inside) return false;
-    if (step == decided_step) return due;
-    decided_step = step;
-    due = decide(step);
-    if (due) begun_frame = Clock::now();
-    return due;
-  }
+  // STEP goes as fast as it can.
+  bool hurried() const { return goal.has_value(); }
+  bool wants_start(std::int64_t step) const { return !start.kept() && step == first; }
 
-  bool decide(std::int64_t step) {
-    if (!start_kept && step == first) return true;
-    ++since_frame;
-    if (clients.calls()) return true;
-    if (paced()) return since_frame >= steps_per_frame;
-    if (!clients.ready()) return false;
-    // The clock is read some thousand times a second, not after every step.
-    if (++steps_since_clock < steps_between_clocks) return false;
-    auto const now = Clock::now();
-    double const took = seconds_between(last_look, now);
-    steps_between_clocks = took > 1e-3 ? std::max<std::int64_t>(steps_between_clocks / 2, 1)
-                                       : std::min<std::int64_t>(2 * steps_between_clocks, 1 << 20);
-    last_look = now;
-    steps_since_clock = 0;
-    return now >= next_frame;
-  }
+  // Called after every step, often more than once.
+  bool look(std::int64_t step) { return here && inside && pace.due(step, wants_start(step), hurried()); }
 
   // A finished step that somebody looks at.
   void observe() {
-    keep_start();
+    if (wants_start(simulation.step())) start.keep(simulation);
     ++scene;
-    count();
+    pace.count(simulation.step());
     clients.handle_requests();
-    if (paced())
-      keep_pace();
-    else if (clients.send_updates())
-      // Steps don't end when a frame is due: what one comes late, the next one comes early.
-      next_frame = std::max({afford(), next_frame + period(), begun_frame + period() / 2});
+    pace.draw(hurried(), [&] { return turned() || simulation.stopped(); });
     if (turned()) simulation.pause();
   }
-
-  // STEP goes as fast as it can.
-  bool paced() const { return steps_per_frame > 0 && !goal && clients.watched(); }
-
-  // The pace that was asked for, whether or not a browser keeps up with it. Where steps alone take longer than that,
-  // drawing is held to its share of the time.
-  void keep_pace() {
-    bool const late = begun_frame > next_frame + period();
-    if (!late || begun_frame >= next_affordable)
-      if (clients.send_updates()) afford();
-    if (since_frame < steps_per_frame) return;
-    since_frame = 0;
-    for (auto now = Clock::now(); now < next_frame && !turned() && !simulation.stopped(); now = Clock::now()) {
-      clients.wait(std::min(seconds_between(now, next_frame), 0.1));
-      clients.handle_requests();
-      clients.send_updates();
-    }
-    next_frame = std::max(next_frame, Clock::now() - period()) + period();
-  }
-
-  // When the next drawing fits into its share of the time, after one that has just been done.
-  Clock::time_point afford() {
-    auto const now = Clock::now();
-    double const cost = seconds_between(begun_frame, now) * (1 / share_of_time - 1);
-    next_affordable = now + clock_time(cost);
-    return next_affordable;
-  }
-
-  static Clock::duration period() { return clock_time(1 / frames_per_second); }
 
   Command doing = Command::pause;  // what the present run() of the simulation does
   bool turned() const { return quit || command != doing || goal != bound_for || new_step_size.has_value(); }
 
-  void count() {
-    auto const now = Clock::now();
-    double const passed = seconds_between(counted_since, now);
-    if (passed < 0.5) return;
-    steps_per_second = static_cast<double>(std::abs(simulation.step() - counted_from)) / passed;
-    counted_since = now;
-    counted_from = simulation.step();
-  }
-
-  void keep_start() {
-    if (start_kept || simulation.step() != first) return;
-    start_kept = true;
-    std::size_t number = 0;
-    for (auto const* ensemble : simulation.ensembles()) number += ensemble->size();
-    if (!no_rewind().empty() || number > too_many) return;
-    for (auto const* ensemble : simulation.ensembles()) start.push_back(copy_rows(*ensemble));
-  }
-
-  std::string no_rewind() const {
-    if (!simulation.dissipations().empty()) return "friction and noise can't be run backwards";
-    if (!simulation.adaptations().empty()) return "particles come and go between steps, which can't be run backwards";
-    return "";
-  }
-
   // REWD has come back to where the run began.
   void compare_with_start() {
-    if (start.empty()) return;
-    double position = 0, velocity = 0;
-    for (std::size_t e = 0; e < start.size(); ++e) {
-      AnyEnsemble const& ensemble = *simulation.ensembles()[e];
-      Field const* const field = ensemble.find_field("velocity");
-      Box const& box = simulation.schemes().front()->box();
-      if (ensemble.size() != start[e].size) return;
-      for (std::size_t i = 0; i < ensemble.size(); ++i) {
-        double const* const now = ensemble.row(i);
-        double const* const then = start[e].rows.data() + i * start[e].stride;
-        double way2 = 0, change2 = 0;
-        for (int a = 0; a < ensemble.dimension(); ++a) {
-          double way = now[a] - then[a];
-          if (a < box.dimension() && box.periodic(a)) way -= box.length(a) * std::round(way / box.length(a));
-          way2 += way * way;
-          if (field) change2 += std::pow(now[field->offset + a] - then[field->offset + a], 2);
-        }
-        position = std::max(position, std::sqrt(way2));
-        velocity = std::max(velocity, std::sqrt(change2));
-      }
-    }
-    bool const exact = position == 0 && velocity == 0;
+    auto const most = start.missed(simulation);
+    if (!most) return;
+    bool const exact = most->position == 0 && most->velocity == 0;
     missed = {
-        {"position", position},
-        {"velocity", velocity},
+        {"position", most->position},
+        {"velocity", most->velocity},
         {"text", exact ? std::string("back at the start, exactly")
                        : fmt::format("back at the start, which is missed by up to {} in position and {} in velocity",
-                                     views.quantity(position, dimensions::length),
-                                     views.quantity(velocity, dimensions::velocity))}};
+                                     views.quantity(most->position, dimensions::length),
+                                     views.quantity(most->velocity, dimensions::velocity))}};
     ++notice;
   }
 
@@ -221,10 +110,7 @@ struct LiveRun::State {
     doing = command;
     bound_for = goal;
     begun = true;
-    counted_since = last_look = next_frame = Clock::now();
-    counted_from = simulation.step();
-    decided_step = std::numeric_limits<std::int64_t>::min();
-    since_frame = 0;
+    pace.start(simulation.step());
     inside = true;
     struct Outside {
       bool& inside;
@@ -274,7 +160,7 @@ struct LiveRun::State {
   }
 
   void arrive() {
-    if (simulation.step() == first && start_kept) compare_with_start();
+    if (simulation.step() == first && start.kept()) compare_with_start();
   }
 
   std::string state_word() const {
@@ -307,7 +193,7 @@ struct LiveRun::State {
       double const steps = number_or(request, "steps_per_frame", 0);
       if (!(steps >= 0) || steps > 1e9 || steps != std::floor(steps))
         throw Error("steps_per_frame is a whole number from 0 (full speed) on");
-      steps_per_frame = static_cast<std::int64_t>(steps);
+      pace.steps_per_frame(static_cast<std::int64_t>(steps));
     }
     if (!request.contains("step_size") && !request.contains("steps_per_frame"))
       throw Error("what can be set is step_size and steps_per_frame");
@@ -341,12 +227,11 @@ void LiveRun::run(std::uint64_t steps) {
   state.first = state.simulation.step();
   state.planned = static_cast<std::int64_t>(steps);
   state.target = state.first + state.planned;
-  state.steps_per_frame =
+  state.pace.steps_per_frame(
       state.options.steps_per_frame >= 0 ? state.options.steps_per_frame
       : state.options.play
           ? 0
-          : std::max<std::int64_t>(
-                1, static_cast<std::int64_t>(static_cast<double>(steps) / (min_run_seconds * frames_per_second)));
+          : std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(steps) / usual_frames)));
   if (state.options.play) state.command = Command::play;
   state.clients.open(*this);
   while (!state.over()) {
@@ -396,9 +281,9 @@ json LiveRun::hello() const {
   result["name"] = state.options.name;
   result["description"] = state.options.description;
   result["planned"] = state.target;
-  result["steps_per_frame"] = state.steps_per_frame;
+  result["steps_per_frame"] = state.pace.steps_per_frame();
   result["can"] = {
-      {"rewind", state.no_rewind()},
+      {"rewind", no_rewind(state.simulation)},
       {"step_size", ""},
       {"checkpoint", state.recording ? "" : "this run is not recorded, so it has no folder for a checkpoint"},
       {"seek", "a run that goes on has no frames to go to; bzm window DIR replays a stored one"},
@@ -414,8 +299,8 @@ json LiveRun::status() const {
           {"time", state.views.quantity(state.simulation.time(), dimensions::time)},
           {"time_number", state.simulation.time()},
           {"planned", state.target},
-          {"steps_per_second", moving ? state.steps_per_second : 0.0},
-          {"steps_per_frame", state.steps_per_frame},
+          {"steps_per_second", moving ? state.pace.steps_per_second() : 0.0},
+          {"steps_per_frame", state.pace.steps_per_frame()},
           {"step_size_number", state.simulation.step_size()},
           {"step_size", state.views.quantity(state.simulation.step_size(), dimensions::time)},
           {"message", state.message},
@@ -445,7 +330,7 @@ json LiveRun::perform(json const& request) {
   if (what == "step" && (count == 0 || count != std::floor(count) || std::abs(count) > 1e9))
     throw Error("step does a whole number of steps other than 0");
   bool const back = what == "rewind" || count < 0;
-  if (back && !state.no_rewind().empty()) throw Error(state.no_rewind());
+  if (back && !no_rewind(state.simulation).empty()) throw Error(no_rewind(state.simulation));
   if (back && state.simulation.step() <= state.first) throw Error("this is where the run began");
   if (moves && !state.message.empty()) state.tell("");
   if (what == "play") {

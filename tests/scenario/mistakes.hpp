@@ -1,6 +1,7 @@
-// How mistakes in scenarios are tried: tables of what users get wrong, and what they are told.
+// How mistakes in scenarios are tried: tables of what users get wrong, and what they are told. How ensembles are found.
 #pragma once
 
+#include <boltzmann/core/error.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 
 #include <gtest/gtest.h>
@@ -34,6 +35,12 @@ inline std::string replaced(std::string text, std::string const& old, std::strin
   auto const at = text.find(old);
   if (at == std::string::npos) throw std::logic_error("the test's scenario has no '" + old + "'");
   return text.replace(at, old.size(), now);
+}
+
+inline AnyEnsemble& ensemble(ScenarioSimulation const& run, std::string const& name) {
+  for (auto const& one : run.ensembles)
+    if (one->name() == name) return *one;
+  throw Error("the test has no ensemble '" + name + "'");
 }
 
 inline std::vector<std::string> mistakes_of(std::string const& text, Overrides const& overrides = {}) {

@@ -14,18 +14,13 @@
 namespace boltzmann::schemes_test {
 namespace {
 
+using test::ensemble;
 using test::expect_one_line;
 using test::Mistake;
 using test::mistake_name;
 using test::replaced;
 
 std::unique_ptr<ScenarioSimulation> read(std::string const& text) { return parse_scenario(text, "star.toml"); }
-
-AnyEnsemble& ensemble(ScenarioSimulation const& run, std::string const& name) {
-  for (auto const& one : run.ensembles)
-    if (one->name() == name) return *one;
-  throw Error("the test has no ensemble '" + name + "'");
-}
 
 std::string vector_of(int dimension, std::string const& one) {
   std::string text = one;
@@ -348,34 +343,6 @@ Mistake const rows[] = {
      lump(2, "open", replaced(smooth, "\"wendland\"\n", "\"wendland\"\nskin = 1e6\n")),
      "12:8",
      {"the skin "}},
-    {"a tolerance of nothing",
-     lump(2, "open", "[multipole]\nlaw = \"gravity\"\nG = 1\ntolerance = 0\n", "Kepler"),
-     "13:13",
-     {"tolerance: 0", "between 1e-10 and 0.1"}},
-    {"stars alone in a periodic box",
-     lump(2, "periodic", "[multipole]\nlaw = \"gravity\"\nG = 1\n", "Kepler"),
-     "10:1",
-     {"the strengths sum to 1.04", "background = true"}},
-    {"multipoles between mirrors",
-     lump(2, "mirror", "[multipole]\nlaw = \"gravity\"\nG = 1\n", "Kepler"),
-     "10:1",
-     {"axis x is mirror", "a mesh has them"}},
-    {"a grid of multipoles for one axis",
-     lump(2, "open", "[multipole]\nlaw = \"gravity\"\nG = 1\ngrid = [4]\n", "Kepler"),
-     "13:8",
-     {"grid: 1 number for 2 axes"}},
-    {"test particles that are not there",
-     lump(2, "open", "[multipole]\nlaw = \"gravity\"\nG = 1\ntest_particles = \"gass\"\n", "Kepler"),
-     "13:18",
-     {"test_particles: there is no ensemble 'gass'", "did you mean 'gas'"}},
-    {"multipoles without a source",
-     lump(2, "open", "[multipole]\nlaw = \"coulomb\"\nk = 1\n", "Kepler"),
-     "10:1",
-     {"[multipole]: no ensemble makes a field", "Coulomb"}},
-    {"a softening below zero",
-     lump(2, "open", "[multipole]\nlaw = \"gravity\"\nG = 1\nsoftening = -1\n", "Kepler"),
-     "13:13",
-     {"softening", "zero or more"}},
     {"rezoned dust",
      replaced(lump(2, "open", smooth), "\"wendland\"\n",
               "\"wendland\"\nrezone = { every = 5, on = \"dust\", split_above = 2, smallest_mass = 0.001 }\n") +

@@ -242,6 +242,26 @@ TEST(VorticesByMultipoles, MoveAsPairsDo) {
   EXPECT_LT(magnitude(centre() - before), 1e-9 * scale);
 }
 
+// Places whose flow is asked for are no samples of the error: so many of them that samples would hardly be vortices.
+TEST(VorticesByMultipoles, KeepTheirToleranceAtManyPlaces) {
+  Ensemble<Vortex<2>> vortices("vortices", 3000);
+  fill(vortices, Shape::clusters, Cores::equal, 17);
+  MultipoleScheme scheme(wide<2>(), BiotSavart{}, 1e-4);
+  scheme.add(vortices);
+  std::vector<Vector<2>> places;
+  for (int i = 0; i < 60'000; ++i) places.push_back({4 + 1e-3 * (i % 250), 5 + 1e-3 * (i / 250)});
+  auto const found = scheme.velocity_at(places);
+  double errors = 0, squares = 0;
+  for (std::size_t k = 0; k < places.size(); k += 601) {
+    Vortex<2> here{};
+    here.position = places[k];
+    Vector<2> exact{};
+    for (auto const& p : vortices) exact += BiotSavart{}(here, p);
+    errors += norm2(found[k] - exact), squares += norm2(exact);
+  }
+  EXPECT_LT(std::sqrt(errors / squares), 1e-4);
+}
+
 TEST(VorticesByMultipoles, RefuseWhatTheyCantDo) {
   MultipoleScheme flow(wide<3>(), BiotSavart{}, 1e-3), field(wide<3>(), coulomb(1), 1e-3);
   Ensemble<Coulomb<3>> charges("charges", 3);

@@ -36,7 +36,8 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
       }
       at += count;
     }
-    if (this->periodic() && !background && std::abs(sum.value()) > 1e-9 * all.value()) refuse_sum(sum.value());
+    if (this->periodic() && !background && std::abs(sum.value()) > 1e-9 * all.value())
+      refuse_sum(sum.value(), use_background);
     this->collect_points(loaded, threads,
                          [&](LoadedSources const& one, std::size_t, std::size_t k, typename Base::Point& point) {
                            point.amount = one.acts ? strengths_[k] : 0;

@@ -45,8 +45,12 @@ class MultipoleEngine {
 
   virtual void choose(MultipoleChoice const& choice) = 0;
   virtual void calculate(bool with_potential, int threads) = 0;
+  /// Whether calculations note how near particles come to what acts on them: see MultipoleField.
+  virtual void watch(bool yes) = 0;
+  virtual std::vector<float> const& nearness() const = 0;
   /// What these particles feel by direct sums, to this part of it.
   virtual std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const = 0;
+  virtual std::size_t dimension() const = 0;
   virtual std::size_t width() const = 0;  ///< numbers that a particle feels
   /// What they feel: a field or a velocity, and possibly more.
   virtual std::vector<double> const& field() const = 0;
@@ -78,13 +82,15 @@ class MultipoleEngine {
 std::unique_ptr<MultipoleEngine> multipole_engine(LaplaceLaw const& law, Box const& box);
 std::unique_ptr<MultipoleEngine> multipole_engine(BiotSavart const& law, Box const& box);
 
-/// Error that names what all strengths sum to, unless a box without open ends bears it.
-inline void refuse_sum(double total) {
-  throw Error(fmt::format(
-      "multipoles: the strengths sum to {:.6g}, and a periodic box has no field unless they cancel; add particles of "
-      "the other sign, or a uniform background: background(true), in scenarios background = true",
-      total));
+/// Error that names what all strengths sum to, and what helps.
+inline void refuse_sum(double total, char const* help) {
+  throw Error(
+      fmt::format("multipoles: the strengths sum to {:.6g}, and a periodic box has no field unless they cancel; "
+                  "{}",
+                  total, help));
 }
+constexpr char const* use_background =
+    "add particles of the other sign, or a uniform background: background(true), in scenarios background = true";
 
 /// What all laws have in common.
 template <class Kind>
@@ -112,9 +118,12 @@ class EngineOf : public MultipoleEngine {
   std::size_t count() const final { return points_.size(); }
   void choose(MultipoleChoice const& choice) final { multipoles_.choose(choice); }
   void calculate(bool with_potential, int threads) final { multipoles_.calculate(points_, with_potential, threads); }
+  void watch(bool yes) final { multipoles_.watch(yes); }
+  std::vector<float> const& nearness() const final { return multipoles_.nearness(); }
   std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const final {
     return multipoles_.direct(points_, particles, error, threads);
   }
+  std::size_t dimension() const final { return D; }
   std::size_t width() const final { return Kind::width; }
   std::vector<double> const& field() const final { return multipoles_.field(); }
   std::vector<double> const& potential() const final { return multipoles_.potential(); }

@@ -1,5 +1,4 @@
 // Moments up, meetings, local expansions down.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/multipole/curl.hpp>
@@ -16,7 +15,6 @@ namespace {
 
 constexpr std::size_t node_grain = 32;
 constexpr std::size_t parallel_visits = 64;
-constexpr double nearest = 1.1;  // of what an expansion's radius is: nearer, it hardly converges
 
 MultipoleKernels kernels_for(int dimension) {
   return for_instruction_set([&](auto set) { return multipole_kernels<decltype(set)::value>().of[dimension - 2]; });
@@ -39,6 +37,12 @@ Vector<D> between(std::array<double, 3> const& from, std::array<double, 3> const
   Vector<D> r;
   for (int a = 0; a < D; ++a) r[a] = to[a] - from[a];
   return r;
+}
+
+double distance2(std::array<double, 3> const& a, double const* b, int dimension) {
+  double square = 0;
+  for (int i = 0; i < dimension; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+  return square;
 }
 
 template <int D>
@@ -79,7 +83,7 @@ struct MultipoleField<Kind>::Workspace {
 
 template <class Kind>
 MultipoleField<Kind>::MultipoleField(Law const& law, ImageLattice const& lattice)
-    : law_(law), lattice_(lattice), kernels_(kernels_for(D)), tables_(D, choice_.order) {
+    : law_(law), lattice_(lattice), kernels_(kernels_for(D)), tables_(D, choice_.order), acceptance_(law) {
   choose(choice_);
 }
 
@@ -91,22 +95,25 @@ void MultipoleField<Kind>::choose(MultipoleChoice const& choice) {
   pairs_of_an_evaluation_ = pairs_of_an_evaluation(D, choice.order);
 }
 
+template <class Kind>
+typename MultipoleField<Kind>::Cluster MultipoleField<Kind>::particles_of(TreeNode const& node) const {
+  return {tree_.particles().data() + node.begin, node.size(), node.centre, node.radius};
+}
+
 /// Places and amounts, where expansions read them.
 template <class Kind>
-NodeParticles MultipoleField<Kind>::particles_of(TreeNode const& node, int density,
-                                                 std::vector<PlacedAmount>& copy) const {
-  NodeParticles particles{nullptr, node.size(), {}, node.radius};
-  std::copy_n(node.centre.begin(), 3, particles.centre);
-  Point const* const first = tree_.particles().data() + node.begin;
+NodeParticles MultipoleField<Kind>::amounts_of(Cluster const& target, int density, std::vector<PlacedAmount>& copy) {
+  NodeParticles amounts{nullptr, target.count, {}, target.radius};
+  std::copy_n(target.centre.begin(), 3, amounts.centre);
   if constexpr (std::is_same_v<Point, PlacedAmount>) {
-    particles.rows = &first->position[0];
+    amounts.rows = &target.particles->position[0];
   } else {
-    copy.resize(node.size());
-    for (std::size_t i = 0; i < node.size(); ++i)
-      copy[i].position = first[i].position, copy[i].amount = Kind::amount(first[i], density);
-    particles.rows = &copy.front().position[0];
+    copy.resize(target.count);
+    for (std::size_t i = 0; i < target.count; ++i)
+      copy[i].position = target.particles[i].position, copy[i].amount = Kind::amount(target.particles[i], density);
+    amounts.rows = &copy.front().position[0];
   }
-  return particles;
+  return amounts;
 }
 
 template <class Kind>
@@ -117,7 +124,7 @@ void MultipoleField<Kind>::gather(std::size_t number) {
   if (node.leaf()) {
     std::vector<PlacedAmount> copy;
     for (int k = 0; k < Kind::densities; ++k)
-      kernels_.moments(tables_.view(), particles_of(node, k, copy), own + k * tables_.size());
+      kernels_.moments(tables_.view(), amounts_of(particles_of(node), k, copy), own + k * tables_.size());
   } else {
     std::array<Shifted, 8> children;
     for (std::size_t c = 0; c < node.children; ++c) {
@@ -131,89 +138,14 @@ void MultipoleField<Kind>::gather(std::size_t number) {
       for (std::size_t c = 0; c < node.children; ++c) children[c].numbers += tables_.size();
     }
   }
-  if constexpr (Kind::own_cores) cores_[number] = cores(number);
-  limit(number);
-}
-
-/// From those of the children, or of the particles.
-template <class Kind>
-typename MultipoleField<Kind>::Cores MultipoleField<Kind>::cores(std::size_t number) const {
-  TreeNode const& node = tree_.nodes()[number];
-  Cores all;
-  all.least = __builtin_inf();
-  auto const add = [&](Cores const& part) {
-    all.least = std::min(all.least, part.least);
-    all.most = std::max(all.most, part.most);
-    all.sum += part.sum, all.weight += part.weight;
-  };
-  for (std::size_t c = 0; c < node.children; ++c) add(cores_[node.child + c]);
-  for (std::size_t i = node.begin; node.leaf() && i < node.end; ++i) {
-    Point const& p = tree_.particles()[i];
-    double const square = Kind::core(law_, p) * Kind::core(law_, p);
-    double weight = 0;
-    for (int k = 0; k < Kind::densities; ++k) weight += std::abs(Kind::amount(p, k));
-    if (weight > 0) add({square, square, weight * square, weight});
-  }
-  return all;
-}
-
-/// With P_n the power of the moments of order n, a the radius, p the order, and e the error that is allowed, the first
-/// order that is cut off from the moments makes less than e further than
-///   D = a ((p + 2) P_p / (e a^2))^(1/(p+3))   in 3D (2D: a (P_p / (e a))^(1/(p+2)))
-/// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
-///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
-/// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
-/// power 1), which margin() a allows for. What two terms of a softening's series are off by is less than e beyond
-///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)),
-/// and what one eps for all of a node is off by, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4).
-template <class Kind>
-void MultipoleField<Kind>::limit(std::size_t number) {
-  double const a = tree_.nodes()[number].radius;
-  int const p = choice_.order;
-  double largest = 0, last = 0;
-  for (int n = 0; n <= p; ++n) {
-    double power = 0;
-    for (int density = 0; density < Kind::densities; ++density) {
-      double const* const m = moments(number) + density * tables_.size();
-      if constexpr (D == 3)
-        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
-      else
-        power += (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
-    }
-    power = std::sqrt(power);
-    largest = std::max(largest, power);
-    if (n + 1 >= p) last = std::max(last, power);
-  }
-  double const e = choice_.error;
-  Limits& limits = limits_[number] = {};
-  double soft = 0;
-  if constexpr (!Kind::own_cores) {
-    soft = law_.softening * law_.softening;
-  } else if constexpr (D == 2) {
-    limits.core = std::sqrt(cores_[number].most);
-  } else {
-    soft = cores_[number].mean();
-    limits.spread = std::pow(1.5 * std::max(0.0, cores_[number].most - cores_[number].least) * largest / e, 0.25);
-  }
-  if constexpr (D == 3) {
-    limits.source = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
-    limits.size = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
-    limits.soft = std::pow(10 * soft * largest / e, 1.0 / 6);
-    limits.soft_size = std::cbrt(a);
-  } else {
-    limits.source = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
-    limits.size = std::pow(largest / e, 1.0 / (p + 1));
-    limits.soft = std::pow(5 * soft * largest / e, 0.2);
-    limits.soft_size = std::pow(a, 0.4);
-  }
+  acceptance_.add(number, tree_, own, tables_.size());
 }
 
 template <class Kind>
 void MultipoleField<Kind>::gather(int threads) {
   auto const& nodes = tree_.nodes();
   moments_.resize(nodes.size() * numbers() / 4);
-  limits_.resize(nodes.size());
-  if constexpr (Kind::own_cores) cores_.resize(nodes.size());
+  acceptance_.start(choice_.order, choice_.error, nodes.size());
   int const useful = threads_for(tree_.particles().size(), 4, threads);
   for_ranges(nodes.size(), node_grain, useful, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -221,28 +153,14 @@ void MultipoleField<Kind>::gather(int threads) {
   });
   for (std::size_t i = nodes.size(); i-- > 0;)
     if (!nodes[i].leaf()) gather(i);
-  if constexpr (Kind::own_cores)
-    softest_ = cores_.front().most;
-  else
-    softest_ = law_.softening * law_.softening;
-}
-
-/// How far sources have to be from the centre of a target.
-template <class Kind>
-double MultipoleField<Kind>::local_limit(TreeNode const& target, double reach, std::uint32_t source) const {
-  return std::max(nearest * target.radius, limits_[source].size * reach + margin() * target.radius);
+  softest_ = acceptance_.softest2();
 }
 
 /// How far a node has to be from a target's centre to act on all of it by an expansion.
 template <class Kind>
 double MultipoleField<Kind>::needed(TreeNode const& target, double reach, Other const& other) const {
-  TreeNode const& source = tree_.nodes()[other.node];
-  Limits const& limits = limits_[other.node];
-  double const needed = std::max(target.radius + std::max(nearest * source.radius, limits.source),
-                                 source.radius + local_limit(target, reach, other.node));
-  if (!beside_[other.image]) return needed;
-  return std::max({needed, limits.soft * std::max(limits_[index_of(target)].soft_size, limits.soft_size), limits.spread,
-                   target.radius + source.radius + limits.core});
+  return acceptance_.between(target, index_of(target), reach, tree_.nodes()[other.node], other.node,
+                             beside_[other.image]);
 }
 
 template <class Kind>
@@ -276,60 +194,34 @@ void MultipoleField<Kind>::choose_images() {
   if (lattice_.periodic_axes() == 0) return;
   TreeNode const& root = tree_.nodes().front();
   beside_.assign(1, false);
-  double const wanted = std::pow(10, 1.0 / (choice_.order + 2)) * needed(root, reach_of(root), {});
+  double const wanted = std::pow(10, 1.0 / (choice_.order + 2)) * needed(root, acceptance_.reach_of(root), {});
   images_ = lattice_.within(std::max(wanted, softest_ > 0 ? lattice_.furthest_beside() : 0));
   beside_.clear();
   for (auto const& shift : images_) beside_.push_back(lattice_.beside(shift));
   double const distance = distance_of(images_.back());
   if (!far_images_ || far_images_->order() != choice_.order || far_images_->distance() != distance)
     far_images_.emplace(D, lattice_, distance, choice_.order);
-  find_background();
+  find_backgrounds();
 }
 
 template <class Kind>
-void MultipoleField<Kind>::find_background() {
-  background_ = {};
+void MultipoleField<Kind>::find_backgrounds() {
   if (lattice_.periodic_axes() < D) return;
-  TreeNode const& root = tree_.nodes().front();
-  double volume = 1;
-  for (int a = 0; a < D; ++a) volume *= lattice_.edges[a];
-  background_.of_square = D == 3 ? 2 * pi / (3 * volume) : pi / (2 * volume);
-  for (int k = 0; k < Kind::densities; ++k) {
-    CompensatedSum strength, second, first[3];
-    for (auto const& p : tree_.particles()) {
-      double const amount = Kind::amount(p, k);
-      strength += amount;
-      for (int a = 0; a < D; ++a) {
-        double const x = p.position[a] - root.centre[a];
-        second += amount * x * x;
-        first[a] += amount * x;
-      }
-    }
-    auto& all = background_.of[k];
-    all.strength = strength.value(), all.second = second.value();
-    for (int a = 0; a < D; ++a) all.first[a] = first[a].value();
-  }
+  for (int k = 0; k < Kind::densities; ++k)
+    backgrounds_[k].find(
+        lattice_, tree_.particles(), [&](Point const& p) { return Kind::amount(p, k); }, tree_.nodes().front().centre);
 }
 
-/// What makes the box neutral is spread over all space: its potential is c sum q |x - y|^2. (Vorticity in 3D is neutral
-/// itself, so that this flow is uniform.)
+/// (Vorticity in 3D is neutral itself, so that this flow is uniform.)
 template <class Kind>
-void MultipoleField<Kind>::add_background(Target const& target, double* field, double* potential) const {
-  double const c = Kind::constant(law_) * background_.of_square;
-  if (c == 0) return;
-  auto const& origin = tree_.nodes().front().centre;
+void MultipoleField<Kind>::add_backgrounds(Cluster const& target, double* field, double* potential) const {
+  if (!backgrounds_[0].exists()) return;
+  double const constant = Kind::constant(law_);
   for (std::size_t i = 0; i < target.count; ++i) {
+    double const* const place = &target.particles[i].position[0];
     Vector<D> fields[Kind::densities];
-    for (int k = 0; k < Kind::densities; ++k) {
-      auto const& all = background_.of[k];
-      double value = all.second;
-      for (int a = 0; a < D; ++a) {
-        double const x = target.particles[i].position[a] - origin[a];
-        fields[k][a] = -2 * c * (all.strength * x - all.first[a]);
-        value += x * (all.strength * x - 2 * all.first[a]);
-      }
-      if (potential) potential[i] += c * value;
-    }
+    for (int k = 0; k < Kind::densities; ++k) fields[k] = backgrounds_[k].field(place) * constant;
+    if (potential) potential[i] += constant * backgrounds_[0].potential(place);
     add_fields(fields, field + i * Kind::width);
   }
 }
@@ -346,18 +238,11 @@ bool MultipoleField<Kind>::clear_of(TreeNode const& node, std::array<double, 3> 
   return true;
 }
 
-/// What the radius of a target counts for in needed().
-template <class Kind>
-double MultipoleField<Kind>::reach_of(TreeNode const& target) const {
-  double const p = choice_.order;
-  return std::pow(target.radius, p / (p + (D == 3 ? 2 : 1)));
-}
-
 /// Sorts those that a node has to meet by what is done with them.
 template <class Kind>
 void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& others, Workspace& work) const {
   TreeNode const& target = tree_.nodes()[number];
-  double const reach = reach_of(target);
+  double const reach = acceptance_.reach_of(target);
   auto const count = [](TreeNode const& node) { return static_cast<double>(node.size()); };
   for (auto* list : {&work.far, &work.outside, &work.expanded, &work.near, &work.later}) list->clear();
   work.open.assign(others.begin(), others.end());
@@ -365,20 +250,15 @@ void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& 
     Other const other = work.open[i];
     TreeNode const& source = tree_.nodes()[other.node];
     bool const leaves = target.leaf() && source.leaf();
-    Limits const& limits = limits_[other.node];
-    double soft_outside = 0, soft_inside = 0;
-    if (beside_[other.image]) {
-      soft_outside = std::max({limits.soft * limits.soft_size, limits.spread, source.radius + limits.core});
-      soft_inside = std::max({limits.soft * limits_[number].soft_size, target.radius + limits.core});
-    }
+    bool const softened = beside_[other.image];
     // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
     if (evaluates_moments && target.leaf() && target.radius > 1.5 * source.radius &&
         count(source) > pairs_of_an_evaluation_ &&
-        clear_of(target, centre(other), std::max({nearest * source.radius, soft_outside, limits.source})))
+        clear_of(target, centre(other), acceptance_.outside(source, other.node, softened)))
       work.outside.push_back(other);
     else if (source.leaf() && source.radius > 1.5 * target.radius && count(target) > pairs_of_an_evaluation_ &&
              clear_of(source, seen_from(other, target.centre),
-                      std::max(local_limit(target, reach, other.node), soft_inside)))
+                      acceptance_.inside(target, number, reach, other.node, softened)))
       work.expanded.push_back(other);
     else if (far(target, reach, other))
       (leaves && count(target) * count(source) < pairs_of_a_translation_ ? work.near : work.far).push_back(other);
@@ -411,13 +291,13 @@ void MultipoleField<Kind>::visit(Visit visit, Workspace& work, std::vector<Visit
     for (auto& shifted : work.shifted) shifted.numbers += tables_.size();
     if (visit.node == 0 && far_images_) far_images_->add(tables_.view(), moments(0) + from, node.radius, local);
     for (Other const& other : work.expanded) {
-      NodeParticles particles = particles_of(tree_.nodes()[other.node], k, work.scratch.places);
-      std::copy_n(seen_from(other, node.centre).begin(), 3, particles.centre);
-      particles.radius = node.radius;
-      kernels_.expand(tables_.view(), particles, local);
+      Cluster particles = particles_of(tree_.nodes()[other.node]);
+      particles.centre = seen_from(other, node.centre), particles.radius = node.radius;
+      kernels_.expand(tables_.view(), amounts_of(particles, k, work.scratch.places), local);
     }
   }
   add_softening(visit, work);
+  if (watched_) visit.nearness = std::max(visit.nearness, nearest_of(visit.node, work));
   if (node.leaf()) return finish_leaf(node, visit, work);
   auto const later = std::make_shared<std::vector<Other> const>(work.later);
   std::array<Shifted, 8> children;
@@ -427,7 +307,9 @@ void MultipoleField<Kind>::visit(Visit visit, Workspace& work, std::vector<Visit
     auto softening = visit.softening;
     if (softened())
       for (auto& one : softening) one = one.at(between<D>(node.centre, child.centre));
-    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(numbers()), later, softening});
+    double const part = std::sqrt(distance2(node.centre, child.centre.data(), D)) + child.radius;
+    next.push_back({static_cast<std::uint32_t>(node.child + k), std::vector<double>(numbers()), later, softening,
+                    visit.nearness * std::min(1.0, square(part / node.radius))});
     for (int a = 0; a < D; ++a) children[k].shift[a] = child.centre[a] - node.centre[a];
     children[k].radius = child.radius;
   }
@@ -466,12 +348,6 @@ typename MultipoleField<Kind>::SofteningMoments MultipoleField<Kind>::softened_s
   }
 }
 
-template <class Kind>
-double MultipoleField<Kind>::softening2(std::size_t node) const {
-  if constexpr (Kind::own_cores) return cores_[node].mean();
-  return softest_;
-}
-
 /// To the local expansions of a node.
 template <class Kind>
 void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) const {
@@ -481,7 +357,7 @@ void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) co
     for (Other const& other : work.far)
       if (beside_[other.image])
         visit.softening[k].add(softened_source(other.node, k), between<D>(centre(other), place),
-                               softening2(other.node));
+                               acceptance_.softening2(other.node));
     for (Other const& other : work.expanded) {
       if (!beside_[other.image]) continue;
       TreeNode const& source = tree_.nodes()[other.node];
@@ -499,14 +375,14 @@ void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) co
 
 /// To the particles of a leaf: of its local expansions, and of moments that are evaluated at them.
 template <class Kind>
-void MultipoleField<Kind>::add_softening(Target const& target, Visit const& visit, Workspace& work, double* field,
+void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& visit, Workspace& work, double* field,
                                          double* potential) const {
   if (!softened()) return;
   double const constant = Kind::constant(law_);
   work.softened.clear();
   for (Other const& other : work.outside)
     if (beside_[other.image])
-      work.softened.push_back({softened_source(other.node, 0), centre(other), softening2(other.node)});
+      work.softened.push_back({softened_source(other.node, 0), centre(other), acceptance_.softening2(other.node)});
   for (std::size_t i = 0; i < target.count; ++i) {
     std::array<double, 3> place{};
     std::copy_n(&target.particles[i].position[0], D, place.begin());
@@ -541,9 +417,9 @@ void MultipoleField<Kind>::add_fields(Vector<D> const (&fields)[Kind::densities]
 
 /// What local expansions about the centre of a target make at its particles.
 template <class Kind>
-void MultipoleField<Kind>::add_local(Target const& target, double const* local, double* field, double* potential,
+void MultipoleField<Kind>::add_local(Cluster const& target, double const* local, double* field, double* potential,
                                      Scratch& scratch) const {
-  NodeParticles const places = places_of(target, scratch);
+  NodeParticles const places = amounts_of(target, 0, scratch.places);
   double const constant = Kind::constant(law_);
   if constexpr (Kind::potential) {
     kernels_.evaluate(tables_.view(), places, local, constant, field, potential);
@@ -573,12 +449,12 @@ void MultipoleField<Kind>::add_local(Target const& target, double const* local, 
 
 /// What the moments of a node make at particles outside of it.
 template <class Kind>
-void MultipoleField<Kind>::add_outside(Target const& target, Other const& source, double* field, double* potential,
+void MultipoleField<Kind>::add_outside(Cluster const& target, Other const& source, double* field, double* potential,
                                        Scratch& scratch) const {
-  Target about = target;
+  Cluster about = target;
   about.centre = centre(source);
   about.radius = tree_.nodes()[source.node].radius;
-  NodeParticles const places = places_of(about, scratch);
+  NodeParticles const places = amounts_of(about, 0, scratch.places);
   double const constant = Kind::constant(law_);
   if constexpr (Kind::potential)
     return kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, field, potential);
@@ -587,20 +463,6 @@ void MultipoleField<Kind>::add_outside(Target const& target, Other const& source
   if constexpr (D == 2)
     for (std::size_t i = 0; i < target.count; ++i)
       add_fields({{scratch.field[i * D], scratch.field[i * D + 1]}}, field + i * D);
-}
-
-template <class Kind>
-NodeParticles MultipoleField<Kind>::places_of(Target const& target, Scratch& scratch) const {
-  NodeParticles places{nullptr, target.count, {}, target.radius};
-  std::copy_n(target.centre.begin(), 3, places.centre);
-  if constexpr (std::is_same_v<Point, PlacedAmount>) {
-    places.rows = &target.particles->position[0];
-  } else {
-    scratch.places.resize(target.count);
-    for (std::size_t i = 0; i < target.count; ++i) scratch.places[i].position = target.particles[i].position;
-    places.rows = &scratch.places.front().position[0];
-  }
-  return places;
 }
 
 template <class Kind>
@@ -645,11 +507,47 @@ void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit,
     add_near(Kind::without_softening(law_, work.bare), task, work);
   }
   for (std::size_t i = 0; potential && i < leaf.size(); ++i) potential[i] *= 2;  // kernels give half
-  Target const own{particles.data() + leaf.begin, leaf.size(), leaf.centre, leaf.radius};
+  Cluster const own = particles_of(leaf);
   add_local(own, visit.local.data(), task.influence, potential, work.scratch);
-  add_background(own, task.influence, potential);
+  add_backgrounds(own, task.influence, potential);
   add_softening(own, visit, work, task.influence, potential);
   for (Other const& other : work.outside) add_outside(own, other, task.influence, potential, work.scratch);
+  if (watched_) note_nearness(leaf, visit, work);
+}
+
+/// Of the edge of a target to what acts on its local expansion.
+template <class Kind>
+double MultipoleField<Kind>::nearest_of(std::uint32_t number, Workspace const& work) const {
+  TreeNode const& target = tree_.nodes()[number];
+  double const reach = acceptance_.reach_of(target);
+  double nearest = 0;
+  for (Other const& other : work.far)
+    nearest =
+        std::max(nearest, square(needed(target, reach, other)) / distance2(target.centre, centre(other).data(), D));
+  for (Other const& other : work.expanded) {
+    TreeNode const& source = tree_.nodes()[other.node];
+    auto const seen = seen_from(other, target.centre);
+    double least = __builtin_inf();
+    for (std::uint32_t i = source.begin; i < source.end; ++i)
+      least = std::min(least, distance2(seen, &tree_.particles()[i].position[0], D));
+    nearest =
+        std::max(nearest, square(acceptance_.inside(target, number, reach, other.node, beside_[other.image])) / least);
+  }
+  return nearest;
+}
+
+/// Of the particles of a leaf.
+template <class Kind>
+void MultipoleField<Kind>::note_nearness(TreeNode const& leaf, Visit const& visit, Workspace const& work) {
+  for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
+    double const* const place = &tree_.particles()[i].position[0];
+    double nearest = visit.nearness * distance2(leaf.centre, place, D) / square(leaf.radius);
+    for (Other const& other : work.outside)
+      nearest =
+          std::max(nearest, square(acceptance_.outside(tree_.nodes()[other.node], other.node, beside_[other.image])) /
+                                distance2(centre(other), place, D));
+    sorted_nearness_[i] = static_cast<float>(nearest);
+  }
 }
 
 template <class Kind>
@@ -659,6 +557,7 @@ void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_pot
   std::size_t const count = tree_.particles().size();
   sorted_field_.resize(count * Kind::width);
   sorted_potential_.resize(with_potential_ ? count : 0);
+  sorted_nearness_.resize(watched_ ? count : 0);
   cost_ = {tree_.nodes().size(), 0, 0};
   if (count == 0) return put_in_order(threads);
   gather(threads);
@@ -691,11 +590,13 @@ void MultipoleField<Kind>::put_in_order(int threads) {
   auto const& numbers = tree_.numbers();
   field_.resize(sorted_field_.size());
   potential_.resize(sorted_potential_.size());
+  nearness_.resize(sorted_nearness_.size());
   for_ranges(numbers.size(), 4096, threads_for(numbers.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::copy_n(sorted_field_.data() + k * Kind::width, Kind::width,
                   field_.data() + std::size_t{numbers[k]} * Kind::width);
       if (with_potential_) potential_[numbers[k]] = sorted_potential_[k];
+      if (watched_) nearness_[numbers[k]] = sorted_nearness_[k];
     }
   });
 }
@@ -733,7 +634,7 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
   whole.choose({highest_expansion_order, particles.size() + 1, 1});
   whole.tree_.build(particles, particles.size() + 1, threads);
   whole.gather(threads);
-  whole.find_background();
+  whole.find_backgrounds();
   double const radius = whole.tree_.nodes().front().radius;
   auto const images = lattice_.within(
       std::max(lattice_.furthest_beside(), radius * (1 + std::pow(error, -1.0 / (highest_expansion_order + 1)))));
@@ -756,9 +657,9 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
     far.add(whole.tables_.view(), whole.moments(0) + from, radius, local.data() + from);
   }
   Scratch scratch;
-  Target const targets{sources.data(), chosen.size(), whole.tree_.nodes().front().centre, radius};
+  Cluster const targets{sources.data(), chosen.size(), whole.tree_.nodes().front().centre, radius};
   whole.add_local(targets, local.data(), field.data(), nullptr, scratch);
-  whole.add_background(targets, field.data(), nullptr);
+  whole.add_backgrounds(targets, field.data(), nullptr);
   return field;
 }
 
@@ -769,8 +670,7 @@ double MultipoleField<Kind>::work() const {
 
 template <class Kind>
 std::size_t MultipoleField<Kind>::bytes() const {
-  return tree_.bytes() + moments_.capacity() * sizeof(Block) + limits_.capacity() * sizeof(Limits) +
-         cores_.capacity() * sizeof(Cores) +
+  return tree_.bytes() + moments_.capacity() * sizeof(Block) + acceptance_.bytes() +
          (sorted_field_.capacity() + sorted_potential_.capacity() + field_.capacity() + potential_.capacity()) *
              sizeof(double);
 }

@@ -7,12 +7,14 @@
 // In a periodic box it meets the nodes of images nearby, too; all further images act on the expansion of the root.
 #pragma once
 
+#include <boltzmann/schemes/multipole/acceptance.hpp>
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
 #include <boltzmann/schemes/multipole/multipole_kernels.hpp>
 #include <boltzmann/schemes/multipole/multipole_kinds.hpp>
 #include <boltzmann/schemes/multipole/softening.hpp>
 #include <boltzmann/schemes/multipole/tree.hpp>
+#include <boltzmann/schemes/multipole/uniform_background.hpp>
 
 #include <array>
 #include <cstddef>
@@ -54,6 +56,11 @@ class MultipoleField {
   /// Kind::width numbers for each particle, in the order in which they were given.
   std::vector<double> const& field() const { return field_; }
   std::vector<double> const& potential() const { return potential_; }
+  /// Whether calculations note, of each particle, how near it came to what acts on it by expansions: the square of the
+  /// distance that is allowed over the distance, and of its place in what is expanded over that one's radius; 1: as near
+  /// as is allowed. Errors go with a high power of that.
+  void watch(bool yes) { watched_ = yes; }
+  std::vector<float> const& nearness() const { return nearness_; }
   /// What some of these particles (numbers in ascending order) feel, by direct sums over all: Kind::width numbers for
   /// each. In a periodic box images that are far away act through expansions, to an error of this part.
   std::vector<double> direct(std::vector<Point> const& particles, std::vector<std::size_t> const& chosen, double error,
@@ -77,11 +84,12 @@ class MultipoleField {
     std::vector<double> local;
     std::shared_ptr<std::vector<Other> const> others;
     std::array<SofteningCorrection<D>, Kind::densities> softening = {};  ///< of the local expansions
+    double nearness = 0;                                                 ///< of what is in them, at its edge
   };
   using PlacedAmount = Row<PointSource<D>>;
   using SofteningMoments = typename SofteningCorrection<D>::Moments;
-  /// Particles and the centre of the expansions about them.
-  struct Target {
+  /// Particles, and the centre of the expansions about them.
+  struct Cluster {
     Point const* particles;
     std::size_t count;
     std::array<double, 3> centre;
@@ -92,26 +100,15 @@ class MultipoleField {
   struct alignas(32) Block {
     double numbers[4];
   };
-  /// From where on a node may act by its moments: see limit() and far().
-  struct Limits {
-    double source = 0, size = 0, soft = 0, soft_size = 0, spread = 0;
-    double core = 0;  ///< of its particles that are further than this
-  };
-  /// What the particles of a node are softened by: squares of the least and of the most, and in the mean.
-  struct Cores {
-    double least = 0, most = 0, sum = 0, weight = 0;
-    double mean() const { return weight > 0 ? sum / weight : most; }
-  };
 
   std::size_t index_of(TreeNode const& node) const { return static_cast<std::size_t>(&node - tree_.nodes().data()); }
-  NodeParticles particles_of(TreeNode const& node, int density, std::vector<PlacedAmount>& copy) const;
+  Cluster particles_of(TreeNode const& node) const;
+  static NodeParticles amounts_of(Cluster const& target, int density, std::vector<PlacedAmount>& copy);
   std::size_t numbers() const { return Kind::densities * tables_.size(); }
   double const* moments(std::size_t node) const { return moments_[node * numbers() / 4].numbers; }
   double* moments(std::size_t node) { return moments_[node * numbers() / 4].numbers; }
   void gather(int threads);
   void gather(std::size_t node);
-  void limit(std::size_t node);
-  Cores cores(std::size_t node) const;
   /// Whether expansions differ from those of points: then their corrections are wanted.
   bool softened() const { return softest_ > 0 && !(Kind::own_cores && D == 2); }
   void visit(Visit visit, Workspace& work, std::vector<Visit>& next);
@@ -120,24 +117,23 @@ class MultipoleField {
   bool clear_of(TreeNode const& node, std::array<double, 3> const& place, double distance) const;
   std::array<double, 3> centre(Other const& other) const;
   std::array<double, 3> seen_from(Other const& image, std::array<double, 3> const& place) const;
-  double margin() const { return D == 3 ? 3.2 / (choice_.order + 2) : 1.6 / (choice_.order + 1); }
-  double local_limit(TreeNode const& target, double reach, std::uint32_t source) const;
   double needed(TreeNode const& target, double reach, Other const& source) const;
   bool far(TreeNode const& target, double reach, Other const& source) const;
-  double reach_of(TreeNode const& target) const;
   void choose_images();
-  void find_background();
-  double softening2(std::size_t node) const;
+  void find_backgrounds();
   static void add_fields(Vector<D> const (&fields)[Kind::densities], double* influence);
-  NodeParticles places_of(Target const& target, Scratch& scratch) const;
-  void add_local(Target const& target, double const* local, double* field, double* potential, Scratch& scratch) const;
-  void add_outside(Target const& target, Other const& source, double* field, double* potential, Scratch& scratch) const;
-  void add_background(Target const& target, double* field, double* potential) const;
+  void add_local(Cluster const& target, double const* local, double* field, double* potential, Scratch& scratch) const;
+  void add_outside(Cluster const& target, Other const& source, double* field, double* potential,
+                   Scratch& scratch) const;
+  void add_backgrounds(Cluster const& target, double* field, double* potential) const;
   void add_near(Law const& law, PairTask const& task, Workspace& work) const;
   void finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work);
+  double nearest_of(std::uint32_t target, Workspace const& work) const;
+  void note_nearness(TreeNode const& leaf, Visit const& visit, Workspace const& work);
   SofteningMoments softened_source(std::size_t node, int density) const;
   void add_softening(Visit& visit, Workspace const& work) const;
-  void add_softening(Target const& target, Visit const& visit, Workspace& work, double* field, double* potential) const;
+  void add_softening(Cluster const& target, Visit const& visit, Workspace& work, double* field,
+                     double* potential) const;
   void put_in_order(int threads);
 
   Law law_;
@@ -147,22 +143,17 @@ class MultipoleField {
   ExpansionTables tables_;
   Tree<typename Kind::Source> tree_;
   std::vector<Block> moments_;
-  std::vector<Limits> limits_;                            // of each node
-  std::vector<Cores> cores_;                              // of each node, if each particle has its own
+  AcceptanceCriterion<Kind> acceptance_;
   double softest_ = 0;                                    // the square of the largest core of all
   std::vector<std::array<double, 3>> images_{{0, 0, 0}};  // that are met; the first is the box itself
   std::vector<char> beside_{true};                        // of each: it is softened
   std::optional<FarImages> far_images_;
-  struct {
-    double of_square = 0;  // its potential at a distance 1, of unit strength
-    struct {
-      double strength = 0, second = 0, first[3] = {};  // of all particles, and times squares and places about the root
-    } of[Kind::densities];
-  } background_;
+  UniformBackground<D> backgrounds_[Kind::densities];
   std::vector<double> sorted_field_, sorted_potential_, field_, potential_;
+  std::vector<float> sorted_nearness_, nearness_;
   MultipoleCost cost_;
   double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0;  // what takes as long
-  bool with_potential_ = false;
+  bool with_potential_ = false, watched_ = false;
 };
 
 }  // namespace boltzmann

@@ -3,6 +3,7 @@
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
+#include <boltzmann/schemes/multipole/error_samples.hpp>
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 
@@ -15,17 +16,7 @@
 namespace boltzmann {
 namespace {
 
-/// Of particles whose influence is compared with a direct sum: 200, or more as long as that takes hardly any time.
-std::size_t sample_count(std::size_t candidates, std::size_t particles) {
-  return std::min(candidates, std::max<std::size_t>(200, 20'000'000 / std::max<std::size_t>(1, particles)));
-}
-
 constexpr std::size_t checked_every = 64;
-/// Times the mean: where a sample is further off, a few particles may have errors that no sample shows.
-constexpr double usual_largest = 5;
-/// What one interaction may do at worst, times the tolerance and what is felt.
-constexpr double most_even = 400, most_uneven = 100;
-
 /// Below, to sum all pairs is as fast.
 constexpr std::size_t summed_directly = 1500;
 
@@ -60,21 +51,32 @@ void check_box(Box const& box) {
 
 }  // namespace
 
-MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
+MultipoleScheme::MultipoleScheme(Box box, std::optional<LaplaceLaw> law, double tolerance)
     : Scheme(box), law_(law), tolerance_(tolerance) {
   check_tolerance(tolerance);
   check_box(box);
-  engine_ = multipole_engine(law, box);
+  engine_ = law ? multipole_engine(*law, box) : multipole_engine(BiotSavart{}, box);
 }
 
-MultipoleScheme::MultipoleScheme(Box box, BiotSavart const& law, double tolerance)
-    : Scheme(box), tolerance_(tolerance) {
-  check_tolerance(tolerance);
-  check_box(box);
-  engine_ = multipole_engine(law, box);
-}
+MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
+    : MultipoleScheme(box, std::optional(law), tolerance) {}
+
+MultipoleScheme::MultipoleScheme(Box box, BiotSavart const&, double tolerance)
+    : MultipoleScheme(box, std::nullopt, tolerance) {}
 
 MultipoleScheme::~MultipoleScheme() = default;
+
+void MultipoleScheme::background(bool yes) {
+  for (int a = 0; yes && a < box().dimension(); ++a)
+    if (!box().periodic(a))
+      throw Error(
+          fmt::format("multipoles: a uniform background is for a box that is periodic along all axes, and axis "
+                      "{} is open; without it strengths need not cancel: leave it out",
+                      "xyz"[a]));
+  if (yes && !law_ && box().dimension() == 3)
+    throw Error("multipoles: vorticity has no uniform background in 3D: what vortices carry has to cancel");
+  background_ = yes;
+}
 
 void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) { load(ensemble, kind, true); }
 
@@ -91,54 +93,22 @@ void MultipoleScheme::load(AnyEnsemble& ensemble, SourceKind const& kind, bool a
   loaded_.push_back({&ensemble, kind, acts});
 }
 
-/// The mean square of what samples feel, without the fiftieth that feels most: a few that are near to each other would
-/// count for all.
-double MultipoleScheme::typical_square(std::vector<double> squares) {
-  std::sort(squares.begin(), squares.end());
-  std::size_t const kept = squares.size() - squares.size() / 50;
-  CompensatedSum sum;
-  for (std::size_t k = 0; k < kept; ++k) sum += squares[k];
-  return kept > 0 ? sum.value() / static_cast<double>(kept) : 0;
-}
+/// While errors are asked for.
+class MultipoleScheme::Watched {
+ public:
+  explicit Watched(MultipoleEngine& engine) : engine_(engine) { engine.watch(true); }
+  ~Watched() { engine_.watch(false); }
+  Watched(Watched const&) = delete;
+  Watched& operator=(Watched const&) = delete;
 
-MultipoleScheme::SampledError MultipoleScheme::error_of(std::vector<std::size_t> const& chosen,
-                                                        std::vector<double> const& exact) const {
-  std::size_t const width = engine_->width();
-  SampledError worst;
-  for (int part = 0; part < engine_->parts(); ++part) {
-    CompensatedSum errors;
-    double largest = 0;
-    std::vector<double> felt;
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      auto const squares =
-          engine_->compare(part, chosen[k], engine_->field().data() + chosen[k] * width, exact.data() + k * width);
-      errors += squares.error;
-      largest = std::max(largest, squares.error);
-      felt.push_back(squares.felt);
-    }
-    double const typical = typical_square(felt), mean = errors.value() / static_cast<double>(chosen.size());
-    worst.mean = std::max(worst.mean, typical > 0 ? std::sqrt(mean / typical) : 0);
-    worst.largest = std::max(worst.largest, mean > 0 ? std::sqrt(largest / mean) : 0);
-  }
-  return worst;
-}
+ private:
+  MultipoleEngine& engine_;
+};
 
-/// Of those that feel something.
-std::vector<std::size_t> MultipoleScheme::choose_samples() const {
+ErrorSamples MultipoleScheme::choose_samples() const {
   std::size_t particles = 0;  // and no places
   for (auto const& one : loaded_) particles += one.ensemble->size();
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < particles; ++i)
-    if (engine_->feels(i)) all.push_back(i);
-  std::size_t const samples = sample_count(all.size(), particles);
-  if (samples == all.size()) return all;
-  std::vector<std::size_t> chosen;
-  Stream stream(0, 0, particles, Purpose::selection);
-  for (std::size_t k = 0; k < samples; ++k)
-    chosen.push_back(all[static_cast<std::size_t>(stream.uniform() * static_cast<double>(all.size()))]);
-  std::sort(chosen.begin(), chosen.end());
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  return chosen;
+  return {*engine_, particles, better * tolerance_, threads()};
 }
 
 std::size_t MultipoleScheme::leaf() const {
@@ -150,31 +120,25 @@ std::size_t MultipoleScheme::leaf() const {
 /// two fifths of it, where there is one: what is promised of all particles then holds for all. The first time it looks
 /// for the order that takes least work.
 void MultipoleScheme::tune(bool with_potential) {
-  auto const chosen = choose_samples();
-  auto const exact = engine_->exact(chosen, better * tolerance_, threads());
+  Watched const watched(*engine_);
+  ErrorSamples samples = choose_samples();
+  double const field = samples.typical_field();
   if (order_ == 0) order_ = order_for(tolerance_, box());
-  std::size_t const leaf = this->leaf();
-  auto const D = static_cast<std::size_t>(box().dimension());
-  std::vector<double> squares(chosen.size(), square(engine_->least_field()));
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    for (std::size_t a = 0; a < D; ++a) squares[k] += square(exact[k * engine_->width() + a]);
-  double const field = std::sqrt(typical_square(squares)) / engine_->constant();
   if (!std::isfinite(field) || field == 0) {  // two at one place, or nobody who acts: whoever looks will say so
-    engine_->choose({order_, leaf, 1});
+    engine_->choose({order_, leaf(), 1});
     engine_->calculate(with_potential, threads());
     return;
   }
   bool const first = criterion_ == 0;
-  Truth const truth{chosen, exact, field, with_potential};
-  Fit best = fit(order_, first ? 4 * tolerance_ * field : criterion_, truth);
+  Fit best = fit(order_, first ? 4 * tolerance_ * field : criterion_, samples, with_potential);
   // Higher orders leave less to pairs, and take longer: what takes most is tried to be lessened. (Not in a periodic box:
   // each order has lattice sums of its own.)
   int const step = best.of_pairs > 0.5 ? 2 : -2;
   while (first && !box().any_periodic() && !everything_is_summed() && best.order + step >= 2 &&
          best.order + step <= highest_expansion_order) {
-    Fit const next = fit(best.order + step, best.criterion * (step > 0 ? 4 : 0.25), truth);
+    Fit const next = fit(best.order + step, best.criterion * (step > 0 ? 4 : 0.25), samples, with_potential);
     if (!(next.work < 0.97 * best.work)) {
-      best = fit(best.order, best.criterion, truth);
+      best = fit(best.order, best.criterion, samples, with_potential);
       break;
     }
     best = next;
@@ -183,35 +147,35 @@ void MultipoleScheme::tune(bool with_potential) {
 }
 
 /// Calculates with expansions of this order, and a criterion that makes the error what it should be.
-MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, Truth const& truth) {
-  int in_vain = 0;
-  double last_measured = __builtin_inf();
-  double good = 0;          // a criterion that was enough
-  bool has_failed = false;  // and one that was not: in a crystal errors jump, and nothing is between
+MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, ErrorSamples& samples, bool with_potential) {
+  double const shortest = 1.5;  // of two criteria whose errors are worth a calculation between them
+  int in_vain = 0, between = 0;
+  double last_measured = __builtin_inf(), last_work = 0;
+  double good = 0, bad = __builtin_inf();  // criteria that were enough, and that were not
   for (int attempt = 0;; ++attempt) {
     engine_->choose({order, leaf(), criterion});
-    engine_->calculate(truth.with_potential, threads());
-    SampledError const error = error_of(truth.chosen, truth.exact);
-    measured_ = error.mean;
-    double const most = (error.largest < usual_largest ? most_even : most_uneven) * tolerance_ * truth.field;
+    engine_->calculate(with_potential, threads());
+    measured_ = samples.error();
+    double const work = engine_->work();
     bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
-    if (everything_is_summed() || (enough && (!too_much || criterion >= most || has_failed || attempt >= 12)))
-      return {order, criterion, engine_->work(), static_cast<double>(engine_->cost().pairs) / engine_->work()};
-    has_failed = has_failed || !enough;
-    if (enough) good = criterion;
+    (enough ? good : bad) = criterion;
+    // In a crystal errors jump, and nothing is between; few particles in a periodic box leave nothing to expansions.
+    bool const settled = between >= 3 || bad < shortest * good || attempt >= 12 || work == last_work;
+    if (everything_is_summed() || (enough && (!too_much || settled)))
+      return {order, criterion, work, static_cast<double>(engine_->cost().pairs) / work};
     // More of expansions and pairs, and no better?
-    in_vain = !enough && measured_ > 0.7 * last_measured ? in_vain + 1 : 0;
-    last_measured = measured_;
+    in_vain = good == 0 && measured_ > 0.7 * last_measured ? in_vain + 1 : 0;
+    last_measured = measured_, last_work = work;
     if (in_vain == 4)
       throw PhysicsFailure(
           fmt::format("multipoles: the tolerance {:.0e} is not reached, the error is {:.1e}: what "
                       "particles feel cancels to less than rounding allows",
                       tolerance_, measured_));
     double const change = 0.25 * tolerance_ / std::max(measured_, 1e-3 * tolerance_);
-    if (enough)
-      criterion = std::min(criterion * std::min(change, 20.0), most);
+    if (good > 0 && std::isfinite(bad))
+      criterion = settled ? good : (++between, std::sqrt(good * bad));
     else
-      criterion = good > 0 ? good : criterion * std::max(0.8 * change, 0.01);
+      criterion *= enough ? std::min(change, 20.0) : std::max(0.8 * change, 0.01);
   }
 }
 
@@ -346,11 +310,10 @@ std::vector<MeshField const*> MultipoleScheme::mesh_fields() {
 
 MultipoleAccuracy MultipoleScheme::accuracy() {
   Look const look(*this);
+  Watched const watched(*engine_);
   calculate_field(false);
   MultipoleAccuracy accuracy = chosen_and_taken();
-  auto const chosen = choose_samples();
-  if (accuracy.order > 0)
-    accuracy.measured = error_of(chosen, engine_->exact(chosen, better * tolerance_, threads())).mean;
+  if (accuracy.order > 0) accuracy.measured = choose_samples().error();
   return accuracy;
 }
 

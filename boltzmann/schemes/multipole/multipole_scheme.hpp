@@ -21,6 +21,7 @@
 
 namespace boltzmann {
 
+class ErrorSamples;
 class MultipoleEngine;
 struct LoadedSources;
 
@@ -74,8 +75,9 @@ class MultipoleScheme final : public Scheme {
     add_test_particles(ensemble, source_kind<P>());
   }
   void add_test_particles(AnyEnsemble& ensemble, SourceKind const& kind);
-  /// A uniform background that makes a box with periodic axes alone neutral.
-  void background(bool yes) { background_ = yes; }
+  /// A uniform background that makes a box with periodic axes alone neutral. Error for other boxes, and for vortices in
+  /// 3D, whose vorticities have to cancel.
+  void background(bool yes);
 
   /// The field of the particles at places that need not be theirs, and its potential: influence and energy of a
   /// particle there are its strength times these. As accurate as influences; it takes as long. PhysicsFailure if a
@@ -116,7 +118,9 @@ class MultipoleScheme final : public Scheme {
   void restore(std::span<double const> state) override;
 
  private:
+  MultipoleScheme(Box box, std::optional<LaplaceLaw> law, double tolerance);
   class Look;
+  class Watched;
 
   void load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts);
   void calculate_field(bool with_potential);
@@ -125,30 +129,16 @@ class MultipoleScheme final : public Scheme {
   template <int D>
   void calculate_at(std::vector<Vector<D>> const& places);
   void choose_and_calculate(bool with_potential);
-  std::vector<std::size_t> choose_samples() const;
+  ErrorSamples choose_samples() const;
   std::size_t leaf() const;
-  static double typical_square(std::vector<double> squares);
   bool everything_is_summed() const;
-  /// The error of the last calculation for samples, as a part of what they feel (0 where they feel nothing); the
-  /// largest over that mean.
-  struct SampledError {
-    double mean = 0, largest = 0;
-  };
   MultipoleAccuracy chosen_and_taken() const;
-  SampledError error_of(std::vector<std::size_t> const& chosen, std::vector<double> const& exact) const;
   void tune(bool with_potential);
-  /// What samples feel by direct sums, and how strong a field is in the mean, over that of a unit strength.
-  struct Truth {
-    std::vector<std::size_t> const& chosen;
-    std::vector<double> const& exact;
-    double field;
-    bool with_potential;
-  };
   struct Fit {
     int order;
     double criterion, work, of_pairs;
   };
-  Fit fit(int order, double criterion, Truth const& truth);
+  Fit fit(int order, double criterion, ErrorSamples& samples, bool with_potential);
 
   std::optional<LaplaceLaw> law_;
   double tolerance_;

@@ -48,7 +48,7 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
     }
     for (auto const& sum : sums)
       if (this->periodic() && !(background && D == 2) && std::abs(sum.value()) > 1e-9 * all.value())
-        refuse_sum(sum.value());
+        refuse_sum(sum.value(), D == 2 ? use_background : "close the vortex lines");
     double const count = static_cast<double>(std::max<std::size_t>(1, this->count())), rms = std::sqrt(squares / count);
     double const core = std::sqrt(cores / count);
     // In a row of vortices all that one feels may cancel, and a ring is hardly stretched: a hundredth of what a

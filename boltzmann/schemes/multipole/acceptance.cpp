@@ -1,0 +1,103 @@
+// What the moments of a node, and its cores, leave of its surroundings to expansions.
+#include <boltzmann/schemes/multipole/acceptance.hpp>
+
+#include <limits>
+
+namespace boltzmann {
+
+template <class Kind>
+void AcceptanceCriterion<Kind>::start(int order, double error, std::size_t nodes) {
+  order_ = order, error_ = error;
+  limits_.resize(nodes);
+  if constexpr (Kind::own_cores) cores_.resize(nodes);
+}
+
+template <class Kind>
+void AcceptanceCriterion<Kind>::add(std::size_t number, Tree<typename Kind::Source> const& tree, double const* moments,
+                                    std::size_t numbers) {
+  TreeNode const& node = tree.nodes()[number];
+  if constexpr (Kind::own_cores) cores_[number] = cores_of(node, tree);
+  limits_[number] = limits_of(number, node.radius, moments, numbers);
+}
+
+/// From those of the children, or of the particles.
+template <class Kind>
+typename AcceptanceCriterion<Kind>::Cores AcceptanceCriterion<Kind>::cores_of(
+    TreeNode const& node, Tree<typename Kind::Source> const& tree) const {
+  Cores all;
+  all.least = std::numeric_limits<double>::infinity();
+  auto const add = [&](Cores const& part) {
+    all.least = std::min(all.least, part.least);
+    all.most = std::max(all.most, part.most);
+    all.sum += part.sum, all.weight += part.weight;
+  };
+  for (std::size_t c = 0; c < node.children; ++c) add(cores_[node.child + c]);
+  for (std::size_t i = node.begin; node.leaf() && i < node.end; ++i) {
+    Point const& p = tree.particles()[i];
+    double const square = Kind::core(law_, p) * Kind::core(law_, p);
+    double weight = 0;
+    for (int k = 0; k < Kind::densities; ++k) weight += std::abs(Kind::amount(p, k));
+    if (weight > 0) add({square, square, weight * square, weight});
+  }
+  return all;
+}
+
+/// With P_n the power of the moments of order n, a the radius, p the order, and e the error that is allowed, the first
+/// order that is cut off from the moments makes less than e further than
+///   D = a ((p + 2) P_p / (e a^2))^(1/(p+3))   in 3D (2D: a (P_p / (e a))^(1/(p+2)))
+/// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
+///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
+/// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
+/// power 1), which margin() a allows for. What two terms of a softening's series are off by is less than e beyond
+///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)),
+/// and what one eps for all of a node is off by, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4).
+template <class Kind>
+typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(std::size_t number, double a,
+                                                                                double const* moments,
+                                                                                std::size_t numbers) const {
+  int const p = order_;
+  double largest = 0, last = 0;
+  for (int n = 0; n <= p; ++n) {
+    double power = 0;
+    for (int density = 0; density < Kind::densities; ++density) {
+      double const* const m = moments + static_cast<std::size_t>(density) * numbers;
+      if constexpr (D == 3)
+        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
+      else
+        power += (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
+    }
+    power = std::sqrt(power);
+    largest = std::max(largest, power);
+    if (n + 1 >= p) last = std::max(last, power);
+  }
+  double const e = error_;
+  Limits limits;
+  double soft = 0;
+  if constexpr (!Kind::own_cores) {
+    soft = law_.softening * law_.softening;
+  } else if constexpr (D == 2) {
+    limits.core = std::sqrt(cores_[number].most);
+  } else {
+    soft = cores_[number].mean();
+    limits.spread = std::pow(1.5 * std::max(0.0, cores_[number].most - cores_[number].least) * largest / e, 0.25);
+  }
+  if constexpr (D == 3) {
+    limits.source = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
+    limits.size = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
+    limits.soft = std::pow(10 * soft * largest / e, 1.0 / 6);
+    limits.soft_size = std::cbrt(a);
+  } else {
+    limits.source = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
+    limits.size = std::pow(largest / e, 1.0 / (p + 1));
+    limits.soft = std::pow(5 * soft * largest / e, 0.2);
+    limits.soft_size = std::pow(a, 0.4);
+  }
+  return limits;
+}
+
+template class AcceptanceCriterion<Charges<2>>;
+template class AcceptanceCriterion<Charges<3>>;
+template class AcceptanceCriterion<Vortices<2>>;
+template class AcceptanceCriterion<Vortices<3>>;
+
+}  // namespace boltzmann

@@ -1,0 +1,66 @@
+// UniformBackground: what makes a box neutral that is periodic along all axes is spread over all space. Private to this
+// room.
+#pragma once
+
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/vector.hpp>
+#include <boltzmann/schemes/multipole/image_lattice.hpp>
+
+#include <array>
+#include <vector>
+
+namespace boltzmann {
+
+/// Of one density: its potential is c sum q |x - y|^2, c for a unit strength.
+template <int D>
+class UniformBackground {
+ public:
+  /// `amount`: of each particle. Places are taken about this origin.
+  template <class Points, class Amount>
+  void find(ImageLattice const& lattice, Points const& particles, Amount const& amount,
+            std::array<double, 3> const& origin) {
+    double volume = 1;
+    for (int a = 0; a < D; ++a) volume *= lattice.edges[a];
+    of_square_ = D == 3 ? 2 * pi / (3 * volume) : pi / (2 * volume);
+    origin_ = origin;
+    CompensatedSum strength, second, first[D];
+    for (auto const& p : particles) {
+      double const q = amount(p);
+      strength += q;
+      for (int a = 0; a < D; ++a) {
+        double const x = p.position[a] - origin[static_cast<std::size_t>(a)];
+        second += q * x * x;
+        first[a] += q * x;
+      }
+    }
+    strength_ = strength.value(), second_ = second.value();
+    for (int a = 0; a < D; ++a) first_[a] = first[a].value();
+  }
+  /// Before find() has been called there is none.
+  bool exists() const { return of_square_ != 0; }
+
+  /// At a place, over the constant of the law.
+  Vector<D> field(double const* place) const {
+    Vector<D> field;
+    for (int a = 0; a < D; ++a) field[a] = -2 * of_square_ * (strength_ * from_origin(place, a) - first_[a]);
+    return field;
+  }
+  double potential(double const* place) const {
+    double value = second_;
+    for (int a = 0; a < D; ++a) {
+      double const x = from_origin(place, a);
+      value += x * (strength_ * x - 2 * first_[a]);
+    }
+    return of_square_ * value;
+  }
+
+ private:
+  double from_origin(double const* place, int a) const { return place[a] - origin_[static_cast<std::size_t>(a)]; }
+
+  double of_square_ = 0;
+  std::array<double, 3> origin_{};
+  double strength_ = 0, second_ = 0;  // of all particles, and times their squares
+  Vector<D> first_{};                 // and times their places
+};
+
+}  // namespace boltzmann

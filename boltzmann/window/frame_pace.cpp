@@ -1,0 +1,90 @@
+// The clock of frames, and what drawing may cost.
+#include <boltzmann/window/frame_pace.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace boltzmann {
+namespace {
+
+constexpr double frames_per_second = 61;  // so that 60 come, whenever steps end
+constexpr double share_of_time = 0.035;   // that drawing may take from a run at full speed
+
+Clock::duration period() { return clock_time(1 / frames_per_second); }
+
+}  // namespace
+
+void FramePace::start(std::int64_t step) {
+  counted_since_ = last_look_ = next_frame_ = Clock::now();
+  counted_from_ = step;
+  decided_ = false;
+  since_frame_ = 0;
+}
+
+bool FramePace::due(std::int64_t step, bool needed, bool hurried) {
+  if (decided_ && step == decided_step_) return due_;
+  decided_ = true;
+  decided_step_ = step;
+  due_ = needed || decide(hurried);
+  if (due_) begun_frame_ = Clock::now();
+  return due_;
+}
+
+bool FramePace::decide(bool hurried) {
+  ++since_frame_;
+  if (clients_.calls()) return true;
+  if (paced(hurried)) return since_frame_ >= steps_per_frame_;
+  if (!clients_.ready()) return false;
+  // The clock is read some thousand times a second, not after every step.
+  if (++steps_since_clock_ < steps_between_clocks_) return false;
+  auto const now = Clock::now();
+  double const took = seconds_between(last_look_, now);
+  steps_between_clocks_ = took > 1e-3 ? std::max<std::int64_t>(steps_between_clocks_ / 2, 1)
+                                      : std::min<std::int64_t>(2 * steps_between_clocks_, 1 << 20);
+  last_look_ = now;
+  steps_since_clock_ = 0;
+  return now >= next_frame_;
+}
+
+void FramePace::draw(bool hurried, std::function<bool()> const& turned) {
+  if (paced(hurried))
+    keep_pace(turned);
+  else if (clients_.send_updates())
+    // Steps don't end when a frame is due: what one comes late, the next one comes early.
+    next_frame_ = std::max({afford(), next_frame_ + period(), begun_frame_ + period() / 2});
+}
+
+/// The pace that was asked for, whether or not a browser keeps up with it. Where steps alone take longer than that,
+/// drawing is held to its share of the time.
+void FramePace::keep_pace(std::function<bool()> const& turned) {
+  bool const late = begun_frame_ > next_frame_ + period();
+  if (!late || begun_frame_ >= next_affordable_)
+    if (clients_.send_updates()) afford();
+  if (since_frame_ < steps_per_frame_) return;
+  since_frame_ = 0;
+  for (auto now = Clock::now(); now < next_frame_ && !turned(); now = Clock::now()) {
+    clients_.wait(std::min(seconds_between(now, next_frame_), 0.1));
+    clients_.handle_requests();
+    clients_.send_updates();
+  }
+  next_frame_ = std::max(next_frame_, Clock::now() - period()) + period();
+}
+
+/// When the next drawing fits into its share of the time, after one that has just been done.
+Clock::time_point FramePace::afford() {
+  auto const now = Clock::now();
+  double const cost = seconds_between(begun_frame_, now) * (1 / share_of_time - 1);
+  next_affordable_ = now + clock_time(cost);
+  return next_affordable_;
+}
+
+void FramePace::count(std::int64_t step) {
+  auto const now = Clock::now();
+  double const passed = seconds_between(counted_since_, now);
+  if (passed < 0.5) return;
+  steps_per_second_ = static_cast<double>(std::abs(step - counted_from_)) / passed;
+  counted_since_ = now;
+  counted_from_ = step;
+}
+
+}  // namespace boltzmann
