@@ -17,6 +17,7 @@
 #include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
+#include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
@@ -51,6 +52,7 @@
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/loaders/ring_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/meso.hpp>

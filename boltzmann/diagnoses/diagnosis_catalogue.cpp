@@ -11,6 +11,7 @@
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
+#include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 
 #include <fmt/format.h>
@@ -120,6 +121,39 @@ class Momentum final : public SystemDiagnosis {
   void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
     Triple const p = momentum(of);
     values.insert(values.end(), p.begin(), p.begin() + dimension());
+  }
+};
+
+class VortexInvariants final : public SystemDiagnosis {
+ public:
+  explicit VortexInvariants(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {
+    auto const& all = parameters.available;
+    for (auto const& name : parameters.ensembles)
+      if (auto const& named = ensemble_named(all, name); !has_vorticity(named))
+        throw Error(fmt::format("'{}' is of class {}, which has no vorticity", name, named.class_name()));
+    if (std::none_of(all.begin(), all.end(), [](auto const* one) { return has_vorticity(*one); }))
+      throw Error("no ensemble has vorticity; classes Vortex, Inviscid and Viscous do");
+  }
+  std::vector<Column> columns_of_one() const override {
+    using namespace dimensions;
+    bool const plane = dimension() == 2;
+    Dimension const of_line = circulation * length, of_impulse = of_line * (plane ? none : length);
+    std::vector<Column> all;
+    auto const add = [&](std::vector<Column> const& more) { all.insert(all.end(), more.begin(), more.end()); };
+    add(plane ? std::vector<Column>{{"circulation", circulation}} : along_axes("total vorticity", 3, of_line));
+    add(along_axes("impulse", dimension(), of_impulse));
+    add(plane ? std::vector<Column>{{"angular impulse", of_impulse * length}}
+              : along_axes("angular impulse", 3, of_impulse * length));
+    if (!plane) add({{"helicity", of_line * velocity}});
+    return all;
+  }
+  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
+    auto const found = vortex_measures(of);
+    int const numbers = dimension() == 2 ? 1 : 3;
+    values.insert(values.end(), found.circulation.begin(), found.circulation.begin() + numbers);
+    values.insert(values.end(), found.impulse.begin(), found.impulse.begin() + dimension());
+    values.insert(values.end(), found.angular_impulse.begin(), found.angular_impulse.begin() + numbers);
+    if (numbers == 3) values.push_back(found.helicity);
   }
 };
 
@@ -561,6 +595,12 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
         {{"angular-momentum", "the sum of m r x v about the origin or the centre of mass; conserved in open space only",
           told({{"ensembles"}, {"about_centre_of_mass"}})},
          make<AngularMomentum>},
+        {{"vortex-invariants",
+          "circulation, linear and angular impulse of vortices, in 3D helicity: what a flow without viscosity "
+          "conserves "
+          "in open space",
+          told({{"ensembles"}})},
+         make<VortexInvariants>},
         {{"temperature", "m <v^2> / k along each axis and their mean", told({{"ensembles"}, {"subtract_drift"}})},
          make<TemperatureDiagnosis>},
         {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},

@@ -1,32 +1,168 @@
-// The law of Biot and Savart: vortices carry fluid particles and each other (section 3.7 of the 1990 thesis).
+// The law of Biot and Savart: vortices carry fluid particles and each other (section 3.7 of the 1990 thesis), with the
+// cores that vortex methods use.
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
 #include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/particles/vortex.hpp>
 
+#include <array>
+#include <cstddef>
+
 namespace boltzmann {
 
-/// The velocity that vortex q gives to the fluid particle p; r = p - q.
-///   2D: Gamma / (2 pi) k x r / max(r, core)^2: solid rotation inside the core, zero at its centre, a point vortex
-///       outside. (C.20 has the speed of the rim everywhere inside, and no value at the centre.)
-///   3D: -1/(4 pi) r x omega / s^3, s^2 = r^2 + core^2. Where p's influence is a VortexInfluence (Inviscid, Viscous),
-///       also what the flow does to p's vorticity (Eq 3.14):
-///       (omega_p . grad) v = 1/(4 pi) [omega_q x omega_p / s^3 - 3 (r . omega_p) omega_q x r / s^5].
-/// A positive vortex (3D: along +z) turns counterclockwise. Test particles (Tracer) carry no vorticity: use
-/// one_way(BiotSavart{}) between them and vortices. There is no energy.
-struct BiotSavart {
+/// How strongly a vortex turns what is near it, by the square of the distance and of its core (a radius). A core says in
+/// 2D q(r) / r^2 and in 3D q(r) / r^3, q the part of its vorticity that is inside r, and in 3D also the derivative of
+/// that over r.
+template <class Real>
+struct Turning {
+  Real strength, slope;
+};
+
+/// 2D: solid rotation inside the core, a point vortex outside; zero at the centre. (C.20 has the speed of the rim
+/// everywhere inside, and no value at the centre.) 3D: of Rosenhead and Moore, q = r^3 / (r^2 + core^2)^(3/2).
+struct PlainCore {
   static constexpr LawText text{
       .name = "biot-savart",
-      .doc = "vortices carry fluid particles and each other; regularised inside the core of the source",
+      .doc = "vortices carry fluid particles and each other; in 2D a solid core, in 3D that of Rosenhead and Moore",
       .formula =
           "velocity Gamma k x r/(2 pi max(r, core)^2) in 2D, -r x omega/(4 pi (r^2 + core^2)^(3/2)) in 3D, "
-          "which also stretches the vorticity of Inviscid and Viscous",
+          "which also changes the vorticity of Inviscid and Viscous by (1 - transposed) (omega . grad) v + "
+          "transposed grad (omega . v)",
       .target = "Tracer",
       .source = "Vortex",
       .least_dimension = 2,
-      .has_energy = false};
-  static constexpr auto parameters() { return std::tuple{}; }
+      .has_energy = false,
+      .in_programs = "BiotSavart"};
+
+  template <class Real>
+  static Real turning_2d(Real const& square, Real const& core2) {
+    Real const larger = max(square, core2);
+    return select(larger > 0.0, 1.0 / larger, Real(0.0));
+  }
+  template <class Real>
+  static Turning<Real> turning_3d(Real const& square, Real const& core2) {
+    Real const all = square + core2;
+    Real const inverse = select(all > 0.0, rsqrt(all), Real(0.0));
+    Real const inverse2 = inverse * inverse, strength = inverse2 * inverse;
+    return {strength, -3.0 * strength * inverse2};
+  }
+};
+
+/// The algebraic core of G. S. Winckelmans and A. Leonard, J. Comput. Phys. 109, 247 (1993): vorticity goes with
+/// (1 + r^2 / core^2)^(-3) in 2D, ^(-7/2) in 3D, so that its second moment exists: an error of second order in the core.
+struct AlgebraicCore {
+  static constexpr LawText text{
+      .name = "biot-savart-algebraic",
+      .doc = "the same with the algebraic core of Winckelmans and Leonard, whose errors are of second order",
+      .formula =
+          "velocity Gamma k x r (r^2 + 2 core^2)/(2 pi s^4) in 2D, -r x omega (r^2 + 5/2 core^2)/(4 pi s^5) in "
+          "3D, s^2 = r^2 + core^2; transposed as in "
+          "biot-savart",
+      .target = "Tracer",
+      .source = "Vortex",
+      .least_dimension = 2,
+      .has_energy = false,
+      .in_programs = "AlgebraicBiotSavart"};
+
+  template <class Real>
+  static Real turning_2d(Real const& square, Real const& core2) {
+    Real const all = square + core2;
+    Real const inverse = select(all > 0.0, 1.0 / all, Real(0.0));
+    return (all + core2) * (inverse * inverse);
+  }
+  template <class Real>
+  static Turning<Real> turning_3d(Real const& square, Real const& core2) {
+    Real const all = square + core2;
+    Real const inverse = select(all > 0.0, rsqrt(all), Real(0.0));
+    Real const inverse2 = inverse * inverse, more = core2 * inverse2, third = inverse2 * inverse;
+    return {third * (1.0 + 1.5 * more), -third * inverse2 * (3.0 + 7.5 * more)};
+  }
+};
+
+/// Vorticity is a Gaussian of standard deviation `core`: that of a point vortex after a time core^2 / (2 viscosity)
+/// (Lamb and Oseen). An error of second order in the core.
+struct GaussianCore {
+  static constexpr LawText text{
+      .name = "biot-savart-gaussian",
+      .doc = "the same with Gaussian cores of standard deviation `core`, as viscosity makes them; of second order",
+      .formula =
+          "velocity Gamma k x r (1 - exp(-t^2))/(2 pi r^2) in 2D, -r x omega (erf(t) - 2 t exp(-t^2)/sqrt(pi))/"
+          "(4 pi r^3) in 3D, t^2 = r^2/(2 core^2); transposed as in biot-savart",
+      .target = "Tracer",
+      .source = "Vortex",
+      .least_dimension = 2,
+      .has_energy = false,
+      .in_programs = "GaussianBiotSavart"};
+
+  template <class Real>
+  static Real turning_2d(Real const& square, Real const& core2) {
+    Scaled<Real> const t(square, core2);
+    Real const near = t.inverse * (1.0 - t.square * (0.5 - t.square * (1.0 / 6)));  // of what is left of it at 1e-6
+    return select(t.square < 1e-6, near, -expm1(-t.square) * select(square > 0.0, 1.0 / square, Real(0.0)));
+  }
+  template <class Real>
+  static Turning<Real> turning_3d(Real const& square, Real const& core2) {
+    Scaled<Real> const t(square, core2);
+    Real const x = t.square, root = sqrt(x), gauss = two_over_root_pi * exp(-x);
+    Real const inverse = select(square > 0.0, rsqrt(square), Real(0.0)), inverse2 = inverse * inverse;
+    Real const inside = erf(root) - root * gauss, third = inverse2 * inverse;
+    Turning<Real> const far{inside * third, (2.0 * x * root * gauss - 3.0 * inside) * (third * inverse2)};
+    // Series of both in t^2, where differences would lose digits: sum (-t^2)^n / (n! (2 n + 3)), and its derivative.
+    Real strength(0.0), slope(0.0);
+    for (std::size_t n = terms; n-- > 0;) {
+      if (n + 1 < terms) slope = series[n + 1] * static_cast<double>(n + 1) - slope * x;
+      strength = series[n] - strength * x;
+    }
+    Real const scale = 2 * two_over_root_pi * t.inverse * sqrt(t.inverse);
+    return {select(x < 0.3, scale * strength, far.strength),
+            select(x < 0.3, -2.0 * scale * t.inverse * slope, far.slope)};
+  }
+
+ private:
+  static constexpr double two_over_root_pi = 1.12837916709551257390;
+  static constexpr std::size_t terms = 12;
+  /// 1 / (n! (2 n + 3)).
+  static constexpr std::array<double, terms> series = [] {
+    std::array<double, terms> all{};
+    double factorial = 1;
+    for (std::size_t n = 0; n < terms; ++n) {
+      if (n > 0) factorial *= static_cast<double>(n);
+      all[n] = 1 / (factorial * (2 * static_cast<double>(n) + 3));
+    }
+    return all;
+  }();
+  /// t^2, no larger than it takes for the core to be of no effect.
+  template <class Real>
+  struct Scaled {
+    Real inverse, square;
+    Scaled(Real const& square_of_r, Real const& core2)
+        : inverse(select(core2 > 0.0, 0.5 / core2, Real(0.0))),
+          square(select(core2 > 0.0, min(square_of_r * inverse, Real(50.0)), Real(50.0))) {}
+  };
+};
+
+/// The velocity that vortex q gives to the fluid particle p; r = p - q, w the turning of q's core.
+///   2D: Gamma / (2 pi) k x r w
+///   3D: 1/(4 pi) omega_q x r w. Where p's influence is a VortexInfluence (Inviscid, Viscous), also what the flow does to
+///       p's vorticity: (omega_p . grad) v (Eq 3.14), or grad (omega_p . v) with omega_p held, its transposed form, or
+///       something between them. They agree where the vorticity has no divergence; the transposed one conserves the sum
+///       of the vorticity whatever it is.
+/// A positive vortex (3D: along +z) turns counterclockwise. Test particles (Tracer) carry no vorticity: use
+/// one_way(BiotSavart{}) between them and vortices. There is no energy.
+template <class Core>
+struct BiotSavartOf {
+  double transposed = 1;  ///< the part of the transposed form; 0: Eq 3.14, 1/2: mixed
+
+  static constexpr LawText text = Core::text;
+  static constexpr auto parameters() {
+    return std::tuple{
+        ParameterOf{&BiotSavartOf::transposed,
+                    {"transposed", dimensions::none,
+                     "stretching of vorticity in 3D: 1, the transposed form, keeps its sum; 0, the classic "
+                     "form (omega . grad) v; 0.5, mixed",
+                     NumberRange{0, 1}, "1"}}};
+  }
 
   template <class P, class Q>
   requires requires(P const& p, Q const& q) {
@@ -37,22 +173,44 @@ struct BiotSavart {
   auto operator()(P const& p, Q const& q) const {
     auto const r = p.position - q.position;
     using Real = std::remove_cvref_t<decltype(r[0])>;
+    Real const square = dot(r, r), core2 = q.core * q.core;
     if constexpr (P::dimension == 2) {
-      Real const square = max(dot(r, r), q.core * q.core);
-      Real const inverse = select(square > 0.0, 1.0 / square, Real(0.0));
-      return cross(q.vorticity, r) * (1 / (2 * pi) * inverse);
+      return cross(q.vorticity, r) * (1 / (2 * pi) * Core::turning_2d(square, core2));
     } else {
-      Real const square = dot(r, r) + q.core * q.core;
-      Real const inverse = select(square > 0.0, rsqrt(square), Real(0.0));
-      Real const inverse2 = inverse * inverse;
-      Real const weight = 1 / (4 * pi) * (inverse2 * inverse);
-      auto const swirl = cross(q.vorticity, r) * weight;
+      auto const turning = Core::turning_3d(square, core2);
+      auto const across = cross(q.vorticity, r) * (1 / (4 * pi));
+      auto const swirl = across * turning.strength;
       if constexpr (std::is_same_v<typename P::Influence, VortexInfluence<Real>>)
         return VortexInfluence<Real>{
-            swirl, cross(q.vorticity, p.vorticity) * weight - swirl * (3.0 * inverse2 * dot(r, p.vorticity))};
+            swirl, cross(q.vorticity, p.vorticity) * (turning.strength * ((1 - 2 * transposed) / (4 * pi))) +
+                       across * (turning.slope * ((1 - transposed) * dot(r, p.vorticity))) +
+                       r * (turning.slope * (transposed * dot(across, p.vorticity)))};
       else
         return swirl;
     }
+  }
+};
+
+using BiotSavart = BiotSavartOf<PlainCore>;
+using AlgebraicBiotSavart = BiotSavartOf<AlgebraicCore>;
+using GaussianBiotSavart = BiotSavartOf<GaussianCore>;
+
+/// One of them, chosen while a program runs.
+enum class VortexCore { plain, algebraic, gaussian };
+struct VortexLaw {
+  VortexCore core;
+  double transposed;
+
+  VortexLaw(BiotSavart const& law) : core(VortexCore::plain), transposed(law.transposed) {}
+  VortexLaw(AlgebraicBiotSavart const& law) : core(VortexCore::algebraic), transposed(law.transposed) {}
+  VortexLaw(GaussianBiotSavart const& law) : core(VortexCore::gaussian), transposed(law.transposed) {}
+
+  /// Calls f with the law itself.
+  template <class F>
+  auto visit(F const& f) const {
+    if (core == VortexCore::algebraic) return f(AlgebraicBiotSavart{transposed});
+    if (core == VortexCore::gaussian) return f(GaussianBiotSavart{transposed});
+    return f(BiotSavart{transposed});
   }
 };
 

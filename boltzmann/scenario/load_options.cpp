@@ -48,6 +48,9 @@ OptionTable make_members() {
           "Newton's constant, by which they move", "that of nature; 1 of pure numbers");
   all.add("centre", &L::centre, vector(dimensions::length), "of the cluster", "0 on each axis");
   all.add("drift", &L::drift, vector(dimensions::velocity), "how the cluster moves", "0 on each axis");
+  all.add("normal", &L::normal, vector(dimensions::none), "in 3D, of any length: the ring goes around it",
+          "the z axis");
+  all.add("ripple", &L::ripple, number(dimensions::none, {-1, 1}), "its radius is radius (1 + ripple cos(mode angle))");
   all.at("mass").needed = "\"1e4 Msun\"";
   all.at("radius").needed = "\"1 pc\"";
   all.at("spacing").needed = "\"2.551 angstrom\"";
@@ -77,6 +80,12 @@ std::vector<LoadKind> make_kinds() {
       {"barometric", "the barometric density along the last axis", true, of({{"temperature"}, {"acceleration"}})},
       {"plummer-sphere", "Plummer's cluster of stars, at rest in its own gravity, with masses and velocities", true,
        of({{"mass"}, {"radius"}, {"G"}, {"centre"}, {"drift"}})},
+      {"ring", "evenly on a circle", true,
+       of({{"radius", "of the circle", "", "1"},
+           {"centre", "of the circle"},
+           {"normal"},
+           {"mode", "periods of a ripple around the circle", "none"},
+           {"ripple"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file", "an XYZ file; its `Lattice` has to be the box along axes that are periodic in both (`pbc`)", false,
        of({{"path"}, {"frame"}, {"species"}, {"length"}, {"velocity"}})},

@@ -29,7 +29,8 @@ struct LoadOptions {
   double length = 1, velocity = 1;
   double mass = 1, radius = 1;
   std::optional<double> G;
-  std::optional<std::array<double, 3>> centre, drift;
+  std::optional<std::array<double, 3>> centre, drift, normal;
+  double ripple = 0;
 };
 
 struct LoadKind {

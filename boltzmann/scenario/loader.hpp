@@ -55,6 +55,8 @@ class Loader {
   void load_sinusoidal(AnyEnsemble& particles);
   void load_barometric(AnyEnsemble& particles);
   void load_plummer(AnyEnsemble& particles);
+  double read_ring();
+  void load_ring(AnyEnsemble& particles);
   double read_positions();
   void load_places(AnyEnsemble& particles);
   double read_file();

@@ -2,6 +2,7 @@
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/loaders/ring_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/loader.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -83,6 +84,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
       Way{"sinusoidal", &Loader::read_wave, &Loader::load_sinusoidal},
       Way{"barometric", nullptr, &Loader::load_barometric},
       Way{"plummer-sphere", nullptr, &Loader::load_plummer},
+      Way{"ring", &Loader::read_ring, &Loader::load_ring},
       Way{"positions", &Loader::read_positions, &Loader::load_places},
       Way{"file", &Loader::read_file, &Loader::load_file},
   };
@@ -168,6 +170,22 @@ void Loader::load_plummer(AnyEnsemble& particles) {
                            .centre = options_.centre.value_or(none),
                            .drift = options_.drift.value_or(none),
                            .seed = reading_.run.seed});
+}
+
+double Loader::read_ring() {
+  if (options_.normal && reading_.dimension == 2)
+    reading_.mistake(section_.place("normal"), "normal: a ring in a plane has none; leave it out");
+  if (options_.ripple != 0 ? !section_.has("mode") : section_.has("mode") && !section_.has("ripple"))
+    reading_.mistake(section_.place(section_.has("mode") ? "mode" : "ripple"),
+                     "a ripple has a mode, its periods around the circle, and a ripple, its height: both or none");
+  return 0;
+}
+
+void Loader::load_ring(AnyEnsemble& particles) {
+  RingOptions options{.radius = options_.radius, .mode = options_.mode, .ripple = options_.ripple};
+  if (options_.centre) options.centre = *options_.centre;
+  if (options_.normal) options.normal = *options_.normal;
+  ring_load(particles, options);
 }
 
 /// Of `fill` and `positions`.

@@ -1,23 +1,45 @@
 // Reads [multipole]: gravity, electrostatics or vortex flow by expansions.
 #include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/schemes/multipole/multipole_options.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace boltzmann {
 namespace {
 
-/// Whether the law is that of vortices, which has no numbers.
-bool names_vortices(Section& section) {
+std::vector<std::string> vortex_laws() {
+  std::vector<std::string> names;
+  for (auto const& law : scenario_laws())
+    if (law.source == "Vortex") names.emplace_back(law.name);
+  return names;
+}
+
+/// The law of vortices, where the word names one.
+std::optional<VortexLaw> read_vortex_law(Section& section, Reading& reading) {
   Item const* word = section.find("law");
-  if (!word || !word->is(Item::Kind::text) || word->text != "biot-savart") return false;
+  auto const names = vortex_laws();
+  if (!word || !word->is(Item::Kind::text) || std::find(names.begin(), names.end(), word->text) == names.end())
+    return std::nullopt;
   section.explain(*multipole_options().find("law"));
   for (char const* key : {"k", "G", "softening"})
-    section.refuse(key, "the law 'biot-savart' has none (each vortex has a core); leave it out");
-  return true;
+    section.refuse(key, fmt::format("the law '{}' has none (each vortex has a core); leave it out", word->text));
+  auto const values =
+      read_parameters(section, fmt::format("law '{}'", word->text), find_law(word->text)->parameters, reading);
+  double const transposed = values ? values->front().second.front() : 1;
+  if (word->text == AlgebraicBiotSavart::text.name) return AlgebraicBiotSavart{transposed};
+  if (word->text == GaussianBiotSavart::text.name) return GaussianBiotSavart{transposed};
+  return BiotSavart{transposed};
 }
 
 }  // namespace
@@ -25,8 +47,8 @@ bool names_vortices(Section& section) {
 void read_multipole(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[multipole]", reading.context);
-  bool const vortices = names_vortices(section);
-  auto const law = vortices ? std::nullopt : read_field_law(section, multipole_options(), reading, {"biot-savart"});
+  auto const vortices = read_vortex_law(section, reading);
+  auto const law = vortices ? std::nullopt : read_field_law(section, multipole_options(), reading, vortex_laws());
   MultipoleOptions options;
   read_options(section, keys_but_of_the_law(multipole_options()), &options, {.dimension = reading.dimension});
   Item const* grid = section.find("grid");
@@ -35,7 +57,7 @@ void read_multipole(Item const& table, Reading& reading) {
   section.finish();
   if (!(law || vortices) || !reading.box || reading.context.mistakes.count() != before) return;
   catch_errors(reading, table.place, [&] {
-    auto scheme = vortices ? std::make_unique<MultipoleScheme>(*reading.box, BiotSavart{}, options.tolerance)
+    auto scheme = vortices ? std::make_unique<MultipoleScheme>(*reading.box, *vortices, options.tolerance)
                            : std::make_unique<MultipoleScheme>(*reading.box, *law, options.tolerance);
     if (cells) scheme->grid(*cells);
     catch_errors(reading, place_of_background, [&] { scheme->background(options.background); });

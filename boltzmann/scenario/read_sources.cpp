@@ -34,7 +34,7 @@ std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& ke
 OptionTable keys_but_of_the_law(OptionTable const& all) {
   std::vector<OptionKey> keys;
   for (auto const& key : all.keys())
-    if (key != "law" && key != "k" && key != "G" && key != "softening") keys.push_back({key});
+    if (key != "law" && key != "k" && key != "G" && key != "softening" && key != "transposed") keys.push_back({key});
   return all.only(keys);
 }
 

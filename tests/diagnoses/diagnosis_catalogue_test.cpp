@@ -180,8 +180,9 @@ TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
-      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, temperature, pressure, number, "
-      "entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, extremes, field-energy, "
+      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, temperature, "
+      "pressure, number, entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, extremes, "
+      "field-energy, "
       "field-mode, "
       "wave-spectrum, "
       "energy-balance; "
@@ -215,8 +216,9 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 18U);
+  EXPECT_EQ(diagnosis_kinds().size(), 19U);
   Ensemble<Smooth<2>> gas("gas");
+  Ensemble<Vortex<2>> vortices("vortices");
   for (auto const& kind : diagnosis_kinds()) {
     auto any = parameters();
     if (kind.of_mesh) {
@@ -226,6 +228,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
     if (kind.name == "extremes") any.quantity = "speed";
     if (kind.name == "entropy" || kind.name == "heat-flux") any.available = {&gas};
     if (kind.name == "heat-flux") any.conductivity = 1;
+    if (kind.name == "vortex-invariants") any.available = {&vortices};
     std::unique_ptr<Diagnosis> made;
     ASSERT_NO_THROW(made = make_diagnosis(kind.name, any)) << kind.name;
     EXPECT_EQ(made->needs_energies() || made->needs_virial(), kind.name == "energies" || kind.name == "pressure" ||
@@ -254,11 +257,13 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
   Box const box(Vector<3>{0, 0, 0}, Vector<3>{1, 1, 1});
   auto const measures = EnergyAndVirial::known();
   Ensemble<Smooth<3>> gas("gas");
+  Ensemble<Vortex<3>> vortices("vortices");
   for (auto const& kind : diagnosis_kinds()) {
     if (kind.of_mesh || kind.name == "heat-flux") continue;     // these need a mesh, and walls of two temperatures
     if (kind.name == "slab" || kind.name == "shock") continue;  // and these, matter (see their own tests)
     // An entropy belongs to matter that has an internal energy.
-    AnyEnsemble* const of = kind.name == "entropy" ? static_cast<AnyEnsemble*>(&gas) : &space;
+    AnyEnsemble* of = kind.name == "entropy" ? static_cast<AnyEnsemble*>(&gas) : &space;
+    if (kind.name == "vortex-invariants") of = &vortices;
     std::vector<AnyEnsemble*> const ensembles{of};
     DiagnosisParameters with{.available = {of}};
     if (kind.name == "extremes") with.quantity = "speed";

@@ -438,7 +438,7 @@ TEST_P(PairLawOf, ChecksItsParameters) {
 }
 
 TEST(Laws, EveryPairLawOfTheCatalogueIsTestedHere) {
-  std::set<std::string> tested{"biot-savart", "pendulum-coupling"};
+  std::set<std::string> tested{"biot-savart", "biot-savart-algebraic", "biot-savart-gaussian", "pendulum-coupling"};
   for (auto const& law : pair_laws()) tested.insert(law.name);
   std::set<std::string> shipped;
   for (auto const& law : scenario_laws())
@@ -746,27 +746,104 @@ TEST(BiotSavart, RingIn3D) {
   }
 }
 
-TEST(BiotSavart, StretchingIsTheGradientOfTheVelocityAlongTheVorticity) {
-  BiotSavart const law;
+/// The part of a vortex's vorticity that is inside a radius, from its distribution, by Simpson's rule.
+double inside(double (*distribution)(double), int dimension, double radius) {
+  int const intervals = 2000;
+  double sum = 0;
+  for (int k = 0; k <= intervals; ++k) {
+    double const r = radius * k / intervals, shell = dimension == 2 ? 2 * pi * r : 4 * pi * r * r;
+    sum += (k == 0 || k == intervals ? 1 : k % 2 == 1 ? 4 : 2) * shell * distribution(r);
+  }
+  return sum * radius / (3 * intervals);
+}
+
+template <class Law>
+void expect_core(Law const& law, double (*in_plane)(double), double (*in_space)(double), double end_in_plane) {
+  double const core = 0.3, gamma = 5;
+  for (double const t : {1e-5, 1e-3, 0.02, 0.3, 0.7, 0.77, 0.775, 0.78, 1.1, 2.0, 5.0, 20.0}) {
+    double const r = t * core;
+    Tracer<2> p{};
+    p.position = {1 + r * 0.6, 1 + r * 0.8};
+    auto const v = law(p, vortex2(1, 1, gamma, core));
+    double const speed = gamma / (2 * pi * r) * inside(in_plane, 2, std::min(t, end_in_plane));
+    EXPECT_NEAR(v[0], -0.8 * speed, 1e-7 * speed) << t;
+    EXPECT_NEAR(v[1], 0.6 * speed, 1e-7 * speed) << t;
+    Tracer<3> e{};
+    e.position = {r * 0.6, 0, r * 0.8};
+    double const turning = gamma / (4 * pi * r * r) * inside(in_space, 3, t);
+    EXPECT_NEAR(law(e, vortex3({0, 0, 0}, {0, 0, gamma}, core))[1], 0.6 * turning, 1e-7 * turning) << t;
+  }
+  // At its own place, with a core and without; and without a core all of them are point vortices.
+  for (double const radius : {0.0, core}) {
+    EXPECT_EQ(law(vortex2(1, 1, 1, core), vortex2(1, 1, gamma, radius)), (Vector{0.0, 0.0}));
+    EXPECT_EQ(law(vortex3({1, 2, 3}, {1, 0, 0}), vortex3({1, 2, 3}, {0, 1, 0}, radius)), (Vector{0.0, 0.0, 0.0}));
+  }
+  EXPECT_NEAR(law(vortex2(2, 0, 1), vortex2(0, 0, gamma, 0))[1], gamma / (4 * pi), 1e-15);
+  EXPECT_NEAR(law(vortex3({2, 0, 0}, {}), vortex3({0, 0, 0}, {0, 0, gamma}))[1], gamma / (16 * pi), 1e-15);
+}
+
+TEST(BiotSavart, CoresHaveTheVorticityThatTheySay) {
+  expect_core(
+      BiotSavart{}, [](double) { return 1 / pi; }, [](double r) { return 3 / (4 * pi) * std::pow(1 + r * r, -2.5); },
+      1);
+  expect_core(
+      AlgebraicBiotSavart{}, [](double r) { return 2 / pi * std::pow(1 + r * r, -3); },
+      [](double r) { return 15 / (8 * pi) * std::pow(1 + r * r, -3.5); }, 99);
+  expect_core(
+      GaussianBiotSavart{}, [](double r) { return std::exp(-r * r / 2) / (2 * pi); },
+      [](double r) { return std::exp(-r * r / 2) * std::pow(2 * pi, -1.5); }, 99);
+}
+
+/// The classic form is the gradient of the velocity along the vorticity; the transposed one the gradient of the velocity
+/// in the direction of the vorticity, and what one loses by it the other gains.
+template <class Law>
+void expect_stretching() {
   Randomness random;
   for (int trial = 0; trial < 100; ++trial) {
     auto p = random.particle<Inviscid<3>>();
     auto q = random.particle<Viscous<3>>();
-    q.position = p.position + random.direction<3>() * random.uniform(0.5, 2);
-    auto const result = law(p, q);
-    static_assert(std::is_same_v<decltype(result), VortexInfluence<double> const>);
-    auto const velocity_at = [&](double s) {  // along the vorticity of p
+    double const distance = random.uniform(0.1, 2);
+    q.position = p.position + random.direction<3>() * distance;
+    q.core = random.uniform(0.2, 0.8), p.core = q.core;
+    auto const classic = Law{.transposed = 0}(p, q), transposed = Law{}(p, q), mixed = Law{.transposed = 0.5}(p, q);
+    static_assert(std::is_same_v<decltype(classic), VortexInfluence<double> const>);
+    auto const velocity_at = [&](Vector<3> const& step) {
       Tracer<3> e{};
-      e.position = p.position + p.vorticity * s;
-      return law(e, q);
+      e.position = p.position + step;
+      return Law{}(e, q);
     };
-    EXPECT_EQ(result.velocity, velocity_at(0));
+    EXPECT_EQ(classic.velocity, velocity_at({}));
+    EXPECT_EQ(transposed.velocity, velocity_at({}));
     double const h = 1e-4;
-    auto const expected =
-        (8 * (velocity_at(h) - velocity_at(-h)) - (velocity_at(2 * h) - velocity_at(-2 * h))) / (12 * h);
-    EXPECT_LT(magnitude(result.stretching - expected), 1e-9 * (1 + magnitude(expected)));
+    auto const along = [&](Vector<3> const& d) {
+      return (8 * (velocity_at(d * h) - velocity_at(d * -h)) - (velocity_at(d * (2 * h)) - velocity_at(d * (-2 * h)))) /
+             (12 * h);
+    };
+    auto const expected = along(p.vorticity);
+    EXPECT_LT(magnitude(classic.stretching - expected), 1e-8 * (1 + magnitude(expected)));
+    for (int a = 0; a < 3; ++a) {
+      Vector<3> axis{};
+      axis[a] = 1;
+      double const slope = dot(along(axis), p.vorticity);
+      EXPECT_NEAR(transposed.stretching[a], slope, 1e-8 * (1 + std::abs(slope)));
+      EXPECT_NEAR(mixed.stretching[a], 0.5 * (classic.stretching[a] + transposed.stretching[a]),
+                  1e-14 * magnitude(classic.stretching));
+    }
+    Inviscid<3> back{};
+    back.position = q.position, back.vorticity = q.vorticity;
+    Viscous<3> source{};
+    source.position = p.position, source.vorticity = p.vorticity, source.core = q.core;
+    EXPECT_LT(magnitude(Law{}(back, source).stretching + transposed.stretching),
+              1e-13 * (1e-3 + magnitude(transposed.stretching)));
   }
+}
+
+TEST(BiotSavart, StretchingIsTheGradientOfTheVelocity) {
+  expect_stretching<BiotSavart>();
+  expect_stretching<AlgebraicBiotSavart>();
+  expect_stretching<GaussianBiotSavart>();
   // At one place: finite, without a core too.
+  BiotSavart const law{.transposed = 0};
   auto p = vortex3<Inviscid<3>>({1, 2, 3}, {1, 0, 0}), q = vortex3<Inviscid<3>>({1, 2, 3}, {0, 1, 0});
   EXPECT_EQ(law(p, q).velocity, (Vector{0.0, 0.0, 0.0}));
   EXPECT_EQ(law(p, q).stretching, (Vector{0.0, 0.0, 0.0}));
@@ -775,8 +852,9 @@ TEST(BiotSavart, StretchingIsTheGradientOfTheVelocityAlongTheVorticity) {
   EXPECT_DOUBLE_EQ(law(p, q).stretching[2], -1 / (4 * pi));  // y x x = -z
 }
 
-TEST(BiotSavart, PacksAreScalars) {
-  BiotSavart const law;
+template <class Law>
+void expect_vortex_packs() {
+  Law const law;
   expect_packs_are_scalars<Vortex<2>, 2>(law, 0.2, 3);
   expect_packs_are_scalars<Vortex<2>, 4>(law, 0.2, 3);
   expect_packs_are_scalars<Vortex<2>, 8>(law, 0.2, 3);
@@ -784,6 +862,11 @@ TEST(BiotSavart, PacksAreScalars) {
   expect_packs_are_scalars<Vortex<3>, 2>(law, 0.2, 3);
   expect_packs_are_scalars<Inviscid<3>, 4>(law, 0.2, 3);
   expect_packs_are_scalars<Viscous<3>, 8>(law, 0.2, 3);
+}
+TEST(BiotSavart, PacksAreScalars) {
+  expect_vortex_packs<BiotSavart>();
+  expect_vortex_packs<AlgebraicBiotSavart>();
+  expect_vortex_packs<GaussianBiotSavart>();
   static_assert(!std::is_invocable_v<BiotSavart, Vortex<2>, Tracer<2>>, "a test particle moves nobody");
   static_assert(std::is_invocable_v<decltype(one_way(BiotSavart{})), Tracer<2>, Vortex<2>>);
   static_assert(symmetry_of<decltype(one_way(BiotSavart{}))>() == Symmetry::one_way);

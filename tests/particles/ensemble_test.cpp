@@ -665,7 +665,7 @@ TEST(Inviscid3, StretchingIsTheDerivativeOfTheFlowAlongTheVorticity) {
   elements[1].vorticity = {0, 0, 1};
   elements[1].core = std::sqrt(3.0);
   PairScheme scheme(Box(Vector{-9., -9., -9.}, Vector{9., 9., 9.}));
-  scheme.internal(elements, BiotSavart{});
+  scheme.internal(elements, BiotSavart{.transposed = 0});
   scheme.calculate();
   double const s3 = s * s * s, s5 = s3 * s * s;
   VortexInfluence<double> const on_p = elements.influence_on(0);
@@ -702,9 +702,10 @@ TEST(Inviscid3, StretchingOfManyIsTheDerivativeOfTheirFlow) {
   Ensemble<Tracer<3>> probes("probes", 2);
   scatter(elements, box, 8);
   PairScheme scheme(box);
-  scheme.internal(elements, BiotSavart{});
+  scheme.internal(elements, BiotSavart{.transposed = 0});
   scheme.calculate();
-  EXPECT_LT(difference(elements, {oracle::influences(elements, elements, BiotSavart{}, box, no_cutoff)}), 1e-13);
+  EXPECT_LT(difference(elements, {oracle::influences(elements, elements, BiotSavart{.transposed = 0}, box, no_cutoff)}),
+            1e-13);
   for (std::size_t const i : {0, 7, 44}) {
     double const h = 1e-5;
     auto const omega = elements[i].vorticity;
@@ -713,7 +714,7 @@ TEST(Inviscid3, StretchingOfManyIsTheDerivativeOfTheirFlow) {
       Tracer<3> probe{elements[i].position + omega * (side == 0 ? -h : h)};
       flow[side] = {0, 0, 0};
       for (std::size_t j = 0; j < elements.size(); ++j)
-        if (j != i) flow[side] += BiotSavart{}(probe, elements[j]);
+        if (j != i) flow[side] += BiotSavart{.transposed = 0}(probe, elements[j]);
     }
     auto const derivative = (flow[1] - flow[0]) / (2 * h);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(elements.influence_on(i).stretching[k], derivative[k], 1e-7);

@@ -88,7 +88,7 @@ std::vector<Class> classes_named(std::string_view name, int dimension) {
 }
 /// Those that can be both: q acts on p.
 std::vector<Class> classes_among(LawInfo const& law, int dimension) {
-  if (law.name != "biot-savart") return classes_named(law.target, dimension);
+  if (law.source != "Vortex") return classes_named(law.target, dimension);
   std::vector<Class> found;
   for (char const* name : {"Vortex", "Inviscid", "Viscous"})
     for (auto const& entry : classes_named(name, dimension)) found.push_back(entry);

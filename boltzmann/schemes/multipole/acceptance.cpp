@@ -48,9 +48,12 @@ typename AcceptanceCriterion<Kind>::Cores AcceptanceCriterion<Kind>::cores_of(
 /// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
 ///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
 /// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
-/// power 1), which margin() a allows for. What two terms of a softening's series are off by is less than e beyond
+/// power 1), which margin() a allows for. What two terms of Plummer's series are off by is less than e beyond
 ///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)),
-/// and what one eps for all of a node is off by, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4).
+/// and what one eps for all of a node is off by, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4). The
+/// algebraic one is K = -3/8 eps^4 / r^5 (2D: -1/4 eps^4 / r^4) far away, which gives
+///   D = (40 eps^4 Q max(a, b)^2 / e)^(1/8)    (2D: (15 eps^4 Q max(a, b)^2 / e)^(1/7))
+///   D = (15/8 (greatest eps^4 - least eps^4) Q / e)^(1/6)    (2D: ((greatest eps^4 - least eps^4) Q / e)^(1/5)).
 template <class Kind>
 typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(std::size_t number, double a,
                                                                                 double const* moments,
@@ -72,27 +75,36 @@ typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(
   }
   double const e = error_;
   Limits limits;
-  double soft = 0;
-  if constexpr (!Kind::own_cores) {
-    soft = law_.softening * law_.softening;
-  } else if constexpr (D == 2) {
-    limits.core = std::sqrt(cores_[number].most);
-  } else {
-    soft = cores_[number].mean();
-    limits.spread = std::pow(1.5 * std::max(0.0, cores_[number].most - cores_[number].least) * largest / e, 0.25);
-  }
   if constexpr (D == 3) {
     limits.source = a * (std::pow((p + 2) * last / (e * a * a), 1.0 / (p + 3)) + margin());
     limits.size = std::pow((p + 1) * largest / e, 1.0 / (p + 2));
-    limits.soft = std::pow(10 * soft * largest / e, 1.0 / 6);
-    limits.soft_size = std::cbrt(a);
   } else {
     limits.source = a * (std::pow(last / (e * a), 1.0 / (p + 2)) + margin());
     limits.size = std::pow(largest / e, 1.0 / (p + 1));
-    limits.soft = std::pow(5 * soft * largest / e, 0.2);
-    limits.soft_size = std::pow(a, 0.4);
   }
+  double least = softest2(), most = least;
+  if constexpr (Kind::own_cores)
+    least = std::min(cores_[number].least, cores_[number].most), most = cores_[number].most;
+  limit_softening(limits, a, largest / e, softening2(number), least, most);
   return limits;
+}
+
+/// `strength`: Q / e; the squares of eps in the mean, the least, and the greatest.
+template <class Kind>
+void AcceptanceCriterion<Kind>::limit_softening(Limits& limits, double a, double strength, double mean, double least,
+                                                double most) const {
+  Softening const softening = Kind::softening(law_);
+  if (softening == Softening::ends) {
+    limits.core = Kind::end_of_core(law_) * std::sqrt(most);
+    return;
+  }
+  bool const plummer = softening == Softening::plummer;
+  double const power = D + (plummer ? 3 : 5), factor = plummer ? (D == 3 ? 10 : 5) : (D == 3 ? 40 : 15),
+               of_spread = D == 3 ? (plummer ? 1.5 : 15.0 / 8) : 1;
+  auto const of = [&](double square) { return plummer ? square : square * square; };
+  limits.soft = std::pow(factor * of(mean) * strength, 1 / power);
+  limits.soft_size = std::pow(a, 2 / power);
+  limits.spread = std::pow(of_spread * (of(most) - of(least)) * strength, 1 / (power - 2));
 }
 
 template class AcceptanceCriterion<Charges<2>>;

@@ -89,6 +89,7 @@ class AcceptanceCriterion {
     return std::max(nearest * target.radius, limits_[source_number].size * reach + margin() * target.radius);
   }
   Limits limits_of(std::size_t number, double radius, double const* moments, std::size_t numbers) const;
+  void limit_softening(Limits& limits, double a, double strength, double mean, double least, double most) const;
   Cores cores_of(TreeNode const& node, Tree<typename Kind::Source> const& tree) const;
 
   typename Kind::Law law_;

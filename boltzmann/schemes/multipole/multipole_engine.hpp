@@ -80,7 +80,7 @@ class MultipoleEngine {
 
 /// Error unless the law has an effect.
 std::unique_ptr<MultipoleEngine> multipole_engine(LaplaceLaw const& law, Box const& box);
-std::unique_ptr<MultipoleEngine> multipole_engine(BiotSavart const& law, Box const& box);
+std::unique_ptr<MultipoleEngine> multipole_engine(VortexLaw const& law, Box const& box);
 
 /// Error that names what all strengths sum to, and what helps.
 inline void refuse_sum(double total, char const* help) {

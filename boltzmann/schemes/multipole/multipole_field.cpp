@@ -352,11 +352,12 @@ typename MultipoleField<Kind>::SofteningMoments MultipoleField<Kind>::softened_s
 template <class Kind>
 void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) const {
   if (!softened()) return;
+  Softening const softening = Kind::softening(law_);
   auto const& place = tree_.nodes()[visit.node].centre;
   for (int k = 0; k < Kind::densities; ++k) {
     for (Other const& other : work.far)
       if (beside_[other.image])
-        visit.softening[k].add(softened_source(other.node, k), between<D>(centre(other), place),
+        visit.softening[k].add(softening, softened_source(other.node, k), between<D>(centre(other), place),
                                acceptance_.softening2(other.node));
     for (Other const& other : work.expanded) {
       if (!beside_[other.image]) continue;
@@ -367,7 +368,7 @@ void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) co
         double const core = Kind::core(law_, p);
         Vector<D> r;
         for (int a = 0; a < D; ++a) r[a] = seen[a] - p.position[a];
-        visit.softening[k].add({Kind::amount(p, k), {}}, r, core * core);
+        visit.softening[k].add(softening, {Kind::amount(p, k), {}}, r, core * core);
       }
     }
   }
@@ -379,6 +380,7 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
                                          double* potential) const {
   if (!softened()) return;
   double const constant = Kind::constant(law_);
+  Softening const softening = Kind::softening(law_);
   work.softened.clear();
   for (Other const& other : work.outside)
     if (beside_[other.image])
@@ -388,21 +390,26 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
     std::copy_n(&target.particles[i].position[0], D, place.begin());
     auto const r = between<D>(target.centre, place);
     Vector<D> fields[Kind::densities];
-    if constexpr (Kind::potential) {
-      auto correction = visit.softening[0].at(r);
+    for (int k = 0; k < Kind::densities; ++k) {
+      auto correction = visit.softening[k].at(r);
       for (auto const& source : work.softened)
-        correction.add(source.moments, between<D>(source.centre, place), source.square);
-      fields[0] = correction.slope({}) * -constant;
+        correction.add(softening, source.moments, between<D>(source.centre, place), source.square);
+      fields[k] = correction.slope({}) * -constant;
       if (potential) potential[i] += constant * correction.value({});
-    } else if constexpr (D == 3) {
-      Vector<D> along[Kind::densities];
-      for (int k = 0; k < Kind::densities; ++k) {
-        fields[k] = visit.softening[k].slope(r) * -constant;
-        along[k] = visit.softening[k].curve(target.particles[i].vorticity) * -constant;
-      }
-      add_to<D>(field + i * Kind::width + D, Kind::velocity(along));
     }
     add_fields(fields, field + i * Kind::width);
+    if constexpr (Kind::width > D) {
+      Vector<D> slopes[D];  // of the components of the velocity
+      for (int b = 0; b < D; ++b) {
+        Vector<D> axis{}, along[Kind::densities];
+        axis[b] = 1;
+        for (int k = 0; k < Kind::densities; ++k) along[k] = visit.softening[k].curve(axis) * -constant;
+        auto const change = Kind::velocity(along);
+        for (int a = 0; a < D; ++a) slopes[a][b] = change[a];
+      }
+      for (int a = 0; a < D; ++a)
+        Kind::add_stretching(law_, target.particles[i].vorticity, a, slopes[a], field + i * Kind::width + D);
+    }
   }
 }
 
@@ -440,8 +447,9 @@ void MultipoleField<Kind>::add_local(Cluster const& target, double const* local,
       for (std::size_t i = 0; i < target.count; ++i) {
         double* const influence = field + i * Kind::width;
         influence[a] += scratch.value[i];
-        for (std::size_t b = 0; b < D; ++b)
-          influence[D + a] -= target.particles[i].vorticity[static_cast<int>(b)] * scratch.field[i * D + b];
+        Vector<D> slope;
+        for (int b = 0; b < D; ++b) slope[b] = -scratch.field[i * D + static_cast<std::size_t>(b)];
+        Kind::add_stretching(law_, target.particles[i].vorticity, static_cast<int>(a), slope, influence + D);
       }
     }
   }
@@ -468,8 +476,8 @@ void MultipoleField<Kind>::add_outside(Cluster const& target, Other const& sourc
 template <class Kind>
 void MultipoleField<Kind>::add_near(Law const& law, PairTask const& task, Workspace& work) const {
   work.pairs += task.targets * task.sources;
-  PairKernel const near = with_potential_ ? kernels_.near_with_potential : Kind::near(kernels_);
-  near(&law, task, 0, task.targets);
+  Kind::near(kernels_, law, with_potential_,
+             [&](PairKernel near, void const* own) { near(own, task, 0, task.targets); });
 }
 
 template <class Kind>
@@ -624,7 +632,10 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
   task.influence = field.data();
   auto const add_pairs = [&](Law const& law) {
     for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
-               [&](std::size_t begin, std::size_t end) { Kind::near(kernels_)(&law, task, begin, end); });
+               [&](std::size_t begin, std::size_t end) {
+                 Kind::near(kernels_, law, false,
+                            [&](PairKernel near, void const* own) { near(own, task, begin, end); });
+               });
   };
   add_pairs(law_);
   if (lattice_.periodic_axes() == 0 || chosen.empty()) return field;

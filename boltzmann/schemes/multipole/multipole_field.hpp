@@ -110,7 +110,7 @@ class MultipoleField {
   void gather(int threads);
   void gather(std::size_t node);
   /// Whether expansions differ from those of points: then their corrections are wanted.
-  bool softened() const { return softest_ > 0 && !(Kind::own_cores && D == 2); }
+  bool softened() const { return softest_ > 0 && Kind::softening(law_) != Softening::ends; }
   void visit(Visit visit, Workspace& work, std::vector<Visit>& next);
   void visit_below(Visit visit, Workspace& work);
   void meet(std::uint32_t target, std::vector<Other> const& others, Workspace& work) const;

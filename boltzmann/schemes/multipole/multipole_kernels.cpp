@@ -287,7 +287,9 @@ constexpr MultipoleKernels kernels() {
           K::expand,
           detail::over_all<detail::Pass::influence, W, Probe<D>, PointSource<D>, LaplaceLaw>,
           detail::over_all<detail::Pass::with_energy, W, Probe<D>, PointSource<D>, LaplaceLaw>,
-          detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, BiotSavart>};
+          {detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, BiotSavart>,
+           detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, AlgebraicBiotSavart>,
+           detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, GaussianBiotSavart>}};
 }
 
 }  // namespace multipole

@@ -47,7 +47,7 @@ struct MultipoleKernels {
   void (*expand)(ExpansionView const& tables, NodeParticles const& particles, double* local) = nullptr;
   PairKernel near = nullptr;  ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength (P2P)
   PairKernel near_with_potential = nullptr;  ///< and half the potential
-  PairKernel near_vortices = nullptr;        ///< what Inviscid<D> feel of others by BiotSavart
+  PairKernel near_vortices[3] = {};          ///< what Inviscid<D> feel of others, by VortexCore
 };
 
 /// By [dimension - 2].

@@ -6,6 +6,7 @@
 #include <boltzmann/particles/rows.hpp>
 #include <boltzmann/schemes/mesh/point_source.hpp>
 #include <boltzmann/schemes/multipole/multipole_kernels.hpp>
+#include <boltzmann/schemes/multipole/softening.hpp>
 
 #include <vector>
 
@@ -26,16 +27,22 @@ struct Charges {
   static double amount(Source const& p, int /*density*/) { return p.amount; }
   static double core(Law const& law, Source const&) { return law.softening; }
   static Law without_softening(Law const& law, std::vector<Row<Source>>&) { return {law.constant}; }
-  static PairKernel near(MultipoleKernels const& kernels) { return kernels.near; }
+  static Softening softening(Law const&) { return Softening::plummer; }
+  static double end_of_core(Law const&) { return 0; }
+  /// Calls f(kernel, law) with what it is compiled for.
+  template <class F>
+  static void near(MultipoleKernels const& kernels, Law const& law, bool with_potential, F const& f) {
+    f(with_potential ? kernels.near_with_potential : kernels.near, &law);
+  }
 };
 
 /// Each component of vorticity makes a field E_k as charges do; the velocity is - sum_k E_k x e_k. What is felt is a
-/// velocity, in 3D also the stretching of vorticity (Inviscid). In 2D a core ends at its radius.
+/// velocity, in 3D also the stretching of vorticity (Inviscid).
 template <int D>
 struct Vortices {
   static constexpr int dimension = D;
   using Source = Inviscid<D>;
-  using Law = BiotSavart;
+  using Law = VortexLaw;
   static constexpr int densities = D == 3 ? 3 : 1;
   static constexpr int width = D == 3 ? 6 : 2;
   static constexpr bool potential = false;
@@ -48,8 +55,22 @@ struct Vortices {
     for (auto& p : sources) p.core = 0;
     return law;
   }
-  static PairKernel near(MultipoleKernels const& kernels) { return kernels.near_vortices; }
+  static Softening softening(Law const& law) {
+    if (law.core == VortexCore::algebraic) return Softening::algebraic;
+    return D == 3 && law.core == VortexCore::plain ? Softening::plummer : Softening::ends;
+  }
+  /// In cores: where a Gaussian is below 1e-11.
+  static double end_of_core(Law const& law) { return law.core == VortexCore::gaussian ? 7 : 1; }
+  template <class F>
+  static void near(MultipoleKernels const& kernels, Law const& law, bool /*with_potential*/, F const& f) {
+    law.visit([&](auto const& own) { f(kernels.near_vortices[static_cast<int>(law.core)], &own); });
+  }
 
+  /// What a velocity with this slope of its component a does to vorticity.
+  static void add_stretching(Law const& law, Vector<3> const& vorticity, int a, Vector<3> const& slope, double* rate) {
+    rate[a] += (1 - law.transposed) * dot(vorticity, slope);
+    for (int b = 0; b < 3; ++b) rate[b] += law.transposed * vorticity[a] * slope[b];
+  }
   /// The velocity of these fields.
   static Vector<D> velocity(Vector<D> const (&field)[densities]) {
     if constexpr (D == 2)

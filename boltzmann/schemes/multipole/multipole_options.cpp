@@ -9,13 +9,17 @@ OptionTable const& multipole_options() {
     using namespace option;
     OptionTable all;
     add_field_keys(all);
-    all.at("law").kind.words = {"coulomb with `k`, gravity with `G`, or biot-savart"};
+    all.at("law").kind.words = {
+        "coulomb with `k`, gravity with `G`, biot-savart, biot-savart-algebraic or biot-savart-gaussian"};
     all.at("on").doc =
         "who makes the field and feels it; gravity is made by the mass of any class, a flow by vorticity";
     all.at("on").otherwise =
         "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`, `Vortex`, `Inviscid`, `Viscous` for "
-        "`\"biot-savart\"`";
+        "`\"biot-savart\"` and its kind";
     all.add_said("softening", "a length, zero or more", "Plummer's length, within which the force is weaker", "0");
+    all.add_said(
+        "transposed", "a number from 0 to 1",
+        "how much the stretching of vorticity in 3D is of the transposed form, which keeps its sum; of vortices", "1");
     all.add("tolerance", &MultipoleOptions::tolerance, number(dimensions::none, NumberRange{1e-10, 0.1}),
             "error of all forces or velocities, as a part of their rms; it is measured, and kept");
     all.add_said("test_particles", "the name of an ensemble, or a list", "who feels the field without making it",

@@ -51,18 +51,21 @@ void check_box(Box const& box) {
 
 }  // namespace
 
-MultipoleScheme::MultipoleScheme(Box box, std::optional<LaplaceLaw> law, double tolerance)
+MultipoleScheme::MultipoleScheme(Box box, double tolerance, std::optional<LaplaceLaw> law)
     : Scheme(box), law_(law), tolerance_(tolerance) {
   check_tolerance(tolerance);
   check_box(box);
-  engine_ = law ? multipole_engine(*law, box) : multipole_engine(BiotSavart{}, box);
 }
 
 MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
-    : MultipoleScheme(box, std::optional(law), tolerance) {}
+    : MultipoleScheme(box, tolerance, law) {
+  engine_ = multipole_engine(law, box);
+}
 
-MultipoleScheme::MultipoleScheme(Box box, BiotSavart const&, double tolerance)
-    : MultipoleScheme(box, std::nullopt, tolerance) {}
+MultipoleScheme::MultipoleScheme(Box box, VortexLaw const& law, double tolerance)
+    : MultipoleScheme(box, tolerance, std::nullopt) {
+  engine_ = multipole_engine(law, box);
+}
 
 MultipoleScheme::~MultipoleScheme() = default;
 

@@ -1,6 +1,5 @@
-// Softening: by what a softened law differs from 1/r (2D: from -ln r), K(r) = 1/sqrt(r^2 + eps^2) - 1/r, which no
-// expansion in harmonics has. It is small and smooth where expansions act, so that two terms of Taylor's series do.
-// Private to this room.
+// Softening: by what a softened law differs from 1/r (2D: from -ln r), which no expansion in harmonics has. It is small
+// and smooth where expansions act, so that two terms of Taylor's series do. Private to this room.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -8,6 +7,10 @@
 #include <cmath>
 
 namespace boltzmann {
+
+/// With s^2 = r^2 + eps^2, K(r) = 1/s - 1/r of Plummer's (2D: -ln s + ln r), 1/s + eps^2/(2 s^3) - 1/r of the algebraic
+/// one (2D: -ln s + ln r + eps^2/(2 s^2)); nothing beyond some eps of one that ends.
+enum class Softening { plummer, algebraic, ends };
 
 template <int D>
 class SofteningCorrection {
@@ -18,9 +21,9 @@ class SofteningCorrection {
     Vector<D> dipole{};
   };
 
-  /// Adds what sources make about a place that lies at r from their centre; with the square of their softening.
-  void add(Moments const& source, Vector<D> const& r, double softening2) {
-    auto const k = derivatives(dot(r, r), softening2);
+  /// Adds what sources make about a place that lies at r from their centre; with the square of their eps.
+  void add(Softening softening, Moments const& source, Vector<D> const& r, double softening2) {
+    auto const k = derivatives(softening, dot(r, r), softening2);
     double const along = dot(r, source.dipole);
     value_ += source.strength * k.value - k.first * along;
     for (int a = 0; a < D; ++a) {
@@ -50,12 +53,15 @@ class SofteningCorrection {
   struct Derivatives {
     double value, first, second;
   };
-  static Derivatives derivatives(double square, double soft) {
+  static Derivatives derivatives(Softening softening, double square, double soft) {
     double const bare = 1 / square, softened = 1 / (square + soft);
+    double const more = softening == Softening::algebraic ? soft * softened : 0;
     if constexpr (D == 2)
-      return {0.5 * std::log1p(-soft * softened), bare - softened, 2 * (softened * softened - bare * bare)};
+      return {0.5 * (std::log1p(-soft * softened) + more), bare - softened * (1 + more),
+              2 * (softened * softened * (1 + 2 * more) - bare * bare)};
     double const u = std::sqrt(bare), v = std::sqrt(softened);
-    return {v - u, bare * u - softened * v, 3 * (softened * softened * v - bare * bare * u)};
+    return {v * (1 + 0.5 * more) - u, bare * u - softened * v * (1 + 1.5 * more),
+            3 * (softened * softened * v * (1 + 2.5 * more) - bare * bare * u)};
   }
 
   double value_ = 0;

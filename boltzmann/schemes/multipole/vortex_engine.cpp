@@ -98,7 +98,7 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
 
 }  // namespace
 
-std::unique_ptr<MultipoleEngine> multipole_engine(BiotSavart const& law, Box const& box) {
+std::unique_ptr<MultipoleEngine> multipole_engine(VortexLaw const& law, Box const& box) {
   if (box.dimension() == 2) return std::make_unique<VortexEngine<2>>(law, box);
   return std::make_unique<VortexEngine<3>>(law, box);
 }
