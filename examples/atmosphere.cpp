@@ -5,12 +5,12 @@ using namespace boltzmann;
 using namespace boltzmann::units;
 
 void isothermal_atmosphere(Program& program) {
-  UnitSystem const base(kilometer, amu, second);
-  double const k = base(constants::boltzmann), g = base(constants::standard_gravity), temperature = 288;
+  UnitSystem const units(kilometer, amu, second);
+  double const k = units(constants::boltzmann), g = units(constants::standard_gravity), temperature = 288;
 
   Box const box({0, 0}, {20, 60}, {Boundary::periodic, Boundary::reflecting});
   Ensemble<Newton<2>> air("air", 4000);
-  set_field(air, "mass", base(28.97 * amu));
+  set_field(air, "mass", units(28.97 * amu));
   barometric_load(air, box,
                   {.temperature = temperature, .gravity = g, .boltzmann_constant = k, .seed = program.seed()});
   maxwellian_load(air, {.temperature = temperature, .boltzmann_constant = k, .seed = program.seed()});
@@ -20,7 +20,7 @@ void isothermal_atmosphere(Program& program) {
   sky.external(air, UniformGravity<2>{{0, -g}});
 
   Simulation simulation(sky, 0.5);
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, units);
   recording.diagnoses(20, {"energies", "temperature"}).trajectory(100).picture({.colour = "speed"});
   program.run(recording, 400);
 }

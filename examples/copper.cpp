@@ -14,10 +14,10 @@ struct Atom : Newton<2, Real> {
 };
 
 void copper(Program& program) {
-  UnitSystem const base(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
-  double const r0 = base(2.551 * angstrom);
-  double const depth = base(0.1 * electronvolt);
-  double const side = base(100 * angstrom);
+  UnitSystem const units(1.804e-8 * centimeter, 5.275e-26 * gram, 3.273e-15 * second);
+  double const r0 = units(2.551 * angstrom);
+  double const depth = units(0.1 * electronvolt);
+  double const side = units(100 * angstrom);
 
   // How two particles influence each other: Lennard-Jones (Eq 6.8), its force and its energy.
   auto const lennard_jones = [=](auto const& p, auto const& q) {
@@ -35,7 +35,7 @@ void copper(Program& program) {
   block_load(atoms, {Lattice::triangular, r0, {25, 10}});
   for (auto& atom : atoms) atom.mass = 2000, atom.original = atom.position;
   for (auto const i : edge_particles(atoms, 0.6 * r0))
-    atoms[i].kappa = base(0.2 * electronvolt / (angstrom * angstrom));
+    atoms[i].kappa = units(0.2 * electronvolt / (angstrom * angstrom));
   atoms[60].velocity = {0.4, -0.45};
   atoms.appearance.diameter = 0.8 * r0;
 
@@ -44,7 +44,7 @@ void copper(Program& program) {
   scheme.external(atoms, tether);
 
   Simulation simulation(scheme, 0.05);
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, units);
   recording.diagnoses(40, {"energies", "temperature"}).trajectory(200).picture({.colour = "kinetic-energy"});
   program.run(recording, 4000);
 }

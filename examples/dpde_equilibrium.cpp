@@ -5,24 +5,25 @@
 using namespace pvdf;
 
 void dpde_equilibrium(Program& program) {
-  LatticeBlock const block{Lattice::triangular, base(5.13 * angstrom), {30, 30}};
+  LatticeBlock const block{Lattice::triangular, crystal_units(5.13 * angstrom), {30, 30}};
   Ensemble<Meso<2>> molecules("molecules");
   block_load(molecules, block);
-  for (std::size_t i = 0; i < molecules.size(); ++i) molecules[i].mass = base((i % 2 == 0 ? 64.03 : 128.06) * amu);
+  for (std::size_t i = 0; i < molecules.size(); ++i)
+    molecules[i].mass = crystal_units((i % 2 == 0 ? 64.03 : 128.06) * amu);
   StateLaw const inside(16 * k);  // Cv
   internal_energy_load(molecules, inside, {.temperature = 300, .boltzmann_constant = k, .seed = program.seed()});
 
   auto const length = repeat_lengths(block, 2);
-  double const cutoff = base(15 * angstrom);
+  double const cutoff = crystal_units(15 * angstrom);
   PairScheme crystal(Box({0, 0}, {length[0], length[1]}, Boundary::periodic), cutoff);
   crystal.internal(molecules, force);
   PairDissipation dpd(crystal, k);
   dpd.state(molecules, inside);
-  dpd.internal(molecules, dissipation(base(15e-14 * kilogram / second), cutoff));
+  dpd.internal(molecules, dissipation(crystal_units(15e-14 * kilogram / second), cutoff));
 
-  Simulation simulation(crystal, base(5 * femtosecond));
+  Simulation simulation(crystal, crystal_units(5 * femtosecond));
   simulation.add(dpd);
-  equilibrate(simulation, molecules, base(2 / picosecond), 600);
+  equilibrate(simulation, molecules, crystal_units(2 / picosecond), 600);
 
   std::vector<double> motion, harmonic, arithmetic;
   simulation.observe(20, [&](Simulation const& s) {
@@ -31,7 +32,7 @@ void dpde_equilibrium(Program& program) {
     harmonic.push_back(1 / mean(molecules, [&](auto const& p) { return 1 / inside.temperature(p.internal_energy); }));
     arithmetic.push_back(mean(molecules, [&](auto const& p) { return inside.temperature(p.internal_energy); }));
   });
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, crystal_units);
   recording.diagnoses(50, {"energies", "temperature"}).trajectory(1000).picture({.colour = "temperature"});
   program.run(recording, 10000);
 

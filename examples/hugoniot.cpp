@@ -6,10 +6,10 @@ using namespace pvdf;
 
 /// The velocity of the shock that a piston drives.
 MeanError shock(Program& program, double piston) {
-  Shocked<2> crystal({.block = {Lattice::triangular, base(5.13 * angstrom), {200, 10}, {2.5, 2}},
+  Shocked<2> crystal({.block = {Lattice::triangular, crystal_units(5.13 * angstrom), {200, 10}, {2.5, 2}},
                       .piston = piston,
-                      .friction = base(15e-14 * kilogram / second)});  // tenfold, so that the wave is thin
-  Recording recording = program.recording(crystal.simulation, std::to_string(std::lround(100 * piston)), base);
+                      .friction = crystal_units(15e-14 * kilogram / second)});  // tenfold, so that the wave is thin
+  Recording recording = program.recording(crystal.simulation, std::to_string(std::lround(100 * piston)), crystal_units);
   auto const& measured = recording.diagnose<Shock>(25, {.since = 4});
   recording.picture({.drawing = "profile", .y = "velocity.x"});
   // Until the front has gone through nine tenths of the crystal, at a first guess of its velocity.
@@ -22,7 +22,7 @@ void hugoniot(Program& program) {
   std::vector<double> pistons, velocities;
   std::vector<MeanError> shocks;
   for (double const speed : {1500, 2000, 3000}) {
-    pistons.push_back(base(speed * meter / second));
+    pistons.push_back(crystal_units(speed * meter / second));
     shocks.push_back(shock(program, pistons.back()));
     velocities.push_back(shocks.back().mean);
   }

@@ -4,8 +4,9 @@
 using namespace boltzmann;
 
 void ion_cluster(Program& program) {
-  UnitSystem const base(units::angstrom, units::amu, units::femtosecond);
-  double const number = 4000, radius = 25, k = base(constants::coulomb), electronvolts = 1 / base(units::electronvolt);
+  UnitSystem const units(units::angstrom, units::amu, units::femtosecond);
+  double const number = 4000, radius = 25, k = units(constants::coulomb),
+               electronvolts = 1 / units(units::electronvolt);
   Ensemble<Coulomb<3>> ions("deuterons", static_cast<std::size_t>(number));
   for (auto& p : ions) p.mass = 2.01355, p.charge = 1;
   auto const ball = [=](double const* x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < radius * radius; };
@@ -16,7 +17,7 @@ void ion_cluster(Program& program) {
   MultipoleScheme scheme(Box({-250, -250, -250}, {250, 250, 250}), coulomb(k), 1e-3);
   scheme.add(ions);
   Simulation simulation(scheme, 0.2);
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, units);
   recording.diagnoses(5, {"energies", "momentum"}).trajectory(25).picture({.colour = "kinetic-energy"});
   recording.picture({.drawing = "histogram", .x = "kinetic-energy", .file = "spectrum.png"});
   program.run_for(recording, 50);

@@ -5,7 +5,7 @@ using namespace boltzmann;
 using namespace boltzmann::units;
 
 void penetration(Program& program) {
-  UnitSystem const base(1 * centimeter, 1 * gram, 1e-6 * second);
+  UnitSystem const units(1 * centimeter, 1 * gram, 1e-6 * second);
   auto const pressure = [](double gigapascal) { return 0.01 * gigapascal; };  // in g / (cm microsecond^2)
   double const density = 7.85, sound = 0.46, spacing = 0.05, speed = 0.15;
 
@@ -31,7 +31,7 @@ void penetration(Program& program) {
   scheme.artificial_viscosity({.alpha = 1, .beta = 2});
 
   Simulation simulation(scheme, 0.5 * scheme.courant_step());
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, units);
   recording.diagnoses(10, {"energies", "momentum"}).trajectory(50);
   recording.picture({.colour = "plastic_strain"});
   recording.picture({.colour = "damage", .file = "damage.png"});

@@ -9,9 +9,9 @@ namespace pvdf {
 using namespace boltzmann;
 using namespace boltzmann::units;
 
-inline UnitSystem const base(1 * angstrom, 1 * amu, 1 * picosecond);
-inline double const k = base(constants::boltzmann), mass = base(64.03 * amu);
-inline Rydberg const force{base(1.612e-20 * joule), base(5.07 * angstrom), 7.90, 0.185};
+inline UnitSystem const crystal_units(1 * angstrom, 1 * amu, 1 * picosecond);
+inline double const k = crystal_units(constants::boltzmann), mass = crystal_units(64.03 * amu);
+inline Rydberg const force{crystal_units(1.612e-20 * joule), crystal_units(5.07 * angstrom), 7.90, 0.185};
 
 /// Friction and noise between molecules nearer than `range`.
 inline DissipationLaw dissipation(double friction, double range) {
@@ -31,10 +31,10 @@ inline void equilibrate(Simulation& simulation, AnyEnsemble& molecules, double r
 
 struct PistonOptions {
   LatticeBlock block;
-  double piston, friction;              ///< the velocity of the one, the strength of the other
-  double cutoff = base(15 * angstrom);  ///< of forces and friction
-  double heat_capacity = 16;            ///< of the inside of a molecule, in k
-  double empty = base(300 * angstrom);  ///< behind the crystal, which expands there
+  double piston, friction;                       ///< the velocity of the one, the strength of the other
+  double cutoff = crystal_units(15 * angstrom);  ///< of forces and friction
+  double heat_capacity = 16;                     ///< of the inside of a molecule, in k
+  double empty = crystal_units(300 * angstrom);  ///< behind the crystal, which expands there
   std::uint64_t equilibration = 500, seed = 1;
 };
 
@@ -45,7 +45,7 @@ struct Shocked {
   double length;
   PairScheme scheme;
   PairDissipation dissipation{scheme, k};
-  Simulation simulation{scheme, base(2 * femtosecond)};
+  Simulation simulation{scheme, crystal_units(2 * femtosecond)};
 
   explicit Shocked(PistonOptions const& options)
       : length(repeat_lengths(options.block, D)[0]), scheme(box(options), options.cutoff) {
@@ -57,7 +57,7 @@ struct Shocked {
     dissipation.state(polymer, inside);
     dissipation.internal(polymer, pvdf::dissipation(options.friction, options.cutoff));
     simulation.add(dissipation);
-    equilibrate(simulation, polymer, base(5 / picosecond), options.equilibration);
+    equilibrate(simulation, polymer, crystal_units(5 / picosecond), options.equilibration);
   }
 
   static Box box(PistonOptions const& options) {

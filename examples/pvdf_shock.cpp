@@ -7,11 +7,11 @@ using namespace pvdf;
 
 void pvdf_shock(Program& program) {
   for (bool const coupled : {true, false}) {
-    Shocked<2> crystal({.block = {Lattice::triangular, base(5.13 * angstrom), {260, 12}, {2.5, 2}},
-                        .piston = base(3000 * meter / second),
-                        .friction = coupled ? base(1.5e-14 * kilogram / second) : 0,
+    Shocked<2> crystal({.block = {Lattice::triangular, crystal_units(5.13 * angstrom), {260, 12}, {2.5, 2}},
+                        .piston = crystal_units(3000 * meter / second),
+                        .friction = coupled ? crystal_units(1.5e-14 * kilogram / second) : 0,
                         .equilibration = 1000});
-    Recording recording = program.recording(crystal.simulation, coupled ? "coupled" : "uncoupled", base);
+    Recording recording = program.recording(crystal.simulation, coupled ? "coupled" : "uncoupled", crystal_units);
     recording.diagnose<Slab>(50, {.from = 500, .to = 550});
     recording.diagnose<Shock>(50, {.since = 3});
     recording.diagnoses(50, {"energy-balance"}).trajectory(500);

@@ -6,15 +6,15 @@ using namespace pvdf;
 
 void pvdf_shock_3d(Program& program) {
   Shocked<3> crystal(
-      {.block = {Lattice::fcc, base(5.05 * angstrom), {40, 4, 4}, {2, 1.5, 1.5}},
-       .piston = base(2000 * meter / second),
-       .friction = base(15e-14 * kilogram / second),
-       .cutoff = base(12 * angstrom),
+      {.block = {Lattice::fcc, crystal_units(5.05 * angstrom), {40, 4, 4}, {2, 1.5, 1.5}},
+       .piston = crystal_units(2000 * meter / second),
+       .friction = crystal_units(15e-14 * kilogram / second),
+       .cutoff = crystal_units(12 * angstrom),
        .heat_capacity = 15,  // of a molecule's 18 degrees of freedom three are those of a particle in space
        .empty = 100,
        .equilibration = 300,
        .seed = program.seed()});
-  Recording recording = program.recording(crystal.simulation, base);
+  Recording recording = program.recording(crystal.simulation, crystal_units);
   auto const& measured = recording.diagnose<Shock>(20, {.since = 0.8});
   recording.diagnoses(20, {"energy-balance"}).trajectory(300).picture({.colour = "temperature"});
   recording.picture({.drawing = "profile", .y = "kinetic-temperature.x, internal-temperature", .file = "profile.png"});

@@ -5,8 +5,8 @@ using namespace boltzmann;
 using namespace boltzmann::units;
 
 void rod(Program& program) {
-  UnitSystem const base = UnitSystem::si();
-  double const area = 1, spacing = 0.05, density = 8.96e3, young = base(120 * gigapascal);
+  UnitSystem const units = UnitSystem::si();
+  double const area = 1, spacing = 0.05, density = 8.96e3, young = units(120 * gigapascal);
   std::size_t const count = 100;
 
   Ensemble<Newton<1>> rod("rod", count - 1), wall("wall", 1);
@@ -31,7 +31,7 @@ void rod(Program& program) {
   simulation.integrate(rod, Method::rk4);
   simulation.integrate(wall, Method::deactivate);
 
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, units);
   recording.diagnoses(20, {"momentum"}).trajectory(100);
   recording.picture({.drawing = "phase-space", .x = "position.x", .y = "velocity.x"});
   program.run(recording, 1000);

@@ -5,9 +5,9 @@
 using namespace boltzmann;
 
 void two_stream(Program& program) {
-  UnitSystem const base = UnitSystem::cgs();
-  double const length = 1e6, k = base(constants::boltzmann), temperature = 16000;
-  double const charge = base(constants::elementary_charge), electron = base(constants::electron_mass);
+  UnitSystem const units = UnitSystem::cgs();
+  double const length = 1e6, k = units(constants::boltzmann), temperature = 16000;
+  double const charge = units(constants::elementary_charge), electron = units(constants::electron_mass);
   double const thermal_velocity = std::sqrt(k * temperature / electron);
   double const in_one = 10;  // electrons that a particle stands for
 
@@ -15,7 +15,7 @@ void two_stream(Program& program) {
   Ensemble<Coulomb<1>> right("right", 1000), left("left", 1000), ions("ions", 2000);
   for (auto* stream : {&right, &left})
     for (auto& p : *stream) p.charge = -in_one * charge, p.mass = in_one * electron;
-  for (auto& p : ions) p.charge = in_one * charge, p.mass = in_one * base(constants::proton_mass);
+  for (auto& p : ions) p.charge = in_one * charge, p.mass = in_one * units(constants::proton_mass);
 
   auto const seed = program.seed(5);
   sinusoidal_load(right, box, {.wave = wave_of_mode(box, 0, 3), .amplitude = 0.2, .seed = seed});
@@ -33,7 +33,7 @@ void two_stream(Program& program) {
   for (auto* ensemble : {&right, &left, &ions}) mesh.add(*ensemble);
 
   Simulation simulation(mesh, 9.91e-6);  // 0.079 of a plasma time
-  Recording recording = program.recording(simulation, base);
+  Recording recording = program.recording(simulation, units);
   recording.diagnoses(1, {"energies", "momentum"}).trajectory(4);
   recording.picture({.drawing = "phase-space", .x = "position.x", .y = "velocity.x"});
   program.run(recording, 120);

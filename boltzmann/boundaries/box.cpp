@@ -276,7 +276,7 @@ class Box::Reflection {
     if (!std::isfinite(x))
       throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles_, i)));
     Dimension const unit = particles_.fields().front().dimension;  // of what moves: a length, an angle
-    auto const told = [&](double place) { return box_.base_.text(place, unit); };
+    auto const told = [&](double place) { return box_.units_.text(place, unit); };
     throw PhysicsFailure(
         fmt::format("{} escaped: {} = {} is further out of the {}, {} to {}, than one step should bring it",
                     who(particles_, i), "xyz"[a], told(x), kept_in, told(low), told(high)));

@@ -112,8 +112,8 @@ class Box {
   }
 
   /// The units in which failures are told; plain numbers until then.
-  void speak_in(UnitSystem const& base) { base_ = base; }
-  UnitSystem const& spoken_units() const { return base_; }
+  void speak_in(UnitSystem const& units) { units_ = units; }
+  UnitSystem const& spoken_units() const { return units_; }
 
   /// Installs a region. Error if it is not a block of this space.
   void install(Region const& region);
@@ -151,7 +151,7 @@ class Box {
  private:
   class Reflection;
 
-  UnitSystem base_ = UnitSystem::reduced();
+  UnitSystem units_ = UnitSystem::reduced();
 
   template <int D>
   static std::array<double, 3> widen(Vector<D> const& a) {

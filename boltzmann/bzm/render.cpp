@@ -83,7 +83,7 @@ class Frames {
   Canvas canvas(std::int64_t number) {
     auto const frame = static_cast<std::size_t>(number);
     for (auto& ensemble : scenario_.ensembles) reader_.load(frame, *ensemble);
-    Canvas drawn = draw(picture_, {*scenario_.simulation, scenario_.base, title_, reader_.steps()[frame],
+    Canvas drawn = draw(picture_, {*scenario_.simulation, scenario_.units, title_, reader_.steps()[frame],
                                    reader_.times()[frame], folder_});
     if (!axes_) return drawn;
     Axis x = drawn.x_axis(), y = drawn.y_axis();

@@ -120,7 +120,7 @@ void show_scenario(std::string const& name) {
   fmt::print("scenario {}{}{}\n", scenario->name, scenario->title.empty() ? "" : ": ", scenario->title);
   if (!scenario->description.empty()) fmt::print("\n{}\n", scenario->description);
   fmt::print("\n  file        {}\n", path);
-  auto const shown = [&](double number, Dimension dimension) { return scenario->base.text(number, dimension, 6); };
+  auto const shown = [&](double number, Dimension dimension) { return scenario->units.text(number, dimension, 6); };
   fmt::print("  steps       {} of {}\n", scenario->steps, shown(scenario->simulation->step_size(), dimensions::time));
   for (auto const& ensemble : scenario->ensembles)
     fmt::print("  ensemble    {}: {} of class {}, {}D\n", ensemble->name(), ensemble->size(), ensemble->class_name(),

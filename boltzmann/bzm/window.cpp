@@ -31,7 +31,7 @@ void add_views(Views& views, ScenarioSimulation const& scenario) {
 
 RunReport run_on_stage(ScenarioSimulation const& scenario, Recording& recording, Clients& clients, std::int64_t steps,
                        bool play, bool quiet) {
-  Views views(*scenario.simulation, scenario.base, title_of(scenario, recording.folder()), recording.folder());
+  Views views(*scenario.simulation, scenario.units, title_of(scenario, recording.folder()), recording.folder());
   add_views(views, scenario);
   return run_live(views, clients, &recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
                   {play, -1, scenario.name, scenario.description}, quiet);
@@ -84,7 +84,7 @@ bool show_run(std::string const& folder, Clients& clients, bool announced = fals
                 "[output] stores a frame every 10 steps)");
   auto const scenario = load_stored_run(folder);
   auto const recording = make_recording(*scenario, folder, {.overwrite = true});  // only asked what it would draw
-  Views views(*scenario->simulation, scenario->base, title_of(*scenario, folder), folder);
+  Views views(*scenario->simulation, scenario->units, title_of(*scenario, folder), folder);
   add_views(views, *scenario);
   views.take(*recording);
   Replay show(views, clients, scenario->name, scenario->description);

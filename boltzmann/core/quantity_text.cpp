@@ -401,7 +401,7 @@ TextQuantity parse_quantity(std::string_view text) {
   }
 }
 
-double in_base(std::string_view text, Dimension wanted, UnitSystem const& base) {
+double in_units(std::string_view text, Dimension wanted, UnitSystem const& units) {
   auto const quantity = parse_quantity(text);
   if (!quantity.has_unit) return quantity.si;
   if (quantity.dimension != wanted) {
@@ -416,10 +416,10 @@ double in_base(std::string_view text, Dimension wanted, UnitSystem const& base) 
       message += fmt::format("; a temperature times kB is one: '{} kB'", text);
     throw Error(message);
   }
-  if (base.is_reduced() && wanted != dimensions::none)
+  if (units.is_reduced() && wanted != dimensions::none)
     throw Error(fmt::format("{} has a unit, but this simulation computes in reduced units: give the number alone",
                             in_quotes(text)));
-  double const number = base.from_si(quantity.si, wanted);
+  double const number = units.from_si(quantity.si, wanted);
   if (!std::isfinite(number) || (quantity.si != 0 && std::abs(number) < std::numeric_limits<double>::min()))
     throw Error(fmt::format("{} is beyond the range of numbers in the units of this simulation", in_quotes(text)));
   return number;

@@ -40,10 +40,10 @@ std::vector<std::string> unit_names();
 /// Error with one line, e.g. "unknown unit 'angstom'; did you mean 'angstrom'?".
 TextQuantity parse_quantity(std::string_view text);
 
-/// Reads a quantity, checks its dimension, and gives the plain number in the base. A number without a unit is taken as
-/// already in the base's units. Throws Error: what parse_quantity says, "'2.551 angstrom' is a length, a mass is needed
-/// (e.g. 'kg', 'amu')", a unit in a reduced base, or a number beyond the range of double.
-double in_base(std::string_view text, Dimension wanted, UnitSystem const& base);
+/// Reads a quantity, checks its dimension, and gives the plain number in `units`. A number without a unit is taken as
+/// already in them. Throws Error: what parse_quantity says, "'2.551 angstrom' is a length, a mass is needed
+/// (e.g. 'kg', 'amu')", a unit where numbers are pure, or a number beyond the range of double.
+double in_units(std::string_view text, Dimension wanted, UnitSystem const& units);
 
 /// "an energy", "a length".
 std::string with_article(std::string const& noun);

@@ -210,9 +210,9 @@ UnitSystem UnitSystem::gravitational(Quantity<dimensions::length> length, Quanti
 }
 
 UnitSystem UnitSystem::reduced() {
-  UnitSystem base;
-  base.reduced_ = true;
-  return base;
+  UnitSystem units;
+  units.reduced_ = true;
+  return units;
 }
 
 // In long double, whose range of exponents no product of units leaves.

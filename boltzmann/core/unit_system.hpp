@@ -47,38 +47,38 @@ class UnitSystem {
   /// The gravitational constant is 1: time in sqrt(length^3 / (G mass)).
   static UnitSystem gravitational(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass);
 
-  /// Pure numbers without units: nothing is converted, and in_base refuses a text with a unit.
+  /// Pure numbers without units: nothing is converted, and in_units refuses a text with a unit.
   static UnitSystem reduced();
   bool is_reduced() const { return reduced_; }
 
-  /// The plain number of a quantity in this base.
+  /// The plain number of a quantity in this system.
   template <Dimension d>
   double operator()(Quantity<d> quantity) const {
     return from_si(quantity.si, d);
   }
 
-  /// A plain number of this base as a quantity: base.quantity<dimensions::energy>(1).
+  /// A plain number of this system as a quantity: units.quantity<dimensions::energy>(1).
   template <Dimension d>
   Quantity<d> quantity(double number) const {
     return {to_si(number, d)};
   }
 
-  /// The plain number in this base of so many SI units of a dimension, and back. A reduced base converts nothing.
+  /// The plain number in this system of so many SI units of a dimension, and back. A reduced base converts nothing.
   double from_si(double si, Dimension) const;
   double to_si(double number, Dimension) const;
 
-  /// How numbers of this base are shown to people: number * factor, in the base's own unit where it is made of known
+  /// How numbers of this system are shown to people: number * factor, in the system's own unit where it is made of known
   /// ones ("angstrom", "amu angstrom^2/ps^2"), else in a unit that people know. A reduced base has none: "" and 1.
   struct Display {
     std::string unit;
     double factor = 1;
   };
   Display display(Dimension) const;
-  /// A number of this base with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273
+  /// A number of this system with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273
   /// fs"), the product ("65.46 fs").
   std::string text(double number, Dimension, int digits = 4) const;
 
-  /// The unit of this base itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the
+  /// The unit of this system itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the
   /// base are known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and
   /// in a reduced base. parse_quantity reads it back (with a "1 " before it where there is no number).
   std::string unit_name(Dimension) const;

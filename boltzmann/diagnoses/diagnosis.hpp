@@ -22,7 +22,7 @@ struct Sample {
   std::span<AnyEnsemble* const> ensembles;
   Box const& box;
   EnergyAndVirial const* measures;  ///< energies and virial; null unless the diagnosis needs one of them
-  double boltzmann_constant;        ///< in the simulation's base
+  double boltzmann_constant;        ///< in the simulation's units
   double time;
   std::int64_t step;
   std::span<MeshField const* const> mesh_fields = {};  ///< empty unless the diagnosis needs_mesh()

@@ -10,7 +10,7 @@ namespace boltzmann {
 /// the particle's number alone.
 class LangevinBath final : public Dissipation {
  public:
-  /// `temperature` (zero or more), `rate` (per time, positive), Boltzmann's constant in the simulation's base. Error
+  /// `temperature` (zero or more), `rate` (per time, positive), Boltzmann's constant in the simulation's units. Error
   /// otherwise.
   LangevinBath(double temperature, double rate, double boltzmann_constant);
   /// Lets it act on an ensemble. Error if its class has no mass and velocity.

@@ -76,8 +76,8 @@ class UnitChange {
     bool const atoms = parse_quantity("1 " + length).si < 1e-8;
     name_ = !wanted.empty() ? wanted : !text ? "run" : atoms ? "metal" : "si";
     using namespace literals;
-    if (name_ == "metal") base_ = UnitSystem(1_angstrom, 1_amu, 1_ps);
-    if (name_ == "si") base_ = UnitSystem::si();
+    if (name_ == "metal") units_ = UnitSystem(1_angstrom, 1_amu, 1_ps);
+    if (name_ == "si") units_ = UnitSystem::si();
   }
 
   std::string const& name() const { return name_; }
@@ -88,10 +88,10 @@ class UnitChange {
   };
   /// For numbers that are in this unit.
   Change operator()(std::string const& unit) const {
-    if (unit.empty() || !base_) return {unit, 1};
+    if (unit.empty() || !units_) return {unit, 1};
     auto const quantity = parse_quantity(is_number(unit) ? unit : "1 " + unit);
     auto const& d = quantity.dimension;
-    std::string target = base_->unit_name(d);
+    std::string target = units_->unit_name(d);
     if (name_ == "metal")
       for (auto const& special : metal_units)
         if (special.dimension == d) target = special.unit;
@@ -105,7 +105,7 @@ class UnitChange {
   }
 
   std::string name_;
-  std::optional<UnitSystem> base_;  // none: the units of the run
+  std::optional<UnitSystem> units_;  // none: the units of the run
 };
 
 class FrameWriter {

@@ -52,7 +52,7 @@ struct LaplaceLaw {
 inline constexpr Parameter softening_parameter{"softening", dimensions::length,
                                                "Plummer's length, within which the force is weaker", not_negative, "0"};
 
-/// Charges, as scenarios name their law: force k s s'/r^2 in 3D; k = 1 in cgs, base(constants::coulomb) in any base.
+/// Charges, as scenarios name their law: force k s s'/r^2 in 3D; k = 1 in cgs, units(constants::coulomb) in any base.
 struct CoulombLaw {
   double k;
   double softening = 0;
@@ -74,7 +74,7 @@ struct CoulombLaw {
   LaplaceLaw law() const { return {4 * pi * k, softening}; }
 };
 
-/// Masses, as scenarios name their law: force G m m'/r^2 in 3D; base(constants::gravitation) in any base.
+/// Masses, as scenarios name their law: force G m m'/r^2 in 3D; units(constants::gravitation) in any base.
 struct GravityLaw {
   double G;
   double softening = 0;

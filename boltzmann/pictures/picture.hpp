@@ -73,7 +73,7 @@ std::vector<std::string> const& drawing_names();
 /// The state that a picture shows and what is written about it.
 struct PictureContext {
   Simulation& simulation;  ///< goes on as if nobody had looked
-  UnitSystem const& base;
+  UnitSystem const& units;
   std::string title;
   std::int64_t step;
   double time;

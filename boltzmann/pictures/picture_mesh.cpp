@@ -67,7 +67,7 @@ Canvas draw_mesh(Scene& scene) {
                              scene.fitting_map(shown), scene.title(), {scene.picture.low, scene.picture.high, factor});
   if (grid.dimension == 3)
     canvas.note(fmt::format("slice at {} = {}", "xyz"[normal],
-                            scene.context.base.text(grid.position(normal, slice), dimensions::length, 4)));
+                            scene.context.units.text(grid.position(normal, slice), dimensions::length, 4)));
   return canvas;
 }
 

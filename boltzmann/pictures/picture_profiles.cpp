@@ -45,7 +45,7 @@ std::optional<Dimension> dimension_of_profile(Question const& question) {
 Canvas draw_profiles(Scene& scene) {
   int const D = scene.box().dimension(), a = profile_axis(scene.picture, D);
   EnergyAndVirial const measures = scene.context.simulation.measure();
-  double const k = scene.context.base.is_reduced() ? 1 : scene.context.base(constants::boltzmann);
+  double const k = scene.context.units.is_reduced() ? 1 : scene.context.units(constants::boltzmann);
   MassiveParticles const bodies(scene.ensembles, &measures);
   std::size_t number = 0;
   for (auto const& source : bodies.sources()) number += source.ensemble->size();

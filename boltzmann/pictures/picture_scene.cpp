@@ -26,7 +26,7 @@ int Scene::threads() const {
   return context.threads > 0 ? context.threads : context.simulation.schemes().front()->threads();
 }
 
-UnitSystem::Display Scene::shown_in(Dimension dimension) const { return context.base.display(dimension); }
+UnitSystem::Display Scene::shown_in(Dimension dimension) const { return context.units.display(dimension); }
 
 Axis Scene::axis(std::string label, Dimension dimension) const {
   auto const [unit, factor] = shown_in(dimension);
@@ -38,7 +38,7 @@ Axis Scene::axis(std::string label, Dimension dimension) const {
 std::string Scene::title(bool with_time) const {
   if (!with_time) return context.title;
   std::string text = context.title.empty() ? "" : context.title + ", ";
-  auto const time = context.base.text(context.time, dimensions::time);
+  auto const time = context.units.text(context.time, dimensions::time);
   return text + (time.find(' ') == std::string::npos ? fmt::format("step {}, time {}", context.step, time)
                                                      : fmt::format("step {} ({})", context.step, time));
 }

@@ -128,7 +128,7 @@ Canvas draw_smooth_field(Scene& scene) {
                       scene.title(), ends);
   }();
   if (D == 3)
-    canvas.note(fmt::format("slice at {} = {}", "xyz"[normal], scene.context.base.text(at, dimensions::length, 4)));
+    canvas.note(fmt::format("slice at {} = {}", "xyz"[normal], scene.context.units.text(at, dimensions::length, 4)));
   return canvas;
 }
 

@@ -100,9 +100,11 @@ std::uint64_t Program::seed(std::uint64_t otherwise) {
   return seed_.value_or(otherwise);
 }
 
-Recording Program::recording(Simulation& simulation, UnitSystem const& base) { return recording(simulation, "", base); }
+Recording Program::recording(Simulation& simulation, UnitSystem const& units) {
+  return recording(simulation, "", units);
+}
 
-Recording Program::recording(Simulation& simulation, std::string const& part, UnitSystem const& base) {
+Recording Program::recording(Simulation& simulation, std::string const& part, UnitSystem const& units) {
   if (folder_.empty()) throw Error("the folder for the results has no name");
   std::string const folder = part.empty() ? folder_ : folder_ + "/" + part;
   if (std::find(recorded_.begin(), recorded_.end(), folder) != recorded_.end())
@@ -112,7 +114,7 @@ Recording Program::recording(Simulation& simulation, std::string const& part, Un
   if (threads_) simulation.threads(*threads_);
   if (seed_) simulation.seed(*seed_);
   if (resume_) setenv("BOLTZMANN_RESUME", "1", 1);  // which a recording asks for
-  return Recording(simulation, base, folder, {.overwrite = true});
+  return Recording(simulation, units, folder, {.overwrite = true});
 }
 
 namespace {
@@ -131,7 +133,7 @@ bool has_noise(Simulation const& simulation) {
 RunReport Program::run(Recording& recording, std::uint64_t steps) {
   if (seed_ && !seed_asked_ && !has_noise(recording.simulation()))
     throw Error("--seed: nothing in this program asks for a seed (Program::seed), so that it would change nothing");
-  if (!time_.empty()) return run_for(recording, in_base(time_, dimensions::time, recording.base()));
+  if (!time_.empty()) return run_for(recording, in_units(time_, dimensions::time, recording.units()));
   if (signalled_) throw Stopped{130};  // after the last step of the run before
   std::uint64_t const planned = steps_.value_or(steps);
   bool const in_window = window_ || in_window_;
@@ -156,7 +158,7 @@ RunReport Program::run(Recording& recording, std::uint64_t steps) {
 }
 
 RunReport Program::run_for(Recording& recording, double time) {
-  double const wanted = time_.empty() ? time : in_base(time_, dimensions::time, recording.base());
+  double const wanted = time_.empty() ? time : in_units(time_, dimensions::time, recording.units());
   time_.clear();
   if (!(wanted > 0 && std::isfinite(wanted)))
     throw Error(fmt::format("the time of a run, {}, is not positive", wanted));

@@ -2,7 +2,7 @@
 //
 //   void copper(Program& program) {
 //     ...
-//     Recording recording = program.recording(simulation, base);
+//     Recording recording = program.recording(simulation, units);
 //     recording.diagnoses(40, {"energies"}).trajectory(200);
 //     program.run(recording, 4000);
 //   }
@@ -38,10 +38,10 @@ class Program {
   bool quiet() const { return quiet_; }
 
   /// A recording into the folder; in place of a run that is there, unless that is gone on with.
-  Recording recording(Simulation& simulation, UnitSystem const& base = UnitSystem::reduced());
+  Recording recording(Simulation& simulation, UnitSystem const& units = UnitSystem::reduced());
   /// The same for one of several runs, each into a folder of its own inside the folder: recording(simulation, "slow").
   /// What the command line says holds for each. Error if two have the same folder.
-  Recording recording(Simulation& simulation, std::string const& part, UnitSystem const& base = UnitSystem::reduced());
+  Recording recording(Simulation& simulation, std::string const& part, UnitSystem const& units = UnitSystem::reduced());
   /// The run is in a window, whether the command line asks for one or not; setup(window) may add to it.
   void in_window(std::function<void(Window&)> setup) { in_window_ = std::move(setup); }
   /// Runs so many steps, or as many as the command line says, with a progress line or in a window. Where a signal or

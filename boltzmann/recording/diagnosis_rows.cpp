@@ -50,7 +50,7 @@ std::vector<Column> DiagnosisRows::columns() const {
 std::vector<std::string> DiagnosisRows::header() const {
   std::vector<std::string> header{"step"};
   auto const add = [&](std::string const& name, Dimension dimension) {
-    auto const unit = base_.display(dimension).unit;
+    auto const unit = units_.display(dimension).unit;
     header.push_back(unit.empty() ? name : name + " (" + unit + ")");
   };
   add("time", dimensions::time);
@@ -77,7 +77,7 @@ Sample DiagnosisRows::sample(std::span<AnyEnsemble* const> ensembles) const {
   return {ensembles,
           simulation_.schemes().front()->box(),
           nullptr,
-          base_.is_reduced() ? 1.0 : base_(constants::boltzmann),
+          units_.is_reduced() ? 1.0 : units_(constants::boltzmann),
           simulation_.time(),
           simulation_.step()};
 }
@@ -111,8 +111,8 @@ bool DiagnosisRows::write() {
     simulation_.pause();
   }
   if (factors_.empty()) {
-    factors_.push_back(base_.display(dimensions::time).factor);
-    for (auto const& column : columns()) factors_.push_back(base_.display(column.dimension).factor);
+    factors_.push_back(units_.display(dimensions::time).factor);
+    for (auto const& column : columns()) factors_.push_back(units_.display(column.dimension).factor);
   }
   for (std::size_t c = 0; c < values.size(); ++c) values[c] *= factors_[c];
   csv_->write(simulation_.step(), values);

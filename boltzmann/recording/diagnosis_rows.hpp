@@ -33,7 +33,7 @@ class DiagnosisRows {
   std::int64_t every = 0;  ///< steps; 0: never
   End end;
 
-  DiagnosisRows(Simulation& simulation, UnitSystem const& base) : simulation_(simulation), base_(base) {}
+  DiagnosisRows(Simulation& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
 
   void add(std::int64_t interval, std::unique_ptr<Diagnosis> diagnosis);
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
@@ -61,7 +61,7 @@ class DiagnosisRows {
   Sample sample(std::span<AnyEnsemble* const> ensembles) const;
 
   Simulation& simulation_;
-  UnitSystem const& base_;
+  UnitSystem const& units_;
   std::vector<std::unique_ptr<Diagnosis>> list_;
   std::vector<Listener> listeners_;
   std::optional<CsvFile> csv_;

@@ -26,9 +26,9 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
   bool const changed = now != static_cast<std::size_t>(report.particles);
   fmt::print("\n{} particles{}, {} steps to step {}, time {}\n\n", report.particles,
              changed ? fmt::format(" at the start, {} at the end", now) : "", report.steps, simulation.step(),
-             recording.base().text(simulation.time(), dimensions::time, 6));
+             recording.units().text(simulation.time(), dimensions::time, 6));
   if (report.steps > 0) {
-    for (auto const& line : conserved_table(start, end, recording.base())) fmt::print("{}\n", line);
+    for (auto const& line : conserved_table(start, end, recording.units())) fmt::print("{}\n", line);
     double const work = std::max(report.seconds - recorded, 1e-9);
     fmt::print("\n  speed    {} particle-steps/s, {:.3g} ns for a particle and step, {:.3g} s in all",
                large(report.particle_steps / work), work / std::max(report.particle_steps, 1.0) * 1e9, report.seconds);
@@ -40,7 +40,7 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
   for (auto const* dissipation : simulation.dissipations())
     if (auto const line = dissipation->report(); !line.empty()) fmt::print("  dissipation {}\n", line);
   for (auto const* adaptation : simulation.adaptations())
-    if (auto const line = adaptation->report(recording.base()); !line.empty()) fmt::print("  changes  {}\n", line);
+    if (auto const line = adaptation->report(recording.units()); !line.empty()) fmt::print("  changes  {}\n", line);
   if (!report.condition.empty())
     fmt::print("  stop     {}: true at step {}\n", report.condition, recording.ended_step());
   fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));
@@ -82,7 +82,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
     report.interrupted = report.out_of_time = false;
   Conserved const end = conserved(simulation);
   if (!options.quiet) print_summary(recording, report, *start, end, recorded);
-  if (auto const line = drift_warning(*start, end, recording.base()); !line.empty())
+  if (auto const line = drift_warning(*start, end, recording.units()); !line.empty())
     fmt::print(stderr, "{}{}\n", options.warnings ? "" : recording.folder() + ": ", line);
   if (report.interrupted || report.out_of_time)
     fmt::print(stderr, "{} after step {}; its checkpoint is written: {}/checkpoint.h5\n",

@@ -52,20 +52,20 @@ struct RecordedState {
 }  // namespace
 
 struct Recording::State {
-  State(Simulation& of, UnitSystem const& units, std::string where, bool may_overwrite)
+  State(Simulation& of, UnitSystem const& the_units, std::string where, bool may_overwrite)
       : simulation(of),
-        base(units),
+        units(the_units),
         folder(std::move(where), may_overwrite),
         title(std::filesystem::path(folder.name()).filename().string()) {}
 
   Simulation& simulation;
-  UnitSystem base;
+  UnitSystem units;
   RunFolder folder;
   std::string title, scenario;
   std::int64_t planned = -1;
 
-  DiagnosisRows rows{simulation, base};
-  RunFrames frames{simulation, base};
+  DiagnosisRows rows{simulation, units};
+  RunFrames frames{simulation, units};
   std::optional<MeshFrames> mesh_frames;
   std::int64_t every_mesh = 0, every_checkpoint = 0;  // 0: never
   std::vector<Picture> pictures;
@@ -153,7 +153,7 @@ struct Recording::State {
     bool const told = !scenario.empty();
     TextFile(folder.path(told ? "scenario.toml" : run_file), TextFile::Mode::replace)
         .write(told ? scenario
-                    : run_file_text(title, base, simulation.step_size(), simulation.schemes().front()->box(),
+                    : run_file_text(title, units, simulation.step_size(), simulation.schemes().front()->box(),
                                     ensembles(), pictures));
   }
 
@@ -250,7 +250,7 @@ struct Recording::State {
 
   void draw_pictures(std::int64_t step, double time, std::string const& note) const {
     for (auto const& picture : pictures) {
-      Canvas canvas = draw(picture, {simulation, base, title, step, time, folder.name(), rows.instruments()});
+      Canvas canvas = draw(picture, {simulation, units, title, step, time, folder.name(), rows.instruments()});
       if (!note.empty()) canvas.note(note);
       write_picture(canvas, folder.path(picture.file));
     }
@@ -299,11 +299,11 @@ struct Recording::State {
   }
 };
 
-Recording::Recording(Simulation& simulation, UnitSystem const& base, std::string folder,
+Recording::Recording(Simulation& simulation, UnitSystem const& units, std::string folder,
                      RecordingOptions const& options)
-    : state_(std::make_shared<State>(simulation, base, std::move(folder), options.overwrite)) {
+    : state_(std::make_shared<State>(simulation, units, std::move(folder), options.overwrite)) {
   open_standard_streams();
-  simulation.speak_in(base);
+  simulation.speak_in(units);
   simulation.observe_when([state = state_](std::int64_t step) { return state->due(step); },
                           [state = state_](Simulation const&) { state->look(); });
 }
@@ -381,7 +381,7 @@ void Recording::on_row(std::function<void(std::int64_t, std::span<double const>)
   state_->rows.listen(std::move(function));
 }
 Simulation& Recording::simulation() const { return state_->simulation; }
-UnitSystem const& Recording::base() const { return state_->base; }
+UnitSystem const& Recording::units() const { return state_->units; }
 std::string const& Recording::folder() const { return state_->folder.name(); }
 std::string const& Recording::title() const { return state_->title; }
 std::vector<std::string> Recording::header() const {

@@ -1,6 +1,6 @@
 // Recording: the files of a run. What `bzm run` leaves in a folder, for C++ programs in a few lines:
 //
-//   Recording recording(simulation, base, "results/copper");
+//   Recording recording(simulation, units, "results/copper");
 //   recording.diagnoses(20, {"energies", "temperature"}).trajectory(100).picture({.colour = "speed"});
 //   run_with_progress(recording, 2000);
 #pragma once
@@ -40,7 +40,7 @@ class Recording {
  public:
   /// Error when the run starts, if the folder can't be made or written, or already holds a run that is not to be
   /// overwritten.
-  Recording(Simulation& simulation, UnitSystem const& base, std::string folder, RecordingOptions const& options = {});
+  Recording(Simulation& simulation, UnitSystem const& units, std::string folder, RecordingOptions const& options = {});
   /// Finishes if that hasn't been done; failures go to standard error.
   ~Recording();
   Recording(Recording const&) = delete;
@@ -117,7 +117,7 @@ class Recording {
   void on_row(std::function<void(std::int64_t step, std::span<double const> values)> function);
 
   Simulation& simulation() const;
-  UnitSystem const& base() const;
+  UnitSystem const& units() const;
   std::string const& folder() const;
   std::string const& title() const;
   /// The header of diagnoses.csv: "step", "time (ps)", "total energy (eV)", ...; empty if there are no diagnoses.

@@ -69,14 +69,14 @@ std::string ensemble_text(AnyEnsemble const& ensemble) {
 
 }  // namespace
 
-std::string run_file_text(std::string const& title, UnitSystem const& base, double step_size, Box const& box,
+std::string run_file_text(std::string const& title, UnitSystem const& units, double step_size, Box const& box,
                           std::span<AnyEnsemble* const> ensembles, std::span<Picture const> pictures) {
-  UnitSystem::Scale const s = base.scale();
+  UnitSystem::Scale const s = units.scale();
   std::string text = fmt::format(
       "# A run of a program, for `bzm render` and `bzm window`. [units]: the units of all numbers, in m, kg, s, K, C.\n"
       "title = {}\nstep = {}\n\n[units]\nreduced = {}\nlength = {}\nmass = {}\ntime = {}\ntemperature = {}\n"
       "charge = {}\n",
-      value(title), step_size, base.is_reduced(), s.length, s.mass, s.time, s.temperature, s.charge);
+      value(title), step_size, units.is_reduced(), s.length, s.mass, s.time, s.temperature, s.charge);
   text += box_text(box);
   for (auto const* ensemble : ensembles) text += ensemble_text(*ensemble);
   for (Picture picture : pictures) {

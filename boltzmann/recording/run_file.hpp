@@ -14,8 +14,8 @@ namespace boltzmann {
 inline constexpr char const* run_file = "run.toml";  ///< in the folder of the run
 
 /// Title, units, size of the step, box with its walls and regions, classes of the ensembles with their fields,
-/// pictures, as TOML; numbers are in the base, except for the base itself. scenario/stored_run.hpp reads it.
-std::string run_file_text(std::string const& title, UnitSystem const& base, double step_size, Box const& box,
+/// pictures, as TOML; numbers are in the simulation's units, except for those of [units]. scenario/stored_run.hpp reads it.
+std::string run_file_text(std::string const& title, UnitSystem const& units, double step_size, Box const& box,
                           std::span<AnyEnsemble* const> ensembles, std::span<Picture const> pictures);
 
 }  // namespace boltzmann

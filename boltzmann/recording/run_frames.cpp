@@ -10,9 +10,9 @@ namespace boltzmann {
 TrajectoryOptions RunFrames::options() const {
   TrajectoryOptions options;
   options.version = program_version;
-  if (!base_.is_reduced()) {
-    options.unit_name = [base = base_](Dimension d) { return base.display(d).unit; };
-    options.factor = [base = base_](Dimension d) { return base.display(d).factor; };
+  if (!units_.is_reduced()) {
+    options.unit_name = [units = units_](Dimension d) { return units.display(d).unit; };
+    options.factor = [units = units_](Dimension d) { return units.display(d).factor; };
   }
   return options;
 }

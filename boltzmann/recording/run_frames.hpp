@@ -17,7 +17,7 @@ namespace boltzmann {
 /// last frame is taken back: a run without a stop doesn't have it.
 class RunFrames {
  public:
-  RunFrames(Simulation const& simulation, UnitSystem const& base) : simulation_(simulation), base_(base) {}
+  RunFrames(Simulation const& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
 
   std::int64_t every = 0;  ///< steps; 0: never
 
@@ -39,7 +39,7 @@ class RunFrames {
   TrajectoryOptions options() const;
 
   Simulation const& simulation_;
-  UnitSystem const& base_;
+  UnitSystem const& units_;
   std::string path_;
   std::optional<Trajectory> file_;
   std::int64_t stopped_ = -1;                          // the step of a stop between two frames, which has one; -1: none

@@ -217,11 +217,11 @@ class FormulaReader {
       }
       end = to;
     }
-    if (measured_->base.is_reduced())
+    if (measured_->units.is_reduced())
       throw error(fmt::format("'{}': the scenario has pure numbers, without units", text_.substr(at_, end - at_)));
     at_ = end;
     skip();
-    return add({Kind::number, measured_->base.from_si(value * unit.si, unit.dimension)}, {Known::yes, unit.dimension});
+    return add({Kind::number, measured_->units.from_si(value * unit.si, unit.dimension)}, {Known::yes, unit.dimension});
   }
 
   /// The end of a unit and its exponent.

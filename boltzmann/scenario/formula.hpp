@@ -24,7 +24,7 @@ struct FormulaError : Error {
 struct MeasuredNames {
   std::vector<std::string> names;  ///< may have blanks: "kinetic energy"
   std::vector<Dimension> dimensions;
-  UnitSystem base;
+  UnitSystem units;
 };
 
 /// An expression of numbers (2, 0.5, 1e-3), names, + - * / ^ (powers; from right to left, before a sign: -x^2 is
@@ -37,7 +37,7 @@ class Formula {
   /// did you mean 'x'?".
   Formula(std::string_view text, std::span<std::string const> names);
   /// A formula of measured values. A blank in a name may be written as '-' or '_' too; of two names that begin alike
-  /// the longer one is meant. A number may have a unit, "10 K"; one without is in the base's units. FormulaError also
+  /// the longer one is meant. A number may have a unit, "10 K"; one without is in the simulation's units. FormulaError also
   /// where values of different dimensions are compared or added.
   Formula(std::string_view text, MeasuredNames const& names);
 

@@ -58,7 +58,7 @@ OptionTable options_of(std::vector<Parameter> const& parameters) {
 std::optional<ParameterValues> read_parameters(Section& section, std::string_view owner,
                                                std::vector<Parameter> const& parameters, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
-  auto const& base = reading.context.base;
+  auto const& units = reading.context.units;
   int const space = reading.dimension;
   ParameterValues values;
   for (auto const& parameter : parameters) {
@@ -66,17 +66,17 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
     bool const is_vector = parameter.vector && (!parameter.axial || space == 3);
     Dimension const dimension = parameter.dimension.in(space);
     Item const* item = section.find(name);
-    bool const shown = !parameter.unlimited && has_default(parameter, base.is_reduced());
+    bool const shown = !parameter.unlimited && has_default(parameter, units.is_reduced());
     section.explain(option_of(parameter), shown ? std::string(parameter.default_text) : "",
                     space == 0 && parameter.dimension.by_space != 0 ? std::nullopt : std::optional(dimension));
-    if (!item && !has_default(parameter, base.is_reduced())) {
+    if (!item && !has_default(parameter, units.is_reduced())) {
       reading.mistake(section.place(),
                       fmt::format("{} needs '{}', {}; add e.g. {} = {}", owner, name, parameter.doc, name,
-                                  example_of(parameter, is_vector, space == 0 ? 3 : space, base.is_reduced())));
+                                  example_of(parameter, is_vector, space == 0 ? 3 : space, units.is_reduced())));
     } else if (!item) {
       values.push_back({name,
                         {parameter.unlimited ? std::numeric_limits<double>::infinity()
-                                             : in_base(parameter.default_text, dimension, base)}});
+                                             : in_units(parameter.default_text, dimension, units)}});
     } else if (space == 0 && (is_vector || parameter.dimension.by_space != 0)) {
       continue;  // what it may be is not known
     } else if (is_vector || (parameter.vector && item->is(Item::Kind::array))) {

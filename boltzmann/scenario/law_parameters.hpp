@@ -13,7 +13,7 @@
 
 namespace boltzmann {
 
-/// Values by name, in the simulation's base; a vector has one number for each dimension.
+/// Values by name, in the simulation's units; a vector has one number for each dimension.
 using ParameterValues = std::vector<std::pair<std::string, std::vector<double>>>;
 
 /// Error if there is none of that name.

@@ -29,7 +29,7 @@ Item item_of(Option const& option, std::string const& text, Place const& place) 
 
 Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words) {
   Mistakes mistakes("");
-  ReadContext context{mistakes, run.base, ""};
+  ReadContext context{mistakes, run.units, ""};
   Item table;
   std::string drawing;
   for (auto const& [key, text] : words) {

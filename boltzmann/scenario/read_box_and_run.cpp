@@ -139,7 +139,7 @@ ReadEnsemble* Reading::ensemble(Item const& word, std::string_view key) {
 }
 
 double Reading::boltzmann_constant() const {
-  return context.base.is_reduced() ? 1.0 : context.base(constants::boltzmann);
+  return context.units.is_reduced() ? 1.0 : context.units(constants::boltzmann);
 }
 
 void read_units(Section& document, Reading& reading) {
@@ -150,15 +150,15 @@ void read_units(Section& document, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Item const* word = units.need("base", "base = \"si\"");
   auto const name = word ? read_word(*word, "base", base_names, reading.context) : std::nullopt;
-  UnitSystem base;
-  if (name) catch_errors(reading, units.place(), [&] { base = read_base(units, *name); });
+  UnitSystem chosen;
+  if (name) catch_errors(reading, units.place(), [&] { chosen = read_base(units, *name); });
   reading.base_known = reading.context.mistakes.count() == before;
   // Without a base nobody knows which keys it would have had.
   if (name) units.finish();
   if (reading.base_known) {
-    reading.context.base = base;
-    reading.result->base = base;
-    reading.result->reduced = base.is_reduced();
+    reading.context.units = chosen;
+    reading.result->units = chosen;
+    reading.result->reduced = chosen.is_reduced();
   }
 }
 

@@ -123,7 +123,7 @@ void check_convention(Section& section, DissipationLaw const& dissipation, Readi
   using enum Convention;
   std::string const name = to_string(dissipation.convention);
   if (dissipation.convention != constant_friction)
-    section.need("temperature", reading.context.base.is_reduced() ? "temperature = 1" : "temperature = \"300 K\"");
+    section.need("temperature", reading.context.units.is_reduced() ? "temperature = 1" : "temperature = \"300 K\"");
   else
     section.refuse("temperature",
                    fmt::format("convention \"{}\" uses none but the particles' own; leave it out", name));
@@ -142,7 +142,7 @@ bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::str
                                        convention, ensemble.kind->name, ensemble.name));
     return false;
   }
-  bool const reduced = reading.context.base.is_reduced();
+  bool const reduced = reading.context.units.is_reduced();
   if (!ensemble.state) {
     reading.mistake(place, fmt::format("convention: \"{}\" needs the temperatures of internal energies; give '{}' a "
                                        "heat_capacity, e.g. heat_capacity = {}",
@@ -293,7 +293,7 @@ void read_equilibration(Item const& table, Reading& reading) {
   Item const* on = section.find("on");
   auto bath = read_bath(section, reading);
   auto const time = section.need_quantity(
-      "time", dimensions::time, reading.context.base.is_reduced() ? "time = 10" : "time = \"2 ps\"", not_negative);
+      "time", dimensions::time, reading.context.units.is_reduced() ? "time = 10" : "time = \"2 ps\"", not_negative);
   section.finish();
   auto const chosen = to_be_equilibrated(on, reading);
   if (reading.context.mistakes.count() != before || !bath || !time || !reading.run.step) return;

@@ -163,7 +163,7 @@ void Loader::load_barometric(AnyEnsemble& particles) {
 
 void Loader::load_plummer(AnyEnsemble& particles) {
   std::array<double, 3> const none{0, 0, 0};
-  double const newton = reading_.context.base.is_reduced() ? 1 : reading_.context.base(constants::gravitation);
+  double const newton = reading_.context.units.is_reduced() ? 1 : reading_.context.units(constants::gravitation);
   plummer_load(particles, {.mass = options_.mass,
                            .radius = options_.radius,
                            .G = options_.G.value_or(newton),
@@ -243,7 +243,7 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
   for (int a = 0; a < reading_.dimension && reading_.box; ++a) {
     double const length = lengths[static_cast<std::size_t>(a)], axis = reading_.box->length(a);
     if (!reading_.box->periodic(a) || length - axis <= block_.spacing / 2) continue;
-    auto const told = [&](double number) { return reading_.context.base.text(number, dimensions::length, 6); };
+    auto const told = [&](double number) { return reading_.context.units.text(number, dimensions::length, 6); };
     Place const counts = section_.place("counts"), spacing = section_.place("spacing");
     reading_.mistake(spacing.override_number > counts.override_number ? spacing : counts,
                      fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap",

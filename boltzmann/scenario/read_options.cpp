@@ -180,7 +180,7 @@ void read_options(Section& section, OptionTable const& options, void* object, Op
     bool const of_scenario = option.kind.form == Form::ensembles || option.kind.form == Form::particles;
     // An example with a unit says nothing where there are none.
     bool const plain =
-        option.needed.starts_with('"') && option.kind.form == Form::number && section.context().base.is_reduced();
+        option.needed.starts_with('"') && option.kind.form == Form::number && section.context().units.is_reduced();
     if (!option.needed.empty() && !section.need(option.key, option.key + " = " + (plain ? "1" : option.needed))) return;
     if (of_scenario && meaning.of_scenario)
       meaning.of_scenario(option, place);

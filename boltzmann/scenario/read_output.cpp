@@ -170,7 +170,7 @@ void read_stop(Reading& reading) {
                                     : "stop: it looks at each row of diagnoses.csv, and diagnoses = 0 in "
                                       "[output] asks for none");
   try {
-    reading.result->stop_when = stop_condition(item.text, columns, reading.result->base);
+    reading.result->stop_when = stop_condition(item.text, columns, reading.result->units);
     reading.result->stop = item.text;
   } catch (FormulaError const& error) {
     formula_mistake(item, "stop", error, reading);

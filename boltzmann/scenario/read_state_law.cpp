@@ -116,7 +116,7 @@ std::optional<double> read_internal_temperature(Section& ensemble, ParticleClass
     reading.mistake(item->place,
                     fmt::format("internal_energy: which energy belongs to a temperature is known from 'heat_capacity'; "
                                 "add e.g. heat_capacity = {}",
-                                reading.context.base.is_reduced() ? "16" : "\"16 kB\""));
+                                reading.context.units.is_reduced() ? "16" : "\"16 kB\""));
   return temperature;
 }
 

@@ -62,25 +62,25 @@ struct Number {
 };
 
 /// A number as it is shown; nothing if the value is none.
-std::optional<Number> number_of(Item const& item, UnitSystem const& base) {
+std::optional<Number> number_of(Item const& item, UnitSystem const& units) {
   if (item.is_number()) return Number{item.number, ""};
-  if (!item.is(Item::Kind::text) || base.is_reduced()) return std::nullopt;
+  if (!item.is(Item::Kind::text) || units.is_reduced()) return std::nullopt;
   try {
     auto const quantity = parse_quantity(item.text);
     if (!quantity.has_unit) return Number{quantity.si, ""};
-    auto const display = base.display(quantity.dimension);
-    return Number{base.from_si(quantity.si, quantity.dimension) * display.factor, display.unit};
+    auto const display = units.display(quantity.dimension);
+    return Number{units.from_si(quantity.si, quantity.dimension) * display.factor, display.unit};
   } catch (Error const&) {
     return std::nullopt;
   }
 }
 
 /// The numbers of these values; nothing if one of them has none, or another unit. Zero has any.
-bool find_numbers(std::vector<Item const*> const& values, UnitSystem const& base, SweepKey& key) {
+bool find_numbers(std::vector<Item const*> const& values, UnitSystem const& units, SweepKey& key) {
   std::vector<double> numbers;
   std::optional<std::string> known;
   for (auto const* value : values) {
-    auto const number = number_of(*value, base);
+    auto const number = number_of(*value, units);
     if (!number) return false;
     numbers.push_back(number->value);
     if (number->value == 0 && number->unit.empty()) continue;
@@ -94,7 +94,7 @@ bool find_numbers(std::vector<Item const*> const& values, UnitSystem const& base
 }
 
 /// The same for arrays, of which one component differs.
-void find_numbers_of_arrays(SweepValues::Key const& read, UnitSystem const& base, SweepKey& key) {
+void find_numbers_of_arrays(SweepValues::Key const& read, UnitSystem const& units, SweepKey& key) {
   std::vector<SweepKey> differing;
   std::size_t const components = read.values.front().elements.size();
   for (auto const& value : read.values)
@@ -103,7 +103,7 @@ void find_numbers_of_arrays(SweepValues::Key const& read, UnitSystem const& base
     std::vector<Item const*> values;
     for (auto const& value : read.values) values.push_back(&value.elements[c]);
     SweepKey found;
-    if (!find_numbers(values, base, found)) return;
+    if (!find_numbers(values, units, found)) return;
     for (auto const* value : values) found.texts.push_back(words_of(*value));
     if (std::any_of(found.numbers.begin(), found.numbers.end(), [&](double v) { return v != found.numbers.front(); }))
       differing.push_back(std::move(found));
@@ -372,13 +372,13 @@ void read_sweep(Section& document, Reading& reading) {
     reading.mistake(section.place("seeds"), "seeds: counted up from run.seed they get too large");
   if (!section.has("vary") && !section.has("seeds"))
     reading.mistake(table->place, "[sweep] has neither 'vary' nor 'seeds'; add e.g. seeds = 4");
-  UnitSystem const& base = reading.context.base;
+  UnitSystem const& units = reading.context.units;
   for (auto const& read : values.keys) {
     SweepKey key;
     key.path = read.path;
     std::vector<Item const*> pointers;
     for (auto const& value : read.values) key.texts.push_back(words_of(value)), pointers.push_back(&value);
-    if (!find_numbers(pointers, base, key)) find_numbers_of_arrays(read, base, key);
+    if (!find_numbers(pointers, units, key)) find_numbers_of_arrays(read, units, key);
     key.name = last_word(key.path);
     for (auto const& other : values.keys)
       if (other.path != key.path && last_word(other.path) == key.name) key.name = key.path;
@@ -399,7 +399,7 @@ void read_sweep(Section& document, Reading& reading) {
   else
     plan.table = column_names(plan.columns);
   if (auto const from = section.quantity("from", dimensions::time)) {
-    plan.from = *from * base.display(dimensions::time).factor;
+    plan.from = *from * units.display(dimensions::time).factor;
     auto const& run = reading.run;
     bool const varies = std::any_of(plan.vary.begin(), plan.vary.end(),
                                     [](SweepKey const& key) { return key.path.starts_with("run."); });
@@ -415,10 +415,10 @@ void read_sweep(Section& document, Reading& reading) {
 }
 
 std::vector<SweepColumn> sweep_columns(ScenarioSimulation const& scenario) {
-  std::vector<SweepColumn> columns{{"time", scenario.base.display(dimensions::time).unit}};
+  std::vector<SweepColumn> columns{{"time", scenario.units.display(dimensions::time).unit}};
   for (auto const& diagnosis : scenario.diagnoses)
     for (auto const& column : diagnosis->columns())
-      columns.push_back({column.name, scenario.base.display(column.dimension).unit});
+      columns.push_back({column.name, scenario.units.display(column.dimension).unit});
   return columns;
 }
 

@@ -145,14 +145,14 @@ void Recorder::limit(Value& value, double low, double high, bool low_excluded) {
 }
 
 void Recorder::measure(Value& value, std::string const& text, Dimension dimension, NumberRange const& range,
-                       UnitSystem const& base) {
-  bool const pure = dimension == dimensions::none || base.is_reduced();
+                       UnitSystem const& units) {
+  bool const pure = dimension == dimensions::none || units.is_reduced();
   ScenarioParameter& parameter = value.parameter;
   parameter.kind = value.array ? "vector" : pure ? "number" : "quantity";
   if (!pure) {
-    auto const display = base.display(dimension);
+    auto const display = units.display(dimension);
     parameter.unit = display.unit;
-    parameter.base_unit = base.unit_name(dimension);
+    parameter.base_unit = units.unit_name(dimension);
     value.factor = display.factor;
     std::vector<std::string> candidates = example_units(dimension);
     candidates.insert(candidates.begin(), display.unit);
@@ -169,8 +169,8 @@ void Recorder::measure(Value& value, std::string const& text, Dimension dimensio
   limit(value, range.low * value.factor, range.high * value.factor, range.low_excluded);
 }
 
-void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& base) {
-  if (Value* value = find(item)) measure(*value, item.is(Item::Kind::text) ? item.text : "", dimension, range, base);
+void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& units) {
+  if (Value* value = find(item)) measure(*value, item.is(Item::Kind::text) ? item.text : "", dimension, range, units);
 }
 
 void Recorder::integer(Item const& item, std::int64_t low, std::int64_t high) {
@@ -194,7 +194,7 @@ void Recorder::narrow(Item const& item, NumberRange const& range) {
   limit(*value, range.low * value->factor, range.high * value->factor, range.low_excluded);
 }
 
-void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& base) {
+void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& units) {
   using enum OptionKind::Form;
   auto const& [option, value, dimension] = key;
   if (Entry const* entry = table.find(option.key)) {
@@ -224,7 +224,7 @@ void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& base
     parameter.kind = "integer";
     limit(told, kind.range.low, kind.range.high, false);
   } else if ((told.array || kind.form == OptionKind::Form::number) && dimension && kind.counted_in == 1) {
-    measure(told, "", *dimension, kind.range, base);
+    measure(told, "", *dimension, kind.range, units);
   } else {
     parameter.kind = "any";
     parameter.doc += ": " + plain_text(allowed(option));

@@ -31,14 +31,14 @@ class Recorder {
 
   // What a reader wants of a value; if several have read it, the last one counts. Of an array that is told of its
   // elements.
-  void number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& base);
+  void number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& units);
   void integer(Item const& item, std::int64_t low, std::int64_t high);
   void word(Item const& item, std::vector<std::string> const& words);
   void plain(Item const& item, std::string_view kind);  ///< "text", "boolean"
   /// What has been read must be in a smaller range.
   void narrow(Item const& item, NumberRange const& range);
   /// A key that is allowed in a table of the document, whether it is there or not.
-  void key(Item const& table, ToldKey const& key, UnitSystem const& base);
+  void key(Item const& table, ToldKey const& key, UnitSystem const& units);
 
   /// Those that have been read, in the order of the document.
   std::vector<ScenarioParameter> parameters() const;
@@ -66,7 +66,7 @@ class Recorder {
   Value* find(Item const& item, std::string_view kind);
   /// A number of any kind; `text`: of one that is written with a unit.
   static void measure(Value& value, std::string const& text, Dimension dimension, NumberRange const& range,
-                      UnitSystem const& base);
+                      UnitSystem const& units);
   /// Elements of an array may have limits of their own: what holds for all.
   static void limit(Value& value, double low, double high, bool low_excluded);
 

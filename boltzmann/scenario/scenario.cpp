@@ -54,7 +54,7 @@ void build(Item& document, Reading& reading) {
     result.simulation = std::make_unique<Simulation>(*result.schemes.front(), *reading.run.step);
     for (std::size_t k = 1; k < result.schemes.size(); ++k) result.simulation->add(*result.schemes[k]);
     result.simulation->seed(reading.run.seed);
-    result.simulation->speak_in(result.base);
+    result.simulation->speak_in(result.units);
   });
   if (!result.simulation) return;
   bool const radau = std::any_of(reading.ensembles.begin(), reading.ensembles.end(), [](ReadEnsemble const& ensemble) {

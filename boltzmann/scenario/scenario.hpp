@@ -46,7 +46,7 @@ struct OutputPlan {
 /// A scenario that is ready to run. Owns everything.
 struct ScenarioSimulation {
   std::string name, title, description;
-  UnitSystem base;
+  UnitSystem units;
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
   std::vector<std::unique_ptr<Scheme>> schemes;  ///< one or more, whose influences add up

@@ -11,7 +11,7 @@ std::string title_of(ScenarioSimulation const& scenario, std::string const& fold
 
 std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder,
                                           RecordingOptions const& options) {
-  auto recording = std::make_unique<Recording>(*scenario.simulation, scenario.base, folder, options);
+  auto recording = std::make_unique<Recording>(*scenario.simulation, scenario.units, folder, options);
   if (!scenario.title.empty()) recording->title(scenario.title);
   recording->scenario(scenario.resolved);
   recording->planned(scenario.steps);

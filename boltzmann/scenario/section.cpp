@@ -12,8 +12,8 @@ namespace boltzmann {
 namespace {
 
 /// "a number or a text with a unit of length is needed (e.g. "1.5 m")".
-std::string wanted(Dimension dimension, UnitSystem const& base) {
-  if (dimension == dimensions::none || base.is_reduced()) return "a number is needed";
+std::string wanted(Dimension dimension, UnitSystem const& unit_system) {
+  if (dimension == dimensions::none || unit_system.is_reduced()) return "a number is needed";
   auto const units = example_units(dimension);
   return fmt::format("a number or a text with a unit of {} is needed{}", name_of(dimension),
                      units.empty() ? "" : fmt::format(" (e.g. \"1.5 {}\")", units[0]));
@@ -36,14 +36,14 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
     value = item.number;
   } else if (item.is(Item::Kind::text)) {
     try {
-      value = in_base(item.text, dimension, context.base);
+      value = in_units(item.text, dimension, context.units);
     } catch (Error const& error) {
       context.mistakes.add(item.place, about(name, error.what()));
       return std::nullopt;
     }
   } else {
     context.mistakes.add(item.place,
-                         fmt::format("{}: {}, not {}", name, wanted(dimension, context.base), describe(item)));
+                         fmt::format("{}: {}, not {}", name, wanted(dimension, context.units), describe(item)));
     return std::nullopt;
   }
   if (!std::isfinite(value)) {
@@ -55,7 +55,7 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
     context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, shown, range.text()));
     return std::nullopt;
   }
-  if (context.recorder) context.recorder->number(item, dimension, range, context.base);
+  if (context.recorder) context.recorder->number(item, dimension, range, context.units);
   return value;
 }
 
@@ -233,7 +233,7 @@ void Section::finish() {
   };
   for (auto const& told : told_)
     if (in(allowed_, told.option.key) && !in(refused_, told.option.key))
-      context_.recorder->key(table_, told, context_.base);
+      context_.recorder->key(table_, told, context_.units);
   for (auto const& entry : table_.entries)
     if (!in(allowed_, entry.key) && !in(known_, entry.key))
       mistake(entry.place,

@@ -22,7 +22,7 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  UnitSystem base;               ///< of the numbers to come
+  UnitSystem units;              ///< of the numbers to come
   std::string folder;            ///< of the scenario file: where its other files are
   Recorder* recorder = nullptr;  ///< notes what has been read; null: nobody does
   bool confined = false;         ///< overrides name only files in `folder`

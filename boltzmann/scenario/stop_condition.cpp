@@ -9,8 +9,8 @@ namespace boltzmann {
 
 std::function<bool(std::int64_t, std::span<double const>)> stop_condition(std::string_view text,
                                                                           std::vector<Column> const& columns,
-                                                                          UnitSystem const& base) {
-  MeasuredNames names{{"step", "time"}, {dimensions::none, dimensions::time}, base};
+                                                                          UnitSystem const& units) {
+  MeasuredNames names{{"step", "time"}, {dimensions::none, dimensions::time}, units};
   for (auto const& column : columns) {
     names.names.push_back(column.name);
     names.dimensions.push_back(column.dimension);

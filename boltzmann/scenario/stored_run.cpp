@@ -72,20 +72,19 @@ struct RunReader {
     if (auto const read = section.quantity(word, dimensions::none)) number = *read;
   }
 
-  UnitSystem base(Section& top) {
+  UnitSystem read_units(Section& top) {
     Item const* table = find_table(top, "units");
     if (!table) return UnitSystem::reduced();
     Section section(*table, "[units]", context);
-    std::array<double, 5> units{};
+    std::array<double, 5> si{};
     std::size_t k = 0;
     for (char const* key : {"length", "mass", "time", "temperature", "charge"})
-      units[k++] = section.need_quantity(key, dimensions::none, "length = 1e-10", positive).value_or(1);
+      si[k++] = section.need_quantity(key, dimensions::none, "length = 1e-10", positive).value_or(1);
     bool const reduced = section.boolean("reduced");
     section.finish();
     if (reduced) return UnitSystem::reduced();
-    return {Quantity<dimensions::length>{units[0]}, Quantity<dimensions::mass>{units[1]},
-            Quantity<dimensions::time>{units[2]}, Quantity<dimensions::temperature>{units[3]},
-            Quantity<dimensions::charge>{units[4]}};
+    return {Quantity<dimensions::length>{si[0]}, Quantity<dimensions::mass>{si[1]}, Quantity<dimensions::time>{si[2]},
+            Quantity<dimensions::temperature>{si[3]}, Quantity<dimensions::charge>{si[4]}};
   }
 
   std::optional<Box> box(Section& top) {
@@ -191,8 +190,8 @@ struct RunReader {
     Section top(document, "the run", context);
     take(top, "title", run.title);
     double const step = top.quantity("step", dimensions::none).value_or(1);
-    run.base = base(top);
-    run.reduced = run.base.is_reduced();
+    run.units = read_units(top);
+    run.reduced = run.units.is_reduced();
     auto const space = box(top);
     top.allow("ensembles");
     if (space)
@@ -212,7 +211,7 @@ struct RunReader {
     for (auto const& ensemble : run.ensembles) scheme->add(*ensemble);
     run.simulation = std::make_unique<Simulation>(*scheme, step);
     run.schemes.push_back(std::move(scheme));
-    run.simulation->speak_in(run.base);
+    run.simulation->speak_in(run.units);
   }
 };
 

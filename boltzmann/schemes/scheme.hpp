@@ -136,7 +136,7 @@ class Scheme {
   void threads(int count) { threads_ = count < 1 ? default_threads() : count; }
   int threads() const { return threads_; }
   /// The units of what it says (Simulation::speak_in); plain numbers until then.
-  void speak_in(UnitSystem const& base) { box_.speak_in(base); }
+  void speak_in(UnitSystem const& units) { box_.speak_in(units); }
   UnitSystem const& spoken_units() const { return box_.spoken_units(); }
 
  protected:

@@ -187,7 +187,7 @@ void Simulation::check_moves(Part const& part) const {
   }
   double const moved = std::sqrt(move.square), allowed = std::sqrt(part.longest_move2);
   Dimension const unit = part.ensemble->fields().front().dimension;  // of what moves: a length, an angle
-  auto const length = [&](double number) { return base().text(number, unit); };
+  auto const length = [&](double number) { return units().text(number, unit); };
   throw PhysicsFailure(fmt::format("particle {} of '{}' moved {} in one step, further than the length {} of its law{}",
                                    move.particle, name, length(moved), length(allowed), advice()));
 }
@@ -203,7 +203,7 @@ void Simulation::note_start() {
 /// The cure of a step that has brought a particle too far, as far as it is known.
 std::string Simulation::advice() const {
   if (step_ == start_ && !overlap_.empty()) return "; " + overlap_;
-  auto const told = [&](double number) { return base().text(number, dimensions::time, 3); };
+  auto const told = [&](double number) { return units().text(number, dimensions::time, 3); };
   double const safe = 0.1 * collision_step_;  // forces between atoms rise over a tenth of their law's length
   if (std::abs(step_size_) > safe)
     return fmt::format(

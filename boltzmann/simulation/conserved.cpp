@@ -89,7 +89,7 @@ Conserved conserved(Simulation const& simulation) {
   return total;
 }
 
-std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& base) {
+std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& units) {
   if (!start.energy || !end.energy || start.driven || !(start.energy_scale > 0)) return "";
   double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
   double const drift = std::abs(*end.energy - *start.energy), scale = std::max(start.energy_scale, given);
@@ -98,11 +98,11 @@ std::string drift_warning(Conserved const& start, Conserved const& end, UnitSyst
       "warning: {} should be conserved and has gone from {} to {}: the step is too long, or a force is not the "
       "gradient "
       "of its energy",
-      name_of_energy(start, end), base.text(*start.energy, dimensions::energy),
-      base.text(*end.energy, dimensions::energy));
+      name_of_energy(start, end), units.text(*start.energy, dimensions::energy),
+      units.text(*end.energy, dimensions::energy));
 }
 
-std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& base) {
+std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& units) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));
   auto const part = [](double change, double scale) { return scale > 0 ? change / scale : change; };
@@ -113,7 +113,7 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
     double const own = near_zero ? start.energy_scale : std::abs(*start.energy);
     bool const driven = given > own;
     double const scale = driven ? given : own;
-    auto const unit = base.display(dimensions::energy);
+    auto const unit = units.display(dimensions::energy);
     lines.push_back(row(with_unit(name_of_energy(start, end), unit.unit), *start.energy * unit.factor,
                         *end.energy * unit.factor, part(*end.energy - *start.energy, scale),
                         driven      ? "of what was given"
@@ -124,7 +124,7 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   }
   auto const vector = [&](char const* name, Dimension dimension, std::array<double, 3> const& a,
                           std::array<double, 3> const& b, double scale, char const* relative_to) {
-    auto const unit = base.display(dimension);
+    auto const unit = units.display(dimension);
     lines.push_back(row(with_unit(name, unit.unit), magnitude(a) * unit.factor, magnitude(b) * unit.factor,
                         part(magnitude(difference(b, a)), scale), relative_to));
   };

@@ -33,11 +33,11 @@ Conserved conserved(Simulation const& simulation);
 
 /// One line of warning if the energy should be conserved and has changed by more than a tenth of what there was of
 /// kinetic, potential and internal energies; else empty.
-std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& base);
+std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& units);
 
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
 /// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to
 /// what was given if that is more); momenta: relative to their scales, since totals are often zero.
-std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& base);
+std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& units);
 
 }  // namespace boltzmann

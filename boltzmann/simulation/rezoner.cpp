@@ -24,14 +24,14 @@ void Rezoner::change() {
   done_.angular_momentum_lost += now.angular_momentum_lost;
 }
 
-std::string Rezoner::report(UnitSystem const& base) const {
+std::string Rezoner::report(UnitSystem const& units) const {
   auto const& lost = done_.angular_momentum_lost;
   int const dimension = ensemble_->dimension();
   std::string line = fmt::format("'{}': {}, {}, {} now", ensemble_->name(), count(done_.splits, "split"),
                                  count(done_.merges, "merge"), count(ensemble_->size(), "particle"));
   if (dimension > 1 && done_.merges > 0)
     line += fmt::format("; angular momentum lost: {}",
-                        base.text(dimension == 2 ? lost[2] : magnitude(lost), dimensions::angular_momentum));
+                        units.text(dimension == 2 ? lost[2] : magnitude(lost), dimensions::angular_momentum));
   return line;
 }
 

@@ -140,12 +140,12 @@ Method Simulation::method(AnyEnsemble const& ensemble) const {
   return usual_method(ensemble);
 }
 
-UnitSystem const& Simulation::base() const { return schemes_.front()->spoken_units(); }
+UnitSystem const& Simulation::units() const { return schemes_.front()->spoken_units(); }
 
-std::string Simulation::told_time(double number) const { return base().text(number, dimensions::time); }
+std::string Simulation::told_time(double number) const { return units().text(number, dimensions::time); }
 
-void Simulation::speak_in(UnitSystem const& base) {
-  for (auto* scheme : schemes_) scheme->speak_in(base);
+void Simulation::speak_in(UnitSystem const& units) {
+  for (auto* scheme : schemes_) scheme->speak_in(units);
 }
 
 void Simulation::update_derived_fields() const {

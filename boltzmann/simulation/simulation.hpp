@@ -100,7 +100,7 @@ class Simulation {
   std::uint64_t seed() const { return seed_; }
   void seed(std::uint64_t seed) { seed_ = seed; }
   /// The units in which failures and advice are told; plain numbers without it. A Recording says it.
-  void speak_in(UnitSystem const& base);
+  void speak_in(UnitSystem const& units);
   /// Of everything that there is by now; below 1: as many as the machine has. No bit depends on it.
   void threads(int count);
 
@@ -171,7 +171,7 @@ class Simulation {
 
   void run(std::uint64_t steps, int direction);
   Part* part_of(AnyEnsemble const& ensemble);
-  UnitSystem const& base() const;
+  UnitSystem const& units() const;
   std::string told_time(double number) const;
   void update_derived_fields() const;
   void take_lengths();

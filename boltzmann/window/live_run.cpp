@@ -178,7 +178,7 @@ struct LiveRun::State {
       if (given.is_number())
         size = given.get<double>();
       else if (given.is_string())
-        size = in_base(given.get<std::string>(), dimensions::time, views.base());
+        size = in_units(given.get<std::string>(), dimensions::time, views.units());
       else
         throw Error("the step size is a number or a time with its unit, \"2 fs\"");
       if (!std::isfinite(size) || !(size > 0)) throw Error(fmt::format("the step size is above 0, not {}", size));

@@ -72,8 +72,8 @@ double number_or(json const& object, char const* key, double otherwise) {
   return found->get<double>();
 }
 
-Views::Views(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder)
-    : simulation_(simulation), base_(base), title_(std::move(title)), folder_(std::move(folder)) {}
+Views::Views(Simulation& simulation, UnitSystem const& units, std::string title, std::string folder)
+    : simulation_(simulation), units_(units), title_(std::move(title)), folder_(std::move(folder)) {}
 
 std::vector<AnyEnsemble*> Views::ensembles() const { return supervised_by(simulation_.schemes()); }
 
@@ -141,7 +141,7 @@ void Views::add_usual() {
 void Views::columns(std::vector<std::string> header) { header_ = std::move(header); }
 
 json Views::describe() const {
-  auto const length = base_.display(dimensions::length), time = base_.display(dimensions::time);
+  auto const length = units_.display(dimensions::length), time = units_.display(dimensions::time);
   double const step = simulation_.step_size();
   json result{{"title", title_},
               {"folder", folder_},
@@ -149,7 +149,7 @@ json Views::describe() const {
               {"length_factor", length.factor},
               {"time_unit", time.unit},
               {"step_size_number", step},
-              {"step_size", base_.is_reduced() ? fmt::format("{:g}", step) : quantity(step, dimensions::time)},
+              {"step_size", units_.is_reduced() ? fmt::format("{:g}", step) : quantity(step, dimensions::time)},
               {"maps", colour_maps_json()}};
   describe_box(result);
   describe_ensembles(result);
@@ -178,7 +178,7 @@ void Views::describe_ensembles(json& result) const {
   for (auto const* ensemble : ensembles()) {
     json list = json::array();
     for (auto const& meaning : quantities(*ensemble)) {
-      json one{{"name", meaning.name}, {"label", meaning.label}, {"unit", base_.display(meaning.dimension).unit}};
+      json one{{"name", meaning.name}, {"label", meaning.label}, {"unit", units_.display(meaning.dimension).unit}};
       list.push_back(one);
       if (std::find(names.begin(), names.end(), meaning.name) == names.end()) {
         names.push_back(meaning.name);
@@ -250,7 +250,7 @@ Canvas Views::canvas(Entry const& entry, json const& view, std::int64_t step, do
   if (picture.trace && folder_.empty()) throw Error("tracks are those of the trajectory, which nobody records here");
   check(picture, ensembles(), column_names(), sources(picture));
   return boltzmann::draw(
-      picture, {simulation_, base_, title_, step, time, folder_, instruments_, default_threads(), memory_.get()});
+      picture, {simulation_, units_, title_, step, time, folder_, instruments_, default_threads(), memory_.get()});
 }
 
 std::shared_ptr<Canvas const> Views::draw(json const& view, std::int64_t step, double time) const {
@@ -329,6 +329,6 @@ json Views::particle(std::string const& name, std::size_t number) const {
   return nullptr;
 }
 
-std::string Views::quantity(double number, Dimension dimension) const { return base_.text(number, dimension, 5); }
+std::string Views::quantity(double number, Dimension dimension) const { return units_.text(number, dimension, 5); }
 
 }  // namespace boltzmann

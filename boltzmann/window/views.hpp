@@ -21,7 +21,7 @@ class Views {
  public:
   /// The simulation and what else it reads must outlive the views. `folder` is where diagnoses.csv and trajectory.h5
   /// are, or empty.
-  Views(Simulation& simulation, UnitSystem const& base, std::string title, std::string folder);
+  Views(Simulation& simulation, UnitSystem const& units, std::string title, std::string folder);
 
   /// A drawing of the user's own, which it replaces if there is one of that name.
   void install(std::string name, std::function<void(Canvas&)> draw);
@@ -51,7 +51,7 @@ class Views {
   std::string quantity(double number, Dimension dimension) const;
 
   Simulation& simulation() const { return simulation_; }
-  UnitSystem const& base() const { return base_; }
+  UnitSystem const& units() const { return units_; }
   std::string const& title() const { return title_; }
   std::string const& folder() const { return folder_; }
 
@@ -73,7 +73,7 @@ class Views {
   PictureSources sources(Picture const& picture) const;
 
   Simulation& simulation_;
-  UnitSystem base_;
+  UnitSystem units_;
   std::string title_, folder_;
   std::vector<Entry> entries_;
   std::vector<Colour> palette_;

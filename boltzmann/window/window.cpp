@@ -16,11 +16,11 @@ struct Window::State {
   Clients clients;
   std::optional<Announcement> announcement;
 
-  State(Simulation& simulation, UnitSystem const& base, Recording* the_recording, WindowOptions the_options,
+  State(Simulation& simulation, UnitSystem const& units, Recording* the_recording, WindowOptions the_options,
         std::string title, std::string folder)
       : recording(the_recording),
         options(std::move(the_options)),
-        views(simulation, base, std::move(title), std::move(folder)),
+        views(simulation, units, std::move(title), std::move(folder)),
         clients(options.port) {
     simulation.check();
     if (!options.quiet) announcement.emplace("window", clients.address());
@@ -29,13 +29,13 @@ struct Window::State {
 
 Window::Window(Recording& recording, WindowOptions options) {
   std::string const title = options.title.empty() ? recording.title() : options.title;
-  state_ = std::make_unique<State>(recording.simulation(), recording.base(), &recording, std::move(options), title,
+  state_ = std::make_unique<State>(recording.simulation(), recording.units(), &recording, std::move(options), title,
                                    recording.folder());
 }
 
-Window::Window(Simulation& simulation, UnitSystem const& base, WindowOptions options) {
+Window::Window(Simulation& simulation, UnitSystem const& units, WindowOptions options) {
   std::string const title = options.title;
-  state_ = std::make_unique<State>(simulation, base, nullptr, std::move(options), title, "");
+  state_ = std::make_unique<State>(simulation, units, nullptr, std::move(options), title, "");
 }
 
 Window::~Window() { state_->clients.bye("the program has closed the window"); }

@@ -36,7 +36,7 @@ class Window {
   /// and prints its address. Error if the port is taken.
   explicit Window(Recording& recording, WindowOptions options = {});
   /// A window on a simulation without files.
-  Window(Simulation& simulation, UnitSystem const& base, WindowOptions options = {});
+  Window(Simulation& simulation, UnitSystem const& units, WindowOptions options = {});
   ~Window();
   Window(Window const&) = delete;
   Window& operator=(Window const&) = delete;

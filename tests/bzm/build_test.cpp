@@ -18,19 +18,19 @@ constexpr char const* program = R"cpp(
   using namespace boltzmann;
 
   int main() try {
-    UnitSystem const base(units::angstrom, units::amu, units::picosecond);
-    double const r0 = base(2.551 * units::angstrom);
+    UnitSystem const units(units::angstrom, units::amu, units::picosecond);
+    double const r0 = units(2.551 * units::angstrom);
     Ensemble<Newton<2>> atoms("atoms");
     block_load(atoms, {Lattice::triangular, r0, {16, 16}, {20, 20}});
-    for (auto& atom : atoms) atom.mass = base(63.546 * units::amu);
+    for (auto& atom : atoms) atom.mass = units(63.546 * units::amu);
     atoms[100].velocity = {10., 5.};
 
     PairScheme copper(Box(Vector{0., 0.}, Vector{80., 80.}), 3 * r0);
-    copper.internal(atoms, LennardJones{base(0.1 * units::electronvolt), r0});
-    Simulation simulation(copper, base(2 * units::femtosecond));
+    copper.internal(atoms, LennardJones{units(0.1 * units::electronvolt), r0});
+    Simulation simulation(copper, units(2 * units::femtosecond));
     simulation.integrate(atoms, Method::leap_frog);
 
-    Recording recording(simulation, base, "results");
+    Recording recording(simulation, units, "results");
     recording.diagnoses(10, {"energies", "temperature"});
     recording.trajectory(50);
     recording.picture({.colour = "speed"});

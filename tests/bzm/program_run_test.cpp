@@ -73,7 +73,7 @@ struct Beads {
   }
 };
 
-UnitSystem const base(units::angstrom, units::amu, units::picosecond);
+UnitSystem const units(units::angstrom, units::amu, units::picosecond);
 
 template <int D>
 void plan(Recording& recording) {
@@ -94,7 +94,7 @@ void expect_drawn_again() {
   Folder folder;
   {
     Beads<D> run;
-    Recording recording(run.simulation, base, folder / "run");
+    Recording recording(run.simulation, units, folder / "run");
     plan<D>(recording);
     run_with_progress(recording, 60, {.quiet = true});
     EXPECT_EQ(recording.files().front(), "run.toml");
@@ -135,7 +135,7 @@ void expect_drawn_again() {
     for (int c = 0; c < field.components; ++c)
       EXPECT_EQ(stored->ensembles[0]->column(other, c), again.heavy.column(field, c)) << field.name;
   }
-  EXPECT_EQ(stored->base, base);
+  EXPECT_EQ(stored->units, units);
   EXPECT_EQ(stored->simulation->step_size(), 0.01);
   // What needs the laws is refused, not drawn as nothing.
   auto const energies =
@@ -153,13 +153,13 @@ TEST(ProgramRun, GoesOnWhereTheEnvironmentSaysSo) {
   Folder folder;
   auto const run = [&](std::string const& name, std::uint64_t steps) {
     Beads<2> beads;
-    Recording recording(beads.simulation, base, folder / name, {.overwrite = true});
+    Recording recording(beads.simulation, units, folder / name, {.overwrite = true});
     plan<2>(recording);
     return run_with_progress(recording, steps, {.quiet = true}).steps;
   };
   auto const plainly = [&](std::string const& name) {
     Beads<2> beads;
-    Recording const recording(beads.simulation, base, folder / name, {.overwrite = true});
+    Recording const recording(beads.simulation, units, folder / name, {.overwrite = true});
     beads.simulation.run(1);
   };
   struct Asked {
@@ -188,7 +188,7 @@ TEST(ProgramRun, DoesNotGoOnBehindItsCondition) {
   Folder folder;
   auto const run = [&] {
     Beads<2> beads;
-    Recording recording(beads.simulation, base, folder / "run", {.overwrite = true});
+    Recording recording(beads.simulation, units, folder / "run", {.overwrite = true});
     recording.diagnoses(5, {"momentum"});
     recording.stop_when("soon", [](std::int64_t step, std::span<double const>) { return step >= 20; });
     return run_with_progress(recording, 100, {.quiet = true}).steps;
@@ -238,14 +238,14 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
                   .bins = 34};
   AnyEnsemble* const ensembles[] = {&beads};
   Picture const plain, pictures[] = {plain, picture};
-  for (UnitSystem const& units : {base, UnitSystem::reduced()}) {
-    auto const text = run_file_text("\"T\"\n2", units, 1e-3, box, ensembles, pictures);
+  for (UnitSystem const& chosen : {units, UnitSystem::reduced()}) {
+    auto const text = run_file_text("\"T\"\n2", chosen, 1e-3, box, ensembles, pictures);
     write_text(folder / "run.toml", text);
     auto const back = load_stored_run(folder.string());
     std::vector<AnyEnsemble*> const again{back->ensembles[0].get()};
     std::vector<Picture> const plans(back->output.pictures.begin(), back->output.pictures.end());
-    EXPECT_EQ(run_file_text(back->title, back->base, back->simulation->step_size(), back->box(), again, plans), text);
-    EXPECT_EQ(back->base, units);
+    EXPECT_EQ(run_file_text(back->title, back->units, back->simulation->step_size(), back->box(), again, plans), text);
+    EXPECT_EQ(back->units, chosen);
     // None of the words was left out because it looked like nothing.
     for (auto const& option : picture_options())
       EXPECT_NE(text.find("\n" + option.key + " = ", text.rfind("[[pictures]]")), std::string::npos) << option.key;
@@ -256,7 +256,7 @@ TEST(ProgramRun, DamagedRunFilesAreMistakesWithAPlace) {
   Folder folder;
   {
     Beads<2> run;
-    Recording recording(run.simulation, base, folder / "run");
+    Recording recording(run.simulation, units, folder / "run");
     recording.trajectory(5);
     run_with_progress(recording, 5, {.quiet = true});
   }

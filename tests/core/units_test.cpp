@@ -200,29 +200,29 @@ TEST(Constants, AreCodata2018) {
 
 // Section 2.3 of the 1990 thesis: in this base an electronvolt is about 1.
 TEST(Bases, The1990ExampleMakesAnElectronvoltOne) {
-  UnitSystem const base(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s);
+  UnitSystem const units(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s);
   double const by_hand = 1.602176634e-12 / 5.275e-26 / (1.804e-8 * 1.804e-8) * (3.273e-15 * 3.273e-15);  // 0.9997877...
   EXPECT_NEAR(by_hand, 0.99979, 1e-5);
-  EXPECT_NEAR(base(1_eV), by_hand, 1e-12);
-  EXPECT_NEAR(base(1_eV), 1, 1e-3);
-  EXPECT_NEAR(base(1.804_angstrom), 1, 1e-14);
-  EXPECT_NEAR(base(3.273_fs), 1, 1e-14);
-  EXPECT_EQ(base.unit_name(dim::length), "1.804 angstrom");
-  EXPECT_EQ(base.unit_name(dim::time), "3.273 fs");
-  EXPECT_EQ(base.unit_name(dim::mass), "0.0317668 amu");
-  EXPECT_EQ(base.unit_name(dim::energy), "1.00021 eV");
-  EXPECT_EQ(base.unit_name(dim::velocity), "551.176 angstrom/ps");
-  EXPECT_EQ(base.unit_name(dim::none), "");
+  EXPECT_NEAR(units(1_eV), by_hand, 1e-12);
+  EXPECT_NEAR(units(1_eV), 1, 1e-3);
+  EXPECT_NEAR(units(1.804_angstrom), 1, 1e-14);
+  EXPECT_NEAR(units(3.273_fs), 1, 1e-14);
+  EXPECT_EQ(units.unit_name(dim::length), "1.804 angstrom");
+  EXPECT_EQ(units.unit_name(dim::time), "3.273 fs");
+  EXPECT_EQ(units.unit_name(dim::mass), "0.0317668 amu");
+  EXPECT_EQ(units.unit_name(dim::energy), "1.00021 eV");
+  EXPECT_EQ(units.unit_name(dim::velocity), "551.176 angstrom/ps");
+  EXPECT_EQ(units.unit_name(dim::none), "");
 }
 
 TEST(Bases, AreShownInUnitsThatPeopleKnow) {
-  UnitSystem const base(1.804e-8 * units::centimeter, 5.275e-26 * units::gram, 3.273e-15 * units::second);
-  EXPECT_EQ(base.display(dimensions::length).unit, "angstrom");
-  EXPECT_NEAR(base.display(dimensions::length).factor, 1.804, 1e-12);
-  EXPECT_EQ(base.display(dimensions::time).unit, "fs");
-  EXPECT_NEAR(base.display(dimensions::time).factor, 3.273, 1e-12);
-  EXPECT_EQ(base.display(dimensions::energy).unit, "eV");
-  EXPECT_NEAR(base.display(dimensions::energy).factor, 1.00021, 1e-5);
+  UnitSystem const units(1.804e-8 * units::centimeter, 5.275e-26 * units::gram, 3.273e-15 * units::second);
+  EXPECT_EQ(units.display(dimensions::length).unit, "angstrom");
+  EXPECT_NEAR(units.display(dimensions::length).factor, 1.804, 1e-12);
+  EXPECT_EQ(units.display(dimensions::time).unit, "fs");
+  EXPECT_NEAR(units.display(dimensions::time).factor, 3.273, 1e-12);
+  EXPECT_EQ(units.display(dimensions::energy).unit, "eV");
+  EXPECT_NEAR(units.display(dimensions::energy).factor, 1.00021, 1e-5);
   EXPECT_EQ(UnitSystem::si().display(dimensions::energy).unit, "J");
   EXPECT_EQ(UnitSystem::si().display(dimensions::energy).factor, 1);
   EXPECT_EQ(UnitSystem::reduced().display(dimensions::energy).unit, "");
@@ -271,29 +271,29 @@ TEST(Bases, LennardJonesArgon) {
 
 TEST(Bases, PlasmaHasUnitFrequencyDebyeLengthAndThermalVelocity) {
   auto const n0 = 1e18 / pow<3>(units::meter);
-  auto const base =
+  auto const units =
       UnitSystem::electrostatic_plasma(n0, -1.0 * units::elementary_charge, constants::electron_mass, 10000_K);
   // 1e18 electrons per cubic metre: wp = 5.641e10 / s, and lambda = 69 m sqrt(T / n) = 6.9e-6 m (handbook values).
-  expect_near_relative(1 / base.scale().time, 56.4146e9, 1e-5);
-  expect_near_relative(base.scale().length, 69.01e-7, 1e-3);
-  double const n = base(n0);
-  double const e = base(units::elementary_charge);
-  double const m = base(constants::electron_mass);
-  double const t = base(10000_K);
-  double const eps0 = base(constants::vacuum_permittivity);
-  double const kb = base(constants::boltzmann);
+  expect_near_relative(1 / units.scale().time, 56.4146e9, 1e-5);
+  expect_near_relative(units.scale().length, 69.01e-7, 1e-3);
+  double const n = units(n0);
+  double const e = units(units::elementary_charge);
+  double const m = units(constants::electron_mass);
+  double const t = units(10000_K);
+  double const eps0 = units(constants::vacuum_permittivity);
+  double const kb = units(constants::boltzmann);
   EXPECT_NEAR(n * e * e / (eps0 * m), 1, 1e-12);
   EXPECT_NEAR(eps0 * kb * t / (n * e * e), 1, 1e-12);
   EXPECT_NEAR(kb * t / m, 1, 1e-12);
-  EXPECT_NEAR(base(sqrt(constants::boltzmann * 10000_K / constants::electron_mass)), 1, 1e-12);
+  EXPECT_NEAR(units(sqrt(constants::boltzmann * 10000_K / constants::electron_mass)), 1, 1e-12);
   EXPECT_NEAR(eps0, n, 1e-12 * n);
 }
 
 TEST(Bases, GravitationalHasGOne) {
-  auto const base = UnitSystem::gravitational(1_AU, 1_Msun);
-  EXPECT_NEAR(base(constants::gravitation), 1, 1e-13);
+  auto const units = UnitSystem::gravitational(1_AU, 1_Msun);
+  EXPECT_NEAR(units(constants::gravitation), 1, 1e-13);
   // Kepler: one revolution at 1 AU takes 2 pi units of time, which is the Gaussian year of 365.2569 days.
-  expect_near_relative(2 * std::numbers::pi * base.scale().time / units::day.si, 365.256898, 1e-6);
+  expect_near_relative(2 * std::numbers::pi * units.scale().time / units::day.si, 365.256898, 1e-6);
 }
 
 TEST(Bases, GravitationalIsToldInUnitsOfTheSky) {
@@ -306,11 +306,11 @@ TEST(Bases, GravitationalIsToldInUnitsOfTheSky) {
   EXPECT_EQ(galaxy.text(1, dim::velocity), "2.074 km/s");
   EXPECT_EQ(galaxy.display(dim::mass).unit, "Msun");
   for (Dimension const d : {dim::velocity, dim::energy, dim::momentum, dim::time, dim::density, dim::acceleration})
-    for (auto const& base : {planets, galaxy}) {
-      auto const unit = base.display(d).unit;
+    for (auto const& units : {planets, galaxy}) {
+      auto const unit = units.display(d).unit;
       for (char const* small : {"angstrom", "eV", "J", "ps", "amu"})
         EXPECT_EQ(unit.find(small), std::string::npos) << unit;
-      EXPECT_NEAR(parse_quantity("1 " + unit).si * base.display(d).factor / base.to_si(1, d), 1, 1e-12) << unit;
+      EXPECT_NEAR(parse_quantity("1 " + unit).si * units.display(d).factor / units.to_si(1, d), 1, 1e-12) << unit;
     }
 }
 
@@ -335,23 +335,23 @@ TEST(Bases, RoundTripsKeepTheNumber) {
                               UnitSystem(1.804e-8_cm, 5.275e-26_g, 3.273e-15_s),
                               UnitSystem::lennard_jones(3.405_angstrom, 119.8_K * constants::boltzmann, 39.948_amu),
                               UnitSystem::gravitational(1_pc, 1_Msun)};
-  for (auto const& base : bases)
+  for (auto const& units : bases)
     for (auto d : all) {
       for (double const x : {1.0, -2.5, 3.7e-12}) {
-        expect_near_relative(base.to_si(base.from_si(x, d), d), x, 1e-15, to_string(d));
-        expect_near_relative(base.from_si(base.to_si(x, d), d), x, 1e-15, to_string(d));
+        expect_near_relative(units.to_si(units.from_si(x, d), d), x, 1e-15, to_string(d));
+        expect_near_relative(units.from_si(units.to_si(x, d), d), x, 1e-15, to_string(d));
       }
-      EXPECT_EQ(base.from_si(0, d), 0);
+      EXPECT_EQ(units.from_si(0, d), 0);
       // The printed name says what it means: read back, it is one unit of the base (to the six digits it prints).
-      auto const name = base.unit_name(d);
-      EXPECT_EQ(name, base.unit_name(d));
+      auto const name = units.unit_name(d);
+      EXPECT_EQ(name, units.unit_name(d));
       if (name.empty()) {
-        EXPECT_TRUE(d == dim::none || base.is_reduced());
+        EXPECT_TRUE(d == dim::none || units.is_reduced());
         continue;
       }
       auto const quantity = parse_quantity(name[0] >= '0' && name[0] <= '9' ? name : "1 " + name);
       EXPECT_EQ(quantity.dimension, d) << name;
-      expect_near_relative(quantity.si, base.to_si(1, d), 6e-6, name);
+      expect_near_relative(quantity.si, units.to_si(1, d), 6e-6, name);
     }
   EXPECT_TRUE(std::isnan(UnitSystem::cgs().from_si(NAN, dim::length)));
 }
@@ -506,8 +506,8 @@ TEST(Texts, BadOnesAreRefusedInOneLine) {
 }
 
 TEST(Texts, DimensionsAreChecked) {
-  auto const refusal = [](char const* text, Dimension wanted, UnitSystem const& base = UnitSystem::cgs()) {
-    return message([&] { in_base(text, wanted, base); });
+  auto const refusal = [](char const* text, Dimension wanted, UnitSystem const& units = UnitSystem::cgs()) {
+    return message([&] { in_units(text, wanted, units); });
   };
   EXPECT_EQ(refusal("2.551 angstrom", dim::mass), "'2.551 angstrom' is a length, a mass is needed (e.g. 'kg', 'amu')");
   EXPECT_EQ(refusal("2 kg", dim::velocity), "'2 kg' is a mass, a velocity is needed (e.g. 'm/s', 'cm/s')");
@@ -529,15 +529,15 @@ TEST(Texts, DimensionsAreChecked) {
 
 TEST(Texts, BecomePlainNumbersOfTheBase) {
   auto const cgs = UnitSystem::cgs();
-  EXPECT_NEAR(in_base("2.551 angstrom", dim::length, cgs), 2.551e-8, 1e-22);
-  EXPECT_EQ(in_base("2 m", dim::length, cgs), 200);
-  EXPECT_EQ(in_base("5", dim::length, cgs), 5);  // already in the base's units
-  EXPECT_EQ(in_base("0.5 pi", dim::none, cgs), std::numbers::pi / 2);
-  EXPECT_NEAR(in_base("180 degrees", dim::angle, cgs), std::numbers::pi, 1e-15);
-  EXPECT_NEAR(in_base("9.81 m/s^2", dim::acceleration, cgs), 981, 1e-12);
-  EXPECT_EQ(in_base("-3 K", dim::temperature, cgs), -3);
-  EXPECT_EQ(in_base("7.5", dim::pressure, UnitSystem::reduced()), 7.5);
-  EXPECT_NEAR(in_base("90 degree", dim::angle, UnitSystem::reduced()), std::numbers::pi / 2, 1e-15);
+  EXPECT_NEAR(in_units("2.551 angstrom", dim::length, cgs), 2.551e-8, 1e-22);
+  EXPECT_EQ(in_units("2 m", dim::length, cgs), 200);
+  EXPECT_EQ(in_units("5", dim::length, cgs), 5);  // already in the base's units
+  EXPECT_EQ(in_units("0.5 pi", dim::none, cgs), std::numbers::pi / 2);
+  EXPECT_NEAR(in_units("180 degrees", dim::angle, cgs), std::numbers::pi, 1e-15);
+  EXPECT_NEAR(in_units("9.81 m/s^2", dim::acceleration, cgs), 981, 1e-12);
+  EXPECT_EQ(in_units("-3 K", dim::temperature, cgs), -3);
+  EXPECT_EQ(in_units("7.5", dim::pressure, UnitSystem::reduced()), 7.5);
+  EXPECT_NEAR(in_units("90 degree", dim::angle, UnitSystem::reduced()), std::numbers::pi / 2, 1e-15);
 }
 
 TEST(UnitTable, EveryNameIsReadOnceAndMeansItsUnit) {

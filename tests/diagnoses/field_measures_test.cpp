@@ -333,8 +333,8 @@ TEST(MeshRecords, FramesColumnsAndPictures) {
 TEST(MeshPictures, ShowNodesWhereTheyAre) {
   // The clock stands at 0: potential 2 cos(3 pi x/2) on nodes at 0, 0.5, ...
   Flight<1> line({8});
-  auto const base = UnitSystem::reduced();
-  PictureContext const context{line.simulation, base, "", 0, 0, "", {}};
+  auto const units = UnitSystem::reduced();
+  PictureContext const context{line.simulation, units, "", 0, 0, "", {}};
   Canvas const curve = draw({.drawing = "mesh"}, context);
   ASSERT_EQ(curve.curves().size(), 1U);
   ASSERT_EQ(curve.curves()[0].x.size(), 8U);
@@ -343,7 +343,7 @@ TEST(MeshPictures, ShowNodesWhereTheyAre) {
   EXPECT_EQ(curve.y_axis().label, "potential");
   // A node is the middle of a cell of the picture. In 3D the slice shows the two axes it contains.
   Flight<3> cube({8, 4, 2});
-  PictureContext const in_space{cube.simulation, base, "", 0, 0, "", {}};
+  PictureContext const in_space{cube.simulation, units, "", 0, 0, "", {}};
   Canvas const above = draw({.drawing = "mesh", .y = "density"}, in_space);
   ASSERT_EQ(above.images().size(), 1U);
   auto const& image = above.images()[0];
@@ -371,8 +371,8 @@ TEST(MeshPictures, WaveSpectrumWithItsCurves) {
     look(waves, fields, n * 0.125);
   }
   Flight<1> line({8});
-  auto const base = UnitSystem::reduced();
-  PictureContext const context{line.simulation, base, "", 0, 0, "", {&waves}};
+  auto const units = UnitSystem::reduced();
+  PictureContext const context{line.simulation, units, "", 0, 0, "", {&waves}};
   Canvas const canvas = draw({.drawing = "wave-spectrum", .curves = {{3, 0}, {4, 1}}}, context);
   auto const& image = canvas.images().at(0);
   EXPECT_EQ(image.columns, 17);
@@ -385,7 +385,7 @@ TEST(MeshPictures, WaveSpectrumWithItsCurves) {
   EXPECT_EQ(canvas.curves()[0].y[0], 3);
   EXPECT_NEAR(canvas.curves()[1].y[100], 4, 1e-12);  // in the middle, k = 0
   EXPECT_NE(message([&] {
-              draw({.drawing = "wave-spectrum"}, {line.simulation, base, "", 0, 0, "", {}});
+              draw({.drawing = "wave-spectrum"}, {line.simulation, units, "", 0, 0, "", {}});
             }).find("needs the diagnosis wave-spectrum"),
             std::string::npos);
 }

@@ -223,8 +223,8 @@ TEST(Profile, AsAPicture) {
   scheme.internal(gas, LennardJones{0, 1}, 1);
   Simulation simulation(scheme, 0.1);
   simulation.integrate(gas, Method::leap_frog);
-  UnitSystem const base = UnitSystem::reduced();
-  PictureContext const context{simulation, base, "two halves", 0, 0, "", {}};
+  UnitSystem const units = UnitSystem::reduced();
+  PictureContext const context{simulation, units, "two halves", 0, 0, "", {}};
   Canvas const canvas =
       draw({.drawing = "profile", .x = "position.x", .y = "density, kinetic-temperature.y", .bins = 20}, context);
   ASSERT_EQ(canvas.curves().size(), 2U);

@@ -21,11 +21,11 @@ namespace {
 
 using namespace literals;
 
-TrajectoryOptions options_of(UnitSystem const& base) {
+TrajectoryOptions options_of(UnitSystem const& units) {
   TrajectoryOptions options;
-  if (!base.is_reduced()) {
-    options.unit_name = [base](Dimension d) { return base.display(d).unit; };
-    options.factor = [base](Dimension d) { return base.display(d).factor; };
+  if (!units.is_reduced()) {
+    options.unit_name = [units](Dimension d) { return units.display(d).unit; };
+    options.factor = [units](Dimension d) { return units.display(d).factor; };
   }
   return options;
 }
@@ -40,11 +40,11 @@ BoxEdges box_of(int dimension) {
 
 // Three frames; ion 0 is at x = 0, 0.5, 1; an ion and the dust come in the second frame.
 template <int D>
-void write_run(std::string const& path, UnitSystem const& base) {
+void write_run(std::string const& path, UnitSystem const& units) {
   Ensemble<Coulomb<D>> ions("heavy ions", 1);
   Ensemble<Newton<D>> dust("dust", 0);
   AnyEnsemble const* const list[] = {&ions, &dust};
-  Trajectory file(path, options_of(base));
+  Trajectory file(path, options_of(units));
   for (int frame = 0; frame < 3; ++frame) {
     if (frame == 1) {
       ions.resize(2);

@@ -8,19 +8,19 @@
 using namespace boltzmann;
 
 int main() try {
-  UnitSystem const base(units::angstrom, units::amu, units::picosecond);
-  double const r0 = base(3.822 * units::angstrom);
+  UnitSystem const units(units::angstrom, units::amu, units::picosecond);
+  double const r0 = units(3.822 * units::angstrom);
   Ensemble<Newton<2>> atoms("atoms");
   block_load(atoms, {Lattice::triangular, r0, {16, 16}, {20, 20}});
-  for (auto& atom : atoms) atom.mass = base(39.948 * units::amu);
+  for (auto& atom : atoms) atom.mass = units(39.948 * units::amu);
   atoms[100].velocity = {5., 2.5};
 
   PairScheme argon(Box(Vector{0., 0.}, Vector{120., 120.}), 2.5 * r0);
-  argon.internal(atoms, LennardJones{base(0.01032 * units::electronvolt), r0});
-  Simulation simulation(argon, base(5 * units::femtosecond));
+  argon.internal(atoms, LennardJones{units(0.01032 * units::electronvolt), r0});
+  Simulation simulation(argon, units(5 * units::femtosecond));
   simulation.integrate(atoms, Method::leap_frog);
 
-  Recording recording(simulation, base, "results");
+  Recording recording(simulation, units, "results");
   recording.diagnoses(10, {"energies", "temperature"});
   recording.trajectory(50);
   recording.picture({.colour = "speed"});

@@ -14,9 +14,9 @@ TEST(Atmosphere, StaysExponential) {
   Box const& box = run->box();
   int const up = air.dimension() - 1;
   Field const &mass = air.field("mass"), &velocity = air.field("velocity");
-  double const k = run->base(constants::boltzmann);
+  double const k = run->units(constants::boltzmann);
   double const m = air.row(0)[mass.offset];
-  double const height = box.length(up), g = run->base(constants::standard_gravity);
+  double const height = box.length(up), g = run->units(constants::standard_gravity);
   // The temperature that was loaded, from the velocities across.
   auto const temperature = [&] {
     double square = 0;

@@ -26,8 +26,8 @@ TEST(MoltenSalt, BeginsAsACrystalAndMelts) {
   double const cell = 25.49037 / 4, neighbours = cell * std::sqrt(3) / 4;
 
   // Madelung's constant of zinc blende, and of each Lennard-Jones law its shells to 9 angstrom less what is left there.
-  UnitSystem const& base = run->base;
-  double const electronvolt = base(units::electronvolt);
+  UnitSystem const& units = run->units;
+  double const electronvolt = units(units::electronvolt);
   double const coulomb = -1.638055053389 * 14.3996454 * electronvolt / neighbours;  // of a pair; e^2 in eV angstrom
   auto const phi = [&](double r, double r0, double depth) {
     auto const at = [&](double s) { return std::pow(r0 / s, 12) - 2 * std::pow(r0 / s, 6); };

@@ -38,7 +38,7 @@ TEST(Rod, FollowsTheExactChain) {
     double largest = 0, scale = 0;
     for (std::size_t p = 0; p < moving; ++p) {
       double const moved = rod->row(p)[0] - (2 + spacing * static_cast<double>(p));
-      double const expected = exact(p, run->base.to_si(run->simulation->time(), dimensions::time));
+      double const expected = exact(p, run->units.to_si(run->simulation->time(), dimensions::time));
       largest = std::max(largest, std::abs(moved - expected));
       scale = std::max(scale, std::abs(expected));
     }

@@ -20,10 +20,10 @@ constexpr double pi = std::numbers::pi;
 
 // Appendix A.4, in cgs: 2000 sheets in 1e6 cm, each for ten electrons per square centimeter.
 struct Thesis {
-  UnitSystem base = UnitSystem::cgs();
+  UnitSystem units = UnitSystem::cgs();
   double length = 1e6, per_sheet = 10, sheets = 2000;
-  double charge = base(constants::elementary_charge), mass = base(constants::electron_mass);
-  double energy = base(constants::boltzmann) * 16000;
+  double charge = units(constants::elementary_charge), mass = units(constants::electron_mass);
+  double energy = units(constants::boltzmann) * 16000;
   double thermal = std::sqrt(energy / mass);
   double plasma_frequency = std::sqrt(4 * pi * sheets * per_sheet * charge * charge / (length * mass));
   double wave_number(int mode) const { return 2 * pi * mode / length; }
@@ -64,7 +64,7 @@ TEST(TwoStream, ModesGrowAsTheoryHasIt) {
       for (auto& p : *stream) p.charge = -weight * thesis.charge, p.mass = weight * thesis.mass;
       quiet_load(*stream, box);
       maxwellian_load(*stream, {.temperature = 16000 * weight,
-                                .boltzmann_constant = thesis.base(constants::boltzmann),
+                                .boltzmann_constant = thesis.units(constants::boltzmann),
                                 .drift = {(stream == &right ? 5 : -5) * thesis.thermal},
                                 .quiet = true});
       mesh.add(*stream);

@@ -29,7 +29,7 @@ struct Atoms {
   Ensemble<Newton<D>> atoms{"atoms"}, others{"others"};
   PairScheme scheme;
   Simulation simulation;
-  UnitSystem base = UnitSystem::reduced();
+  UnitSystem units = UnitSystem::reduced();
 
   explicit Atoms(Boundary boundary = Boundary::periodic, bool two = false)
       : scheme(box(boundary)), simulation(scheme, 0.1) {
@@ -48,7 +48,7 @@ struct Atoms {
     p.mass = mass;
     atoms.add(p);
   }
-  Canvas drawn(Picture const& picture) { return draw(picture, {simulation, base, "atoms", 0, 0, ""}); }
+  Canvas drawn(Picture const& picture) { return draw(picture, {simulation, units, "atoms", 0, 0, ""}); }
 };
 
 // The mean place of the pixels that have a colour nearly.

@@ -21,7 +21,7 @@ struct Matter {
   Ensemble<P> particles{"matter"};
   PairScheme scheme;
   Simulation simulation;
-  UnitSystem base = UnitSystem::reduced();
+  UnitSystem units = UnitSystem::reduced();
 
   explicit Matter(Boundary boundary = Boundary::periodic) : scheme(box(boundary)), simulation(scheme, 0.1) {
     int const count = D == 1 ? 20 : D == 2 ? 400 : 8000;
@@ -41,7 +41,7 @@ struct Matter {
     for (int a = 0; a < D; ++a) high[a] = 20;
     return Box(low, high, boundary);
   }
-  Canvas drawn(Picture const& picture) { return draw(picture, {simulation, base, "", 0, 0, ""}); }
+  Canvas drawn(Picture const& picture) { return draw(picture, {simulation, units, "", 0, 0, ""}); }
 };
 
 std::uint32_t pixel(Canvas const& canvas, double x, double y) {

@@ -81,7 +81,7 @@ TEST(Dissipation, DissipativeParticleDynamicsBringsAnIdealGasToItsTemperature) {
     EXPECT_NEAR(*end.energy, *start.energy, 1e-10 * end.energy_scale) << method;
     for (int a = 0; a < 3; ++a) EXPECT_NEAR((*end.momentum)[a], (*start.momentum)[a], 1e-11 * end.momentum_scale);
     EXPECT_TRUE(end.isolated);
-    auto const table = conserved_table(start, end, run->base);
+    auto const table = conserved_table(start, end, run->units);
     EXPECT_NE(table.at(1).find("energy less heat"), std::string::npos) << table.at(1);
   }
 }
@@ -297,7 +297,7 @@ TEST(Dissipation, WhatAPistonDoesIsPartOfTheEnergyBalance) {
   double const work = 400 * 10 * (std::pow(10.0 / 6, 0.1) - 1);
   EXPECT_NEAR(end.work, 1.1 * work, 0.15 * work);  // a little more: it is not that slow
   EXPECT_NEAR(*end.energy, *start.energy, 1e-10 * end.energy_scale);
-  EXPECT_NE(conserved_table(start, end, run->base).at(1).find("energy less work "), std::string::npos);
+  EXPECT_NE(conserved_table(start, end, run->units).at(1).find("energy less work "), std::string::npos);
 }
 
 TEST(Dissipation, EnergyBalanceIsTheFirstColumnLessTheOthers) {

@@ -71,7 +71,7 @@ TEST_P(EveryShipped, ReadsBackFromItsStoredFormToTheSameBits) {
   EXPECT_EQ(second->resolved, first->resolved);
   EXPECT_EQ(second->title, first->title);
   EXPECT_EQ(second->description, first->description);
-  EXPECT_EQ(second->base, first->base);
+  EXPECT_EQ(second->units, first->units);
   EXPECT_EQ(second->steps, first->steps);
   EXPECT_EQ(second->output.diagnoses, first->output.diagnoses);
   EXPECT_EQ(second->output.pictures.size(), first->output.pictures.size());
@@ -348,7 +348,7 @@ TEST(ShippedScenario, CopperConservesItsEnergy) {
   ASSERT_EQ(atoms.size(), 250U);
   // Appendix A.3 in its units: 1/2 2000 (0.4^2 + 0.45^2) = 362.5, and an energy of 1 is 1 eV (to 0.04 %).
   double const knock = 0.5 * 2000 * (0.4 * 0.4 + 0.45 * 0.45);
-  EXPECT_NEAR(scenario->base.to_si(1, dimensions::energy) / 1.602176634e-19, 1, 1e-3);
+  EXPECT_NEAR(scenario->units.to_si(1, dimensions::energy) / 1.602176634e-19, 1, 1e-3);
   // First and last row, and first and last atom of the 8 rows between: a margin of 0.6 r0 takes those that are shifted
   // by half a spacing, too.
   std::size_t tethered = 0;

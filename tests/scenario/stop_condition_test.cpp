@@ -19,11 +19,11 @@ std::vector<Column> const columns{
     {"kinetic energy", dimensions::energy},   {"total energy", dimensions::energy},
     {"temperature", dimensions::temperature}, {"atoms x-velocity", dimensions::velocity},
     {"energy", dimensions::energy},           {"energy of mode (3, 0)", dimensions::energy}};
-UnitSystem const base(1_angstrom, 1_amu, 1_ps);
+UnitSystem const units(1_angstrom, 1_amu, 1_ps);
 
 /// At step 30 and time 2.
 bool holds(std::string const& text, std::array<double, 6> const& values = {1, 200, 10, -3, 5, 7},
-           UnitSystem const& of = base) {
+           UnitSystem const& of = units) {
   std::vector<double> row{2};
   row.insert(row.end(), values.begin(), values.end());
   return stop_condition(text, columns, of)(30, row);

@@ -14,10 +14,10 @@ struct IsentropicGas {
                                      .doc = "an ideal gas whose entropy is the same everywhere and always",
                                      .formula = "P = constant rho^gamma, e = constant rho^(gamma - 1) / (gamma - 1)"};
   static constexpr auto parameters() {
-    return std::tuple{
-        ParameterOf{&IsentropicGas::constant,
-                    {"constant", dimensions::none, "pressure / density^gamma, a number in the base's units", positive}},
-        ParameterOf{&IsentropicGas::gamma, gamma_parameter}};
+    return std::tuple{ParameterOf{&IsentropicGas::constant,
+                                  {"constant", dimensions::none,
+                                   "pressure / density^gamma, a number in the simulation's units", positive}},
+                      ParameterOf{&IsentropicGas::gamma, gamma_parameter}};
   }
 
   template <class P>
