@@ -36,6 +36,8 @@ class Dissipation {
   virtual double internal_energy() const { return 0; }
   /// The energy that has come from outside (from a heat bath) since the start of the run.
   virtual double heat() const { return 0; }
+  /// Whether the momentum of its ensembles is kept.
+  virtual bool keeps_momentum() const { return false; }
   /// What one should know before a run with such steps; warnings begin with "warning: ".
   virtual std::vector<std::string> warnings(double /*step_size*/) { return {}; }
   /// One line about the work done, for the end of a run.

@@ -27,7 +27,7 @@ std::string to_string(DissipationMethod method);
 class PairDissipation final : public Dissipation {
  public:
   /// Finds pairs by the neighbour lists of this scheme, which must be one of the simulation's. Boltzmann's constant in
-  /// the simulation's base.
+  /// the simulation's units.
   PairDissipation(PairScheme& scheme, double boltzmann_constant);
   ~PairDissipation() override;
 
@@ -56,6 +56,7 @@ class PairDissipation final : public Dissipation {
   void update_derived_fields() override;
   double internal_energy() const override;
   double heat() const override { return heat_; }
+  bool keeps_momentum() const override { return true; }
   std::vector<std::string> warnings(double step_size) override;
   std::string report() const override;
   std::size_t bytes() const override;

@@ -82,7 +82,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
     report.interrupted = report.out_of_time = false;
   Conserved const end = conserved(simulation);
   if (!options.quiet) print_summary(recording, report, *start, end, recorded);
-  if (auto const line = drift_warning(*start, end, recording.units()); !line.empty())
+  for (auto const& line : drift_warnings(*start, end, recording.units()))
     fmt::print(stderr, "{}{}\n", options.warnings ? "" : recording.folder() + ": ", line);
   if (report.interrupted || report.out_of_time)
     fmt::print(stderr, "{} after step {}; its checkpoint is written: {}/checkpoint.h5\n",

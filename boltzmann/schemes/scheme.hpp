@@ -27,13 +27,15 @@ struct EnergyAndVirial {
     return all;
   }
 
-  double potential = 0;                           ///< of the influences between particles
-  double external = 0;                            ///< in the external fields
-  double internal = 0;                            ///< of the particles themselves (smooth particles, mesoparticles)
-  double work = 0;                                ///< that moving walls have done since the start of the run
-  double heat = 0;                                ///< that heat baths have given since the start of the run
-  bool driven = false;                            ///< something may change the energy uncounted: friction, a law that
-                                                  ///< depends on time, an influence without reaction
+  double potential = 0;     ///< of the influences between particles
+  double external = 0;      ///< in the external fields
+  double internal = 0;      ///< of the particles themselves (smooth particles, mesoparticles)
+  double work = 0;          ///< that moving walls have done since the start of the run
+  double heat = 0;          ///< that heat baths have given since the start of the run
+  bool driven = false;      ///< something may change the energy uncounted: friction, a law that
+                            ///< depends on time, an influence without reaction
+  bool reciprocal = false;  ///< the influences sum to zero: each has its reaction, and nothing acts
+                            ///< from outside. Walls and regions of the box are not asked for
   std::array<std::array<double, 3>, 3> virial{};  ///< - sum over pairs r_a F_b with r = q - p and F the force on p; the
                                                   ///< pressure tensor is (sum m v v + virial) / volume
   std::string unknown = "a scheme's measure()";   ///< what gives no energy, a law by name: the energies are incomplete;

@@ -1,6 +1,5 @@
 // Totals at both ends of a run, and the table that compares them.
 #include <boltzmann/diagnoses/measures.hpp>
-#include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 
 #include <fmt/format.h>
@@ -50,7 +49,7 @@ Conserved conserved(Simulation const& simulation) {
   Conserved total;
   auto const& ensembles = simulation.ensembles();
   EnergyAndVirial const measures = simulation.measure();
-  total.isolated = measures.external == 0;
+  total.isolated = measures.reciprocal && simulation.adaptations().empty();
   total.work = measures.work;
   total.heat = measures.heat;
   total.driven = measures.driven || !simulation.dissipations().empty() || !simulation.adaptations().empty();
@@ -65,7 +64,7 @@ Conserved conserved(Simulation const& simulation) {
                        scheme->box().boundary(a) != Boundary::mirror;
   }
   for (auto const* dissipation : simulation.dissipations())
-    total.isolated = total.isolated && dynamic_cast<LangevinBath const*>(dissipation) == nullptr;
+    total.isolated = total.isolated && dissipation->keeps_momentum();
   for (auto const* ensemble : ensembles) {
     if (!carries_momentum(*ensemble)) {
       massive = false;
@@ -89,17 +88,28 @@ Conserved conserved(Simulation const& simulation) {
   return total;
 }
 
-std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& units) {
-  if (!start.energy || !end.energy || start.driven || !(start.energy_scale > 0)) return "";
-  double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
-  double const drift = std::abs(*end.energy - *start.energy), scale = std::max(start.energy_scale, given);
-  if (drift <= 0.1 * scale) return "";
-  return fmt::format(
-      "warning: {} should be conserved and has gone from {} to {}: the step is too long, or a force is not the "
-      "gradient "
-      "of its energy",
-      name_of_energy(start, end), units.text(*start.energy, dimensions::energy),
-      units.text(*end.energy, dimensions::energy));
+std::vector<std::string> drift_warnings(Conserved const& start, Conserved const& end, UnitSystem const& units) {
+  std::vector<std::string> lines;
+  auto const energy = [&](double number) { return units.text(number, dimensions::energy); };
+  if (start.energy && end.energy && !start.driven && start.energy_scale > 0) {
+    double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
+    if (std::abs(*end.energy - *start.energy) > 0.1 * std::max(start.energy_scale, given))
+      lines.push_back(fmt::format(
+          "warning: {} should be conserved and has gone from {} to {}: the step is too long, or a force is not the "
+          "gradient of its energy",
+          name_of_energy(start, end), energy(*start.energy), energy(*end.energy)));
+  }
+  if (start.momentum && end.momentum && start.isolated && end.isolated) {
+    double const scale = std::max(start.momentum_scale, end.momentum_scale),
+                 change = magnitude(difference(*end.momentum, *start.momentum));
+    if (change > 0.01 * scale)
+      lines.push_back(
+          fmt::format("warning: momentum should be conserved and has changed by {:.2g} % of the sum of |m v|, {}: a "
+                      "law between two "
+                      "particles is not the opposite of its reverse, or the scheme is not accurate enough",
+                      100 * change / scale, units.text(scale, dimensions::momentum)));
+  }
+  return lines;
 }
 
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& units) {
@@ -135,7 +145,7 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
     vector("angular momentum", dimensions::angular_momentum, *start.angular_momentum, *end.angular_momentum,
            std::max(start.angular_momentum_scale, end.angular_momentum_scale), "of the sum of |m r x v|");
   if (start.momentum && !(start.isolated && end.isolated))
-    lines.emplace_back("  (walls, heat baths and influences from outside change momenta)");
+    lines.emplace_back("  (walls, heat baths, influences from outside or without reaction change momenta)");
   return lines;
 }
 

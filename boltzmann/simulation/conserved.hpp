@@ -25,15 +25,16 @@ struct Conserved {
   double angular_momentum_scale = 0;                      ///< sum of |m r x v|
   int dimension = 3;
   bool driven = false;   ///< something may change the energy uncounted: friction, noise, adaptations, ...
-  bool isolated = true;  ///< no walls, no heat bath, and no energy in fields from outside: momentum can be conserved
+  bool isolated = true;  ///< no walls, no heat bath, nothing from outside or without reaction: momentum is conserved
 };
 
 /// Of the present state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
 
-/// One line of warning if the energy should be conserved and has changed by more than a tenth of what there was of
-/// kinetic, potential and internal energies; else empty.
-std::string drift_warning(Conserved const& start, Conserved const& end, UnitSystem const& units);
+/// A line of warning if the energy should be conserved and has changed by more than a tenth of what there was of
+/// kinetic, potential and internal energies; one if momentum should be and has changed by more than a hundredth of the
+/// sum of |m v|.
+std::vector<std::string> drift_warnings(Conserved const& start, Conserved const& end, UnitSystem const& units);
 
 /// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
 /// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to

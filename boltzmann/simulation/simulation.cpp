@@ -311,6 +311,7 @@ void add_up(std::vector<std::vector<double>> const& part, Scheme const& scheme,
 
 EnergyAndVirial Simulation::measure() const {
   auto total = EnergyAndVirial::known();
+  total.reciprocal = true;
   bool energies = true, virials = true;  // of each particle, from every scheme
   auto const all = supervised_by(schemes_);
   for (auto* scheme : schemes_) {
@@ -319,6 +320,7 @@ EnergyAndVirial Simulation::measure() const {
     total.external += part.external;
     total.internal += part.internal;
     total.driven = total.driven || part.driven;
+    total.reciprocal = total.reciprocal && part.reciprocal;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) total.virial[a][b] += part.virial[a][b];
     if (!part.unknown.empty()) total.unknown = part.unknown;
@@ -331,6 +333,9 @@ EnergyAndVirial Simulation::measure() const {
       add_up(part.virial_per_particle, *scheme, all, total.virial_per_particle, virials);
     }
   }
+  for (auto const& part : parts_)  // who stays where it is takes up what others lose
+    total.reciprocal =
+        total.reciprocal && part.integrator->method() != Method::deactivate && part.integrator->same_for_all();
   total.work = work_;
   for (auto const* dissipation : dissipations_) {
     total.internal += dissipation->internal_energy();

@@ -577,7 +577,8 @@ TEST(Simulation, AnEnergyThatShouldStayAndGoesIsToldOf) {
     simulation.check();
     auto const start = conserved(simulation);
     simulation.run(100);
-    return drift_warning(start, conserved(simulation), UnitSystem::reduced());
+    auto const lines = drift_warnings(start, conserved(simulation), UnitSystem::reduced());
+    return lines.empty() ? "" : lines.front();
   };
   auto const warned = drift(0.1, false, false, Boundary::open);
   EXPECT_TRUE(warned.starts_with("warning: energy should be conserved and has gone from 0.75 to ")) << warned;
@@ -585,6 +586,41 @@ TEST(Simulation, AnEnergyThatShouldStayAndGoesIsToldOf) {
   // What loses or gains by friction, by a law that changes in time, is not expected to keep its energy.
   EXPECT_EQ(drift(0.01, true, false, Boundary::open), "");
   EXPECT_EQ(drift(0.01, false, true, Boundary::open), "");
+}
+
+TEST(Simulation, AMomentumThatShouldStayAndGoesIsToldOf) {
+  enum class Law { spring, lopsided, one_way };
+  auto const drift = [](Law law, bool wall = false, bool gravity = false, bool held = false, bool adapted = false) {
+    Ensemble<Newton<2>> pair("pair", 2);
+    pair[0].position = {4, 5}, pair[1].position = {6, 5};
+    pair[0].velocity = {0, -0.5}, pair[1].velocity = {0, 0.5};
+    pair[1].mass = 2;
+    Box box(Vector{-1e6, -1e6}, Vector{1e6, 1e6});
+    if (wall) box = Box(Vector{-1e6, -1e6}, Vector{1e6, 1e6}, Boundary::reflecting);
+    PairScheme scheme(box);
+    auto const spring = [](auto const& p, auto const& q) { return q.position - p.position; };
+    if (law == Law::spring) scheme.internal(pair, spring);
+    if (law == Law::one_way) scheme.internal(pair, one_way(spring));
+    if (law == Law::lopsided)  // as if by the other's mass alone
+      scheme.internal(pair, [](auto const& p, auto const& q) { return (q.position - p.position) * q.mass; });
+    if (gravity) scheme.external(pair, [](auto const& p) { return p.mass * Vector{0.0, -1.0}; });
+    Simulation simulation(scheme, 0.01);
+    if (held) simulation.integrate(pair, Method::deactivate);
+    if (adapted) simulation.adapt(10, [] {});
+    simulation.check();
+    auto const start = conserved(simulation);
+    simulation.run(100);
+    auto const lines = drift_warnings(start, conserved(simulation), UnitSystem::reduced());
+    return lines.empty() ? "" : lines.front();
+  };
+  auto const warned = drift(Law::lopsided);
+  EXPECT_TRUE(warned.starts_with("warning: momentum should be conserved and has changed by ")) << warned;
+  EXPECT_EQ(drift(Law::spring), "");
+  EXPECT_EQ(drift(Law::one_way), "");  // no reaction is expected
+  EXPECT_EQ(drift(Law::lopsided, true), "");
+  EXPECT_EQ(drift(Law::spring, false, true), "");
+  EXPECT_EQ(drift(Law::lopsided, false, false, true), "");
+  EXPECT_EQ(drift(Law::lopsided, false, false, false, true), "");
 }
 
 }  // namespace

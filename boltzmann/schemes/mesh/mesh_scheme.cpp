@@ -278,7 +278,11 @@ std::vector<MeshField const*> MeshScheme::mesh_fields() {
 
 EnergyAndVirial MeshScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
+  measures.reciprocal = true;
   if (!pairs_.ensembles().empty()) measures = pairs_.measure(time);
+  // Ends of a field have charges of their own, and nobody knows what a user's stage does.
+  for (int a = 0; a < box().dimension(); ++a) measures.reciprocal = measures.reciprocal && box().periodic(a);
+  if (density_assignment_ || potential_calculation_ || influence_field_ || interpolation_) measures.reciprocal = false;
   Work& work = this->work();
   deposit(work);
   solve(work, true);

@@ -229,6 +229,7 @@ EnergyAndVirial P3MScheme::measure(double time) {
   EnergyAndVirial measures = MeshScheme::measure(time);
   copy_particles();
   EnergyAndVirial const near = near_->scheme.measure(time);
+  measures.reciprocal = measures.reciprocal && near.reciprocal;
   P3mSystem const system = this->system();
   // A part goes with the square of each strength; with the background, the other with each strength times their sum.
   double const constant = p3m_energy_constant(system, parameters_);

@@ -97,6 +97,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
       measures.per_particle.push_back(std::move(energies));
     }
     measures.potential = potential.value();
+    measures.reciprocal = reaction;
     measures.driven = !reaction;  // who makes the field works on them
     if (this->any_periodic())
       measures.no_virial = "multipoles in a periodic box don't have it (P3M does)";

@@ -266,6 +266,7 @@ Scheme::SmallSystem PairScheme::small_system() {
 
 EnergyAndVirial PairScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
+  measures.reciprocal = external_.empty();
   neighbourhood_.refresh(threads());
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
@@ -289,6 +290,7 @@ EnergyAndVirial PairScheme::measure(double time) {
   };
   for (auto const& near : near_) {
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
+    measures.reciprocal = measures.reciprocal && has_reaction(*near);
     measures.driven = measures.driven || near->traits.velocity_dependent || !has_reaction(*near);
     near->locate(0, neighbourhood_);
     near->task.zero_at = shifted_ && !near->all_pairs() ? near->cutoff : 0;
@@ -297,6 +299,7 @@ EnergyAndVirial PairScheme::measure(double time) {
   }
   for (auto const& connected : connected_) {
     if (!connected->kernels.has_energy) measures.unknown = "a connection of '" + connected->ensemble->name() + "'";
+    measures.reciprocal = measures.reciprocal && !connected->traits.one_way;
     run(connected->task(box()), connected->ensemble, 4 * particle_grain, connected->kernels.connected_measure,
         connected->law.get());
   }
@@ -406,8 +409,9 @@ std::size_t PairScheme::bytes() const {
 }
 
 bool PairScheme::has_reaction(Near const& near) const {
-  return std::any_of(near_.begin(), near_.end(),
-                     [&](auto const& other) { return other->target == near.source && other->source == near.target; });
+  return !near.traits.one_way && std::any_of(near_.begin(), near_.end(), [&](auto const& other) {
+    return other->target == near.source && other->source == near.target;
+  });
 }
 
 double PairScheme::collision_step() const {

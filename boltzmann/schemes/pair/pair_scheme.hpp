@@ -122,12 +122,12 @@ class PairScheme final : public Scheme {
   struct LawTraits {
     double length_scale = no_cutoff;
     bool velocity_dependent = false;
-    bool antisymmetric = false;
+    bool one_way = false;  ///< who is influenced does not influence in return
     bool uniform = false;  ///< an external law that acts on equal particles equally, wherever they are
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
-    return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::antisymmetric,
+    return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::one_way,
             is_uniform<Law>()};
   }
   using LawPointer = std::shared_ptr<void const>;

@@ -97,6 +97,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
   measures.driven =
       box().any_wall() || !outside_.empty() ||
       std::any_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.barotropic; });
+  measures.reciprocal = !box().any_wall() && outside_.empty();
   for (auto const& outside : outside_) {
     if (!outside->kernels.has_energy) {
       measures.unknown = "an external law on '" + outside->ensemble->name() + "'";
