@@ -14,7 +14,7 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t points_per_task = 512;
-constexpr double most_images = 1e9;
+constexpr double max_images = 1e9;
 
 /// Numbers of a field at a point: its value, gradient and the upper triangle of its second derivatives.
 constexpr std::size_t parts(int dimension, Derivatives derivatives) {
@@ -37,6 +37,43 @@ struct Ranges {
   double of(double const* row) const { return offset < 0 ? common : row[offset]; }
 };
 
+/// About how many images of a particle reach into the box, itself among them. Error if its range is none there.
+double expected_images(AnyEnsemble const& ensemble, std::size_t i, double range, Box const& box) {
+  if (!(range > 0) || std::isinf(range))
+    throw Error(
+        fmt::format("particle {} of ensemble '{}' has the range {}; it must be above 0", i, ensemble.name(), range));
+  double images = 1;
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (box.boundary(a) != Boundary::periodic && box.boundary(a) != Boundary::mirror) continue;
+    images *= 1 + 2 * range / box.length(a);
+    if (box.boundary(a) == Boundary::mirror && range > box.length(a))
+      throw Error(
+          fmt::format("particle {} of ensemble '{}' has the range {}; between mirrors along {} it can be {} "
+                      "at most",
+                      i, ensemble.name(), range, "xyz"[a], box.length(a)));
+  }
+  return images;
+}
+
+/// Eq 9 and the rule for quotients: with F = rho f, grad f = (grad F - f grad rho) / rho, and so on. `sums` has the
+/// parts of rho, and those of F (again of rho for the density itself); they become those of point p of the field.
+void take_quotient(double const* sums, double const* F, bool quotient, std::size_t p, std::size_t D,
+                   Derivatives derivatives, FieldValues& field) {
+  double const rho = sums[0], scale = !quotient ? 1 : rho > 0 ? 1 / rho : unknown;
+  double const f = F[0] * scale;
+  field.value[p] = f;
+  if (derivatives == Derivatives::none) return;
+  double* gradient = &field.gradient[p * D];
+  for (std::size_t a = 0; a < D; ++a) gradient[a] = quotient ? (F[1 + a] - f * sums[1 + a]) * scale : F[1 + a];
+  if (derivatives != Derivatives::second) return;
+  double* hessian = &field.hessian[p * D * D];
+  std::size_t at = 1 + D;
+  for (std::size_t a = 0; a < D; ++a)
+    for (std::size_t b = a; b < D; ++b, ++at)
+      hessian[a * D + b] = hessian[b * D + a] =
+          quotient ? (F[at] - gradient[a] * sums[1 + b] - gradient[b] * sums[1 + a] - f * sums[at]) * scale : F[at];
+}
+
 }  // namespace
 
 double fitting_range(Ensembles of, Box const& box) {
@@ -48,66 +85,33 @@ double fitting_range(Ensembles of, Box const& box) {
 
 SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothing, int threads)
     : box_(box), shape_(smoothing.shape), threads_(threads), ensembles_(of.begin(), of.end()) {
-  int const D = box.dimension();
   if (!(smoothing.range >= 0) || std::isinf(smoothing.range))
     throw Error(fmt::format("the range of a smooth field must be above 0, it is {}", smoothing.range));
   double sum_of_ranges = 0, images = 0;
   for (auto const* ensemble : ensembles_) {
-    if (ensemble->dimension() != D)
+    if (ensemble->dimension() != box.dimension())
       throw Error(fmt::format("ensemble '{}' has {} dimensions, the box of its smooth field {}", ensemble->name(),
-                              ensemble->dimension(), D));
+                              ensemble->dimension(), box.dimension()));
     Ranges const ranges(*ensemble, smoothing.range);
     for (std::size_t i = 0; i < ensemble->size(); ++i) {
       double const range = ranges.of(ensemble->row(i));
-      if (!(range > 0) || std::isinf(range))
-        throw Error(fmt::format("particle {} of ensemble '{}' has the range {}; it must be above 0", i,
-                                ensemble->name(), range));
+      images += expected_images(*ensemble, i, range, box);
       largest_range_ = std::max(largest_range_, range);
       sum_of_ranges += range;
-      double own = 1;
-      for (int a = 0; a < D; ++a) {
-        if (box.boundary(a) != Boundary::periodic && box.boundary(a) != Boundary::mirror) continue;
-        own *= 1 + 2 * range / box.length(a);
-        if (box.boundary(a) == Boundary::mirror && range > box.length(a))
-          throw Error(
-              fmt::format("particle {} of ensemble '{}' has the range {}; between mirrors along {} it can be {} "
-                          "at most",
-                          i, ensemble->name(), range, "xyz"[a], box.length(a)));
-      }
-      images += own;
     }
     size_ += ensemble->size();
   }
-  if (images > most_images)
+  if (images > max_images)
     throw Error(
         fmt::format("smooth fields with a range of {} in this box need {:.1e} images of particles; {:.0e} are "
                     "allowed",
-                    largest_range_, images, most_images));
+                    largest_range_, images, max_images));
   mean_range_ = size_ > 0 ? sum_of_ranges / static_cast<double>(size_) : 0;
   sources_.reserve(static_cast<std::size_t>(images) + size_ / 8);
-  Images const seen(box);
-  std::uint32_t particle = 0;
-  for (auto const* ensemble : ensembles_) {
-    Ranges const ranges(*ensemble, smoothing.range);
-    Field const* mass = ensemble->find_field("mass");
-    for (std::size_t i = 0; i < ensemble->size(); ++i, ++particle) {
-      double const* row = ensemble->row(i);
-      if (!std::all_of(row, row + D, [](double x) { return std::isfinite(x); })) continue;
-      std::array<double, 3> home{};
-      for (int a = 0; a < D; ++a) home[a] = box.periodic(a) ? box.wrapped(row[a], a) : row[a];
-      double const range = ranges.of(row);
-      // The images whose weight reaches into the box.
-      seen.each(home.data(), range, [&](Turns const& turns, std::array<double, 3> const& at) {
-        sources_.push_back({at, mass ? row[mass->offset] : 1.0, range, 1 / range});
-        auto& walls = origins_.emplace_back(Origin{particle, {}}).walls;
-        for (int a = 0; a < D; ++a)
-          if (!box.periodic(a)) walls[a] = static_cast<signed char>(turns[a]);
-      });
-    }
-  }
+  collect_sources(smoothing.range);
   if (sources_.empty()) return;
   static_assert(sizeof(Source) == 6 * sizeof(double));
-  cells_ = Cells(D, sources_[0].position.data(), 6, sources_.size(), largest_range_, threads_);
+  cells_ = Cells(box.dimension(), sources_[0].position.data(), 6, sources_.size(), largest_range_, threads_);
   auto const sorted = [&](auto const& from) {
     auto to = from;
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[cells_.items()[k]];
@@ -115,6 +119,30 @@ SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothin
   };
   sources_ = sorted(sources_);
   origins_ = sorted(origins_);
+}
+
+void SmoothField::collect_sources(double common_range) {
+  int const D = box_.dimension();
+  Images const seen(box_);
+  std::uint32_t particle = 0;
+  for (auto const* ensemble : ensembles_) {
+    Ranges const ranges(*ensemble, common_range);
+    Field const* mass = ensemble->find_field("mass");
+    for (std::size_t i = 0; i < ensemble->size(); ++i, ++particle) {
+      double const* row = ensemble->row(i);
+      if (!std::all_of(row, row + D, [](double x) { return std::isfinite(x); })) continue;
+      std::array<double, 3> home{};
+      for (int a = 0; a < D; ++a) home[a] = box_.periodic(a) ? box_.wrapped(row[a], a) : row[a];
+      double const range = ranges.of(row);
+      // The images whose weight reaches into the box.
+      seen.each(home.data(), range, [&](Turns const& turns, std::array<double, 3> const& at) {
+        sources_.push_back({at, mass ? row[mass->offset] : 1.0, range, 1 / range});
+        auto& walls = origins_.emplace_back(Origin{particle, {}}).walls;
+        for (int a = 0; a < D; ++a)
+          if (!box_.periodic(a)) walls[a] = static_cast<signed char>(turns[a]);
+      });
+    }
+  }
 }
 
 std::vector<double> SmoothField::of_sources(SmoothColumn const& column) const {
@@ -198,28 +226,6 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
     if (derivatives == Derivatives::second) field.hessian.resize(count * D * D);
   }
 
-  // Eq 9 and the rule for quotients: with F = rho f, grad f = (grad F - f grad rho) / rho, and so on.
-  auto const write = [&](std::size_t p, double const* sums) {
-    double const rho = sums[0];
-    for (std::size_t c = 0; c < fields.size(); ++c) {
-      double const* F = sums + c * size;
-      bool const quotient = c > 0;
-      double const scale = !quotient ? 1 : rho > 0 ? 1 / rho : unknown;
-      double const f = F[0] * scale;
-      fields[c].value[p] = f;
-      if (derivatives == Derivatives::none) continue;
-      double* gradient = &fields[c].gradient[p * D];
-      for (std::size_t a = 0; a < D; ++a) gradient[a] = quotient ? (F[1 + a] - f * sums[1 + a]) * scale : F[1 + a];
-      if (derivatives != Derivatives::second) continue;
-      double* hessian = &fields[c].hessian[p * D * D];
-      std::size_t at = 1 + D;
-      for (std::size_t a = 0; a < D; ++a)
-        for (std::size_t b = a; b < D; ++b, ++at)
-          hessian[a * D + b] = hessian[b * D + a] =
-              quotient ? (F[at] - gradient[a] * sums[1 + b] - gradient[b] * sums[1 + a] - f * sums[at]) * scale : F[at];
-    }
-  };
-
   Sum const add = sum_of_weight();
   for_ranges(count, points_per_task, threads_, [&](std::size_t begin, std::size_t end) {
     std::vector<double> sums(fields.size() * size);
@@ -238,7 +244,8 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
         if (box_.walled(axis, Box::End::high)) inside = inside && x <= box_.high(axis) + slack;
       }
       if (inside) (this->*add)(place, of_columns.data(), of_columns.size(), derivatives, sums.data());
-      write(p, sums.data());
+      for (std::size_t c = 0; c < fields.size(); ++c)
+        take_quotient(sums.data(), sums.data() + c * size, c > 0, p, D, derivatives, fields[c]);
     }
   });
   return fields;

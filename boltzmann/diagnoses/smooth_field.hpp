@@ -115,6 +115,7 @@ class SmoothField {
   using Sum = void (SmoothField::*)(double const* point, double const* const* columns, std::size_t count,
                                     Derivatives derivatives, double* sums) const;
   Sum sum_of_weight() const;
+  void collect_sources(double common_range);
   std::vector<double> of_sources(SmoothColumn const& column) const;
 
   Box box_;

@@ -148,7 +148,11 @@ struct Trajectory::State {
   }
 
   void lay_out(std::span<AnyEnsemble const* const> list, BoxEdges const& box);
+  // `first` is the group of the first ensemble, whose steps, times and box are those of all.
   void lay_out(AnyEnsemble const& ensemble, std::size_t index, BoxEdges const& box, std::string const& first);
+  void lay_out(AnyEnsemble const& ensemble, Field const& field, std::string const& first);
+  void lay_out(BoxEdges const& box, std::string const& first);
+  void link_frames(std::string const& first, std::string const& element);
   void open_datasets(std::span<AnyEnsemble const* const> list, BoxEdges const& box);
   void cut(std::int64_t last_step);
   void check(std::int64_t at_step, std::span<AnyEnsemble const* const> list, BoxEdges const& box) const;
@@ -186,6 +190,11 @@ void Trajectory::State::lay_out(std::span<AnyEnsemble const* const> list, BoxEdg
   laid_out = true;
 }
 
+void Trajectory::State::link_frames(std::string const& first, std::string const& element) {
+  file->link(first + "/position/step", element + "/step");
+  file->link(first + "/position/time", element + "/time");
+}
+
 void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, BoxEdges const& box,
                                 std::string const& first) {
   std::string const group = "/particles/" + ensemble.name();
@@ -194,59 +203,58 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
   file->set_fixed(group, "class", ensemble.class_name());
   file->set(group, "dimension", static_cast<std::int64_t>(ensemble.dimension()));
   file->set(group, "index", static_cast<std::int64_t>(index));
-
-  auto const link_frames = [&](std::string const& element) {
-    file->link(first + "/position/step", element + "/step");
-    file->link(first + "/position/time", element + "/time");
-  };
   if (is_first) {
     file->create_group(group + "/position");
     file->create_growing(group + "/position/step", Number::integer, {0}, {1024}, {true});
     file->create_growing(group + "/position/time", Number::real, {0}, {1024}, {true});
     write_unit(group + "/position/time", "time", dimensions::time);
   }
-  std::uint64_t const size = ensemble.size();
-  for (auto const& field : ensemble.fields()) {
-    std::string const element = group + "/" + field.name;
-    bool const pad = options.three_columns && is_spatial(field, ensemble.dimension());
-    std::uint64_t const columns = pad ? 3 : static_cast<std::uint64_t>(field.components);
-    bool const scalar = field.components == 1 && !is_spatial(field, ensemble.dimension());
-    std::string values = element;
-    if (declared_constant(field)) {
-      StoredColumn const column{field, columns, true, scalar, 0, {}, factor(field.dimension)};
-      Extents extents{size, columns};
-      if (scalar) extents.pop_back();
-      auto const constant = gather(ensemble, column);
-      file->create(element, Number::real, extents).write(constant.data(), Extents(extents.size(), 0), extents);
-      file->set(element, "boltzmann_checksum", std::bit_cast<std::int64_t>(checksum_of(constant, column)));
-    } else {
-      if (!is_first || field.name != "position") {
-        file->create_group(element);
-        link_frames(element);
-      }
-      file->create_growing(element + "/checksum", Number::integer, {0}, {1024}, {true});
-      values += "/value";
-      Extents extents{0, size, columns}, chunk = chunk_for(size, columns);
-      std::vector<bool> growing{true, true, false};
-      if (scalar) extents.pop_back(), chunk.pop_back(), growing.pop_back();
-      file->create_growing(values, Number::real, extents, chunk, growing);
-    }
-    file->set(values, "components", static_cast<std::int64_t>(field.components));
-    file->set(values, "offset", static_cast<std::int64_t>(field.offset));
-    write_unit(values, field.name, field.dimension);
-  }
+  for (auto const& field : ensemble.fields()) lay_out(ensemble, field, first);
   file->create_group(group + "/count");
-  link_frames(group + "/count");
+  link_frames(first, group + "/count");
   for (char const* each : {"/count/value", "/count/checksum"})
     file->create_growing(group + each, Number::integer, {0}, {1024}, {true});
   for (char const* label : {"id", "species"})
-    file->create_growing(group + "/" + label, Number::integer, {0}, {chunk_for(size, 1)[1]}, {true});
-
-  if (!is_first) {
+    file->create_growing(group + "/" + label, Number::integer, {0}, {chunk_for(ensemble.size(), 1)[1]}, {true});
+  if (is_first)
+    lay_out(box, first);
+  else
     file->link(first + "/box", group + "/box");
-    return;
+}
+
+void Trajectory::State::lay_out(AnyEnsemble const& ensemble, Field const& field, std::string const& first) {
+  std::string const group = "/particles/" + ensemble.name(), element = group + "/" + field.name;
+  std::uint64_t const size = ensemble.size();
+  bool const pad = options.three_columns && is_spatial(field, ensemble.dimension());
+  std::uint64_t const columns = pad ? 3 : static_cast<std::uint64_t>(field.components);
+  bool const scalar = field.components == 1 && !is_spatial(field, ensemble.dimension());
+  std::string values = element;
+  if (declared_constant(field)) {
+    StoredColumn const column{field, columns, true, scalar, 0, {}, factor(field.dimension)};
+    Extents extents{size, columns};
+    if (scalar) extents.pop_back();
+    auto const constant = gather(ensemble, column);
+    file->create(element, Number::real, extents).write(constant.data(), Extents(extents.size(), 0), extents);
+    file->set(element, "boltzmann_checksum", std::bit_cast<std::int64_t>(checksum_of(constant, column)));
+  } else {
+    if (group != first || field.name != "position") {
+      file->create_group(element);
+      link_frames(first, element);
+    }
+    file->create_growing(element + "/checksum", Number::integer, {0}, {1024}, {true});
+    values += "/value";
+    Extents extents{0, size, columns}, chunk = chunk_for(size, columns);
+    std::vector<bool> growing{true, true, false};
+    if (scalar) extents.pop_back(), chunk.pop_back(), growing.pop_back();
+    file->create_growing(values, Number::real, extents, chunk, growing);
   }
-  std::string const box_group = group + "/box";
+  file->set(values, "components", static_cast<std::int64_t>(field.components));
+  file->set(values, "offset", static_cast<std::int64_t>(field.offset));
+  write_unit(values, field.name, field.dimension);
+}
+
+void Trajectory::State::lay_out(BoxEdges const& box, std::string const& first) {
+  std::string const group = first + "/box";
   int const axes = options.three_columns ? 3 : box.dimension;
   std::vector<std::string> boundary;
   std::vector<std::int64_t> periodic_axes;
@@ -257,23 +265,20 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
     boundary.emplace_back(is_periodic ? "periodic" : "none");
     periodic_axes.push_back(is_periodic ? 1 : 0);
   }
-  file->create_group(box_group);
-  file->set(box_group, "dimension", static_cast<std::int64_t>(axes));
-  file->set(box_group, "boundary", boundary);
-  file->set(box_group, "boltzmann_periodic", periodic_axes);
-  file->set(box_group, "boltzmann_dimension", static_cast<std::int64_t>(box.dimension));
-  auto const n = static_cast<std::uint64_t>(axes);
-  if (any_periodic) {
-    file->create_group(box_group + "/edges");
-    link_frames(box_group + "/edges");
-    file->create_growing(box_group + "/edges/value", Number::real, {0, n, n}, {128, n, n}, {true, false, false});
-    write_unit(box_group + "/edges/value", "edges", dimensions::length);
-  }
-  auto const d = static_cast<std::uint64_t>(box.dimension);
-  file->create_group(box_group + "/bounds");
-  link_frames(box_group + "/bounds");
-  file->create_growing(box_group + "/bounds/value", Number::real, {0, 2, d}, {256, 2, d}, {true, false, false});
-  write_unit(box_group + "/bounds/value", "bounds", dimensions::length);
+  file->create_group(group);
+  file->set(group, "dimension", static_cast<std::int64_t>(axes));
+  file->set(group, "boundary", boundary);
+  file->set(group, "boltzmann_periodic", periodic_axes);
+  file->set(group, "boltzmann_dimension", static_cast<std::int64_t>(box.dimension));
+  auto const of_box = [&](std::string const& name, Extents const& extents, Extents const& chunk) {
+    file->create_group(group + "/" + name);
+    link_frames(first, group + "/" + name);
+    file->create_growing(group + "/" + name + "/value", Number::real, extents, chunk, {true, false, false});
+    write_unit(group + "/" + name + "/value", name, dimensions::length);
+  };
+  auto const n = static_cast<std::uint64_t>(axes), d = static_cast<std::uint64_t>(box.dimension);
+  if (any_periodic) of_box("edges", {0, n, n}, {128, n, n});
+  of_box("bounds", {0, 2, d}, {256, 2, d});
 }
 
 // Opens what lay_out, now or in an earlier run, has made; Error if it isn't what these ensembles need.

@@ -102,6 +102,38 @@ class TimeLimit {
   std::int64_t steps_ = 0, between_looks_ = 1;
 };
 
+// What looks at a run after each step: its progress line, its limit of time, and a count of the particles that are
+// moved where their number changes.
+struct Watch {
+  std::optional<ProgressLine> line;
+  std::optional<TimeLimit> limit;
+  std::optional<double> particle_steps;
+  bool out_of_time = false, ended = false;
+
+  void look(Simulation& simulation) {
+    if (ended) return;
+    if (line) line->look(simulation.step());
+    if (particle_steps)
+      for (auto const* ensemble : simulation.ensembles()) *particle_steps += static_cast<double>(ensemble->size());
+    if (!limit || out_of_time || !limit->reached()) return;
+    out_of_time = true;
+    simulation.pause();
+  }
+  void end() {
+    ended = true;
+    if (line) line->clear();
+  }
+};
+
+void print_warnings(Simulation const& simulation, ProgressOptions const& options) {
+  auto const print = [&](std::vector<std::string> const& lines) {
+    for (auto const& line : lines)
+      if (line.starts_with("warning") ? options.warnings : !options.quiet) fmt::print(stderr, "{}\n", line);
+  };
+  for (auto* scheme : simulation.schemes()) print(scheme->warnings(simulation.step_size()));
+  for (auto* dissipation : simulation.dissipations()) print(dissipation->warnings(simulation.step_size()));
+}
+
 }  // namespace
 
 bool rewrites_lines() {
@@ -120,68 +152,37 @@ std::string duration_text(double seconds) {
 
 RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options,
                    Interrupt const& interrupt, std::function<double()> const& seconds_at_end) {
-  auto const limit = std::make_shared<std::unique_ptr<TimeLimit>>();
-  if (options.seconds > 0) *limit = std::make_unique<TimeLimit>(options.seconds, seconds_at_end);
+  // The observer stays with the simulation, without effect once the loop is done.
+  auto const watch = std::make_shared<Watch>();
+  if (options.seconds > 0) watch->limit.emplace(options.seconds, seconds_at_end);
   simulation.check();
   RunReport report;
   for (auto const* ensemble : simulation.ensembles()) report.particles += static_cast<std::int64_t>(ensemble->size());
   std::int64_t const first = simulation.step();
-  auto const print_advice = [&](std::vector<std::string> const& lines) {
-    for (auto const& advice : lines)
-      if (advice.starts_with("warning") ? options.warnings : !options.quiet) fmt::print(stderr, "{}\n", advice);
-  };
-  for (auto* scheme : simulation.schemes()) print_advice(scheme->warnings(simulation.step_size()));
-  for (auto* dissipation : simulation.dissipations()) print_advice(dissipation->warnings(simulation.step_size()));
-  // The observer stays with the simulation, without effect once the line is gone.
-  auto line = std::make_shared<std::unique_ptr<ProgressLine>>();
-  if (!options.quiet) {
-    *line = std::make_unique<ProgressLine>(first, first + static_cast<std::int64_t>(steps), options.planned);
-    simulation.observe_progress([line](Simulation const& now) {
-      if (*line) (*line)->look(now.step());
-    });
-  }
-  // Likewise; most runs keep their numbers of particles.
-  auto const counted = std::make_shared<std::optional<double>>();
-  if (!simulation.adaptations().empty()) {
-    counted->emplace(0);
-    simulation.observe_progress([counted](Simulation const& now) {
-      if (!*counted) return;
-      for (auto const* ensemble : now.ensembles()) **counted += static_cast<double>(ensemble->size());
-    });
-  }
-  auto const out_of_time = std::make_shared<bool>(false);
-  if (*limit)
-    simulation.observe_progress([limit, out_of_time, &simulation](Simulation const&) {
-      if (!*limit || *out_of_time || !(*limit)->reached()) return;
-      *out_of_time = true;
-      simulation.pause();
-    });
+  print_warnings(simulation, options);
+  if (!options.quiet) watch->line.emplace(first, first + static_cast<std::int64_t>(steps), options.planned);
+  if (!simulation.adaptations().empty()) watch->particle_steps = 0;
+  if (watch->line || watch->limit || watch->particle_steps)
+    simulation.observe_progress([watch, &simulation](Simulation const&) { watch->look(simulation); });
   auto const start = Clock::now();
-  auto const end_line = [&] {
-    if (*line) (*line)->clear();
-    line->reset();
-  };
   try {
     if (options.drive)
       options.drive(steps);
     else
       simulation.run(steps);
   } catch (...) {
-    end_line();
-    counted->reset();
-    limit->reset();
+    watch->end();
     throw;
   }
-  end_line();
-  limit->reset();
+  watch->end();
   report.seconds = seconds_since(start);
   report.steps = simulation.step() - first;
-  report.particle_steps = counted->value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
-  counted->reset();
+  report.particle_steps =
+      watch->particle_steps.value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
   report.signalled = interrupt.seen();
   bool const early = report.steps < static_cast<std::int64_t>(steps);
   report.interrupted = report.signalled && early;
-  report.out_of_time = *out_of_time && early && !report.interrupted;
+  report.out_of_time = watch->out_of_time && early && !report.interrupted;
   return report;
 }
 

@@ -125,24 +125,21 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
             return;
           }
     };
-    if (field->components == 1 && !item.is(Item::Kind::array)) {
-      if (auto formula = read_formula(item, field->name, names, unknown, reading)) {
-        check_known(*formula);
-        result.components.push_back(std::move(*formula));
-      }
-    } else if (!item.is(Item::Kind::array) || item.elements.size() != static_cast<std::size_t>(field->components)) {
+    std::vector<Item const*> components;
+    if (field->components == 1 && !item.is(Item::Kind::array))
+      components.push_back(&item);
+    else if (item.is(Item::Kind::array) && item.elements.size() == static_cast<std::size_t>(field->components))
+      for (auto const& element : item.elements) components.push_back(&element);
+    else
       reading.mistake(
           item.place,
           fmt::format("{}: {} formulas are needed, one for each component, not {}{}", field->name, field->components,
                       describe(item), item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
-      continue;
-    } else {
-      for (auto const& element : item.elements)
-        if (auto formula = read_formula(element, field->name, names, unknown, reading)) {
-          check_known(*formula);
-          result.components.push_back(std::move(*formula));
-        }
-    }
+    for (Item const* component : components)
+      if (auto formula = read_formula(*component, field->name, names, unknown, reading)) {
+        check_known(*formula);
+        result.components.push_back(std::move(*formula));
+      }
     if (result.components.size() == static_cast<std::size_t>(field->components)) formulas.push_back(std::move(result));
   }
   return formulas;

@@ -37,6 +37,25 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, SourceKind const& kin
   return result;
 }
 
+/// The Debye length in cells, 0 where a species is cold.
+struct DebyeLength {
+  double cells;
+  bool cold;
+};
+DebyeLength debye_length(std::vector<SpeciesOnMesh> const& all, double frequency2, double spacing) {
+  double inverse2 = 0;
+  bool cold = false;
+  for (SpeciesOnMesh const& species : all) {
+    if (std::abs(species.plasma_frequency2) <= 0.01 * std::abs(frequency2)) continue;  // heavy ones follow slowly
+    // A species whose thermal motion would not bring it a millionth of a cell far in a plasma period is cold.
+    if (species.thermal2 <= 1e-12 * spacing * spacing * std::abs(species.plasma_frequency2))
+      cold = true;
+    else
+      inverse2 += species.plasma_frequency2 / species.thermal2;
+  }
+  return {cold || inverse2 <= 0 ? 0 : 1 / std::sqrt(inverse2) / spacing, cold};
+}
+
 }  // namespace
 
 std::vector<std::string> MeshScheme::warnings(double step_size) {
@@ -56,19 +75,9 @@ std::vector<std::string> MeshScheme::warnings(double step_size) {
     frequency2 += species.plasma_frequency2;
     crossing = std::max(crossing, species.crossing);
   }
-  double inverse_debye2 = 0;
-  bool cold = false;
-  for (SpeciesOnMesh const& species : all) {
-    if (std::abs(species.plasma_frequency2) <= 0.01 * std::abs(frequency2)) continue;  // heavy ones follow slowly
-    // A species whose thermal motion would not bring it a millionth of a cell far in a plasma period is cold.
-    if (species.thermal2 <= 1e-12 * widest * widest * std::abs(species.plasma_frequency2))
-      cold = true;
-    else
-      inverse_debye2 += species.plasma_frequency2 / species.thermal2;
-  }
   if (particles == 0) return lines;
   double const per_step = std::sqrt(std::abs(frequency2)) * std::abs(step_size);
-  double const debye = cold || inverse_debye2 <= 0 ? 0 : 1 / std::sqrt(inverse_debye2) / widest;
+  auto const [debye, cold] = debye_length(all, frequency2, widest);
   if (law_.constant > 0)
     lines.push_back(
         fmt::format("plasma: lambda_D/dx {:.3g}, wp dt {:.3g}, particles per cell {:.3g}, largest v dt/dx "

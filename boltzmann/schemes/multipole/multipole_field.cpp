@@ -609,19 +609,26 @@ void MultipoleField<Kind>::put_in_order(int threads) {
   });
 }
 
-template <class Kind>
-std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& particles,
-                                                 std::vector<std::size_t> const& chosen, double error,
-                                                 int threads) const {
-  std::vector<Point> sources;  // the chosen first, so that the kernel knows who is the same
-  sources.reserve(particles.size());
-  for (std::size_t const i : chosen) sources.push_back(particles[i]);
+/// The chosen ones (in ascending order) before all others.
+template <class Point>
+static std::vector<Point> with_first(std::vector<Point> const& particles, std::vector<std::size_t> const& chosen) {
+  std::vector<Point> all;
+  all.reserve(particles.size());
+  for (std::size_t const i : chosen) all.push_back(particles[i]);
   auto next = chosen.begin();
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (next != chosen.end() && *next == i)
       ++next;
     else
-      sources.push_back(particles[i]);
+      all.push_back(particles[i]);
+  return all;
+}
+
+template <class Kind>
+std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& particles,
+                                                 std::vector<std::size_t> const& chosen, double error,
+                                                 int threads) const {
+  auto const sources = with_first(particles, chosen);  // so the kernel knows who is the same
   std::vector<double> field(chosen.size() * Kind::width);
   PairTask task;
   task.target = task.source = sources.empty() ? nullptr : &sources.front().position[0];

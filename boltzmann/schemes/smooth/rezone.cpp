@@ -163,6 +163,22 @@ struct NearPair {
   auto key() const { return std::tie(square_of_distance, i, j); }
 };
 
+/// A place, and those of its periodic images that somebody in the box may be near to.
+std::vector<Offset> with_images(Offset const& place, Box const& box, double reach) {
+  std::vector<Offset> all{place};
+  for (int k = 0; k < box.dimension(); ++k) {
+    if (!box.periodic(k)) continue;
+    for (std::size_t n = all.size(); n-- > 0;)
+      for (double const shift : {-1.0, 1.0}) {
+        double const image = place[k] + shift * box.length(k);
+        if (image < box.low(k) - reach || image > box.high(k) + reach) continue;
+        all.push_back(all[n]);
+        all.back()[k] = image;
+      }
+  }
+  return all;
+}
+
 /// The rows of those candidates that merge.
 std::vector<std::array<std::size_t, 2>> pairs_of(Rows const& rows, Box const& box,
                                                  std::vector<std::size_t> const& candidates, Rezoning const& rezoning) {
@@ -199,20 +215,7 @@ std::vector<std::array<std::size_t, 2>> pairs_of(Rows const& rows, Box const& bo
     });
   };
   for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    // Also from the places of its images that others may be near to.
-    std::vector<Offset> from{places[i]};
-    for (int k = 0; k < d; ++k) {
-      if (!box.periodic(k)) continue;
-      double const x = places[i][k];
-      for (std::size_t n = from.size(); n-- > 0;)
-        for (double const shift : {-1.0, 1.0}) {
-          double const image = x + shift * box.length(k);
-          if (image < box.low(k) - reach || image > box.high(k) + reach) continue;
-          from.push_back(from[n]);
-          from.back()[k] = image;
-        }
-    }
-    for (Offset const& place : from) look(i, place.data());
+    for (Offset const& place : with_images(places[i], box, reach)) look(i, place.data());
   }
   std::sort(near.begin(), near.end(), [](NearPair const& a, NearPair const& b) { return a.key() < b.key(); });
 
