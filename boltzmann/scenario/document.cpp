@@ -296,8 +296,9 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// The element of an array that a step of a path means: a number, or the name of one of its tables.
-Item* element_of(Item& array, std::string const& step) {
+/// The element of an array (const or not) that a step of a path means: a number, or the name of one of its tables.
+template <class Array>
+auto element_of(Array& array, std::string const& step) -> decltype(array.elements.data()) {
   std::size_t index = 0;
   auto const [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
   if (error == std::errc() && end == step.data() + step.size())
@@ -305,6 +306,21 @@ Item* element_of(Item& array, std::string const& step) {
   for (auto& element : array.elements)
     if (Entry const* name = element.find("name"); name && name->item.text == step) return &element;
   return nullptr;
+}
+
+template <class Document>
+Document* walk(Document& document, std::string const& path) {
+  Document* at = &document;
+  for (auto const& step : steps_of(path)) {
+    if (at->is(Item::Kind::array)) {
+      at = element_of(*at, step);
+    } else {
+      auto* entry = at->find(step);
+      at = entry ? &entry->item : nullptr;
+    }
+    if (!at) return nullptr;
+  }
+  return at;
 }
 
 }  // namespace
@@ -378,18 +394,19 @@ void assign(Item& document, std::string const& path, Item value, Place const& pl
   *at = std::move(value);
 }
 
-Item const* item_at(Item const& document, std::string const& path) {
-  Item const* at = &document;
-  for (auto const& step : steps_of(path)) {
-    if (at->is(Item::Kind::array)) {
-      at = element_of(const_cast<Item&>(*at), step);
-    } else {
-      Entry const* entry = at->find(step);
-      at = entry ? &entry->item : nullptr;
-    }
-    if (!at) return nullptr;
-  }
-  return at;
+Item const* item_at(Item const& document, std::string const& path) { return walk(document, path); }
+
+Item const* table_of(Item const& document, std::string const& path) {
+  auto const dot = path.rfind('.');
+  return dot == std::string::npos ? &document : walk(document, path.substr(0, dot));
+}
+
+std::string key_of(std::string const& path) { return path.substr(path.rfind('.') + 1); }
+
+void leave_out(Item& document, std::string const& path) {
+  auto const dot = path.rfind('.');
+  if (Item* table = dot == std::string::npos ? &document : walk(document, path.substr(0, dot)))
+    std::erase_if(table->entries, [key = key_of(path)](Entry const& entry) { return entry.key == key; });
 }
 
 void set_default(Item& document, std::string const& table, std::string const& key, Item value) {

@@ -101,6 +101,13 @@ Item value_of(std::string const& text, Place const& place);
 /// The value at "run.step" or "ensembles.atoms.mass", or nullptr.
 Item const* item_at(Item const& document, std::string const& path);
 
+/// The table that "run.step" stands in, or nullptr, and "step".
+Item const* table_of(Item const& document, std::string const& path);
+std::string key_of(std::string const& path);
+
+/// Takes the key at "run.step" out of its table; nothing happens where there is none.
+void leave_out(Item& document, std::string const& path);
+
 /// Sets a value if the key is missing.
 void set_default(Item& document, std::string const& table, std::string const& key, Item value);
 

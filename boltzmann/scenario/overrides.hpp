@@ -13,7 +13,8 @@ namespace boltzmann {
 struct Overrides {
   std::vector<std::string>
       set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
-  std::optional<std::int64_t> steps;
+  std::vector<std::string> without = {};  ///< keys by their paths: the scenario as if they were not there
+  std::optional<std::int64_t> steps = {};
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::vector<std::string> vary = {};         ///< "key.path=[values]": instead of what [sweep] varies

@@ -129,6 +129,20 @@ Change behind_last(Item const& table, bool top, Lines const& lines) {
   return {at, at, "\n"};
 }
 
+/// A key and its value go: with the line, or with a comma in braces.
+Change without(Item const& table, std::string const& key, std::string const& text, Lines const& lines) {
+  Entry const& entry = *table.find(key);
+  std::size_t begin = lines.offset(entry.place), end = lines.offset(entry.item.end);
+  if (!table.inlined) {
+    begin = begin == 0 ? 0 : text.rfind('\n', begin - 1) + 1;
+    return {begin, std::min(lines.end_of_line(end) + 1, text.size()), ""};
+  }
+  std::size_t const next = text.find_first_not_of(" \t", end);
+  if (next < text.size() && text[next] == ',') return {begin, text.find_first_not_of(" \t", next + 1), ""};
+  std::size_t const before = text.find_last_not_of(" \t", begin - 1);
+  return {text[before] == ',' ? before : begin, end, ""};
+}
+
 /// A value as it can stand in the text: what somebody has written, if that is one value of TOML on one line.
 std::string as_toml(std::string const& value) {
   Item const item = value_of(value, {});
@@ -171,20 +185,24 @@ std::string with_values(std::string const& text, ScenarioValues const& values) {
   Item wanted = document;
   std::vector<Change> changes;
   for (auto const& [path, value] : values) {
-    assign(wanted, path, value_of(value, {}), {}, mistakes);
-    if (Item const* item = item_at(document, path)) {
-      if (!is_written(*item) || has_header(*item))
-        throw Error(fmt::format("'{}' is a table; a value in it can be changed", path));
-      changes.push_back({lines.offset(item->place), lines.offset(item->end), as_toml(value)});
+    Item const *table = table_of(document, path), *item = item_at(document, path);
+    std::string const key = key_of(path);
+    if (item && (!is_written(*item) || has_header(*item)))
+      throw Error(fmt::format("'{}' is a table; a value in it can be changed", path));
+    if (!value) {
+      leave_out(wanted, path);
+      if (table && table->is(Item::Kind::table) && item) changes.push_back(without(*table, key, text, lines));
       continue;
     }
-    auto const dot = path.rfind('.');
-    Item const* table = dot == std::string::npos ? &document : item_at(document, path.substr(0, dot));
-    std::string const key = path.substr(dot == std::string::npos ? 0 : dot + 1);
+    assign(wanted, path, value_of(*value, {}), {}, mistakes);
+    if (item) {
+      changes.push_back({lines.offset(item->place), lines.offset(item->end), as_toml(*value)});
+      continue;
+    }
     if (!table || !table->is(Item::Kind::table) || key.empty())
       throw Error(fmt::format("there is no '{}' in the scenario", path));
     Change change = behind_last(*table, table == &document, lines);
-    change.text += write_key(key) + " = " + as_toml(value);
+    change.text += write_key(key) + " = " + as_toml(*value);
     if (table == &document && change.end == 0) change.text += "\n";
     changes.push_back(std::move(change));
   }
@@ -193,9 +211,11 @@ std::string with_values(std::string const& text, ScenarioValues const& values) {
   std::string result;
   std::size_t at = 0;
   for (auto const& change : changes) {
-    if (change.begin < at) throw Error("two of the values stand in each other; set one of them");
-    result += text.substr(at, change.begin - at) + change.text;
-    at = change.end;
+    if (change.begin < at && !change.text.empty())
+      throw Error("two of the values stand in each other; set one of them");
+    if (change.begin > at) result += text.substr(at, change.begin - at);
+    result += change.text;
+    at = std::max(at, change.end);
   }
   result += text.substr(at);
   // Whatever the layout: it must say what was meant.

@@ -44,11 +44,11 @@ struct ScenarioOutline {
 /// for it in messages.
 ScenarioOutline outline_scenario(std::string const& text, std::string const& file);
 
-/// Paths (of --set) and values: TOML, or a text without its quotation marks.
-using ScenarioValues = std::vector<std::pair<std::string, std::string>>;
+/// Paths (of --set) and values: TOML, or a text without its quotation marks. Without a value: the key is left out.
+using ScenarioValues = std::vector<std::pair<std::string, std::optional<std::string>>>;
 
 /// The text with other values in it and everything else, comments and layout, as it was. A key that its table does not
-/// have yet stands behind the others. Throws Error if there is no such place, and ScenarioErrors if the text is not
+/// have yet stands behind the others; one that is left out goes with its line. Throws Error if there is no such place, and ScenarioErrors if the text is not
 /// TOML.
 std::string with_values(std::string const& text, ScenarioValues const& values);
 

@@ -101,6 +101,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   Item document = parse_document(text, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   for (auto const& assignment : overrides.set) apply_override(document, assignment, "--set", mistakes);
+  for (auto const& path : overrides.without) leave_out(document, path);
   if (overrides.steps) apply_override(document, fmt::format("run.steps={}", *overrides.steps), "--steps", mistakes);
   if (overrides.seed) {
     // TOML's integers end at 2^63 - 1.

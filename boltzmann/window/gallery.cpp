@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t most_bytes = 4 << 20;      // of a scenario in the folder
-constexpr std::size_t most_values = 10'000;      // of `set`
-constexpr std::size_t most_letters = 1'000'000;  // of one value
+constexpr std::size_t max_bytes = 4 << 20;      // of a scenario in the folder
+constexpr std::size_t max_values = 10'000;      // of `set`
+constexpr std::size_t max_letters = 1'000'000;  // of one value
 
 /// A scenario of the gallery and its file.
 struct Choice {
@@ -52,7 +52,7 @@ std::vector<Choice> choices(std::string const& folder) {
   for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
     std::error_code ignored;
     auto const& path = entry->path();
-    if (path.extension() != ".toml" || !entry->is_regular_file(ignored) || entry->file_size(ignored) > most_bytes ||
+    if (path.extension() != ".toml" || !entry->is_regular_file(ignored) || entry->file_size(ignored) > max_bytes ||
         ignored)
       continue;
     std::string const stem = path.stem().string();
@@ -78,12 +78,13 @@ Choice choice(std::string const& name, std::string const& folder) {
 ScenarioValues values_of(json const& set) {
   if (set.is_null()) return {};
   if (!set.is_object()) throw Error("'set' must be an object of paths and values");
-  if (set.size() > most_values) throw Error("'set' has too many values");
+  if (set.size() > max_values) throw Error("'set' has too many values");
   ScenarioValues values;
   for (auto const& [path, value] : set.items()) {
-    if (!value.is_string()) throw Error(fmt::format("the value of '{}' must be a text of TOML", path));
-    auto const text = value.get<std::string>();
-    if (text.size() > most_letters) throw Error(fmt::format("the value of '{}' is too long", path));
+    if (!value.is_string() && !value.is_null())
+      throw Error(fmt::format("the value of '{}' must be a text of TOML, or null: the key is left out", path));
+    auto const text = value.is_null() ? std::nullopt : std::optional(value.get<std::string>());
+    if (text && text->size() > max_letters) throw Error(fmt::format("the value of '{}' is too long", path));
     if (path.empty() || path.find_first_of("= \t\r\n") == 0 || path.find('=') != std::string::npos)
       throw Error(fmt::format("'{}' is no path of a value", path));
     values.emplace_back(path, text);
@@ -96,14 +97,23 @@ ScenarioValues values_of(json const& set) {
 Overrides overrides_of(ScenarioValues const& values) {
   Overrides overrides;
   overrides.by_page = true;
-  for (auto const& [path, value] : values) overrides.set.push_back(path + "=" + value);
+  for (auto const& [path, value] : values)
+    if (value)
+      overrides.set.push_back(path + "=" + *value);
+    else
+      overrides.without.push_back(path);
   return overrides;
 }
 
-/// One line of a ScenarioErrors: what is set where it is wrong, or null.
+/// One line of a ScenarioErrors: what is set, or left out and needed, where it is wrong; or null.
 json error_of(std::string const& line, ScenarioValues const& values) {
   for (auto const& [path, value] : values) {
-    std::string prefix = "--set " + path + "=" + value + ": ";
+    if (!value) {
+      if (line.find(fmt::format("no '{}'", key_of(path))) != std::string::npos)
+        return {{"path", path}, {"message", line}};
+      continue;
+    }
+    std::string prefix = "--set " + path + "=" + *value + ": ";
     std::replace(prefix.begin(), prefix.end(), '\n', ' ');
     if (line.starts_with(prefix)) return {{"path", path}, {"message", line.substr(prefix.size())}};
   }

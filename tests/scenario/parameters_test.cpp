@@ -511,6 +511,29 @@ TEST(WithValues, PutsKeysThatAreMissingBehindTheOthers) {
   EXPECT_EQ(with_values("[a]\n", {{"title", "x"}}), "title = \"x\"\n[a]\n");
 }
 
+TEST(WithValues, LeavesKeysOut) {
+  auto const without = [](std::string const& of, std::vector<std::string> const& paths) {
+    ScenarioValues values;
+    for (auto const& path : paths) values.emplace_back(path, std::nullopt);
+    return with_values(of, values);
+  };
+  std::string const now = without(text, {"run.cutoff", "box.boundary", "ensembles.Ärgon # 1.load.origin"});
+  EXPECT_NE(now.find("# a square # of 2 nm\n[run]\nstep"), std::string::npos) << now;
+  EXPECT_NE(now.find("steps = 1_000\n[[ensembles]]"), std::string::npos) << now;
+  EXPECT_NE(now.find("counts = [4, 4] } # \"all\"\n"), std::string::npos) << now;
+  // First, in the middle, last, both, all of a table in braces; lines with comments, over several lines, the last one.
+  EXPECT_EQ(without("x = { a = 1, b = 2, c = 3 }\n", {"x.a"}), "x = { b = 2, c = 3 }\n");
+  EXPECT_EQ(without("x = { a = 1, b = 2, c = 3 }\n", {"x.b"}), "x = { a = 1, c = 3 }\n");
+  EXPECT_EQ(without("x = { a = 1, b = 2, c = 3 }\n", {"x.c"}), "x = { a = 1, b = 2 }\n");
+  EXPECT_EQ(without("x = { a = 1, b = 2 }\n", {"x.b", "x.a"}), "x = {  }\n");
+  EXPECT_EQ(without("a = 1 # one\nb = 2", {"b"}), "a = 1 # one\n");
+  EXPECT_EQ(without("a = [1,\n 2] # two\nb = 2", {"a"}), "b = 2");
+  EXPECT_EQ(without("[a]\nb = 1\n[c]\n", {"a.b"}), "[a]\n[c]\n");
+  EXPECT_EQ(with_values("[a]\nb = 1\nc = 2\n", {{"a.b", std::nullopt}, {"a.c", "3"}}), "[a]\nc = 3\n");
+  EXPECT_EQ(without("a = 1\n", {"b", "c.d"}), "a = 1\n");  // there is none
+  EXPECT_THROW(without("[a]\nb = 1\n", {"a"}), Error);
+}
+
 TEST(WithValues, OfWindowsFilesAndOddOnes) {
   EXPECT_EQ(with_values("a = 1 # x\r\nb = 2\r\n", {{"a", "12"}}), "a = 12 # x\r\nb = 2\r\n");
   EXPECT_EQ(with_values("a = \"\"\"\nx\ny\"\"\" # c\nb = 'it'\n", {{"a", "1"}, {"b", "true"}}),

@@ -180,8 +180,8 @@ TEST_F(GalleryTest, ChecksAndSaysWhichValueIsWrong) {
 }
 
 TEST_F(GalleryTest, RefusesWhatIsNoSet) {
-  for (json const& set : {json(3), json::array({1}), json("run.step=1"), json{{"run.step", 1}}, json{{"", "1"}},
-                          json{{"a=b", "1"}}, json{{"run.step", nullptr}}}) {
+  for (json const& set :
+       {json(3), json::array({1}), json("run.step=1"), json{{"run.step", 1}}, json{{"", "1"}}, json{{"a=b", "1"}}}) {
     json const reply = gallery.check("copper", set);
     EXPECT_TRUE(reply.contains("error")) << set.dump();
     EXPECT_FALSE(reply.contains("ok"));
@@ -296,6 +296,24 @@ TEST_F(GalleryTest, AKeyThatIsSetStandsInTheSavedFileAndIsToldAsAnyOther) {
     EXPECT_EQ(find(mine.at("parameters"), "path", path).at("value"), value);
     EXPECT_TRUE(find(mine.at("absent"), "path", path).is_null());
   }
+}
+
+TEST_F(GalleryTest, AKeyIsLeftOut) {
+  json const set = {{"run.cutoff", nullptr}, {"ensembles.atoms.diameter", nullptr}, {"run.steps", "7"}};
+  json const checked = gallery.check("copper", set);
+  ASSERT_TRUE(checked.contains("ok")) << checked.dump();
+  EXPECT_FALSE(find(checked.at("absent"), "path", "run.cutoff").is_null());
+  EXPECT_FALSE(gallery.load("copper", set)->ensembles[0]->appearance.diameter > 0);
+  ASSERT_TRUE(gallery.save("copper", set, "mine", false).contains("ok"));
+  std::string expected = read(find_scenario("copper"));
+  for (std::string const line : {"cutoff = \"7.653 angstrom\"          # 3 r0\n", "diameter = \"2.2 angstrom\"\n"})
+    expected.erase(expected.find(line), line.size());
+  expected.replace(expected.find("steps = 2000"), 12, "steps = 7");
+  EXPECT_EQ(read(folder / "mine.toml"), expected);
+  // One that is needed is wrong where it was.
+  json const needed = gallery.check("copper", {{"run.step", nullptr}, {"ensembles.atoms.mass", nullptr}});
+  ASSERT_TRUE(needed.contains("errors")) << needed.dump();
+  EXPECT_FALSE(find(needed.at("errors"), "path", "run.step").is_null()) << needed.dump();
 }
 
 TEST_F(GalleryTest, SavesNothingThatIsWrong) {

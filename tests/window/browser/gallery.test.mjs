@@ -190,6 +190,32 @@ test("keys that a table could have, too, are folded away; one is set, checked, s
   assert.equal(await input(page, "ensembles.atoms.load.jitter").inputValue(), "");
 });
 
+test("a key whose field is emptied is left out, and put back; one that is needed says so", async (t) => {
+  const { run, page } = await gallery(t);
+  await choose(page, "copper");
+  await input(page, "run.step").fill("");
+  await until(async () => /'step'/.test(await trouble(page, "run.step")), "an error at the step");
+  await field(page, "run.step").getByRole("button", { name: "back to 0.01" }).click();
+  await input(page, "ensembles.atoms.diameter").fill("");
+  await input(page, "output.pictures.0.colour").fill("");
+  await input(page, "ensembles.atoms.integrator").selectOption("");
+  await checked(page, "ok");
+  assert.match(await page.textContent("#gallery-state"), /3 changed/);
+  assert.equal(await field(page, "ensembles.atoms.diameter").count(), 1); // not offered a second time
+  await page.click("#gallery-save");
+  await page.fill("#gallery-as", "less");
+  await page.press("#gallery-as", "Enter");
+  const file = join(run.cwd, "less.toml");
+  await until(async () => (await page.textContent("#gallery-answer")).includes(file), "the path of the file");
+  const text = readFileSync(file, "utf8");
+  assert.doesNotMatch(text, /^(diameter|integrator) =|colour = "speed"/m);
+  assert.match(text, /# 3 r0/);
+  execFileSync(process.env.BZM, ["check", file]);
+  await page.click("#gallery-all-back");
+  await checked(page, "ok");
+  assert.equal(await input(page, "ensembles.atoms.diameter").inputValue(), "2.2 angstrom");
+});
+
 test("another word brings its own keys; what is set among them is there again after a run", async (t) => {
   const { page } = await gallery(t);
   await choose(page, "copper");

@@ -1,5 +1,5 @@
 // One parameter in the form: its input, what is allowed, what is wrong, and the way back to what the scenario has. One
-// that the scenario does not have is empty until it is set.
+// that the scenario does not have is empty until it is set; one that is emptied is left out.
 import { h } from "../elements";
 import { limits, shown, typed, wrong, type Parameter } from "./parameter";
 
@@ -49,14 +49,14 @@ export class Field {
   }
 
   get text(): string {
-    return this.input instanceof HTMLInputElement && this.input.type === "checkbox" ? String(this.input.checked) : this.input.value;
+    return this.input.value;
   }
   get changed(): boolean {
     return this.text !== this.original;
   }
-  /** What the user has typed, as TOML. */
-  get toml(): string {
-    return typed(this.parameter, this.text);
+  /** What the user has typed, as TOML; null: the key is left out. */
+  get toml(): string | null {
+    return this.text.trim() === "" ? null : typed(this.parameter, this.text);
   }
   /** What the page itself sees to be wrong. */
   get wrong(): string {
@@ -100,17 +100,15 @@ export class Field {
     const choice = (labels: Record<string, string>, ...values: string[]) =>
       h("select", { id }, ...values.map((value) => h("option", { value }, labels[value] ?? value)));
     const none = short ? `default: ${short}` : "not set";
-    if (kind === "boolean" && this.absent) return choice({ "": none, true: "yes", false: "no" }, "", "true", "false");
-    if (kind === "boolean") return h("input", { type: "checkbox", id });
-    if (kind === "word" && words.length > 0) return choice({ "": none }, ...(words.includes(this.original) ? [] : [this.original]), ...words);
+    if (kind === "boolean") return choice({ "": none, true: "yes", false: "no" }, "", "true", "false");
+    if (kind === "word" && words.length > 0) return choice({ "": none }, ...new Set(["", this.original, ...words]));
     if (this.original.includes("\n")) return h("textarea", { id, rows: Math.min(8, this.original.split("\n").length + 1), spellcheck: "false" });
     const mode = kind === "integer" ? "numeric" : "text";
     return h("input", { type: "text", id, inputmode: mode, placeholder: short, autocomplete: "off", spellcheck: "false", autocapitalize: "off" });
   }
 
   private write(text: string): void {
-    if (this.input instanceof HTMLInputElement && this.input.type === "checkbox") this.input.checked = text === "true";
-    else this.input.value = text;
+    this.input.value = text;
   }
 
   /** The comment of the scenario, what the key means, the limits, the units, and a default that has no room in the input. */

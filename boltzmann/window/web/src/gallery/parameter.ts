@@ -82,7 +82,7 @@ function measure(text: string): { number: number; unit: string } | null {
 export function wrong(parameter: Parameter, text: string): string {
   const { kind, low, high, low_excluded, unit } = parameter;
   if (!["quantity", "integer", "number"].includes(kind)) return "";
-  if (text.trim() === "") return "a value is needed";
+  if (text.trim() === "") return ""; // left out: the window knows whether it is needed
   const found = measure(text);
   if (!found) return kind === "quantity" ? "" : "a number is needed"; // a quantity may be a formula
   if (kind !== "quantity" && (found.unit || !isNumber(scalar(text)))) return "a number without a unit is needed";

@@ -98,7 +98,7 @@ export class ScenarioPage {
       ),
       parameters.length > 0 ? h("h2", {}, "Parameters") : null,
       parameters.some(({ kind }) => kind === "quantity")
-        ? h("p", { class: "gallery-hint" }, "Write a quantity with its unit, “2 fs”; a number alone is in the scenario's own units.")
+        ? h("p", { class: "gallery-hint" }, "Write a quantity with its unit, “2 fs”; a number alone is in the scenario's own units. A key whose field is emptied is left out.")
         : null,
       this.form,
       h("details", { class: "gallery-toml" }, h("summary", {}, "The scenario file (TOML)"), h("pre", { tabindex: 0 }, text)),
@@ -117,7 +117,7 @@ export class ScenarioPage {
   private get changed(): Field[] {
     return this.fields.filter((field) => field.changed);
   }
-  private get set(): Record<string, string> {
+  private get set(): Record<string, string | null> {
     return Object.fromEntries(this.changed.map((field) => [field.parameter.path, field.toml]));
   }
   private get locallyWrong(): Field[] {
@@ -149,7 +149,8 @@ export class ScenarioPage {
   /** The keys that tables could have, too; those of tables of which nothing is said stay as they are. */
   private offer(absent: Parameter[]): void {
     const tables = new Map<string, Parameter[]>();
-    for (const key of absent) {
+    const own = new Set(this.present.map(({ parameter }) => parameter.path)); // left out by an empty field
+    for (const key of absent.filter(({ path }) => !own.has(path))) {
       const table = key.path.slice(0, key.path.lastIndexOf("."));
       tables.set(table, [...(tables.get(table) ?? []), key]);
     }
