@@ -14,6 +14,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -23,6 +24,38 @@ using nlohmann::json;
 constexpr double usual_frames = 610;  // of a run, unless told otherwise: some ten seconds
 
 enum class Command { pause, play, rewind };
+
+/// What the clients want, until they want something else.
+struct Orders {
+  Command command = Command::pause;
+  std::optional<std::int64_t> goal;  // where STEP goes
+  std::optional<double> step_size;
+  bool quit = false;
+
+  bool operator==(Orders const&) const = default;
+  bool nothing() const { return command == Command::pause && !goal && !step_size; }
+  void pause() {
+    command = Command::pause;
+    goal.reset();
+  }
+};
+
+/// From where to where the run goes, and how many steps were asked for.
+struct Plan {
+  std::int64_t first = 0, target = 0, steps = 0;
+};
+
+/// What clients are told beside the picture; the counts grow when there is something new.
+struct Told {
+  std::uint64_t scene = 1, notice = 1;
+  std::string message;
+  json missed;  // by how much REWD missed the start
+
+  void say(std::string text) {
+    message = std::move(text);
+    ++notice;
+  }
+};
 
 }  // namespace
 
@@ -40,29 +73,22 @@ struct LiveRun::State {
   Recording* recording;
   Simulation& simulation;
   LiveOptions options;
-  Source* show = nullptr;
 
-  bool here = true;     // the LiveRun still is
-  bool inside = false;  // within run() or rewind() of the simulation
-  bool begun = false;   // one of them has been called
-  Command command = Command::pause;
-  bool quit = false;
-  std::optional<std::int64_t> goal, bound_for;  // where STEP goes, and where the present run() goes for it
-  std::int64_t first = 0, target = 0, planned = 0;
-  std::optional<double> new_step_size;
+  Orders wanted, doing;  // doing: what the present run() of the simulation does
+  Plan plan;
+  Told told;
   FramePace pace;
   RunStart start;
-
-  std::uint64_t scene = 1, notice = 1;
-  std::string message;
-  std::exception_ptr failure;
-  json missed;
   ShownTable table;
+  std::exception_ptr failure;
+  bool here = true;          // the LiveRun still is
+  bool inside = false;       // within run() or rewind() of the simulation
+  bool begun = false;        // one of them has been called
   bool told_of_end = false;  // that a condition of the recording has ended the run
 
   // STEP goes as fast as it can.
-  bool hurried() const { return goal.has_value(); }
-  bool wants_start(std::int64_t step) const { return !start.kept() && step == first; }
+  bool hurried() const { return wanted.goal.has_value(); }
+  bool wants_start(std::int64_t step) const { return !start.kept() && step == plan.first; }
 
   // Called after every step, often more than once.
   bool look(std::int64_t step) { return here && inside && pace.due(step, wants_start(step), hurried()); }
@@ -70,45 +96,38 @@ struct LiveRun::State {
   // A finished step that somebody looks at.
   void observe() {
     if (wants_start(simulation.step())) start.keep(simulation);
-    ++scene;
+    ++told.scene;
     pace.count(simulation.step());
     clients.handle_requests();
     pace.draw(hurried(), [&] { return turned() || simulation.stopped(); });
     if (turned()) simulation.pause();
   }
 
-  Command doing = Command::pause;  // what the present run() of the simulation does
-  bool turned() const { return quit || command != doing || goal != bound_for || new_step_size.has_value(); }
+  bool turned() const { return wanted != doing; }
 
   // REWD has come back to where the run began.
   void compare_with_start() {
     auto const most = start.missed(simulation);
     if (!most) return;
     bool const exact = most->position == 0 && most->velocity == 0;
-    missed = {
+    told.missed = {
         {"position", most->position},
         {"velocity", most->velocity},
         {"text", exact ? std::string("back at the start, exactly")
                        : fmt::format("back at the start, which is missed by up to {} in position and {} in velocity",
                                      views.quantity(most->position, dimensions::length),
                                      views.quantity(most->velocity, dimensions::velocity))}};
-    ++notice;
-  }
-
-  void tell(std::string text) {
-    message = std::move(text);
-    ++notice;
+    ++told.notice;
   }
 
   void want(Command what) {
-    if (command != what) ++notice;
-    command = what;
+    if (wanted.command != what) ++told.notice;
+    wanted.command = what;
   }
 
   // Runs the simulation until something else is wanted, or the end of this is reached.
   void go(Command what, std::uint64_t steps) {
-    doing = command;
-    bound_for = goal;
+    doing = wanted;
     begun = true;
     pace.start(simulation.step());
     inside = true;
@@ -120,55 +139,56 @@ struct LiveRun::State {
       simulation.rewind(steps);
     else
       simulation.run(steps);
-    if (goal == simulation.step()) goal.reset();
+    if (wanted.goal == simulation.step()) wanted.goal.reset();
     if (recording && recording->ended_step() == simulation.step() && what == Command::play && !told_of_end) {
       told_of_end = true;
-      target = simulation.step();
-      goal.reset();
+      plan.target = simulation.step();
+      wanted.goal.reset();
       want(Command::pause);
-      tell("the run has ended: " + recording->ended_by());
+      told.say("the run has ended: " + recording->ended_by());
     }
-    ++scene;
+    ++told.scene;
   }
 
-  bool over() const { return simulation.stopped() || quit; }
+  bool over() const { return simulation.stopped() || wanted.quit; }
 
   // One turn of the run: what is wanted now, as far as it goes.
   void turn() {
-    if (new_step_size) {
-      double const size = *new_step_size;
-      new_step_size.reset();
-      simulation.step_size(size);
-    }
+    take_step_size();
     std::int64_t const step = simulation.step();
-    if (goal) {
-      missed = nullptr;
-      go(*goal < step ? Command::rewind : Command::play, static_cast<std::uint64_t>(std::abs(*goal - step)));
+    if (wanted.goal) {
+      std::int64_t const ahead = *wanted.goal - step;
+      told.missed = nullptr;
+      go(ahead < 0 ? Command::rewind : Command::play, static_cast<std::uint64_t>(std::abs(ahead)));
       arrive();
       return;
     }
-    if (command == Command::play) {
-      missed = nullptr;
-      if (step >= target) target = step + std::max<std::int64_t>(planned, 1);
-      go(Command::play, static_cast<std::uint64_t>(target - step));
-      if (simulation.step() >= target && command == Command::play) want(Command::pause);
+    if (wanted.command == Command::play) {
+      told.missed = nullptr;
+      if (step >= plan.target) plan.target = step + std::max<std::int64_t>(plan.steps, 1);
+      go(Command::play, static_cast<std::uint64_t>(plan.target - step));
+      if (simulation.step() >= plan.target && wanted.command == Command::play) want(Command::pause);
       return;
     }
-    if (step > first) go(Command::rewind, static_cast<std::uint64_t>(step - first));
+    if (step > plan.first) go(Command::rewind, static_cast<std::uint64_t>(step - plan.first));
     arrive();
-    if (simulation.step() <= first && command == Command::rewind) want(Command::pause);
+    if (simulation.step() <= plan.first && wanted.command == Command::rewind) want(Command::pause);
+  }
+
+  void take_step_size() {
+    if (auto const size = std::exchange(wanted.step_size, std::nullopt)) simulation.step_size(*size);
   }
 
   void arrive() {
-    if (simulation.step() == first && start.kept()) compare_with_start();
+    if (simulation.step() == plan.first && start.kept()) compare_with_start();
   }
 
   std::string state_word() const {
-    if (quit) return "ended";
+    if (wanted.quit) return "ended";
     if (failure) return "failed";
-    if (command == Command::play) return "playing";
-    if (command == Command::rewind) return "rewinding";
-    return simulation.step() >= target && simulation.step() > first ? "done" : "paused";
+    if (wanted.command == Command::play) return "playing";
+    if (wanted.command == Command::rewind) return "rewinding";
+    return simulation.step() >= plan.target && simulation.step() > plan.first ? "done" : "paused";
   }
 
   void set(json const& request) {
@@ -187,7 +207,7 @@ struct LiveRun::State {
           throw Error(fmt::format("a step of {} is far above the longest that makes sense, {}",
                                   views.quantity(size, dimensions::time),
                                   views.quantity(scheme->longest_step(), dimensions::time)));
-      new_step_size = size;
+      wanted.step_size = size;
     }
     if (request.contains("steps_per_frame")) {
       double const steps = number_or(request, "steps_per_frame", 0);
@@ -197,13 +217,12 @@ struct LiveRun::State {
     }
     if (!request.contains("step_size") && !request.contains("steps_per_frame"))
       throw Error("what can be set is step_size and steps_per_frame");
-    ++notice;
+    ++told.notice;
   }
 };
 
 LiveRun::LiveRun(Views& views, Clients& clients, Recording* recording, LiveOptions const& options)
     : state_(std::make_shared<State>(views, clients, recording, options)) {
-  state_->show = this;
   if (recording)
     recording->on_row([weak = std::weak_ptr<State>(state_)](std::int64_t step, std::span<double const> values) {
       auto const state = weak.lock();
@@ -224,49 +243,44 @@ LiveRun::~LiveRun() {
 void LiveRun::run(std::uint64_t steps) {
   State& state = *state_;
   state.simulation.check();
-  state.first = state.simulation.step();
-  state.planned = static_cast<std::int64_t>(steps);
-  state.target = state.first + state.planned;
+  state.plan = {state.simulation.step(), state.simulation.step() + static_cast<std::int64_t>(steps),
+                static_cast<std::int64_t>(steps)};
   state.pace.steps_per_frame(
       state.options.steps_per_frame >= 0 ? state.options.steps_per_frame
       : state.options.play
           ? 0
           : std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(steps) / usual_frames)));
-  if (state.options.play) state.command = Command::play;
+  if (state.options.play) state.wanted.command = Command::play;
   state.clients.open(*this);
   while (!state.over()) {
     state.clients.handle_requests();
     if (state.over()) break;
-    bool const busy = !state.failure && (state.command != Command::pause || state.goal || state.new_step_size);
-    if (!busy) {
+    if (state.failure || state.wanted.nothing()) {
       state.clients.send_updates();
-      bool const finished = state.failure || state.simulation.step() >= state.target;
+      bool const finished = state.failure || state.simulation.step() >= state.plan.target;
       if (state.options.play && finished && state.clients.viewers() == 0) break;
       state.clients.wait(0.1);
       continue;
     }
-    if (state.new_step_size && state.command == Command::pause && !state.goal) {
-      state.simulation.step_size(*state.new_step_size);
-      state.new_step_size.reset();
-      ++state.notice;
+    if (state.wanted.command == Command::pause && !state.wanted.goal) {
+      state.take_step_size();
+      ++state.told.notice;
       continue;
     }
     try {
       state.turn();
     } catch (PhysicsFailure const& failure) {
       state.failure = std::current_exception();
-      state.tell(failure.what());
-      state.command = Command::pause;
-      state.goal.reset();
-      ++state.scene;
+      state.told.say(failure.what());
+      state.wanted.pause();
+      ++state.told.scene;
     } catch (Error const& error) {
-      state.tell(error.what());
-      state.command = Command::pause;
-      state.goal.reset();
+      state.told.say(error.what());
+      state.wanted.pause();
     }
   }
-  state.quit = true;
-  ++state.notice;
+  state.wanted.quit = true;
+  ++state.told.notice;
   state.clients.send_updates();
   // Whoever quits before the first step finds the start of the run in its folder, ready to be resumed.
   if (state.recording && !state.begun && !state.failure) state.simulation.run(0);
@@ -280,7 +294,7 @@ json LiveRun::hello() const {
   result["kind"] = "live";
   result["name"] = state.options.name;
   result["description"] = state.options.description;
-  result["planned"] = state.target;
+  result["planned"] = state.plan.target;
   result["steps_per_frame"] = state.pace.steps_per_frame();
   result["can"] = {
       {"rewind", no_rewind(state.simulation)},
@@ -293,60 +307,60 @@ json LiveRun::hello() const {
 
 json LiveRun::status() const {
   State const& state = *state_;
-  bool const moving = state.command != Command::pause || state.goal;
+  bool const moving = state.wanted.command != Command::pause || state.wanted.goal;
   return {{"state", state.state_word()},
           {"step", state.simulation.step()},
           {"time", state.views.quantity(state.simulation.time(), dimensions::time)},
           {"time_number", state.simulation.time()},
-          {"planned", state.target},
+          {"planned", state.plan.target},
           {"steps_per_second", moving ? state.pace.steps_per_second() : 0.0},
           {"steps_per_frame", state.pace.steps_per_frame()},
           {"step_size_number", state.simulation.step_size()},
           {"step_size", state.views.quantity(state.simulation.step_size(), dimensions::time)},
-          {"message", state.message},
-          {"missed", state.missed}};
+          {"message", state.told.message},
+          {"missed", state.told.missed}};
 }
 
-std::uint64_t LiveRun::scene() const { return state_->scene; }
-std::uint64_t LiveRun::notice() const { return state_->notice; }
+std::uint64_t LiveRun::scene() const { return state_->told.scene; }
+std::uint64_t LiveRun::notice() const { return state_->told.notice; }
 ShownTable const* LiveRun::table() const { return &state_->table; }
 
 json LiveRun::perform(json const& request) {
   State& state = *state_;
   std::string const what = request["do"];
   if (what == "quit") {
-    state.quit = true;
-    ++state.notice;
+    state.wanted.quit = true;
+    ++state.told.notice;
     return json::object();
   }
   if (what == "stop") {
-    state.goal.reset();
+    state.wanted.goal.reset();
     state.want(Command::pause);
     return json::object();
   }
   bool const moves = what == "play" || what == "step" || what == "rewind";
-  if (moves && state.failure) throw Error("the run has failed: " + state.message);
+  if (moves && state.failure) throw Error("the run has failed: " + state.told.message);
   double const count = what == "step" ? number_or(request, "steps", 1) : 0;
   if (what == "step" && (count == 0 || count != std::floor(count) || std::abs(count) > 1e9))
     throw Error("step does a whole number of steps other than 0");
   bool const back = what == "rewind" || count < 0;
   if (back && !no_rewind(state.simulation).empty()) throw Error(no_rewind(state.simulation));
-  if (back && state.simulation.step() <= state.first) throw Error("this is where the run began");
-  if (moves && !state.message.empty()) state.tell("");
+  if (back && state.simulation.step() <= state.plan.first) throw Error("this is where the run began");
+  if (moves && !state.told.message.empty()) state.told.say("");
   if (what == "play") {
-    state.goal.reset();
+    state.wanted.goal.reset();
     state.want(Command::play);
   } else if (what == "rewind") {
-    state.goal.reset();
+    state.wanted.goal.reset();
     state.want(Command::rewind);
   } else if (what == "step") {
     state.want(Command::pause);
     // Pressed faster than steps are done, they add up; the other way they begin anew.
     std::int64_t const now = state.simulation.step();
-    bool const again = state.goal && (*state.goal > now) == (count > 0);
-    std::int64_t const goal = (again ? *state.goal : now) + static_cast<std::int64_t>(count);
-    state.goal = std::max(goal, state.first);
-    if (state.goal == now) state.goal.reset();
+    auto& goal = state.wanted.goal;
+    bool const again = goal && (*goal > now) == (count > 0);
+    goal = std::max((again ? *goal : now) + static_cast<std::int64_t>(count), state.plan.first);
+    if (goal == now) goal.reset();
   } else if (what == "set") {
     state.set(request);
   } else if (what == "checkpoint") {
