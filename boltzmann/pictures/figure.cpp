@@ -128,18 +128,6 @@ std::string picture_bytes(Canvas const& canvas, std::string const& format, Figur
   return bytes_of(canvas, static_cast<Format>(found - format_names.begin()), options, "can't make a picture");
 }
 
-void write_png(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
-  write_whole(canvas, Format::png, path, options);
-}
-
-void write_svg(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
-  write_whole(canvas, Format::svg, path, options);
-}
-
-void write_pdf(Canvas const& canvas, std::string const& path, FigureOptions const& options) {
-  write_whole(canvas, Format::pdf, path, options);
-}
-
 bool ends_as_picture(std::string const& path) { return format_of(path) != format_names.end(); }
 
 void write_picture(Canvas const& canvas, std::string const& path, FigureOptions const& options) {

@@ -17,17 +17,13 @@ struct FigureOptions {
   bool dark = false;
 };
 
-/// Writes the canvas with frame, ticks, axis titles, legend, colour bars and notes. The picture is first written to
-/// path + ".part" and then renamed, so that no half picture is ever left at `path`. Throws Error if it can't be written
-/// (names path and reason) or if the size is not within 16..20000 pixels after scaling.
-void write_png(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
-void write_svg(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
-/// The page is width x height at 150 pixels per inch, times scale.
-void write_pdf(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
-
 /// Whether a path ends in .png, .svg or .pdf.
 bool ends_as_picture(std::string const& path);
-/// By the extension of the path; throws Error if it ends in another.
+
+/// Writes the canvas with frame, ticks, axis titles, legend, colour bars and notes, as the extension of the path says;
+/// the page of a PDF is width x height at 150 pixels per inch, times scale. The picture is first written to path +
+/// ".part" and then renamed, so that no half picture is ever left at `path`. Throws Error if the path ends in another
+/// way, if it can't be written (names path and reason) or if the size is not within 16..20000 pixels after scaling.
 void write_picture(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
 
 /// The same picture in memory: the bytes of a file. `format` is "png", "svg" or "pdf"; Error on any other, and as

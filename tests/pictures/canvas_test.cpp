@@ -443,7 +443,7 @@ using Pictures = Folder;
 TEST_F(Pictures, ArePngsOfTheWantedSize) {
   Canvas canvas;
   canvas.point(0, 0);
-  write_png(canvas, in_folder("a.png"), {.width = 640, .height = 480});
+  write_picture(canvas, in_folder("a.png"), {.width = 640, .height = 480});
   std::string const bytes = contents(in_folder("a.png"));
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
   auto number = [&](std::size_t at) {
@@ -453,14 +453,14 @@ TEST_F(Pictures, ArePngsOfTheWantedSize) {
   };
   EXPECT_EQ(number(16), 640U);
   EXPECT_EQ(number(20), 480U);
-  write_png(canvas, in_folder("b.png"), {.width = 640, .height = 480, .scale = 2});
+  write_picture(canvas, in_folder("b.png"), {.width = 640, .height = 480, .scale = 2});
   EXPECT_EQ(Picture(in_folder("b.png")).width(), 1280);
-  write_png(canvas, in_folder("c.png"), {.width = 640, .height = 480});
+  write_picture(canvas, in_folder("c.png"), {.width = 640, .height = 480});
   EXPECT_EQ(bytes, contents(in_folder("c.png"))) << "the same canvas gives the same bytes";
   EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "b.png", "c.png"})) << "nothing else is left";
-  EXPECT_THROW(write_png(canvas, in_folder("d.png"), {.width = 0, .height = 480}), Error);
-  EXPECT_THROW(write_png(canvas, in_folder("d.png"), {.width = 640, .height = 480, .scale = nan}), Error);
-  EXPECT_THROW(write_png(canvas, in_folder("d.png"), {.width = 640, .height = 480, .scale = 1000}), Error);
+  EXPECT_THROW(write_picture(canvas, in_folder("d.png"), {.width = 0, .height = 480}), Error);
+  EXPECT_THROW(write_picture(canvas, in_folder("d.png"), {.width = 640, .height = 480, .scale = nan}), Error);
+  EXPECT_THROW(write_picture(canvas, in_folder("d.png"), {.width = 640, .height = 480, .scale = 1000}), Error);
 }
 
 TEST_F(Pictures, ShowACircleWhereAndAsLargeAsItIs) {
@@ -470,7 +470,7 @@ TEST_F(Pictures, ShowACircleWhereAndAsLargeAsItIs) {
   canvas.circle(2, 2, 1.5, red);
   canvas.circle(8, 2, 1.5, green);
   canvas.circle(2, 8, 1.5, blue);
-  write_png(canvas, in_folder("a.png"), {.width = 800, .height = 600});
+  write_picture(canvas, in_folder("a.png"), {.width = 800, .height = 600});
   Picture const picture(in_folder("a.png"));
   Spot const a = spot_of(picture, red), b = spot_of(picture, green), c = spot_of(picture, blue);
   EXPECT_EQ(picture.at(static_cast<int>(a.x()), static_cast<int>(a.y())), red);
@@ -490,7 +490,7 @@ TEST_F(Pictures, DiscsHaveTheRightArea) {
     canvas.frame(false);
     canvas.axes({"", "", 0, 1}, {"", "", 0, 1});
     canvas.point(0.5003, 0.4998, {0, 0, 0, 1}, static_cast<float>(2 * radius));
-    write_png(canvas, in_folder("a.png"));
+    write_picture(canvas, in_folder("a.png"));
     Picture const picture(in_folder("a.png"));
     double area = 0;
     for (int y = 0; y < picture.height(); ++y)
@@ -507,7 +507,7 @@ TEST_F(Pictures, AreClippedToTheFrame) {
   canvas.arrow(0.5, 0.5, 50, 0.5, red, 9);
   canvas.point(-0.01, 0.5, red, 80);
   canvas.text(1, 0.5, "across the frame", red);
-  write_png(canvas, in_folder("a.png"));
+  write_picture(canvas, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   Spot const spot = spot_of(picture, red);
   EXPECT_NEAR(spot.pixels, (spot.right - spot.left + 1) * (spot.bottom - spot.top + 1), 0) << "a full rectangle";
@@ -528,7 +528,7 @@ TEST_F(Pictures, LaterMarksCoverEarlierOnes) {
   canvas.curve(x, y, green, "", 20);
   canvas.line(0.5, 0, 0.5, 1, blue, 20);
   canvas.point(0.5, 0.5, {0, 1, 1, 1}, 8);
-  write_png(canvas, in_folder("a.png"));
+  write_picture(canvas, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   Spot const last = spot_of(picture, {0, 1, 1, 1});
   int const cx = static_cast<int>(last.x()), cy = static_cast<int>(last.y());
@@ -546,7 +546,7 @@ TEST_F(Pictures, LogarithmicAxesSpaceDecadesEvenly) {
   canvas.point(1000, 2, blue, 9);
   canvas.point(-4, 3, {0, 1, 1, 1}, 9);
   canvas.point(0, 3, {0, 1, 1, 1}, 9);
-  write_png(canvas, in_folder("a.png"));
+  write_picture(canvas, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   double const first = spot_of(picture, green).x() - spot_of(picture, red).x(),
                second = spot_of(picture, blue).x() - spot_of(picture, green).x();
@@ -559,8 +559,8 @@ TEST_F(Pictures, InkAdaptsToThePaper) {
   Canvas canvas;
   canvas.point(0, 0, ink, 40);
   canvas.axes({"x", ""}, {"y", ""});
-  write_png(canvas, in_folder("light.png"));
-  write_png(canvas, in_folder("dark.png"), {.dark = true});
+  write_picture(canvas, in_folder("light.png"));
+  write_picture(canvas, in_folder("dark.png"), {.dark = true});
   Picture const light(in_folder("light.png")), dark(in_folder("dark.png"));
   EXPECT_EQ(light.at(1, 1), white);
   EXPECT_LT(perceived_lightness(dark.at(1, 1)), 0.25);
@@ -576,7 +576,7 @@ TEST_F(Pictures, ImagesStandUpright) {
   canvas.axes({"", "", 0, 2}, {"", "", 0, 2});
   std::vector<double> const values = {0, 0.5, 1, nan};  // below: left 0, right 0.5; above: left 1, right nothing
   canvas.image(0, 0, 2, 2, 2, 2, values, 0, 1, ColourMap::viridis);
-  write_png(canvas, in_folder("a.png"), {.width = 400, .height = 400});
+  write_picture(canvas, in_folder("a.png"), {.width = 400, .height = 400});
   Picture const picture(in_folder("a.png"));
   EXPECT_LT(difference(picture.at(100, 300), map_colour(ColourMap::viridis, 0)), 0.01);
   EXPECT_LT(difference(picture.at(300, 300), map_colour(ColourMap::viridis, 0.5)), 0.01);
@@ -587,7 +587,7 @@ TEST_F(Pictures, ImagesStandUpright) {
 TEST_F(Pictures, AColourBarShowsItsMapFromLowToHigh) {
   Canvas canvas;
   canvas.colour_bar("speed", "cm s^{\u22121}", 0, 1, ColourMap::viridis);
-  write_png(canvas, in_folder("a.png"));
+  write_picture(canvas, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   Spot const low = spot_of(picture, map_colour(ColourMap::viridis, 0.02), 0.012),
              middle = spot_of(picture, map_colour(ColourMap::viridis, 0.5), 0.012),
@@ -605,7 +605,7 @@ TEST_F(Pictures, SvgHasAnElementForEachMark) {
     for (int i = 0; i < circles; ++i) canvas.circle(1 + i % 8, 1 + i / 8, 0.4, species_colour(i));
     std::vector<double> const x = {0, 5, 10}, y = {0, 9, 3};
     for (int i = 0; i < curves; ++i) canvas.curve(x, y, species_colour(i));
-    write_svg(canvas, in_folder("a.svg"));
+    write_picture(canvas, in_folder("a.svg"));
     std::string const svg = contents(in_folder("a.svg"));
     EXPECT_TRUE(well_formed(svg));
     EXPECT_NE(svg.find("width=\"1200px\""), std::string::npos);
@@ -634,7 +634,7 @@ TEST_F(Pictures, AreWrittenWholeOrNotAtAll) {
   canvas.circle(0, 0, 1, red);
   std::string const nowhere = in_folder("missing/picture.png");
   try {
-    write_png(canvas, nowhere);
+    write_picture(canvas, nowhere);
     FAIL() << "written";
   } catch (Error const& error) {
     EXPECT_NE(std::string(error.what()).find(nowhere), std::string::npos);
@@ -644,7 +644,7 @@ TEST_F(Pictures, AreWrittenWholeOrNotAtAll) {
   EXPECT_TRUE(files().empty());
 
   fs::create_directory(in_folder("folder.png"));
-  EXPECT_THROW(write_png(canvas, in_folder("folder.png")), Error);
+  EXPECT_THROW(write_picture(canvas, in_folder("folder.png")), Error);
   EXPECT_EQ(files(), std::vector<std::string>{"folder.png"});
 
   // A full disk: what stood there before is still there.
@@ -706,9 +706,9 @@ TEST_F(Pictures, SurviveAnything) {
     for (FigureOptions const options :
          {FigureOptions{}, FigureOptions{.width = 16, .height = 16}, FigureOptions{.width = 3000, .height = 60}}) {
       SCOPED_TRACE(i);
-      write_png(all[i], in_folder("a.png"), options);
+      write_picture(all[i], in_folder("a.png"), options);
       EXPECT_EQ(Picture(in_folder("a.png")).width(), options.width);
-      write_svg(all[i], in_folder("a.svg"), options);
+      write_picture(all[i], in_folder("a.svg"), options);
       EXPECT_TRUE(well_formed(contents(in_folder("a.svg"))));
     }
 }
@@ -720,8 +720,8 @@ TEST_F(Pictures, SayHowManyPointsWereLeftOut) {
     canvas->point(0.5, 0.5);
   }
   dirty.point(nan, 0);
-  write_png(clean, in_folder("clean.png"));
-  write_png(dirty, in_folder("dirty.png"));
+  write_picture(clean, in_folder("clean.png"));
+  write_picture(dirty, in_folder("dirty.png"));
   Picture const a(in_folder("clean.png")), b(in_folder("dirty.png"));
   auto ink_below = [](Picture const& picture) {  // dark pixels in the last 40 rows
     int dark = 0;
@@ -740,7 +740,7 @@ TEST_F(Pictures, OfAHundredThousandCirclesTakeLessThanTwoSeconds) {
   for (int i = 0; i < 100000; ++i)
     canvas.circle(uniform(random), uniform(random), 0.004, map_colour(ColourMap::viridis, uniform(random)));
   double const start = cpu_seconds();
-  write_png(canvas, in_folder("a.png"));
+  write_picture(canvas, in_folder("a.png"));
   double const taken = cpu_seconds() - start;
   RecordProperty("seconds", std::to_string(taken));
   EXPECT_LT(taken, 2);
@@ -752,7 +752,7 @@ TEST_F(Pictures, OfLongCurvesKeepTheirPeaks) {
   y[500001] = 1;
   Canvas canvas;
   canvas.curve(x, y, red);
-  write_png(canvas, in_folder("a.png"));
+  write_picture(canvas, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   Spot const spot = spot_of(picture, red, 0.35);
   EXPECT_GT(spot.bottom - spot.top, 600) << "one node of a million is still seen";
@@ -869,7 +869,7 @@ TEST_F(Drawings, OfThreeDimensionsShowTheNearestParticle) {
   EXPECT_NEAR(canvas.circles()[1].depth, 0.5, 1e-6);
   EXPECT_EQ(canvas.circles()[2].depth, 0);
   EXPECT_EQ(canvas.lines().size(), 12U + 3 * 3U) << "the edges of the box, and ticks at -2, 0, 2 of each axis";
-  write_png(space, in_folder("a.png"));
+  write_picture(space, in_folder("a.png"));
   Picture const picture(in_folder("a.png"));
   EXPECT_GT(spot_of(picture, species_colour(1), 0.03).pixels, 100);
   EXPECT_EQ(spot_of(picture, species_colour(0), 0.001).pixels, 0);
@@ -931,7 +931,7 @@ TEST_F(Drawings, OfNothingAreEmptyPictures) {
                                    draw_field(0, 0, none, {}, {}, "", ""),
                                    draw_field(1, 1, broken, {}, {}, "", "")};
   for (auto const& canvas : all) {
-    write_png(canvas, in_folder("a.png"));
+    write_picture(canvas, in_folder("a.png"));
     EXPECT_EQ(Picture(in_folder("a.png")).height(), 900);
   }
   EXPECT_EQ(all[4].not_finite(), 1U);
