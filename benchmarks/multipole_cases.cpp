@@ -1,6 +1,6 @@
 // Whether multipoles keep their tolerance: random cases of any number of particles, shape, strengths and box, against
 // direct sums (Ewald's in small periodic boxes); and how often they do more than they were asked for.
-//   bench_multipole_cases [first case] [last case]
+//   bench_multipole_cases [first case] [last case] [all: a line for each that uses expansions]
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/mesh/ewald.hpp>
@@ -49,6 +49,7 @@ Vector<D> place(int shape, std::size_t i, std::mt19937_64& random) {
 }
 
 struct Tally {
+  bool every = false;
   int cases = 0, over = 0, expanded = 0, below_a_tenth = 0;
 };
 
@@ -134,14 +135,18 @@ void one_case(int number, std::mt19937_64& random, Tally& tally) {
   double ratio = error_of(chosen);
   // One of a million that is far off may be among the chosen by chance.
   if (ratio > 1 && chosen.size() < count) ratio = error_of(everybody);
-  bool const expanded = scheme.accuracy().order > 0;
+  auto const accuracy = scheme.accuracy();
+  bool const expanded = accuracy.order > 0;
   ++tally.cases;
   tally.over += ratio > 1;
   tally.expanded += expanded;
   tally.below_a_tenth += expanded && ratio < 0.1;
-  if (ratio > 1)
-    std::printf("%5d: %dD, %zu particles, %s, signs %d, softening %.1e, periodic %x, tolerance %.1e: %.2f of it\n",
-                number, D, count, shapes[shape], signs, softening, periodic, tolerance, ratio);
+  if (ratio > 1 || (tally.every && expanded))
+    std::printf(
+        "%5d: %dD, %zu particles, %s, signs %d, softening %.1e, periodic %x, tolerance %.1e: %.2g of it, %.2g "
+        "measured; order %d, %zu translations, %zu pairs\n",
+        number, D, count, shapes[shape], signs, softening, periodic, tolerance, ratio, accuracy.measured / tolerance,
+        accuracy.order, accuracy.translations, accuracy.pairs);
   std::fflush(stdout);
 }
 
@@ -150,6 +155,7 @@ void one_case(int number, std::mt19937_64& random, Tally& tally) {
 int main(int argc, char** argv) {
   int const first = argc > 1 ? std::atoi(argv[1]) : 0, last = argc > 2 ? std::atoi(argv[2]) : 200;
   Tally tally;
+  tally.every = argc > 3;
   for (int number = first; number < last; ++number) {
     std::mt19937_64 random(static_cast<unsigned>(number));
     random() % 2 == 0 ? one_case<2>(number, random, tally) : one_case<3>(number, random, tally);
