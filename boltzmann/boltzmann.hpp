@@ -46,6 +46,7 @@
 #include <boltzmann/laws/tether.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/laws/vorticity_exchange.hpp>
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/jitter.hpp>
@@ -68,8 +69,10 @@
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/simulation/remesher.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <boltzmann/simulation/split_cores.hpp>
 #include <boltzmann/window/window.hpp>
 
 #include <algorithm>

@@ -132,7 +132,7 @@ class VortexInvariants final : public SystemDiagnosis {
       if (auto const& named = ensemble_named(all, name); !has_vorticity(named))
         throw Error(fmt::format("'{}' is of class {}, which has no vorticity", name, named.class_name()));
     if (std::none_of(all.begin(), all.end(), [](auto const* one) { return has_vorticity(*one); }))
-      throw Error("no ensemble has vorticity; classes Vortex, Inviscid and Viscous do");
+      throw Error("no ensemble has vorticity; classes Vortex, Inviscid, Viscous and Diffusive do");
   }
   std::vector<Column> columns_of_one() const override {
     using namespace dimensions;

@@ -512,7 +512,7 @@ class RandomWalk final : public Rk2<P> {
   Motion advance(int stage, StepContext const& context) override {
     Motion const motion = Rk2<P>::advance(stage, context);
     if (motion == Motion::final)
-      if constexpr (has_viscosity<P>)
+      if constexpr (walks_at_random<P>)
         for (std::size_t i = 0; i < this->ensemble_.size(); ++i) {
           P& p = this->ensemble_[i];
           Stream stream(context.seed, context.step, i, Purpose::random_walk);
@@ -530,16 +530,16 @@ std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
     case Method::deactivate:
       return std::make_unique<Deactivate<P>>(ensemble, method);
     case Method::random_walk:
-      if constexpr (has_viscosity<P>) return std::make_unique<RandomWalk<P>>(ensemble, method);
+      if constexpr (walks_at_random<P>) return std::make_unique<RandomWalk<P>>(ensemble, method);
       break;
     case Method::euler:
-      if constexpr (!has_viscosity<P>) return std::make_unique<EulerMethod<P>>(ensemble, method);
+      if constexpr (!walks_at_random<P>) return std::make_unique<EulerMethod<P>>(ensemble, method);
       break;
     case Method::rk2:
-      if constexpr (!has_viscosity<P>) return std::make_unique<Rk2<P>>(ensemble, method);
+      if constexpr (!walks_at_random<P>) return std::make_unique<Rk2<P>>(ensemble, method);
       break;
     case Method::rk4:
-      if constexpr (!has_viscosity<P>) return std::make_unique<Rk4<P>>(ensemble, method);
+      if constexpr (!walks_at_random<P>) return std::make_unique<Rk4<P>>(ensemble, method);
       break;
     case Method::leap_frog:
       if constexpr (has_velocity<P>) return std::make_unique<LeapFrog<P>>(ensemble, method);
@@ -552,7 +552,7 @@ std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
         return std::make_unique<Symplectic4<P>>(ensemble, method);
       break;
     case Method::gauss_radau:
-      if constexpr (!has_viscosity<P>) return std::make_unique<GaussRadauMethod<P>>(ensemble, method);
+      if constexpr (!walks_at_random<P>) return std::make_unique<GaussRadauMethod<P>>(ensemble, method);
       break;
   }
   return nullptr;
@@ -564,6 +564,8 @@ extern template std::unique_ptr<Integrator> method_of<Newton<3>>(AnyEnsemble&, M
 extern template std::unique_ptr<Integrator> method_of<Tracer<1>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Tracer<2>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Tracer<3>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Diffusive<2>>(AnyEnsemble&, Method);
+extern template std::unique_ptr<Integrator> method_of<Inviscid<3>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Smooth<1>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Smooth<2>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Smooth<3>>(AnyEnsemble&, Method);
@@ -577,7 +579,7 @@ extern template std::unique_ptr<Integrator> method_of<Solid<3>>(AnyEnsemble&, Me
 /// forces act, else the fourth-order Runge-Kutta method.
 template <class P>
 constexpr Method usual_method() {
-  return detail::has_viscosity<P> ? Method::random_walk : detail::has_velocity<P> ? Method::leap_frog : Method::rk4;
+  return detail::walks_at_random<P> ? Method::random_walk : detail::has_velocity<P> ? Method::leap_frog : Method::rk4;
 }
 
 /// The same for an ensemble. Error if its class has equations of motion of its own, which no class of the library has.
@@ -590,7 +592,7 @@ std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method
   if (auto integrator = detail::method_of<detail::MovesAs<P>>(ensemble, method)) return integrator;
   throw Error("ensemble '" + ensemble.name() + "' of class " + ensemble.class_name() + " can't be advanced by " +
               to_string(method) + ": " +
-              (detail::has_viscosity<P>        ? "viscous vortices diffuse; use random-walk (or the class Inviscid)"
+              (detail::walks_at_random<P>        ? "viscous vortices diffuse; use random-walk (or the class Inviscid)"
                : method == Method::random_walk ? "the class has no viscosity; use euler, rk2 or rk4"
                : detail::has_velocity<P> ? "its influences depend on velocities; use leap-frog, rk4 or gauss-radau"
                                          : "the class has no velocity that a force could change; use euler, "

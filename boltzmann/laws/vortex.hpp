@@ -27,7 +27,7 @@ struct PlainCore {
       .doc = "vortices carry fluid particles and each other; in 2D a solid core, in 3D that of Rosenhead and Moore",
       .formula =
           "velocity Gamma k x r/(2 pi max(r, core)^2) in 2D, -r x omega/(4 pi (r^2 + core^2)^(3/2)) in 3D, "
-          "which also changes the vorticity of Inviscid and Viscous by (1 - transposed) (omega . grad) v + "
+          "which also changes the vorticity of Inviscid and its kind by (1 - transposed) (omega . grad) v + "
           "transposed grad (omega . v)",
       .target = "Tracer",
       .source = "Vortex",
@@ -175,7 +175,11 @@ struct BiotSavartOf {
     using Real = std::remove_cvref_t<decltype(r[0])>;
     Real const square = dot(r, r), core2 = q.core * q.core;
     if constexpr (P::dimension == 2) {
-      return cross(q.vorticity, r) * (1 / (2 * pi) * Core::turning_2d(square, core2));
+      auto const swirl = cross(q.vorticity, r) * (1 / (2 * pi) * Core::turning_2d(square, core2));
+      if constexpr (std::is_same_v<typename P::Influence, ExchangeInfluence<Real>>)
+        return ExchangeInfluence<Real>{swirl, {Real(0.0)}};
+      else
+        return swirl;
     } else {
       auto const turning = Core::turning_3d(square, core2);
       auto const across = cross(q.vorticity, r) * (1 / (4 * pi));

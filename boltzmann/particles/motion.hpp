@@ -3,6 +3,7 @@
 
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/tracer.hpp>
+#include <boltzmann/particles/vortex.hpp>
 
 #include <type_traits>
 
@@ -22,27 +23,49 @@ inline constexpr bool depends_on_velocity = [] {
     return false;
 }();
 
+/// Classes with a viscosity do, unless they say `static constexpr bool random_walk = false`.
 template <class P>
-inline constexpr bool has_viscosity = requires(P p) {
-  p.viscosity;
-};
+inline constexpr bool walks_at_random = [] {
+  if constexpr (requires { P::random_walk; })
+    return static_cast<bool>(P::random_walk);
+  else
+    return requires(P p) { p.viscosity; };
+}();
 
 /// True if P moves by the equations of its base class B alone: it inherits them, so it has the very same function.
 template <class B, class P>
 consteval bool moves_as() {
   using Influence = typename B::Influence;
   if constexpr (std::is_base_of_v<B, P> && std::is_same_v<typename P::Influence, Influence> &&
-                depends_on_velocity<P> == depends_on_velocity<B> && !has_viscosity<P> &&
+                depends_on_velocity<P> == depends_on_velocity<B> && !walks_at_random<P> &&
                 requires { &P::template equations<P, Influence, AnyRate>; })
     return &P::template equations<P, Influence, AnyRate> == &B::template equations<P, Influence, AnyRate>;
   else
     return false;
 }
 
-/// Newton or Tracer, if P moves as they do; else P itself.
+/// The first of these that P moves as; else P itself.
+template <class P, class... B>
+struct FirstMotion {
+  using type = P;
+};
+template <class P, class B, class... More>
+struct FirstMotion<P, B, More...> {
+  using type = typename std::conditional_t<moves_as<B, P>(), std::type_identity<B>, FirstMotion<P, More...>>::type;
+};
+
+/// The classes whose motion others inherit. Of vortices: those in 3D that are stretched, and in 2D those that exchange
+/// vorticity.
+template <class P, int D = P::dimension>
+struct Motions : FirstMotion<P, Newton<D>, Tracer<D>> {};
 template <class P>
-using MovesAs = std::conditional_t<moves_as<Newton<P::dimension>, P>(), Newton<P::dimension>,
-                                   std::conditional_t<moves_as<Tracer<P::dimension>, P>(), Tracer<P::dimension>, P>>;
+struct Motions<P, 2> : FirstMotion<P, Newton<2>, Tracer<2>, Diffusive<2>> {};
+template <class P>
+struct Motions<P, 3> : FirstMotion<P, Newton<3>, Tracer<3>, Inviscid<3>> {};
+
+/// Newton, Tracer or a vortex, if P moves as they do; else P itself.
+template <class P>
+using MovesAs = typename Motions<P>::type;
 
 }  // namespace detail
 }  // namespace boltzmann

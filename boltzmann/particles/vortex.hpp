@@ -1,4 +1,4 @@
-// Vortex, Inviscid, Viscous: elements of vorticity that carry each other along (section 3.7).
+// Vortex, Inviscid, Viscous, Diffusive: elements of vorticity that carry each other along (section 3.7).
 #pragma once
 
 #include <boltzmann/particles/tracer.hpp>
@@ -10,6 +10,13 @@ template <class Real>
 struct VortexInfluence {
   Vector<3, Real> velocity;
   Vector<3, Real> stretching;
+};
+
+/// What vortices do to a Diffusive one in 2D: a velocity, and the rate at which its circulation changes.
+template <class Real>
+struct ExchangeInfluence {
+  Vector<2, Real> velocity;
+  Vector<1, Real> exchange;
 };
 
 /// An element of vorticity: in 2D one component out of the plane (the circulation), in 3D the vector vorticity times
@@ -59,6 +66,41 @@ struct Viscous : Inviscid<D, Real> {
   static FieldTable fields() {
     return Inviscid<D, Real>::fields().add(&Viscous::viscosity, "viscosity", dimensions::length * dimensions::velocity,
                                            "kinematic viscosity");
+  }
+};
+
+namespace detail {
+
+/// What a Diffusive vortex adds to an Inviscid one: a circulation that changes in 2D; in 3D vorticity changes already.
+template <int D, class Real>
+struct Exchanging : Inviscid<D, Real> {};
+
+template <class Real>
+struct Exchanging<2, Real> : Inviscid<2, Real> {
+  using Influence = ExchangeInfluence<Real>;
+
+  static void equations(auto const& p, auto const& influence, auto const& rate) {
+    Inviscid<2, Real>::equations(p, influence.velocity, rate);
+    rate(&Exchanging::vorticity, influence.exchange);
+  }
+};
+
+}  // namespace detail
+
+/// A vortex in a fluid of kinematic viscosity nu that goes where the flow carries it: it exchanges vorticity with its
+/// neighbours by the law VorticityExchange, which needs the space that it stands for.
+template <int D, class Real = double>
+struct Diffusive : detail::Exchanging<D, Real> {
+  static constexpr char const* class_name = "Diffusive";
+  static constexpr bool random_walk = false;  // of classes with a viscosity others do
+
+  Real viscosity, volume;
+
+  static FieldTable fields() {
+    return detail::Exchanging<D, Real>::fields()
+        .add(&Diffusive::viscosity, "viscosity", dimensions::length * dimensions::velocity, "kinematic viscosity")
+        .add(&Diffusive::volume, "volume", pow(dimensions::length, D),
+             D == 2 ? "area of fluid that it stands for" : "volume of fluid that it stands for");
   }
 };
 

@@ -1,4 +1,5 @@
 // Classes that a flow moves: fluid particles and vortices.
+#include <boltzmann/particles/spreading.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/scenario/class_variant.hpp>
 
@@ -20,7 +21,15 @@ std::vector<ParticleClass> tracer_classes() {
           {"Viscous",
            "a vortex in a viscous fluid; it diffuses by a random walk",
            false,
-           {variant_of<Viscous<2>>(), variant_of<Viscous<3>>()}}};
+           {variant_of<Viscous<2>>(), variant_of<Viscous<3>>()}},
+          {"Diffusive",
+           "a vortex in a viscous fluid; it exchanges vorticity with its neighbours by the law 'vorticity-exchange'",
+           false,
+           {variant_of<Diffusive<2>>(), variant_of<Diffusive<3>>()}},
+          {"Spreading",
+           "a vortex in a viscous fluid; its core grows, and can be split by [[split_cores]]",
+           false,
+           {variant_of<Spreading<2>>(), variant_of<Spreading<3>>()}}};
 }
 
 }  // namespace boltzmann::detail

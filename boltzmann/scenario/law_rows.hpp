@@ -49,11 +49,14 @@ using OnPendulum = Outside<Pendulum<1>>;
 using OnTethered = Outside<Tethered<1>, Tethered<2>, Tethered<3>>;
 
 /// Vortices carry each other and test particles.
-using VortexRows = LawRows<Layouts<On<Vortex<2>, Vortex<2>>, On<Tracer<2>, Vortex<2>>,  //
+using VortexRows = LawRows<Layouts<On<Vortex<2>, Vortex<2>>, On<Tracer<2>, Vortex<2>>, On<Diffusive<2>, Vortex<2>>,  //
                                    On<Inviscid<3>, Vortex<3>>, On<Vortex<3>, Vortex<3>>, On<Tracer<3>, Vortex<3>>>,
-                           Layouts<Vortex<2>, Inviscid<3>, Vortex<3>>>;
+                           Layouts<Vortex<2>, Diffusive<2>, Inviscid<3>, Vortex<3>>>;
+/// Vortices exchange vorticity.
+using ExchangeRows = Among<Diffusive<2>, Diffusive<3>>;
 template <int D>
-using OnFlowIn = std::conditional_t<D == 3, Outside<Tracer<D>, Inviscid<3>>, Outside<Tracer<D>>>;
+using OnFlowIn = std::conditional_t<D == 3, Outside<Tracer<D>, Inviscid<3>>,
+                                    std::conditional_t<D == 2, Outside<Tracer<D>, Diffusive<2>>, Outside<Tracer<D>>>>;
 
 /// Smooth particles, of fluids and of solids.
 using OnSmooth = Outside<Smooth<1>, Smooth<2>, Smooth<3>, Solid<1>, Solid<2>, Solid<3>>;

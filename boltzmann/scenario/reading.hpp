@@ -103,6 +103,7 @@ struct Reading {
   std::vector<Place> diagnosis_places = {};  ///< of each in the result
   bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
+  std::vector<std::function<void(Simulation&)>> adaptations = {};  ///< what changes particles between steps
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
   std::vector<std::string> ensemble_names() const;
@@ -181,6 +182,8 @@ bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLa
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);
 void add_rezoners(Reading const& reading);
+/// Reads [[remesh]] and [[split_cores]] into reading.adaptations.
+void read_adaptations(Section& document, Reading& reading);
 /// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
 /// calculated, with one mistake for all that ask.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);

@@ -39,6 +39,7 @@ void build(Item& document, Reading& reading) {
   load_schemes(reading);
   load_rezone(reading);
   read_influences(top, reading);
+  read_adaptations(top, reading);
   settle_run(document, reading);
   read_dissipations(top, reading);
   read_diagnoses(top, reading);
@@ -71,6 +72,7 @@ void build(Item& document, Reading& reading) {
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
   add_rezoners(reading);
+  for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   try {
     result.simulation->check();
     auto const lines = refusals(*result.simulation, result.diagnoses);

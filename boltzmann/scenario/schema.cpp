@@ -259,6 +259,8 @@ std::string scenario_schema() {
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
+      {"remesh", one_or_tables(closed("remesh"))},
+      {"split_cores", one_or_tables(closed("split_cores"))},
       {"output", closed("output", {{"pictures", of_pictures(properties_of(picture_options().only({{"file"}})))}})},
       {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},
       {"sweep", closed("sweep", {{"pictures", tables(closed("sweep.pictures"))}})}};

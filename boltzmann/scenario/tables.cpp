@@ -5,6 +5,8 @@
 #include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/simulation/remesh.hpp>
+#include <boltzmann/simulation/split_cores.hpp>
 
 #include <limits>
 
@@ -354,6 +356,8 @@ std::vector<ScenarioTable> make_tables() {
   static RegionOptions region;
   static SetOptions set;
   static OutputOptions output;
+  static RemeshOptions remesh;
+  static CoreSplittingOptions split;
   static OptionTable const units = make_units_options();
   std::vector<ScenarioTable> all = {
       {"units", "[units]", "what plain numbers mean, and the units of the results", &units, nullptr},
@@ -372,6 +376,10 @@ std::vector<ScenarioTable> make_tables() {
               {"ensembles.set", "[[ensembles.set]]",
                "other values for some particles, beside the fields of their class", &set_options(), &set},
               {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
+              {"remesh", "[[remesh]]", "vortices that are replaced by others on a lattice while the run goes on",
+               &remesh_options(), &remesh},
+              {"split_cores", "[[split_cores]]", "vortices whose cores have grown wide are split while the run goes on",
+               &core_splitting_options(), &split},
               {"output", "[output]", "what is written, and how often", &output_options(), &output},
               {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
               {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,

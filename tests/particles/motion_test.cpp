@@ -29,6 +29,13 @@ struct Decaying : Newton<2, Real> {
   }
 };
 
+/// A vortex with a field of its own.
+template <int D, class Real>
+struct Dyed : Diffusive<D, Real> {
+  static constexpr char const* class_name = "Dyed";
+  Real dye;
+};
+
 TEST(Motion, IsThatOfTheClassWhoseEquationsAreInherited) {
   using detail::MovesAs;
   EXPECT_TRUE((std::is_same_v<MovesAs<Tagged<double>>, Newton<2>>));
@@ -38,6 +45,10 @@ TEST(Motion, IsThatOfTheClassWhoseEquationsAreInherited) {
   EXPECT_TRUE((std::is_same_v<MovesAs<Decaying<double>>, Decaying<double>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Viscous<2>>, Viscous<2>>));    // walks at random, too
   EXPECT_TRUE((std::is_same_v<MovesAs<Inviscid<3>>, Inviscid<3>>));  // is stretched
+  EXPECT_TRUE((std::is_same_v<MovesAs<Diffusive<3>>, Inviscid<3>>));
+  EXPECT_TRUE((std::is_same_v<MovesAs<Dyed<3, double>>, Inviscid<3>>));
+  EXPECT_TRUE((std::is_same_v<MovesAs<Diffusive<2>>, Diffusive<2>>));
+  EXPECT_TRUE((std::is_same_v<MovesAs<Dyed<2, double>>, Diffusive<2>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Smooth<2>>, Smooth<2>>));
   EXPECT_TRUE((std::is_same_v<MovesAs<Solid<3>>, Solid<3>>));
 }

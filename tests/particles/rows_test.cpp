@@ -142,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(row_classes<Particle<1>, Particle<2>, Particle<3>, Newton<1>, Newton<2>, Newton<3>, Laplace<1>,
                                   Laplace<2>, Laplace<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>, Kepler<1>, Kepler<2>,
                                   Kepler<3>, Tethered<1>, Tethered<2>, Tethered<3>, Tracer<1>, Tracer<2>, Tracer<3>,
-                                  Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>()),
+                                  Vortex<2>, Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>,
+                                  Diffusive<2>, Diffusive<3>>()),
     [](auto const& info) { return info.param.name; });
 
 TEST_P(RowsOf, LanesAreRows) { GetParam().expect_lanes_are_rows(); }

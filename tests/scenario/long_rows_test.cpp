@@ -77,7 +77,7 @@ std::vector<Class> const& classes() {
   static auto const all =
       classes_of<Newton<1>, Newton<2>, Newton<3>, Kepler<1>, Kepler<2>, Kepler<3>, Coulomb<1>, Coulomb<2>, Coulomb<3>,
                  Tethered<1>, Tethered<2>, Tethered<3>, Pendulum<1>, Tracer<1>, Tracer<2>, Tracer<3>, Vortex<2>,
-                 Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>>();
+                 Vortex<3>, Inviscid<2>, Inviscid<3>, Viscous<2>, Viscous<3>, Diffusive<2>, Diffusive<3>>();
   return all;
 }
 std::vector<Class> classes_named(std::string_view name, int dimension) {
@@ -90,7 +90,7 @@ std::vector<Class> classes_named(std::string_view name, int dimension) {
 std::vector<Class> classes_among(LawInfo const& law, int dimension) {
   if (law.source != "Vortex") return classes_named(law.target, dimension);
   std::vector<Class> found;
-  for (char const* name : {"Vortex", "Inviscid", "Viscous"})
+  for (char const* name : {"Vortex", "Inviscid", "Viscous", "Diffusive"})
     for (auto const& entry : classes_named(name, dimension)) found.push_back(entry);
   return found;
 }

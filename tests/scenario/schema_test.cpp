@@ -89,6 +89,8 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"influences",
        {start + atoms + "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1\n" + wrong,
         start + atoms + "[[influences]]\nlaw = \"drag\"\non = \"a\"\nfriction = 1\n" + wrong}},
+      {"remesh", {start + ensemble("Vortex") + "[[remesh]]\nevery = 1\nspacing = 1\n" + wrong}},
+      {"split_cores", {start + ensemble("Spreading") + "[[split_cores]]\nevery = 1\nabove = 1\n" + wrong}},
       {"output", {start + "[output]\n" + wrong + atoms}}};
   // Beside the keys: fields of the classes, parameters of the laws.
   std::set<std::string> const others{"mass",     "velocity",    "specific_energy", "range",       "depth",   "r0",

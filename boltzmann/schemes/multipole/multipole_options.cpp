@@ -14,7 +14,7 @@ OptionTable const& multipole_options() {
     all.at("on").doc =
         "who makes the field and feels it; gravity is made by the mass of any class, a flow by vorticity";
     all.at("on").otherwise =
-        "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`, `Vortex`, `Inviscid`, `Viscous` for "
+        "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`, `Vortex`, `Inviscid`, `Viscous`, `Diffusive` for "
         "`\"biot-savart\"` and its kind";
     all.add_said("softening", "a length, zero or more", "Plummer's length, within which the force is weaker", "0");
     all.add_said(

@@ -46,7 +46,7 @@ class MultipoleScheme final : public Scheme {
   /// 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
   /// Vortices carry each other and fluid particles, by BiotSavart or one of its kind. In 3D the tolerance is kept for velocities and for what the flow
-  /// does to the vorticity of Inviscid and Viscous, each by itself. If all axes are periodic the vorticities have to
+  /// does to the vorticity of Inviscid and its kind, each by itself. If all axes are periodic the vorticities have to
   /// cancel (in 2D, or have a background that turns as a whole), and the flow is zero in the mean.
   MultipoleScheme(Box box, VortexLaw const& law, double tolerance);
   ~MultipoleScheme() override;

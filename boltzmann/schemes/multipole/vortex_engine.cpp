@@ -17,7 +17,7 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
   void check(AnyEnsemble const& ensemble, SourceKind const& kind, bool acts) const override {
     if (!kind.carried)
       throw Error("multipoles: class " + ensemble.class_name() + " of '" + ensemble.name() +
-                  "' is not carried by a flow; vortices act on Tracer, Vortex, Inviscid and Viscous");
+                  "' is not carried by a flow; vortices act on Tracer, Vortex, Inviscid, Viscous and Diffusive");
     if (acts && kind.vorticity < 0)
       throw Error("multipoles: class " + ensemble.class_name() + " of '" + ensemble.name() +
                   "' has no vorticity: add it as test particles");
