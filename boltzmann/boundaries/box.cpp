@@ -1,6 +1,7 @@
 // Wrapping, reflecting and mirroring, where moving walls are, and the refusals of particles that can't be where they
 // are.
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
@@ -52,7 +53,8 @@ Words<Boundary> const& boundary_words() {
       {{Boundary::open, "open", "particles leave freely"},
        {Boundary::reflecting, "reflecting", "elastic walls"},
        {Boundary::periodic, "periodic", "what leaves on one side enters on the other"},
-       {Boundary::mirror, "mirror", "beyond each wall everything has an image: the walls of smooth particles"}}};
+       {Boundary::mirror, "mirror",
+        "beyond each wall everything has an image: the walls of smooth particles and of vortices"}}};
   return all;
 }
 std::string to_string(Boundary boundary) { return boundary_words().name(boundary); }
@@ -234,6 +236,8 @@ class Box::Reflection {
     Field const* velocity = particles.find_field("velocity");
     if (velocity && velocity->components == box.dimension_)
       velocity_ = velocity;  // else a class' own, of another meaning
+    Field const* vorticity = particles.find_field("vorticity");
+    if (vorticity && is_vorticity(*vorticity, box.dimension_)) vorticity_ = vorticity;
     Field const* mass = particles.find_field("mass");
     if (mass && mass->components == 1) mass_ = mass;
     for (int a = 0; a < box.dimension_; ++a) {
@@ -252,9 +256,11 @@ class Box::Reflection {
       for (int a = 0; a < box_.dimension_; ++a)
         if (!(x[a] >= low_[a] && x[a] < high_[a]) && box_.boundary(a) != Boundary::open)
           work += bring_back(i, a, mirrored);
-      if (!box_.any_wall_ || !velocity_ || mirrored == Turns{}) continue;
-      double* v = particles_.row(i) + velocity_->offset;
-      for (int c = 0; c < box_.dimension_; ++c) v[c] = image_map(box_, {ImageRule::velocity, c}, mirrored)(v[c]);
+      if (!box_.any_wall_ || mirrored == Turns{}) continue;
+      double* const v = velocity_ ? particles_.row(i) + velocity_->offset : nullptr;
+      for (int c = 0; v && c < box_.dimension_; ++c) v[c] = image_map(box_, {ImageRule::velocity, c}, mirrored)(v[c]);
+      double* const w = vorticity_ ? particles_.row(i) + vorticity_->offset : nullptr;
+      for (int c = 0; w && c < vorticity_->components; ++c) w[c] *= vorticity_sign(box_, c, mirrored);
     }
     return work;
   }
@@ -349,7 +355,7 @@ class Box::Reflection {
 
   Box const& box_;
   AnyEnsemble& particles_;
-  Field const *velocity_ = nullptr, *mass_ = nullptr;
+  Field const *velocity_ = nullptr, *vorticity_ = nullptr, *mass_ = nullptr;
   std::array<double, 3> low_, high_;  ///< beyond them something happens
 };
 

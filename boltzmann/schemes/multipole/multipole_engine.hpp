@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -82,6 +83,11 @@ class MultipoleEngine {
 std::unique_ptr<MultipoleEngine> multipole_engine(LaplaceLaw const& law, Box const& box);
 std::unique_ptr<MultipoleEngine> multipole_engine(VortexLaw const& law, Box const& box);
 
+/// Whether an axis has mirror walls at both of its ends.
+inline bool repeats_between_walls(Box const& box, int axis) {
+  return box.boundary(axis) == Boundary::mirror && box.walled(axis, Box::End::low) && box.walled(axis, Box::End::high);
+}
+
 /// Error that names what all strengths sum to, and what helps.
 inline void refuse_sum(double total, char const* help) {
   throw Error(
@@ -101,7 +107,8 @@ class EngineOf : public MultipoleEngine {
   using Point = typename Field::Point;
 
   EngineOf(typename Kind::Law const& law, Box const& box) : law_(law), multipoles_(law, lattice_of(box)) {
-    for (int a = 0; a < D; ++a) low_[a] = box.low(a), edges_[a] = box.periodic(a) ? box.length(a) : 0;
+    ImageLattice const lattice = lattice_of(box);
+    for (int a = 0; a < D; ++a) low_[a] = box.low(a), edges_[a] = lattice.edges[a];
   }
 
   void add(double const* places, std::size_t count) final {
@@ -185,10 +192,13 @@ class EngineOf : public MultipoleEngine {
   std::vector<Point> points_;
 
  private:
+  /// Along a periodic axis everything repeats after its length, between two walls after twice that.
   static ImageLattice lattice_of(Box const& box) {
     ImageLattice lattice;
-    for (int a = 0; a < D; ++a)
+    for (int a = 0; a < D; ++a) {
       if (box.periodic(a)) lattice.edges[a] = box.length(a);
+      if (repeats_between_walls(box, a)) lattice.edges[a] = 2 * box.length(a);
+    }
     return lattice;
   }
   /// Into the box, along periodic axes.

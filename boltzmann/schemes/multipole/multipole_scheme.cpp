@@ -22,10 +22,17 @@ constexpr std::size_t summed_directly = 1500;
 
 double digits_of(double tolerance) { return -std::log10(tolerance); }
 
+/// Whether along some axis everything is there again and again.
+bool repeats(Box const& box) {
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.periodic(a) || repeats_between_walls(box, a)) return true;
+  return false;
+}
+
 /// The order at which expansions and pairs take about as long for this tolerance. In a periodic box images take a share.
 int order_for(double tolerance, Box const& box) {
   double const digits = digits_of(tolerance);
-  double const order = box.dimension() == 2 ? 3 + 2 * digits : box.any_periodic() ? 1 + 1.6 * digits : 2.5 + 2 * digits;
+  double const order = box.dimension() == 2 ? 3 + 2 * digits : repeats(box) ? 1 + 1.6 * digits : 2.5 + 2 * digits;
   return std::clamp(static_cast<int>(std::lround(order)), 2, highest_expansion_order);
 }
 
@@ -37,16 +44,17 @@ void check_tolerance(double tolerance) {
 /// Truth is so much better than what is compared with it.
 constexpr double better = 1e-3;
 
-void check_box(Box const& box) {
+void check_box(Box const& box, bool of_vortices) {
   if (box.dimension() == 1)
     throw Error("multipoles: the box has one dimension, where a mesh or pairs do it; expansions are for 2 and 3");
   for (int a = 0; a < box.dimension(); ++a)
-    if (box.boundary(a) == Boundary::mirror)
+    if (box.boundary(a) == Boundary::mirror && !of_vortices)
       throw Error(
           fmt::format("multipoles: axis {} is mirror; there are fields of open and of periodic axes (a mesh "
-                      "has them between walls)",
+                      "has them between walls, and flows of vortices go along mirrors)",
                       "xyz"[a]));
   if (!box.regions().empty()) throw Error("multipoles: the box has regions, which the field would not feel");
+  if (of_vortices) check_walls_of_flow(box, "multipoles");
 }
 
 }  // namespace
@@ -54,7 +62,7 @@ void check_box(Box const& box) {
 MultipoleScheme::MultipoleScheme(Box box, double tolerance, std::optional<LaplaceLaw> law)
     : Scheme(box), law_(law), tolerance_(tolerance) {
   check_tolerance(tolerance);
-  check_box(box);
+  check_box(box, !law);
 }
 
 MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance)
@@ -137,7 +145,7 @@ void MultipoleScheme::tune(bool with_potential) {
   // Higher orders leave less to pairs, and take longer: what takes most is tried to be lessened. (Not in a periodic box:
   // each order has lattice sums of its own.)
   int const step = best.of_pairs > 0.5 ? 2 : -2;
-  while (first && !box().any_periodic() && !everything_is_summed() && best.order + step >= 2 &&
+  while (first && !repeats(box()) && !everything_is_summed() && best.order + step >= 2 &&
          best.order + step <= highest_expansion_order) {
     Fit const next = fit(best.order + step, best.criterion * (step > 0 ? 4 : 0.25), samples, with_potential);
     if (!(next.work < 0.97 * best.work)) {
@@ -182,9 +190,7 @@ MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, ErrorSamp
   }
 }
 
-bool MultipoleScheme::everything_is_summed() const {
-  return engine_->cost().translations == 0 && !box().any_periodic();
-}
+bool MultipoleScheme::everything_is_summed() const { return engine_->cost().translations == 0 && !repeats(box()); }
 
 void MultipoleScheme::calculate_field(bool with_potential) {
   engine_->collect(loaded_, background_, threads());
@@ -192,7 +198,7 @@ void MultipoleScheme::calculate_field(bool with_potential) {
 }
 
 void MultipoleScheme::choose_and_calculate(bool with_potential) {
-  if (engine_->count() <= summed_directly && !box().any_periodic()) {
+  if (engine_->count() <= summed_directly && !repeats(box())) {
     measured_ = 0;
     engine_->choose({2, engine_->count() + 1, 1});
     engine_->calculate(with_potential, threads());

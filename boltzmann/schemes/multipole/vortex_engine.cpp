@@ -12,7 +12,7 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
   using Base::points_;
 
  public:
-  using Base::Base;
+  VortexEngine(VortexLaw const& law, Box const& box) : Base(law, box), box_(box) {}
 
   void check(AnyEnsemble const& ensemble, SourceKind const& kind, bool acts) const override {
     if (!kind.carried)
@@ -39,6 +39,7 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
                                              "is not finite",
                                              i, one.ensemble->name()));
                          });
+    add_images();
     CompensatedSum sums[Kind::densities], all;
     double squares = 0, cores = 0;
     for (auto const& p : points_) {
@@ -93,6 +94,23 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
   bool singular() const override { return false; }
 
  private:
+  /// Behind the particles, those of their vortices beyond walls.
+  void add_images() {
+    if (!box_.any_wall()) return;
+    check_walls_of_flow(box_, "multipoles");
+    std::size_t const particles = points_.size();
+    Images const at(box_);
+    for (Turns const& turns : flow_images(box_))
+      for (std::size_t i = 0; i < particles; ++i) {
+        auto image = points_[i];
+        if (!(norm2(image.vorticity) > 0)) continue;
+        for (int a = 0; a < D; ++a) image.position[a] = at.at(a, turns[a], image.position[a]);
+        for (int k = 0; k < Kind::densities; ++k) image.vorticity[k] *= vorticity_sign(box_, k, turns);
+        points_.push_back(image);
+      }
+  }
+
+  Box box_;
   double least_field_ = 0, least_slope_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // The pair scheme without any physics: which kernel runs over which rows.
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
+#include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/schemes/pair/closing_speed.hpp>
 
@@ -23,6 +24,36 @@ double with_two_digits_below(double x) {
   return std::isfinite(x) ? std::floor(x / digit) * digit : x;
 }
 
+/// Whether these carry each other by a flow that vortices make.
+bool is_flow(AnyEnsemble const& target, AnyEnsemble const& source) {
+  Field const* vorticity = source.find_field("vorticity");
+  return vorticity && is_vorticity(*vorticity, source.dimension()) && !target.find_field("velocity");
+}
+
+/// Error unless influences beyond the walls of mirror axes are those of the images of a flow, as many as there are.
+void check_walls(Box const& box, AnyEnsemble const& target, AnyEnsemble const& source, double cutoff) {
+  if (!box.any_wall()) return;
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (box.boundary(a) != Boundary::mirror) continue;
+    if (!is_flow(target, source))
+      throw Error(fmt::format(
+          "axis {} is a mirror: particles that interact by pairs need a reflecting, periodic or open axis there "
+          "(mirrors are for smooth particles and vortices)",
+          "xyz"[a]));
+    if (std::isfinite(cutoff))
+      throw Error(
+          fmt::format("axis {} is a mirror: a flow is made by all vortices and all of their images; leave out "
+                      "the cut-off",
+                      "xyz"[a]));
+    if (box.walled(a, Box::End::low) && box.walled(a, Box::End::high))
+      throw Error(
+          fmt::format("axis {} has walls at both ends, between which vortices have images without end: let "
+                      "multipoles do it ([multipole], MultipoleScheme), or open one end",
+                      "xyz"[a]));
+  }
+  check_walls_of_flow(box, "pairs");
+}
+
 }  // namespace
 
 struct PairScheme::Near {
@@ -34,7 +65,8 @@ struct PairScheme::Near {
   std::size_t list = 0;   // its number in the neighbourhood, if there is a cut-off
   std::size_t pairs = 0;  // at the last locate()
   PairTask task, overwriting;
-  PairKernel few = nullptr;  // the kernel for a handful of particles, if they are
+  PairKernel few = nullptr;    // the kernel for a handful of particles, if they are
+  std::vector<double> images;  // rows of those beyond walls
 
   bool all_pairs() const { return cutoff == no_cutoff; }
   double collision_step(Box const& box) const {
@@ -70,6 +102,16 @@ struct PairScheme::Near {
       pairs = neighbours.entries();
     }
     few = all_pairs() && task.same && task.targets <= small_system_particles ? kernels.few : nullptr;
+  }
+  /// What acts from beyond the walls, as they are now.
+  PairTask task_of_images(Box const& box) {
+    auto const turns = flow_images(box);
+    find_flow_images(*source, box, turns, images);
+    PairTask beyond = task;
+    beyond.source = images.data();
+    beyond.sources = turns.size() * source->size();
+    beyond.same = beyond.overwrite = false;
+    return beyond;
   }
   std::size_t grain() const {
     // Of all pairs, whole blocks of targets: kernels take up to 16 together.
@@ -144,12 +186,8 @@ PairScheme::~PairScheme() = default;
 void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law,
                            LawTraits traits, double cutoff) {
   if (!(cutoff > 0)) throw Error(fmt::format("the cut-off is a positive length, not {}", cutoff));
+  check_walls(box(), target, source, cutoff);
   for (int a = 0; a < box().dimension(); ++a) {
-    if (box().boundary(a) == Boundary::mirror)
-      throw Error(fmt::format(
-          "axis {} is a mirror: particles that interact by pairs need a reflecting, periodic or open axis there "
-          "(mirrors are for smooth particles)",
-          "xyz"[a]));
     if (!box().periodic(a)) continue;
     if (!std::isfinite(cutoff))
       throw Error(
@@ -220,15 +258,20 @@ void PairScheme::calculate(double time, bool overwrite) {
     near->locate(quantum_, neighbourhood_);
     near->task.overwrite = first_on(near->target);
     PairTask const& task = near->task;
-    if (near->few) {
-      near->few(near->law.get(), task, 0, task.targets);
-      continue;
-    }
     PairKernel const kernel = near->all_pairs() ? near->kernels.all
                               : quantum_ > 0    ? near->kernels.list_reversible
                                                 : near->kernels.list;
-    for_ranges(task.targets, near->grain(), threads_for(near->pairs, pair_work, threads()),
-               [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
+    if (near->few)
+      near->few(near->law.get(), task, 0, task.targets);
+    else
+      for_ranges(task.targets, near->grain(), threads_for(near->pairs, pair_work, threads()),
+                 [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
+    if (!box().any_wall()) continue;
+    check_walls(box(), *near->target, *near->source, near->cutoff);
+    PairTask const beyond = near->task_of_images(box());
+    std::size_t const pairs = beyond.targets * beyond.sources;
+    for_ranges(beyond.targets, near->grain(), threads_for(pairs, pair_work, threads()),
+               [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), beyond, begin, end); });
   }
   for (auto* ensemble : clear) ensemble->clear_influence();
   for (auto const& connected : connected_) {
@@ -251,7 +294,8 @@ void PairScheme::calculate(double time, bool overwrite) {
 Scheme::SmallSystem PairScheme::small_system() {
   bool const from_outside =
       std::any_of(external_.begin(), external_.end(), [](auto const& external) { return !external->taken; });
-  if (near_.size() != 1 || !connected_.empty() || from_outside || ensembles().size() != 1) return {};
+  if (near_.size() != 1 || !connected_.empty() || from_outside || ensembles().size() != 1 || box().any_wall())
+    return {};
   Near& only = *near_.front();
   only.locate(quantum_, neighbourhood_);
   if (!only.few) return {};
@@ -402,6 +446,7 @@ void PairScheme::make_reversible(double quantum) {
 
 std::size_t PairScheme::bytes() const {
   std::size_t bytes = neighbourhood_.bytes();
+  for (auto const& near : near_) bytes += near->images.capacity() * sizeof(double);
   for (auto const& connected : connected_)
     bytes += connected->list.index.capacity() * sizeof(std::uint32_t) +
              connected->list.start.capacity() * sizeof(std::size_t);

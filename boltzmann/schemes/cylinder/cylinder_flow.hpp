@@ -1,0 +1,70 @@
+// CylinderFlow: a stream and vortices past a circle in 2D, by images (Milne-Thomson's circle theorem). The circle is a
+// streamline, whatever vortices do; they carry each other by another scheme.
+//
+//   CylinderFlow cylinder(box, {.stream = {1, 0}, .radius = 1});
+//   cylinder.add(vortices);
+//   cylinder.add(tracers);
+//   simulation.add(cylinder);
+#pragma once
+
+#include <boltzmann/core/options.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/schemes/source_kind.hpp>
+
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+struct CylinderOptions {
+  Vector<2> centre{};
+  Vector<2> stream{};  ///< far from the cylinder
+  double radius = 1;
+  double circulation = 0;  ///< around the cylinder
+};
+/// The keys of a scenario; centre and stream are read by code.
+OptionTable const& cylinder_options();
+
+/// What a cylinder makes of a flow: the stream U (1 - R^2 / z^2), a circulation, and for each vortex outside, at z0 with
+/// circulation Gamma, one of -Gamma at R^2 / conj(z0) and one of Gamma at the centre. The core of an image is R^2 / |z0|^2
+/// of the vortex' own. It acts on all that is added, and nothing of it is there for who is inside. O(N^2).
+class CylinderFlow final : public Scheme {
+ public:
+  /// Error if the box is not of 2 dimensions or not open, or the radius not positive, or a number not finite.
+  CylinderFlow(Box box, CylinderOptions const& options);
+
+  CylinderOptions const& options() const { return options_; }
+
+  /// Particles that the flow carries; those with vorticity have images.
+  template <CarriedParticle P>
+  void add(Ensemble<P>& ensemble) {
+    add(ensemble, source_kind<P>());
+  }
+  /// For code that knows classes only at run time. Error if it is not carried by a flow, or a vortex is not outside.
+  void add(AnyEnsemble& ensemble, SourceKind const& kind);
+
+  /// PhysicsFailure if a vortex is not outside of the cylinder.
+  void add_influences(double time) override;
+  EnergyAndVirial measure(double time = 0) override;
+  double length_scale(AnyEnsemble const& ensemble) const override;
+  std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
+  std::string summary() const override;
+
+ private:
+  struct Carried {
+    AnyEnsemble* ensemble;
+    SourceKind kind;
+  };
+  void find_images();
+  bool outside(double const* position) const;
+
+  CylinderOptions options_;
+  std::vector<Carried> carried_;
+  std::vector<double> images_;  // rows of Vortex<2>
+  std::vector<double> velocity_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,74 @@
+// Where dye is released, and how much of it there is.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/simulation/dye.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace boltzmann {
+
+OptionTable const& dye_options() {
+  static OptionTable const all = [] {
+    using namespace option;
+    OptionTable all;
+    all.add_said("on", "the name of an ensemble", "of class Tracer, to which the released ones are added");
+    all.add_said("from", "a length along each axis", "where it is released, or one end of a line of places");
+    all.add_said("to", "a length along each axis", "the other end of the line", "one place");
+    all.add("places", &DyeOptions::places, whole(1, 1e6), "on the line, both ends included");
+    all.add("every", &DyeOptions::every, whole(1, 1e15), "steps from one release to the next");
+    all.add("limit", &DyeOptions::limit, whole(1, 1e8),
+            "of particles in the ensemble, after which no more are released");
+    all.at("on").needed = "\"dye\"";
+    all.at("from").needed = "[-2, 0]";
+    return all;
+  }();
+  return all;
+}
+
+DyeSource::DyeSource(AnyEnsemble& ensemble, DyeOptions const& options) : ensemble_(&ensemble), options_(options) {
+  auto const is_tracer = [&] {
+    return static_cast<int>(ensemble.influence_size()) == ensemble.dimension() && !ensemble.find_field("vorticity") &&
+           !ensemble.find_field("velocity") && !ensemble.find_field("mass");
+  };
+  if (!is_tracer())
+    throw Error(fmt::format("dye: '{}' is of class {}; what is released is of class Tracer", ensemble.name(),
+                            ensemble.class_name()));
+  if (options.places < 1) throw Error("dye: there is one place at least, not 0");
+  if (options.to ? options.places < 2 : options.places > 1)
+    throw Error(fmt::format("dye: {} with {} place{}; a line has both ends, 'from' and 'to', and 2 places or more",
+                            options.to ? "'to'" : "no 'to'", options.places, options.places == 1 ? "" : "s"));
+  for (int a = 0; a < ensemble.dimension(); ++a)
+    if (!std::isfinite(options.from[static_cast<std::size_t>(a)]) ||
+        (options.to && !std::isfinite((*options.to)[static_cast<std::size_t>(a)])))
+      throw Error("dye: a place is not finite");
+}
+
+void DyeSource::change() {
+  std::size_t const before = ensemble_->size();
+  if (before + options_.places > options_.limit) return;
+  ensemble_->resize(before + options_.places);
+  auto const dimension = static_cast<std::size_t>(ensemble_->dimension());
+  for (std::size_t k = 0; k < options_.places; ++k)
+    for (std::size_t a = 0; a < dimension; ++a) {
+      double const from = options_.from[a], to = options_.to ? (*options_.to)[a] : from;
+      double const part = k == 0 ? 0 : static_cast<double>(k) / static_cast<double>(options_.places - 1);
+      ensemble_->row(before + k)[a] = (1 - part) * from + part * to;
+    }
+  released_ += options_.places;
+}
+
+std::string DyeSource::report(UnitSystem const& /*base*/) const {
+  bool const full = ensemble_->size() + options_.places > options_.limit;
+  return fmt::format("'{}': {} released, {} now{}", ensemble_->name(), released_, ensemble_->size(),
+                     full ? ", which is the limit" : "");
+}
+
+std::vector<double> DyeSource::state() const { return {static_cast<double>(released_)}; }
+
+void DyeSource::restore(std::span<double const> state) {
+  if (state.size() != 1) throw Error("the checkpoint does not fit this simulation: it has no dye");
+  released_ = static_cast<std::size_t>(state[0]);
+}
+
+}  // namespace boltzmann
