@@ -54,6 +54,9 @@ using VortexRows = LawRows<Layouts<On<Vortex<2>, Vortex<2>>, On<Tracer<2>, Vorte
                            Layouts<Vortex<2>, Inviscid<3>, Vortex<3>>>;
 template <int D>
 using OnFlowIn = std::conditional_t<D == 3, Outside<Tracer<D>, Inviscid<3>>, Outside<Tracer<D>>>;
+/// Those of them that are not stretched.
+template <int D>
+using OnCarriedIn = Outside<Tracer<D>>;
 
 /// Smooth particles, of fluids and of solids.
 using OnSmooth = Outside<Smooth<1>, Smooth<2>, Smooth<3>, Solid<1>, Solid<2>, Solid<3>>;

@@ -38,6 +38,7 @@ void build(Item& document, Reading& reading) {
   read_ensembles(top, reading);
   load_schemes(reading);
   load_rezone(reading);
+  read_dyes(top, reading);
   read_influences(top, reading);
   settle_run(document, reading);
   read_dissipations(top, reading);
@@ -71,6 +72,7 @@ void build(Item& document, Reading& reading) {
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
   add_rezoners(reading);
+  add_dyes(reading);
   try {
     result.simulation->check();
     auto const lines = refusals(*result.simulation, result.diagnoses);
