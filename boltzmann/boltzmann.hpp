@@ -42,6 +42,7 @@
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/laws/state_law.hpp>
+#include <boltzmann/laws/stream.hpp>
 #include <boltzmann/laws/table.hpp>
 #include <boltzmann/laws/tether.hpp>
 #include <boltzmann/laws/uniform.hpp>
@@ -64,12 +65,15 @@
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/program/program.hpp>
 #include <boltzmann/recording/recording.hpp>
+#include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/pair/single_precision.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/remesher.hpp>
+#include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/simulation/split_cores.hpp>

@@ -51,8 +51,9 @@ struct ShearFlow {
   }
 
   template <class P>
-  requires std::is_same_v<typename P::Influence, Vector<D>>
-  auto operator()(P const& p) const { return direction * dot(gradient, p.position - origin); }
+  requires(D == 2 || std::is_same_v<typename P::Influence, Vector<D>>) auto operator()(P const& p) const {
+    return detail::stream_on<P>(direction * dot(gradient, p.position - origin));
+  }
 };
 
 /// A stagnation point: fluid comes along some axes and leaves along others. It has no vorticity, and stretches that of
@@ -83,10 +84,10 @@ struct StrainFlow {
   template <class P>
   auto operator()(P const& p) const {
     auto const velocity = rates * (p.position - origin);
-    if constexpr (std::is_same_v<typename P::Influence, Vector<D>>)
-      return velocity;
-    else
+    if constexpr (D == 3 && !std::is_same_v<typename P::Influence, Vector<D>>)
       return typename P::Influence{velocity, rates * p.vorticity};
+    else
+      return detail::stream_on<P>(velocity);
   }
 };
 

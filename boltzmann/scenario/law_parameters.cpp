@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace boltzmann {
 namespace {
 
@@ -74,9 +77,10 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
                       fmt::format("{} needs '{}', {}; add e.g. {} = {}", owner, name, parameter.doc, name,
                                   example_of(parameter, is_vector, space == 0 ? 3 : space, units.is_reduced())));
     } else if (!item) {
-      values.push_back({name,
-                        {parameter.unlimited ? std::numeric_limits<double>::infinity()
-                                             : in_units(parameter.default_text, dimension, units)}});
+      values.push_back(
+          {name, std::vector<double>(is_vector ? static_cast<std::size_t>(std::max(space, 1)) : 1,
+                                     parameter.unlimited ? std::numeric_limits<double>::infinity()
+                                                         : in_units(parameter.default_text, dimension, units))});
     } else if (space == 0 && (is_vector || parameter.dimension.by_space != 0)) {
       continue;  // what it may be is not known
     } else if (is_vector || (parameter.vector && item->is(Item::Kind::array))) {

@@ -57,6 +57,9 @@ using ExchangeRows = Among<Diffusive<2>, Diffusive<3>>;
 template <int D>
 using OnFlowIn = std::conditional_t<D == 3, Outside<Tracer<D>, Inviscid<3>>,
                                     std::conditional_t<D == 2, Outside<Tracer<D>, Diffusive<2>>, Outside<Tracer<D>>>>;
+/// Those of them that are not stretched.
+template <int D>
+using OnCarriedIn = std::conditional_t<D == 2, OnFlowIn<2>, Outside<Tracer<D>>>;
 
 /// Smooth particles, of fluids and of solids.
 using OnSmooth = Outside<Smooth<1>, Smooth<2>, Smooth<3>, Solid<1>, Solid<2>, Solid<3>>;

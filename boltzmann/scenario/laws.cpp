@@ -3,6 +3,7 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/law_binding.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/single_kernels.hpp>
 
 #include <fmt/format.h>
 
@@ -48,7 +49,26 @@ void require(LawInfo const& law, AnyEnsemble const& ensemble, bool is_target) {
   if (!why.empty()) throw Error(why);
 }
 
+/// Lets all pairs of a law be summed so. Error if it can't be.
+void sum_in_single_precision(LawInfo const& law, BoundLaw& bound, double cutoff) {
+  auto const& kernels =
+      for_instruction_set([](auto set) -> SingleKernels const& { return single_kernels<decltype(set)::value>(); });
+  bool const algebraic = law.name == AlgebraicBiotSavart::text.name;
+  if (!algebraic && law.name != BiotSavart::text.name)
+    throw Error(fmt::format("precision: law '{}' has no single precision; laws with it: {}, {}", law.name,
+                            BiotSavart::text.name, AlgebraicBiotSavart::text.name));
+  if (cutoff != no_cutoff) throw Error("precision: single precision is for sums over all pairs; leave out the cut-off");
+  auto const& of_law = algebraic ? kernels.algebraic : kernels.plain;
+  for (std::size_t k = 0; k < bound.pairs.size(); ++k)
+    bound.pairs[k].kernels.all = of_law.at(k), bound.pairs[k].kernels.few = nullptr;
+}
+
 Error unfit(LawInfo const& law, AnyEnsemble const& ensemble) {
+  if (law.target == "Tracer" && static_cast<int>(ensemble.influence_size()) > ensemble.dimension())
+    return Error(fmt::format(
+        "law '{}' can't act on class {}, whose vorticity is stretched: the stream has vorticity, too, which "
+        "vortices would bend; in 3D classes Tracer and Vortex have it",
+        law.name, ensemble.class_name()));
   return Error(fmt::format("law '{}' can't act on class {}; its least class is {}", law.name, ensemble.class_name(),
                            law.target));
 }
@@ -82,8 +102,9 @@ LawInfo const& law_info(std::string_view name) {
 }
 
 void install_pairs(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, LawUse use,
-                   AnyEnsemble& a, AnyEnsemble& b, double cutoff) {
-  BoundLaw const bound = law.bind(parameters, a.dimension());
+                   AnyEnsemble& a, AnyEnsemble& b, double cutoff, bool single) {
+  BoundLaw bound = law.bind(parameters, a.dimension());
+  if (single) sum_in_single_precision(law, bound, cutoff);
   if (use == LawUse::between && !bound.one_way) {
     // Both ways or none: the second must be possible before the first is installed.
     require(law, a, true);

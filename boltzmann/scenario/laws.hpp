@@ -45,10 +45,11 @@ LawInfo const& law_info(std::string_view name);
 /// How a pair law acts.
 enum class LawUse { internal, between, one_way };
 
-/// Installs a pair law in a scheme: within `a` (internal), between two ensembles, or of `b` on `a` (one_way). Error,
+/// Installs a pair law in a scheme: within `a` (internal), between two ensembles, or of `b` on `a` (one_way); `single`:
+/// summed in single precision. Error,
 /// "law 'coulomb' needs a charge; class Newton has none; classes with one: Coulomb", if the classes can't have it.
 void install_pairs(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, LawUse use,
-                   AnyEnsemble& a, AnyEnsemble& b, double cutoff);
+                   AnyEnsemble& a, AnyEnsemble& b, double cutoff, bool single = false);
 /// A pair law over fixed pairs of one ensemble. Errors as above, and those of connected_pairs().
 void install_connections(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
                          AnyEnsemble& ensemble, std::vector<Connection> const& connections);

@@ -139,8 +139,14 @@ class InfluenceReader {
 
   void read_pairs() {
     cutoff_ = section_.quantity("cutoff", dimensions::length, positive);
+    Item const* precision = section_.find("precision");
+    auto const word =
+        precision ? read_word(*precision, "precision", std::vector<std::string>{"double", "single"}, reading_.context)
+                  : std::nullopt;
+    single_ = word == "single";
     connect_ = section_.find("connect");
     if (!connect_) return;
+    if (single_) reading_.mistake(precision->place, "precision: connections have none but double");
     connections_ = read_connections(*connect_, a_ ? a_->particles : nullptr, reading_);
     if (between_ || by_) reading_.mistake(connect_->place, "connect: connections are within one ensemble; write 'on'");
     if (section_.has("cutoff")) reading_.mistake(section_.place("cutoff"), "cutoff: connections have none");
@@ -168,7 +174,7 @@ class InfluenceReader {
                       between_ ? LawUse::between
                       : by_    ? LawUse::one_way
                                : LawUse::internal,
-                      a, b, reach);
+                      a, b, reach, single_);
     });
   }
 
@@ -203,6 +209,7 @@ class InfluenceReader {
   Item const *on_ = nullptr, *by_ = nullptr, *between_ = nullptr, *connect_ = nullptr;
   ReadEnsemble *a_ = nullptr, *b_ = nullptr;
   std::optional<double> cutoff_;
+  bool single_ = false;
   std::optional<std::vector<std::uint32_t>> only_;
   std::vector<Connection> connections_;
 };

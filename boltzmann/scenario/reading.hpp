@@ -14,6 +14,7 @@
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/simulation/dye.hpp>
 
 #include <functional>
 #include <memory>
@@ -76,6 +77,11 @@ struct ReadSmooth {
   std::vector<ReadRezone> rezones;
 };
 
+struct ReadDye {
+  AnyEnsemble* ensemble;
+  DyeOptions options;
+};
+
 /// What a run records for pictures to show.
 struct Recorded {
   bool trajectory = false, diagnoses = true;
@@ -99,6 +105,7 @@ struct Reading {
   ReadMesh mesh;
   ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
+  std::vector<ReadDye> dyes = {};
   ReadEquilibration equilibration = {};
   std::vector<Place> diagnosis_places = {};  ///< of each in the result
   bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
@@ -151,6 +158,7 @@ void read_mesh(Item const& table, Reading& reading);
 /// A number of cells for each axis, from one for all or a list.
 std::optional<std::vector<std::size_t>> read_cells(Item const& item, char const* key, Reading& reading);
 void read_multipole(Item const& table, Reading& reading);
+void read_cylinder(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
 /// The law that makes the field of a mesh or of multipoles, with k or G, and its softening if the table has it.
 std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading,
@@ -172,6 +180,7 @@ void find_temperatures(AnyEnsemble& particles, StateLaw const& law);
 void load_schemes(Reading& reading);
 void add_to_mesh(Item const& table, Reading& reading);
 void add_to_multipole(Item const& table, Reading& reading);
+void add_to_cylinder(Item const& table, Reading& reading);
 void add_to_smooth(Item const& table, Reading& reading);
 /// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit; and those that
 /// `test_particles` names to `test`, if there is such a key. False: something is wrong with those that are there.
@@ -187,6 +196,9 @@ void read_adaptations(Section& document, Reading& reading);
 /// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
 /// calculated, with one mistake for all that ask.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);
+/// Reads [[dye]]: where tracers are released while the run goes on; lets the simulation do it.
+void read_dyes(Section& document, Reading& reading);
+void add_dyes(Reading const& reading);
 void read_influences(Section& document, Reading& reading);
 /// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
 void read_dissipations(Section& document, Reading& reading);

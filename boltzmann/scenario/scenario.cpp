@@ -38,6 +38,7 @@ void build(Item& document, Reading& reading) {
   read_ensembles(top, reading);
   load_schemes(reading);
   load_rezone(reading);
+  read_dyes(top, reading);
   read_influences(top, reading);
   read_adaptations(top, reading);
   settle_run(document, reading);
@@ -73,6 +74,7 @@ void build(Item& document, Reading& reading) {
   add_dissipations(reading);
   add_rezoners(reading);
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
+  add_dyes(reading);
   try {
     result.simulation->check();
     auto const lines = refusals(*result.simulation, result.diagnoses);

@@ -3,6 +3,7 @@
 // `smooth` of reading.hpp are used.
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/schemes.hpp>
+#include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/multipole/multipole_options.hpp>
@@ -15,6 +16,7 @@ namespace boltzmann {
 std::vector<SchemeEntry> const& scheme_entries() {
   static MeshOptions mesh;
   static MultipoleOptions multipole;
+  static CylinderOptions cylinder;
   static SmoothOptions smooth;
   static RezoneOptions rezone;
   static std::vector<SchemeEntry> const all = {
@@ -27,6 +29,11 @@ std::vector<SchemeEntry> const& scheme_entries() {
        {},
        read_multipole,
        add_to_multipole},
+      {{"cylinder", "[cylinder]", "a cylinder in 2D, past which a stream and vortices flow, by images",
+        &cylinder_options(), &cylinder},
+       {},
+       read_cylinder,
+       add_to_cylinder},
       {{"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
        {{"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
          &rezone_options(), &rezone}},

@@ -459,6 +459,38 @@ TEST(CylinderFlow, HasTheSameBitsForAnyThreadsAndRefusesWhatCantBe) {
       std::string::npos);
 }
 
+// What is deactivated carries others, by every method that these have, and stays where it is.
+TEST(DeadVortices, CarryAndStay) {
+  for (bool const by_multipoles : {false, true})
+    for (auto const& [method, tolerance] :
+         {std::pair(Method::euler, 2e-3), std::pair(Method::rk2, 1e-6), std::pair(Method::rk4, 1e-11)}) {
+      Ensemble<Vortex<2>> dead("dead", 2), alive("alive", 1);
+      dead[0].vorticity = {2 * pi}, dead[0].core = 0.1, dead[1].position = {40, 0}, dead[1].core = 0.1;
+      alive[0].position = {1, 0}, alive[0].core = 0.1;  // of no circulation
+      Ensemble<Tracer<2>> tracer("tracer", 1);
+      tracer[0].position = {0, 1};
+      PairScheme pairs(Box(Vector{-50., -50.}, Vector{50., 50.}));
+      MultipoleScheme multipoles(pairs.box(), BiotSavart{}, 1e-6);
+      Scheme* scheme = &pairs;
+      if (by_multipoles) {
+        scheme = &multipoles;
+        multipoles.add(dead), multipoles.add(alive), multipoles.add_test_particles(tracer);
+      } else {
+        pairs.internal(dead, BiotSavart{});
+        pairs.between(alive, dead, BiotSavart{}), pairs.between(tracer, dead, one_way(BiotSavart{}));
+      }
+      Simulation simulation(*scheme, 0.002);
+      simulation.integrate(dead, Method::deactivate);
+      simulation.integrate(alive, method), simulation.integrate(tracer, method);
+      simulation.run(500);  // a time of 1, an angle of 1
+      EXPECT_NEAR(alive[0].position[0], std::cos(1.0), tolerance);
+      EXPECT_NEAR(alive[0].position[1], std::sin(1.0), tolerance);
+      EXPECT_NEAR(tracer[0].position[0], -std::sin(1.0), tolerance);
+      EXPECT_EQ(dead[0].position, (Vector{0., 0.}));
+      EXPECT_EQ(dead[1].position, (Vector{40., 0.}));
+    }
+}
+
 // Tracers go exactly where a stream takes them.
 template <int D, class Law>
 Vector<D> carried(Law const& law, Vector<D> const& from, double time) {

@@ -1,0 +1,50 @@
+// Reads [cylinder]: a circle past which a stream and vortices flow.
+#include <boltzmann/scenario/read_options.hpp>
+#include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
+
+#include <memory>
+
+namespace boltzmann {
+namespace {
+
+Vector<2> read_pair(Section& section, char const* key, Dimension dimension, Reading& reading) {
+  Item const* item = section.find(key);
+  auto const read =
+      item && reading.dimension == 2 ? read_vector(*item, key, 2, dimension, reading.context) : std::nullopt;
+  return read ? Vector<2>{(*read)[0], (*read)[1]} : Vector<2>{};
+}
+
+}  // namespace
+
+void read_cylinder(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[cylinder]", reading.context);
+  CylinderOptions options;
+  read_options(section, cylinder_options(), &options, {.dimension = reading.dimension});
+  if (!section.has("radius")) reading.mistake(section.place(), "[cylinder] has no 'radius'; add e.g. radius = 1");
+  options.centre = read_pair(section, "centre", dimensions::length, reading);
+  options.stream = read_pair(section, "stream", dimensions::velocity, reading);
+  section.finish();
+  if (!reading.box || reading.context.mistakes.count() != before) return;
+  catch_errors(reading, table.place,
+               [&] { reading.result->schemes.push_back(std::make_unique<CylinderFlow>(*reading.box, options)); });
+}
+
+void add_to_cylinder(Item const& table, Reading& reading) {
+  auto* const scheme = reading.result->scheme<CylinderFlow>();
+  if (!scheme) return;
+  bool anybody = false;
+  for (auto& ensemble : reading.ensembles) {
+    if (!ensemble.particles || !ensemble.kind) return;
+    SourceKind const kind = ensemble.kind->in(reading.dimension)->source;
+    if (!kind.carried) continue;
+    anybody = true;
+    catch_errors(reading, ensemble.place, [&] { scheme->add(*ensemble.particles, kind); });
+  }
+  if (!anybody && !reading.ensembles.empty())
+    reading.mistake(table.place,
+                    "[cylinder]: no ensemble is carried by a flow; classes Tracer, Vortex, Inviscid and Viscous are");
+}
+
+}  // namespace boltzmann

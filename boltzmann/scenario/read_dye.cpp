@@ -1,0 +1,56 @@
+// Reads [[dye]]: where tracers are released while the run goes on.
+#include <boltzmann/scenario/read_options.hpp>
+#include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/simulation/dye.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace boltzmann {
+namespace {
+
+void read_dye(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[[dye]]", reading.context);
+  Item const *on = section.need("on", "on = \"dye\""), *from = section.need("from", "from = [-2, 0]"),
+             *to = section.find("to");
+  ReadEnsemble* const ensemble = on ? reading.ensemble(*on, "on") : nullptr;
+  DyeOptions options;
+  read_options(section, dye_options(), &options, {.dimension = reading.dimension});
+  auto const place = [&](Item const& item, char const* key, std::array<double, 3>& to_be) {
+    if (reading.dimension == 0) return;
+    auto const read = read_vector(item, key, reading.dimension, dimensions::length, reading.context);
+    if (read) std::copy(read->begin(), read->end(), to_be.begin());
+    for (int a = 0; read && reading.box && a < reading.dimension; ++a) {
+      double const x = (*read)[static_cast<std::size_t>(a)];
+      if (reading.box->boundary(a) != Boundary::open && !(x >= reading.box->low(a) && x <= reading.box->high(a)))
+        reading.mistake(item.place, fmt::format("{}: {} = {} is outside the box", key, "xyz"[a], x));
+    }
+  };
+  if (from) place(*from, "from", options.from);
+  if (to) place(*to, "to", options.to.emplace());
+  section.finish();
+  if (!ensemble || !ensemble->particles || reading.context.mistakes.count() != before) return;
+  if (ensemble->integrator && !ensemble->integrator->same_for_all())
+    return reading.mistake(on->place,
+                           fmt::format("dye: some particles of '{}' are frozen, by their numbers, and more are added; "
+                                       "make an ensemble of those",
+                                       ensemble->name));
+  catch_errors(reading, table.place, [&] { DyeSource(*ensemble->particles, options); });
+  reading.dyes.push_back({ensemble->particles, options});
+}
+
+}  // namespace
+
+void read_dyes(Section& document, Reading& reading) {
+  for (Item const* table : find_tables(document, "dye")) read_dye(*table, reading);
+}
+
+void add_dyes(Reading const& reading) {
+  for (auto const& dye : reading.dyes)
+    reading.result->simulation->adapt(static_cast<std::uint64_t>(dye.options.every),
+                                      DyeSource(*dye.ensemble, dye.options));
+}
+
+}  // namespace boltzmann
