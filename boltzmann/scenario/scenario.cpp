@@ -36,9 +36,11 @@ void build(Item& document, Reading& reading) {
   read_run(top, reading);
   read_schemes(top, reading);
   read_ensembles(top, reading);
+  read_bodies(top, reading);
   load_schemes(reading);
   load_rezone(reading);
   read_influences(top, reading);
+  load_bodies(reading);
   read_adaptations(top, reading);
   settle_run(document, reading);
   read_dissipations(top, reading);
@@ -72,7 +74,9 @@ void build(Item& document, Reading& reading) {
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
   add_rezoners(reading);
+  add_bodies(reading);
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
+  keep_out_of_bodies(reading);
   try {
     result.simulation->check();
     auto const lines = refusals(*result.simulation, result.diagnoses);
