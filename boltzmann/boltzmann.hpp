@@ -8,6 +8,7 @@
 #include <boltzmann/core/tensor.hpp>
 #include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>
+#include <boltzmann/diagnoses/body_forces.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
@@ -59,6 +60,7 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/particles/panel.hpp>
 #include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/particles/species.hpp>
 #include <boltzmann/particles/tethered.hpp>
@@ -71,9 +73,12 @@
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/pair/single_precision.hpp>
+#include <boltzmann/schemes/panels/panel_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
-#include <boltzmann/simulation/remesher.hpp>
 #include <boltzmann/simulation/dye.hpp>
+#include <boltzmann/simulation/no_slip.hpp>
+#include <boltzmann/simulation/outside_bodies.hpp>
+#include <boltzmann/simulation/remesher.hpp>
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/simulation/split_cores.hpp>

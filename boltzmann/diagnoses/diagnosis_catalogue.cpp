@@ -1,5 +1,6 @@
 // The instruments behind the catalogue: each turns the plain functions of measures.hpp into columns.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/body_forces.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
@@ -563,6 +564,10 @@ std::unique_ptr<Diagnosis> make_wave_spectrum(DiagnosisParameters const& paramet
   return std::make_unique<WaveSpectrum>(name, axis, parameters.modes);
 }
 
+std::unique_ptr<Diagnosis> make_body_forces(DiagnosisParameters const& parameters) {
+  return std::make_unique<BodyForces>(parameters.available, parameters.stream, parameters.length);
+}
+
 // ---- The table ----
 
 using Maker = std::unique_ptr<Diagnosis> (*)(DiagnosisParameters const&);
@@ -601,6 +606,12 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
           "in open space",
           told({{"ensembles"}})},
          make<VortexInvariants>},
+        {{"body-forces",
+          "what a flow does to the bodies in it, over its density and in the mean since the row before: on all of them "
+          "by "
+          "the change of the flow's impulse, with drag and lift coefficients, and on each by pressure",
+          told({{"stream"}, {"length"}})},
+         make_body_forces},
         {{"temperature", "m <v^2> / k along each axis and their mean", told({{"ensembles"}, {"subtract_drift"}})},
          make<TemperatureDiagnosis>},
         {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},

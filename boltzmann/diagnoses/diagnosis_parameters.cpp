@@ -44,6 +44,9 @@ OptionTable const& diagnosis_options() {
     all.add("near", &P::near, number(dimensions::length, positive), "where the window behind the front begins",
             "two margins behind it");
     all.add("far", &P::far, number(dimensions::length, positive), "where it ends", "a margin before the driven end");
+    all.add("stream", &P::stream, vector(dimensions::velocity), "velocity of the undisturbed flow", "none");
+    all.add("length", &P::length, number(dimensions::length, positive), "of drag and lift coefficients",
+            "no coefficients");
     return all;
   }();
   return table;

@@ -49,6 +49,8 @@ struct DiagnosisParameters {
   std::string end = {};   ///< shock: "low" or "high", from which it comes; empty: the wall that runs into the matter
   double margin = 0;      ///< shock: what is left out beside the front and at both ends; 0: 5 % of the matter
   double near = 0;        ///< shock: where the window behind the front begins; 0: two margins behind it
+  std::optional<std::array<double, 3>> stream = {};      ///< body-forces: velocity of the undisturbed flow
+  double length = 0;                                     ///< body-forces: of coefficients; 0: none
   double far = std::numeric_limits<double>::infinity();  ///< shock: where it ends, or a margin before the driven end
 };
 

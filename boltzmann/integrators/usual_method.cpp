@@ -1,5 +1,6 @@
 // How ensembles are advanced of which nobody said it.
 #include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/particles/panel.hpp>
 #include <boltzmann/particles/spreading.hpp>
 #include <boltzmann/particles/vortex.hpp>
 
@@ -19,12 +20,33 @@ Usual usual() {
   return {&typeid(P), usual_method<P>(), detail::method_of<P>};
 }
 
+/// Of what never moves.
+template <class P>
+std::unique_ptr<Integrator> stay(AnyEnsemble& ensemble, Method method) {
+  return std::make_unique<detail::Deactivate<P>>(ensemble, method);
+}
+
 /// Of the class as which the ensemble moves.
 Usual const& usual_of(AnyEnsemble const& ensemble) {
-  static Usual const all[] = {usual<Newton<1>>(),  usual<Newton<2>>(),  usual<Newton<3>>(),    usual<Tracer<1>>(),
-                              usual<Tracer<2>>(),  usual<Tracer<3>>(),  usual<Smooth<1>>(),    usual<Smooth<2>>(),
-                              usual<Smooth<3>>(),  usual<Solid<1>>(),   usual<Solid<2>>(),     usual<Solid<3>>(),
-                              usual<Viscous<2>>(), usual<Viscous<3>>(), usual<Diffusive<2>>(), usual<Inviscid<3>>(), usual<Spreading<2>>(), usual<Spreading<3>>()};
+  static Usual const all[] = {usual<Newton<1>>(),
+                              usual<Newton<2>>(),
+                              usual<Newton<3>>(),
+                              usual<Tracer<1>>(),
+                              usual<Tracer<2>>(),
+                              usual<Tracer<3>>(),
+                              usual<Smooth<1>>(),
+                              usual<Smooth<2>>(),
+                              usual<Smooth<3>>(),
+                              usual<Solid<1>>(),
+                              usual<Solid<2>>(),
+                              usual<Solid<3>>(),
+                              usual<Viscous<2>>(),
+                              usual<Viscous<3>>(),
+                              usual<Diffusive<2>>(),
+                              usual<Inviscid<3>>(),
+                              usual<Spreading<2>>(),
+                              usual<Spreading<3>>(),
+                              {&typeid(Panel<2>), Method::deactivate, stay<Panel<2>>}};
   for (auto const& one : all)
     if (*one.moves_as == ensemble.moves_as()) return one;
   throw Error("ensemble '" + ensemble.name() + "' has no integrator: its class " + ensemble.class_name() +

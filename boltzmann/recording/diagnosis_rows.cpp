@@ -2,6 +2,7 @@
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/recording/diagnosis_rows.hpp>
 #include <boltzmann/recording/saved_state.hpp>
+#include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/simulation/refusals.hpp>
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ void DiagnosisRows::check() const {
   for (auto const& column : columns())
     if (!names.insert(column.name).second) throw Error("two diagnoses give a column called '" + column.name + "'");
   for (auto const& diagnosis : list_)
-    if (!simulation_.adaptations().empty() && diagnosis->by_number())
+    if (numbers_change(simulation_.adaptations()) && diagnosis->by_number())
       throw Error(
           fmt::format("the diagnosis of '{}' follows particles by their numbers, which change where particles "
                       "come and go between steps",

@@ -2,6 +2,7 @@
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/recording/progress.hpp>
+#include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/recording/run_loop.hpp>
 
 #include <fmt/format.h>
@@ -161,7 +162,7 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   std::int64_t const first = simulation.step();
   print_warnings(simulation, options);
   if (!options.quiet) watch->line.emplace(first, first + static_cast<std::int64_t>(steps), options.planned);
-  if (!simulation.adaptations().empty()) watch->particle_steps = 0;
+  if (numbers_change(simulation.adaptations())) watch->particle_steps = 0;
   if (watch->line || watch->limit || watch->particle_steps)
     simulation.observe_progress([watch, &simulation](Simulation const&) { watch->look(simulation); });
   auto const start = Clock::now();

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace boltzmann {
@@ -48,6 +49,11 @@ void read_one(Item const& table, std::string const& key, OptionTable const& know
   read_options(section, known, &options, {.dimension = reading.dimension});
   auto const ensembles = read_on(section, key, fits, reading);
   section.finish();
+  if constexpr (std::is_same_v<Options, RemeshOptions>)
+    if (auto const* bodies = reading.result->scheme<PanelScheme>())
+      options.how.allowed = [bodies, depth = 2.01 * options.how.spacing](std::array<double, 3> const& place) {
+        return !bodies->sheet().deep_inside({place[0], place[1]}, depth);
+      };
   if (reading.context.mistakes.count() != before || !reading.box) return;
   for (auto* ensemble : ensembles)
     catch_errors(reading, table.place, [&] {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -63,7 +64,7 @@ class InfluenceReader {
     on_ = section_.find("on");
     if (!external()) by_ = section_.find("by"), between_ = section_.find("between");
     read_ensembles();
-    if (!law_ || refused_with_smooth()) return;
+    if (!law_ || refused_with_smooth() || refused_with_bodies()) return;
     auto const parameters = read_parameters(section_, fmt::format("law '{}'", law_->name), law_->parameters, reading_);
     if (external())
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
@@ -176,6 +177,39 @@ class InfluenceReader {
                                : LawUse::internal,
                       a, b, reach, single_);
     });
+    act_on_bodies(parameters);
+  }
+
+  /// Whatever flows acts on bodies, too: each ensemble of vortices, and each law from outside, once.
+  void act_on_bodies(ParameterValues const& parameters) {
+    ParticleClass const* target = find_class(law_->target);
+    if (!reading_.bodies || connect_ || only_ || a_->smooth() || !target || target->classical) return;
+    auto const act = [&](std::string const& what, auto const& install) {
+      if (!reading_.acts_on_bodies.insert(what).second) return;
+      for (auto* body : reading_.bodies->bodies()) catch_errors(reading_, law_place_, [&] { install(*body); });
+    };
+    if (external()) {
+      std::string what = fmt::format("law {}", law_->name);
+      for (auto const& parameter : parameters)
+        for (double const number : parameter.second) what += fmt::format(" {}", number);
+      return act(what, [&](AnyEnsemble& body) { install_external(*pairs_, *law_, parameters, body, nullptr); });
+    }
+    for (auto* source : {between_ ? a_ : nullptr, b_})
+      if (source && source->particles->find_field("vorticity"))
+        act(source->name, [&](AnyEnsemble& body) {
+          install_pairs(*pairs_, *law_, parameters, LawUse::one_way, body, *source->particles, no_cutoff);
+        });
+  }
+  bool refused_with_bodies() {
+    for (auto const* one : {a_, b_})
+      if (one && reading_.bodies && one->kind == &body_class()) {
+        reading_.mistake(
+            law_place_, fmt::format("'{}' is a body: all vortices and streams that act on others act on it, too; leave "
+                                    "this influence out",
+                                    one->name));
+        return true;
+      }
+    return false;
   }
 
   /// A mistake if periodic axes do not allow it; NaN: it is not known.

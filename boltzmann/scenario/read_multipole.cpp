@@ -66,11 +66,17 @@ void read_multipole(Item const& table, Reading& reading) {
 }
 
 void add_to_multipole(Item const& table, Reading& reading) {
-  if (auto* const scheme = reading.result->scheme<MultipoleScheme>())
-    add_sources(
-        table, "[multipole]", scheme->law(),
-        [&](AnyEnsemble& ensemble, SourceKind const& kind) { scheme->add(ensemble, kind); }, reading,
-        [&](AnyEnsemble& ensemble, SourceKind const& kind) { scheme->add_test_particles(ensemble, kind); });
+  auto* const scheme = reading.result->scheme<MultipoleScheme>();
+  if (!scheme) return;
+  add_sources(
+      table, "[multipole]", scheme->law(),
+      [&](AnyEnsemble& ensemble, SourceKind const& kind) {
+        scheme->add(ensemble, kind);
+        reading.acts_on_bodies.insert(ensemble.name());
+      },
+      reading, [&](AnyEnsemble& ensemble, SourceKind const& kind) { scheme->add_test_particles(ensemble, kind); });
+  if (reading.bodies && !scheme->law())
+    for (auto* body : reading.bodies->bodies()) scheme->add_test_particles(*body, source_kind<Panel<2>>());
 }
 
 }  // namespace boltzmann

@@ -12,6 +12,7 @@
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/panels/panel_scheme.hpp>
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/dye.hpp>
@@ -19,6 +20,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -111,6 +113,10 @@ struct Reading {
   bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
   std::vector<std::function<void(Simulation&)>> adaptations = {};  ///< what changes particles between steps
+  std::unique_ptr<PanelScheme> bodies = {};  ///< until it stands behind the other schemes; null: there are none
+  std::vector<std::pair<std::size_t, std::pair<std::string, Place>>> sticky_bodies =
+      {};                                     ///< by number, and what they shed
+  std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
   std::vector<std::string> ensemble_names() const;
@@ -199,6 +205,14 @@ bool find_mesh_fields(Reading& reading, Place const& place, std::string_view wha
 /// Reads [[dye]]: where tracers are released while the run goes on; lets the simulation do it.
 void read_dyes(Section& document, Reading& reading);
 void add_dyes(Reading const& reading);
+/// The class of their panels, which no scenario names.
+ParticleClass const& body_class();
+/// Reads [[bodies]] and makes their ensembles; lets their sheet carry all that a flow carries; puts the scheme behind
+/// all others and lets the simulation keep particles out of bodies.
+void read_bodies(Section& document, Reading& reading);
+void load_bodies(Reading& reading);
+void add_bodies(Reading& reading);
+void keep_out_of_bodies(Reading const& reading);
 void read_influences(Section& document, Reading& reading);
 /// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
 void read_dissipations(Section& document, Reading& reading);

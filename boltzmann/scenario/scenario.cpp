@@ -36,10 +36,12 @@ void build(Item& document, Reading& reading) {
   read_run(top, reading);
   read_schemes(top, reading);
   read_ensembles(top, reading);
+  read_bodies(top, reading);
   load_schemes(reading);
   load_rezone(reading);
   read_dyes(top, reading);
   read_influences(top, reading);
+  load_bodies(reading);
   read_adaptations(top, reading);
   settle_run(document, reading);
   read_dissipations(top, reading);
@@ -73,8 +75,10 @@ void build(Item& document, Reading& reading) {
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
   add_rezoners(reading);
+  add_bodies(reading);
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   add_dyes(reading);
+  keep_out_of_bodies(reading);
   try {
     result.simulation->check();
     auto const lines = refusals(*result.simulation, result.diagnoses);

@@ -255,6 +255,7 @@ std::string scenario_schema() {
       {"box", closed("box", {{"walls", tables(closed("box.walls"))}, {"regions", tables(closed("box.regions"))}})},
       {"run", closed("run")},
       {"ensembles", ensembles()},
+      {"bodies", tables(closed("bodies"))},
       {"influences", influences()},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},

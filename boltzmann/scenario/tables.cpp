@@ -6,9 +6,10 @@
 #include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/schemes/panels/body_options.hpp>
+#include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/remesh.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
-#include <boltzmann/simulation/dye.hpp>
 
 #include <limits>
 
@@ -335,6 +336,7 @@ std::vector<ScenarioTable> make_tables() {
   static RemeshOptions remesh;
   static CoreSplittingOptions split;
   static DyeOptions dye;
+  static BodyOptions body;
   static OptionTable const units = make_units_options();
   std::vector<ScenarioTable> all = {
       {"units", "[units]", "what plain numbers mean, and the units of the results", &units, nullptr},
@@ -348,21 +350,23 @@ std::vector<ScenarioTable> make_tables() {
     all.insert(all.end(), scheme.inner.begin(), scheme.inner.end());
   }
   static OptionTable const sweep = make_sweep_options(), picture = make_sweep_picture_options();
-  all.insert(all.end(),
-             {{"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
-              {"ensembles.set", "[[ensembles.set]]",
-               "other values for some particles, beside the fields of their class", &set_options(), &set},
-              {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
-              {"remesh", "[[remesh]]", "vortices that are replaced by others on a lattice while the run goes on",
-               &remesh_options(), &remesh},
-              {"split_cores", "[[split_cores]]", "vortices whose cores have grown wide are split while the run goes on",
-               &core_splitting_options(), &split},
-              {"dye", "[[dye]]", "where tracers are released while the run goes on", &dye_options(), &dye},
-              {"output", "[output]", "what is written, and how often", &output_options(), &output},
-              {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
-              {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,
-               nullptr},
-              {"sweep.pictures", "[[sweep.pictures]]", "a picture of all runs of a sweep", &picture, nullptr}});
+  all.insert(
+      all.end(),
+      {{"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
+       {"ensembles.set", "[[ensembles.set]]", "other values for some particles, beside the fields of their class",
+        &set_options(), &set},
+       {"bodies", "[[bodies]]", "a solid body in a plane flow, which flows around its outline", &body_options(), &body},
+       {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
+       {"remesh", "[[remesh]]", "vortices that are replaced by others on a lattice while the run goes on",
+        &remesh_options(), &remesh},
+       {"split_cores", "[[split_cores]]", "vortices whose cores have grown wide are split while the run goes on",
+        &core_splitting_options(), &split},
+       {"dye", "[[dye]]", "where tracers are released while the run goes on", &dye_options(), &dye},
+       {"output", "[output]", "what is written, and how often", &output_options(), &output},
+       {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
+       {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,
+        nullptr},
+       {"sweep.pictures", "[[sweep.pictures]]", "a picture of all runs of a sweep", &picture, nullptr}});
   return all;
 }
 

@@ -1,4 +1,5 @@
 // What is looked at before the first step, so that a wrong simulation is one line.
+#include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ void Simulation::check() {
   accept_particles();
   ensembles_ = supervised_by(schemes_);
   stages_ = 0;
-  bool reversible = false, inside_step = false;
+  bool reversible = false, inside_step = any_comes_last(schemes_);
   for (auto* ensemble : ensembles_) {
     Part const& part = ready_part(*ensemble);
     Method const method = part.integrator->method();

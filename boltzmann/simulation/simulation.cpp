@@ -1,4 +1,5 @@
 // What takes part in a simulation, its loop, and its state.
+#include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <fmt/format.h>
@@ -43,7 +44,9 @@ Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
 }
 
 void Simulation::add(Scheme& scheme) {
-  schemes_.push_back(&scheme);
+  if (comes_last(&scheme) && any_comes_last(schemes_))
+    throw Error("two schemes would each have to come after the other: put all bodies into one");
+  schemes_.insert(std::find_if(schemes_.begin(), schemes_.end(), comes_last), &scheme);
   checked_ = false;
 }
 
@@ -267,6 +270,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   auto const running = influences_.begin_run(ensembles_);
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
+  bool const last = any_comes_last(schemes_);
   std::unique_ptr<FusedSteps> const whole = steps > 0 ? fused_steps(dt) : nullptr;
   for (std::uint64_t n = 0; n < steps && !stopped() && !pause_; ++n) {
     try {
@@ -281,11 +285,13 @@ void Simulation::run(std::uint64_t steps, int direction) {
     if (!changes_.empty()) adapt_now();
     if (!observations_.empty()) {
       if (whole && observation_due()) whole->store();
+      if (last && observation_due()) calculate(time());
       observe_now();
     }
     for (auto const& observer : progress_) observer(*this);
   }
   if (whole) whole->store();
+  if (last) calculate(time());
   update_derived_fields();
   influences_.end_run(ensembles_);
 }

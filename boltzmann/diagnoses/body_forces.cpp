@@ -1,0 +1,124 @@
+// Differences from look to look.
+#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/body_forces.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+
+bool is_body(AnyEnsemble const& ensemble) { return ensemble.class_name() == "Panel" && ensemble.find_field("sheet"); }
+
+FlowImpulse flow_impulse(std::span<AnyEnsemble* const> ensembles) {
+  CompensatedSum x, y, circulation;
+  for (auto const* ensemble : ensembles) {
+    bool const body = is_body(*ensemble);
+    Field const* const strength = ensemble->find_field(body ? "sheet" : "vorticity");
+    if (!strength || ensemble->dimension() != 2) continue;
+    int const length = body ? ensemble->field("length").offset : 0;
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double const* const row = ensemble->row(i);
+      double const gamma = row[strength->offset] * (body ? row[length] : 1);
+      x += gamma * row[1], y += -gamma * row[0], circulation += gamma;
+    }
+  }
+  return {{x.value(), y.value()}, circulation.value()};
+}
+
+BodyForces::BodyForces(std::vector<AnyEnsemble const*> const& available,
+                       std::optional<std::array<double, 3>> const& stream, double length)
+    : length_(length) {
+  for (auto const* ensemble : available)
+    if (is_body(*ensemble)) bodies_.push_back(ensemble->name());
+  if (bodies_.empty()) throw Error("there is no body; [[bodies]] are");
+  if (stream) stream_ = {(*stream)[0], (*stream)[1]};
+  if (length_ > 0 && !(std::hypot(stream_[0], stream_[1]) > 0))
+    throw Error("coefficients need the velocity of the stream; add stream = [1, 0]");
+}
+
+std::vector<Column> BodyForces::columns() const {
+  using namespace dimensions;
+  Dimension const force = velocity * velocity * length;
+  std::vector<Column> all{{"force x", force}, {"force y", force}};
+  if (length_ > 0) all.push_back({"drag coefficient", none}), all.push_back({"lift coefficient", none});
+  for (auto const& name : bodies_)
+    for (char const* axis : {"x", "y"}) all.push_back({name + " pressure " + axis, force});
+  return all;
+}
+
+namespace {
+
+/// The force of pressure on a body whose sheet was another one some time ago. Pressures of neighbouring panels differ by
+/// half of what goes on along each of them.
+std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* before, double passed) {
+  int const normal = body.field("normal").offset, length = body.field("length").offset;
+  int const sheet = body.field("sheet").offset, flux = body.field("flux").offset;
+  double rising = 0, half_before = 0, x = 0, y = 0, around = 0;
+  std::size_t const count = body.size();
+  auto const slope = [&](std::size_t i) {
+    double const* const row = body.row(i);
+    return -((row[sheet] - before[i]) / passed + row[flux]) * row[length];
+  };
+  for (std::size_t i = 0; i < count; ++i) around += slope(i);  // nothing, but for rounding: pressures have one value
+  for (std::size_t i = 0; i < count; ++i) {
+    double const* const row = body.row(i);
+    double const half = 0.5 * (slope(i) - around / static_cast<double>(count));
+    rising += half_before + half, half_before = half;
+    double const pressure = rising - 0.25 * (row[sheet] * row[sheet] + before[i] * before[i]);
+    x -= pressure * row[normal] * row[length], y -= pressure * row[normal + 1] * row[length];
+  }
+  return {x, y};
+}
+
+}  // namespace
+
+void BodyForces::measure(Sample const& sample, std::vector<double>& values) {
+  Look now{sample.time, flow_impulse(sample.ensembles), {}};
+  std::vector<AnyEnsemble const*> bodies;
+  for (auto const* ensemble : sample.ensembles)
+    if (is_body(*ensemble)) {
+      bodies.push_back(ensemble);
+      int const sheet = ensemble->field("sheet").offset;
+      for (std::size_t i = 0; i < ensemble->size(); ++i) now.sheet.push_back(ensemble->row(i)[sheet]);
+    }
+  bool const known = last_ && now.time != last_->time && last_->sheet.size() == now.sheet.size();
+  if (!known) {
+    values.insert(values.end(), columns().size(), std::numeric_limits<double>::quiet_NaN());
+  } else {
+    double const passed = now.time - last_->time, circulation = 0.5 * (now.flow.circulation + last_->flow.circulation);
+    double const fx = -(now.flow.impulse[0] - last_->flow.impulse[0]) / passed + circulation * stream_[1];
+    double const fy = -(now.flow.impulse[1] - last_->flow.impulse[1]) / passed - circulation * stream_[0];
+    values.push_back(fx), values.push_back(fy);
+    if (length_ > 0) {
+      double const speed = std::hypot(stream_[0], stream_[1]), unit = 0.5 * speed * speed * length_;
+      values.push_back((fx * stream_[0] + fy * stream_[1]) / speed / unit);
+      values.push_back((fy * stream_[0] - fx * stream_[1]) / speed / unit);
+    }
+    std::size_t at = 0;
+    for (auto const* body : bodies) {
+      auto const force = pressure_force(*body, &last_->sheet[at], passed);
+      values.insert(values.end(), force.begin(), force.end());
+      at += body->size();
+    }
+  }
+  last_ = std::move(now);
+}
+
+std::vector<double> BodyForces::state() const {
+  if (!last_) return {};
+  std::vector<double> all{last_->time, last_->flow.impulse[0], last_->flow.impulse[1], last_->flow.circulation};
+  all.insert(all.end(), last_->sheet.begin(), last_->sheet.end());
+  return all;
+}
+
+void BodyForces::restore(std::span<double const> state) {
+  last_.reset();
+  if (state.empty()) return;
+  if (state.size() < 4) throw Error("the checkpoint does not fit this simulation: it has no forces on bodies");
+  last_ = Look{state[0], {{state[1], state[2]}, state[3]}, {state.begin() + 4, state.end()}};
+}
+
+}  // namespace boltzmann

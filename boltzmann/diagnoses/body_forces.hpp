@@ -1,0 +1,53 @@
+// Body forces: what a flow does to the bodies in it, by two ways that know nothing of each other.
+#pragma once
+
+#include <boltzmann/diagnoses/diagnosis.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// Whether it is of panels, the outline of a body.
+bool is_body(AnyEnsemble const& ensemble);
+
+/// The impulse of a plane flow over its density: sum Gamma (y, -x) over vortices and over the sheets of bodies; and their
+/// circulation.
+struct FlowImpulse {
+  std::array<double, 2> impulse{};
+  double circulation = 0;
+};
+FlowImpulse flow_impulse(std::span<AnyEnsemble* const> ensembles);
+
+/// Forces over the density of the fluid, in the mean since the look before. On all bodies together from the impulse of the
+/// flow I (P. G. Saffman, Vortex Dynamics, section 3.2), F = -dI/dt + Gamma (V, -U) in a stream (U, V), Gamma the
+/// circulation of all there is; so vortices must not be added or taken away but by a body. And on each body by the
+/// pressure that goes around it as dp/ds = -(d(sheet)/dt + flux + d(sheet^2 / 2)/ds); of friction this knows nothing.
+/// Coefficients are F / (U^2 length / 2). NaN at the first look.
+class BodyForces final : public Diagnosis {
+ public:
+  /// Error if there is no body, or a coefficient is asked for without a stream.
+  BodyForces(std::vector<AnyEnsemble const*> const& available, std::optional<std::array<double, 3>> const& stream,
+             double length);
+
+  std::vector<Column> columns() const override;
+  void measure(Sample const& sample, std::vector<double>& values) override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+ private:
+  struct Look {
+    double time = 0;
+    FlowImpulse flow;
+    std::vector<double> sheet;  // of all panels
+  };
+
+  std::vector<std::string> bodies_;
+  std::array<double, 2> stream_{};
+  double length_;
+  std::optional<Look> last_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,37 @@
+// Body options: what scenarios say of a body in a flow, with its keys.
+#pragma once
+
+#include <boltzmann/core/options.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/schemes/panels/panel_scheme.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+enum class BodyShape { circle, ellipse, naca, polygon };
+Words<BodyShape> const& body_shape_words();
+
+struct BodyOptions {
+  std::string name;
+  BodyShape shape = BodyShape::circle;
+  std::optional<std::array<double, 3>> centre;
+  double radius = 0, chord = 0, angle = 0;
+  std::optional<std::array<double, 3>> semi_axes;
+  std::string naca;
+  std::vector<std::array<double, 2>> points;
+  int panels = 200;
+  BodySheet sheet;
+  std::string no_slip;
+  Appearance appearance;
+};
+OptionTable const& body_options();
+/// The keys that a body of this shape has.
+OptionTable body_options(BodyShape shape);
+/// Of what the options say. Error if it is none.
+Outline outline_of(BodyOptions const& options);
+
+}  // namespace boltzmann

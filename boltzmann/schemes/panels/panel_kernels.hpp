@@ -1,0 +1,27 @@
+// What panels compute for many particles, compiled for every instruction set. Private to this room.
+#pragma once
+
+#include <boltzmann/core/instruction_set.hpp>
+
+#include <cstddef>
+
+namespace boltzmann {
+
+/// Point vortices that stand for a sheet, with strengths over 2 pi, and a common core.
+struct SheetPoints {
+  double const *x, *y, *strength;
+  std::size_t count;
+  double core2;
+};
+
+/// Adds to u and v the velocities of the points at `count` places; the arrays go on for another `places_padding`.
+inline constexpr std::size_t places_padding = 16;
+using SheetVelocities = void (*)(SheetPoints const& points, double const* x, double const* y, double* u, double* v,
+                                 std::size_t count);
+struct PanelKernels {
+  SheetVelocities velocities;
+};
+template <InstructionSet set>
+PanelKernels const& panel_kernels();
+
+}  // namespace boltzmann

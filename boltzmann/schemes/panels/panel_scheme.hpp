@@ -1,0 +1,64 @@
+// PanelScheme: solid bodies in a plane flow, each an outline of panels with a vortex sheet that makes it a streamline.
+//
+//   Ensemble<Panel<2>> cylinder("cylinder");
+//   PanelScheme bodies(box);
+//   bodies.add_body(cylinder, circle_outline({0, 0}, 1, 200));
+//   bodies.add(tracers);                                        // whoever the sheet carries
+//   pairs.external(cylinder, UniformFlow<2>{{1, 0}});           // whatever flows acts on the body, too
+//   Simulation simulation(pairs, dt);
+//   simulation.add(bodies);
+#pragma once
+
+#include <boltzmann/particles/panel.hpp>
+#include <boltzmann/schemes/after_others.hpp>
+#include <boltzmann/schemes/panels/panel_sheet.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+struct BodySheet {
+  double circulation = 0;  ///< of the body's vortex sheet; by Kelvin's theorem it stays
+  bool kutta = false;      ///< it is what lets the flow leave the trailing edge smoothly, instead
+};
+
+class PanelScheme final : public Scheme, public AfterOthers {
+ public:
+  /// Error if the box is not of 2 dimensions, or has axes other than open and reflecting ones: the sheet has no images.
+  explicit PanelScheme(Box box);
+
+  /// A body that stands still: fills the ensemble with its panels. Velocities of all other schemes on these are what the
+  /// sheet is found from: let vortices and streams act on the body as on tracers. Error as in PanelSheet::add().
+  void add_body(Ensemble<Panel<2>>& body, Outline const& outline, BodySheet const& sheet = {});
+  /// Tracers or vortices that the sheet carries. Error if a flow does not carry them.
+  void add(AnyEnsemble& ensemble);
+
+  std::vector<AnyEnsemble*> const& bodies() const { return bodies_; }
+  std::vector<AnyEnsemble*> const& carried() const { return carried_; }
+  /// As the last calculation has found it.
+  PanelSheet const& sheet() const { return sheet_; }
+  PanelSheet& sheet() { return sheet_; }
+
+  void add_influences(double time) override;
+  EnergyAndVirial measure(double time = 0) override;
+  double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
+  std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
+  void make_reversible(double quantum) override;
+  std::size_t bytes() const override;
+  std::string summary() const override;
+  std::vector<double> state() const override { return sheet_.strengths(); }
+  void restore(std::span<double const> state) override { sheet_.strengths(state); }
+
+ private:
+  void find_sheet();
+  void carry(AnyEnsemble& ensemble);
+
+  PanelSheet sheet_;
+  std::vector<AnyEnsemble*> bodies_, carried_;
+  std::vector<double> normal_velocity_, x_, y_, u_, v_;
+};
+
+}  // namespace boltzmann

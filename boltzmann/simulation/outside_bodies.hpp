@@ -1,0 +1,32 @@
+// OutsideBodies: puts back what has got into a body during a step, as a step of finite size may do beside a wall.
+#pragma once
+
+#include <boltzmann/schemes/panels/panel_scheme.hpp>
+#include <boltzmann/simulation/keeps_numbers.hpp>
+
+#include <cstddef>
+
+namespace boltzmann {
+
+/// Each particle that the bodies' sheet carries and that is inside of one goes to the other side of the nearest point of the
+/// outline, as far out as it was in. Vortices keep their vorticity, but stand for no volume there: remeshing puts such on
+/// nodes that a wall cuts off, where no fluid is.
+class OutsideBodies final : public Adaptation, public KeepsNumbers {
+ public:
+  /// The scheme must outlive it.
+  explicit OutsideBodies(PanelScheme& bodies) : bodies_(&bodies) {}
+
+  void change() override;
+  std::string report(UnitSystem const& base) const override;
+  std::vector<double> state() const override { return {static_cast<double>(put_back_)}; }
+  void restore(std::span<double const> state) override;
+
+ private:
+  PanelScheme* bodies_;
+  std::size_t put_back_ = 0;
+};
+
+/// Error if a particle that the sheet carries is inside a body.
+void check_outside(PanelScheme const& bodies);
+
+}  // namespace boltzmann

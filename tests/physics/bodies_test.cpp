@@ -1,0 +1,226 @@
+// Bodies of panels in flows, from scenarios and programs: forces, walls, and the same bits however they are run.
+#include "shipped.hpp"
+
+#include <boltzmann/boltzmann.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+#include <tests/scenario/mistakes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace boltzmann::bodies_test {
+namespace {
+
+/// What body-forces says of a simulation from step to step: force x and y by impulse, then by pressure.
+struct Forces {
+  std::vector<std::vector<double>> rows;
+
+  explicit Forces(Simulation& simulation, std::optional<std::array<double, 3>> stream = {}, double length = 0) {
+    simulation.check();
+    std::vector<AnyEnsemble const*> const all(simulation.ensembles().begin(), simulation.ensembles().end());
+    diagnosis = std::make_shared<BodyForces>(all, stream, length);
+    simulation.observe(1, [this, diagnosis = diagnosis](Simulation const& now) {
+      rows.emplace_back();
+      diagnosis->measure({now.ensembles(), now.schemes().front()->box(), nullptr, 1, now.time(), now.step()},
+                         rows.back());
+    });
+  }
+  std::shared_ptr<BodyForces> diagnosis;
+};
+
+// A vortex beside a cylinder and their impulse, I = Gamma (1 - R^2 / r^2) (y, -x), go around together: the force on the
+// cylinder is Omega I, away from the vortex or towards it; pressure knows nothing of impulse and gives the same.
+TEST(BodyForces, OfAVortexBesideACylinderIsThatOfTheImageByImpulseAndByPressure) {
+  double const r = 1.6, gamma = 2;
+  Ensemble<Vortex<2>> vortex("vortex", 1);
+  vortex[0].position = {r, 0};
+  vortex[0].vorticity[0] = gamma;
+  Ensemble<Panel<2>> cylinder("cylinder");
+  Box const box({-4, -4}, {4, 4});
+  PairScheme pairs(box);
+  pairs.between(cylinder, vortex, one_way(BiotSavart{}));
+  PanelScheme bodies(box);
+  bodies.add_body(cylinder, circle_outline({0, 0}, 1, 200));
+  bodies.add(vortex);
+  Simulation simulation(pairs, 0.01);
+  simulation.add(bodies);
+  Forces const forces(simulation);
+  simulation.run(40);
+  double const turning = -gamma / (2 * pi * r * r * (r * r - 1));
+  double const force = gamma * (r - 1 / r) * turning;
+  for (std::size_t step = 1; step < forces.rows.size(); step += 7) {
+    double const angle = turning * 0.01 * (static_cast<double>(step) - 0.5);
+    auto const& row = forces.rows[step];
+    EXPECT_NEAR(row[0], -force * std::cos(angle), 5e-3 * std::abs(force)) << step;
+    EXPECT_NEAR(row[1], -force * std::sin(angle), 5e-3 * std::abs(force)) << step;
+    EXPECT_NEAR(row[2], row[0], 0.01 * std::abs(force)) << step;
+    EXPECT_NEAR(row[3], row[1], 0.01 * std::abs(force)) << step;
+  }
+}
+
+/// A stream that grows along x.
+struct Gust {
+  double start, growth;
+  template <class P>
+  auto operator()(P const&, double time) const {
+    return Vector<2>{start + growth * time, 0.0};
+  }
+};
+
+// D'Alembert: none in a steady stream. In one that grows the pressure gradient that drives it and the added mass: both
+// that of the fluid displaced. With a circulation, Kutta and Joukowski's lift.
+TEST(BodyForces, OfAStreamAreAddedMassAndLift) {
+  Box const box({-4, -4}, {4, 4});
+  for (double const growth : {0.0, 0.5})
+    for (double const circulation : {0.0, -2.0}) {
+      Ensemble<Panel<2>> cylinder("cylinder");
+      PairScheme pairs(box);
+      pairs.external(cylinder, Gust{1, growth});
+      PanelScheme bodies(box);
+      bodies.add_body(cylinder, circle_outline({0, 0}, 1, 400), {.circulation = circulation});
+      Simulation simulation(pairs, 0.01);
+      simulation.add(bodies);
+      Forces const forces(simulation, std::array<double, 3>{1, 0, 0}, 2);
+      simulation.run(2);
+      auto const& row = forces.rows[2];
+      EXPECT_TRUE(std::isnan(forces.rows[0][0]));
+      double const push = 2 * pi * growth, lift = -circulation;  // both over the density; the stream is 1 within 1 %
+      EXPECT_NEAR(row[0], push, 0.005 * push + 1e-9);
+      EXPECT_NEAR(row[1], lift, 1e-9);
+      EXPECT_NEAR(row[2], row[0], 1e-9);  // coefficients of length 2 and speed 1
+      EXPECT_NEAR(row[3], row[1], 1e-9);
+      EXPECT_NEAR(row[4], push, 0.005 * push + 1e-9);
+      EXPECT_NEAR(row[5], lift * (1 + 0.015 * growth), 0.002 * lift + 1e-9);
+    }
+}
+
+std::string const start =
+    "[units]\nbase = \"reduced\"\n[box]\nlow = [-4, -4]\nhigh = [4, 4]\n[run]\nstep = 0.05\nsteps = 20\n";
+std::string const cylinder = "[[bodies]]\nname = \"cylinder\"\nshape = \"circle\"\nradius = 1\n";
+std::string const vortices =
+    "[[ensembles]]\nname = \"vortices\"\nclass = \"Vortex\"\nload = { kind = \"positions\", positions = [[-2, 0.5], "
+    "[-2.2, -0.1], [2, 1]] }\nvorticity = [1, -0.5, 0.7]\ncore = 0.1\n";
+std::string const flows =
+    "[[influences]]\nlaw = \"biot-savart-gaussian\"\non = \"vortices\"\n[[influences]]\nlaw = \"uniform-flow\"\non = "
+    "\"vortices\"\nvelocity = [1, 0]\n";
+std::string const all = start + cylinder + vortices + flows;
+
+// Whatever flows acts on a body of a scenario, once: the same as a program that says so of each.
+TEST(BodiesInScenarios, FeelAllThatFlows) {
+  auto const run = parse_scenario(all, "test.toml");
+  Ensemble<Vortex<2>> own("vortices", 3);
+  double const x[] = {-2, -2.2, 2}, y[] = {0.5, -0.1, 1}, gamma[] = {1, -0.5, 0.7};
+  for (std::size_t i = 0; i < 3; ++i) {
+    own[i].position = {x[i], y[i]};
+    own[i].vorticity[0] = gamma[i], own[i].core = 0.1;
+  }
+  Ensemble<Panel<2>> body("cylinder");
+  Box const box({-4, -4}, {4, 4});
+  PairScheme pairs(box);
+  pairs.internal(own, GaussianBiotSavart{});
+  pairs.external(own, UniformFlow<2>{{1, 0}});
+  pairs.between(body, own, one_way(GaussianBiotSavart{}));
+  pairs.external(body, UniformFlow<2>{{1, 0}});
+  PanelScheme bodies(box);
+  bodies.add_body(body, circle_outline({0, 0}, 1, 200));
+  bodies.add(own);
+  Simulation simulation(pairs, 0.05);
+  simulation.add(bodies);
+  run->simulation->run(20);
+  simulation.run(20);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int a = 0; a < 2; ++a)
+      EXPECT_NEAR(test::ensemble(*run, "vortices").row(i)[a], own[i].position[static_cast<std::size_t>(a)], 1e-12) << i;
+}
+
+// By multipoles the body is a test particle of the same field.
+TEST(BodiesInScenarios, FeelMultipoles) {
+  auto const pairs = parse_scenario(all, "test.toml");
+  auto const multipoles =
+      parse_scenario(start + "[multipole]\nlaw = \"biot-savart-gaussian\"\ntolerance = 1e-8\n" + cylinder + vortices +
+                         "[[influences]]\nlaw = \"uniform-flow\"\non = \"vortices\"\nvelocity = [1, 0]\n",
+                     "test.toml");
+  pairs->simulation->run(20), multipoles->simulation->run(20);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int a = 0; a < 2; ++a)
+      EXPECT_NEAR(test::ensemble(*pairs, "vortices").row(i)[a], test::ensemble(*multipoles, "vortices").row(i)[a],
+                  1e-6);
+}
+
+TEST(BodiesInScenarios, HaveTheSameBitsForAnyThreadsAndHoweverTheyAreRun) {
+  auto const whole = parse_scenario(all, "test.toml");
+  whole->simulation->run(20);
+  for (int const threads : {1, 2, 3}) {
+    auto const parts = parse_scenario(all, "test.toml");
+    parts->simulation->threads(threads);
+    int looked = 0;
+    parts->simulation->observe(threads, [&](Simulation const&) { ++looked; });
+    parts->simulation->run(7);
+    parts->simulation->run(13);
+    EXPECT_GT(looked, 5);
+    for (char const* name : {"vortices", "cylinder"})
+      for (std::size_t i = 0; i < test::ensemble(*whole, name).size(); ++i)
+        for (std::size_t k = 0; k < test::ensemble(*whole, name).doubles(); ++k)
+          ASSERT_EQ(test::ensemble(*whole, name).row(i)[k], test::ensemble(*parts, name).row(i)[k]) << name << " " << i;
+    // On from what it would have stored.
+    auto const again = parse_scenario(all, "test.toml");
+    auto const begun = parse_scenario(all, "test.toml");
+    begun->simulation->run(7);
+    for (char const* name : {"vortices", "cylinder"}) {
+      AnyEnsemble const& from = test::ensemble(*begun, name);
+      std::copy_n(from.row(0), from.size() * from.stride(), test::ensemble(*again, name).row(0));
+    }
+    again->simulation->restore(7, 0.05, 1, begun->simulation->state());
+    again->simulation->run(13);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(test::ensemble(*whole, "vortices").row(i)[0], test::ensemble(*again, "vortices").row(i)[0]) << i;
+  }
+}
+
+// Tracers that a step has carried into a body are put back.
+TEST(BodiesInScenarios, KeepTracersOut) {
+  auto const run = parse_scenario(start + cylinder +
+                                      "[[ensembles]]\nname = \"tracers\"\nclass = \"Tracer\"\nintegrator = "
+                                      "\"euler\"\nload = { kind = \"block\", lattice "
+                                      "= \"square\", spacing = 0.1, counts = [10, 20], origin = [-2.5, -1] "
+                                      "}\n[[influences]]\nlaw = \"uniform-flow\"\non "
+                                      "= \"tracers\"\nvelocity = [4, 0]\n",
+                                  "test.toml");
+  run->simulation->run(20);
+  auto const& sheet = run->scheme<PanelScheme>()->sheet();
+  AnyEnsemble const& tracers = test::ensemble(*run, "tracers");
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    EXPECT_FALSE(sheet.inside({tracers.row(i)[0], tracers.row(i)[1]})) << i;
+    beyond += tracers.row(i)[0] > 1;
+  }
+  EXPECT_GT(beyond, 50U);
+}
+
+class MistakesOfBodies : public testing::TestWithParam<test::Mistake> {};
+TEST_P(MistakesOfBodies, AreOneLine) { test::expect_one_line(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(
+    All, MistakesOfBodies,
+    testing::Values(
+        test::Mistake{"no radius", test::replaced(all, "radius = 1\n", ""), "9:1", {"radius"}},
+        test::Mistake{"no shape", test::replaced(all, "\"circle\"", "\"round\""), "11:9", {"shape", "circle"}},
+        test::Mistake{
+            "kutta of a circle", test::replaced(all, "radius = 1\n", "radius = 1\nkutta = true\n"), "13:1", {"kutta"}},
+        test::Mistake{
+            "name twice", test::replaced(all, "\"cylinder\"", "\"vortices\""), "10:8", {"vortices", "differ"}},
+        test::Mistake{"influence on a body",
+                      test::replaced(all, "on = \"vortices\"\nvel", "on = \"cylinder\"\nvel"),
+                      "",
+                      {"body", "leave"}},
+        test::Mistake{"vortex inside", test::replaced(all, "[2, 1]", "[0.2, 0.1]"), "", {"inside a body"}},
+        test::Mistake{"no slip of whom",
+                      test::replaced(all, "radius = 1\n", "radius = 1\nno_slip = \"wake\"\n"),
+                      "13:11",
+                      {"no_slip", "wake"}}),
+    test::mistake_name);
+
+}  // namespace
+}  // namespace boltzmann::bodies_test
