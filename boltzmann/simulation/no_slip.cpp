@@ -61,8 +61,8 @@ void NoSlip::change() {
   }
 }
 
-std::string NoSlip::report(UnitSystem const& base) const {
-  return fmt::format("walls have made vorticity of both signs, {} in all", base.text(shed_, dimensions::circulation));
+std::string NoSlip::report(UnitSystem const& units) const {
+  return fmt::format("walls have made vorticity of both signs, {} in all", units.text(shed_, dimensions::circulation));
 }
 
 void NoSlip::restore(std::span<double const> state) {

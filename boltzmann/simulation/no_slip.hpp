@@ -22,7 +22,7 @@ class NoSlip final : public Adaptation {
   NoSlip(PanelScheme& bodies, AnyEnsemble& vortices, std::vector<std::size_t> which, double interval);
 
   void change() override;
-  std::string report(UnitSystem const& base) const override;
+  std::string report(UnitSystem const& units) const override;
   std::vector<double> state() const override { return {shed_}; }
   void restore(std::span<double const> state) override;
 

@@ -17,7 +17,7 @@ class OutsideBodies final : public Adaptation, public KeepsNumbers {
   explicit OutsideBodies(PanelScheme& bodies) : bodies_(&bodies) {}
 
   void change() override;
-  std::string report(UnitSystem const& base) const override;
+  std::string report(UnitSystem const& units) const override;
   std::vector<double> state() const override { return {static_cast<double>(put_back_)}; }
   void restore(std::span<double const> state) override;
 
