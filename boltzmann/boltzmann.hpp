@@ -23,6 +23,7 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>

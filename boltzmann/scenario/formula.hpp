@@ -3,8 +3,8 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
-#include <boltzmann/core/error.hpp>
 #include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/formulas/formula_error.hpp>
 
 #include <cstddef>
 #include <span>
@@ -13,12 +13,6 @@
 #include <vector>
 
 namespace boltzmann {
-
-/// What is wrong with a formula, and at which of its characters (from 0).
-struct FormulaError : Error {
-  FormulaError(std::size_t at, std::string const& message) : Error(message), offset(at) {}
-  std::size_t offset;
-};
 
 /// Names of measured values, in a base.
 struct MeasuredNames {

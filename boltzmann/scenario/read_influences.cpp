@@ -1,4 +1,7 @@
 // Reads [[influences]]: which law acts on whom.
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/laws/formula_law.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
@@ -60,6 +63,9 @@ class InfluenceReader {
         section_(table, "[[influences]]", reading.context) {}
 
   void read() {
+    typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
+    if (section_.has("energy")) typed_item_ = section_.find("energy");
+    if (typed_item_) return read_typed();
     read_law();
     on_ = section_.find("on");
     if (!external()) by_ = section_.find("by"), between_ = section_.find("between");
@@ -77,7 +83,134 @@ class InfluenceReader {
   }
 
  private:
-  bool external() const { return law_ && law_->kind == LawKind::external; }
+  bool external() const { return typed_item_ ? from_outside_ : law_ && law_->kind == LawKind::external; }
+
+  // ---- A law that is typed ----
+
+  void read_typed() {
+    bool const by_energy = section_.has("energy");
+    section_.rename(by_energy ? "[[influences]] with an energy" : "[[influences]] with an influence");
+    section_.explain_said(influence_options());
+    law_place_ = typed_item_->place;
+    if (by_energy && section_.has("influence"))
+      reading_.mistake(section_.place("influence"), "influence: there is an energy already, which gives it");
+    if (section_.has("law"))
+      reading_.mistake(section_.place("law"), fmt::format("law: there is {} already; leave one out",
+                                                          by_energy ? "an energy" : "an influence"));
+    section_.allow("law"), section_.allow("influence");
+    from_outside_ = section_.boolean("from_outside");
+    on_ = section_.find("on");
+    if (!from_outside_) by_ = section_.find("by"), between_ = section_.find("between");
+    typed_.gives = by_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
+    typed_.base = reading_.context.base;
+    auto const text = read_text(*typed_item_, by_energy ? "energy" : "influence", reading_.context);
+    if (text) typed_.text = *text;
+    read_typed_parameters();
+    read_parts();
+    read_ensembles();
+    if (!from_outside_)
+      read_pairs();
+    else if (Item const* where = section_.item("where"); !where || !where->is(Item::Kind::table))
+      only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
+    section_.finish();
+    if ((a_ && a_->smooth()) || (b_ && b_->smooth()))
+      reading_.mistake(law_place_, "typed laws don't act on smooth particles yet, which are moved by their 'material'");
+    bool const there = a_ && b_ && a_->particles && b_->particles && pairs_;
+    if (reading_.context.mistakes.count() != before_ || !there) return;
+    double const reach = from_outside_ || connect_ ? no_cutoff : reach_of_pairs();
+    if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
+    AnyEnsemble &a = *a_->particles, &b = *b_->particles;
+    try {
+      if (from_outside_)
+        pairs_->external(a, typed_, only_ ? &*only_ : nullptr);
+      else if (connect_)
+        pairs_->connect(a, connections_, typed_);
+      else if (by_)
+        pairs_->one_way(a, b, typed_, reach);
+      else if (between_)
+        pairs_->between(a, b, typed_, reach);
+      else
+        pairs_->internal(a, typed_, reach);
+    } catch (FormulaLawError const& error) {
+      refuse_text(error);
+    } catch (Error const& error) {
+      reading_.mistake(law_place_, error.what());
+    }
+  }
+  /// At the text that the error is of.
+  void refuse_text(FormulaLawError const& error) {
+    for (char const* key : {"where", "parameters"}) {
+      Item const* table = section_.item(key);
+      Entry const* entry = table ? table->find(error.part) : nullptr;
+      if (!entry) continue;
+      if (entry->item.is(Item::Kind::text))
+        return formula_mistake(entry->item, fmt::format("{}.{}", key, error.part), error, reading_);
+      return reading_.mistake(entry->place, fmt::format("{}.{}: {}", key, error.part, error.what()));
+    }
+    formula_mistake(*typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence", error, reading_);
+  }
+  void read_typed_parameters() {
+    Item const* table = section_.find("parameters");
+    if (!table) return;
+    if (!table->is(Item::Kind::table))
+      return reading_.mistake(
+          table->place,
+          fmt::format("parameters: a table is needed, {{ depth = \"0.1 eV\" }}, not {}", describe(*table)));
+    for (auto const& [key, place, item] : table->entries) {
+      FormulaParameter parameter{key, 0, {}};
+      if (!is_name(key)) {
+        reading_.mistake(
+            place, fmt::format("parameters: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
+        continue;
+      }
+      if (item.is_number()) {
+        parameter.value = item.number;
+        if (reading_.context.recorder) reading_.context.recorder->plain(item, "number");
+      } else if (item.is(Item::Kind::text)) {
+        bool const good = catch_errors(reading_, item.place, [&] {
+          parameter.dimension = parse_quantity(item.text).dimension;
+          parameter.value = in_base(item.text, parameter.dimension, reading_.context.base);
+        });
+        if (!good) continue;
+        if (reading_.context.recorder) reading_.context.recorder->plain(item, "text");
+      } else {
+        reading_.mistake(item.place,
+                         fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", key, describe(item)));
+        continue;
+      }
+      typed_.parameters.push_back(std::move(parameter));
+    }
+  }
+  void read_parts() {
+    if (from_outside_) {
+      Item const* where = section_.item("where");
+      if (!where || !where->is(Item::Kind::table)) return;
+    }
+    Item const* table = section_.find("where");
+    if (!table) return;
+    if (!table->is(Item::Kind::table))
+      return reading_.mistake(
+          table->place,
+          fmt::format("where: a table of formulas is needed, {{ s = \"(sigma/r)^6\" }}, not {}", describe(*table)));
+    for (auto const& [key, place, item] : table->entries) {
+      if (!is_name(key)) {
+        reading_.mistake(place,
+                         fmt::format("where: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
+        continue;
+      }
+      if (auto const text = read_text(item, fmt::format("where.{}", key), reading_.context))
+        typed_.where.push_back({key, *text});
+    }
+  }
+  static bool is_name(std::string_view key) {
+    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    return !key.empty() && letter(key[0]) &&
+           std::all_of(key.begin(), key.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+  }
+
+  std::string called() const { return typed_item_ ? "the typed law" : fmt::format("law '{}'", law_->name); }
+
+  // ---- A shipped law ----
 
   void read_law() {
     std::vector<std::string> names;
@@ -119,7 +252,7 @@ class InfluenceReader {
                        "\"b\"] or on = \"a\" with by = \"b\"");
     } else if (!section_.has("between") && !section_.has("by")) {
       reading_.mistake(section_.place(),
-                       fmt::format("law '{}' comes from outside and needs 'on', e.g. on = \"atoms\"", law_->name));
+                       fmt::format("{} comes from outside and needs 'on', e.g. on = \"atoms\"", called()));
     }
   }
   void read_both() {
@@ -220,10 +353,9 @@ class InfluenceReader {
       double const most = reading_.box->length(axis);
       if (!reading_.box->periodic(axis) || reach <= most) continue;
       if (reach == no_cutoff)
-        reading_.mistake(
-            section_.place(),
-            fmt::format("axis {} is periodic: law '{}' needs a cut-off there, in [run] or here, of at most {}",
-                        "xyz"[axis], law_ -> name, most));
+        reading_.mistake(section_.place(),
+                         fmt::format("axis {} is periodic: {} needs a cut-off there, in [run] or here, of at most {}",
+                                     "xyz"[axis], called(), most));
       else
         reading_.mistake(section_.place("cutoff"),
                          fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}", reach,
@@ -240,6 +372,9 @@ class InfluenceReader {
   Section section_;
   LawInfo const* law_ = nullptr;
   Place law_place_;
+  Item const* typed_item_ = nullptr;
+  FormulaLaw typed_;
+  bool from_outside_ = false;
   Item const *on_ = nullptr, *by_ = nullptr, *between_ = nullptr, *connect_ = nullptr;
   ReadEnsemble *a_ = nullptr, *b_ = nullptr;
   std::optional<double> cutoff_;

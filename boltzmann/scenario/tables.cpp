@@ -226,7 +226,14 @@ OptionTable make_influence_options() {
   all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`",
                "laws from outside: only on these, written as in `[[ensembles.set]]`", "on all");
   all.add_said("margin", "a length", "with `particles = \"edge\"`", "0");
-  all.add_said("where", "a [formula](#formulas)", "laws from outside: only on those for which it is true", "on all");
+  all.add_said("where", "a [formula](#formulas); beside `energy` or `influence` a table of them",
+               "laws from outside: only on those for which it is true. Of a typed law: its parts, `{ s = \"(sigma/r)^6\" }`",
+               "on all");
+  all.add_said("energy", "a [formula](#laws-that-are-typed)", "instead of `law`: a typed law, by its energy");
+  all.add_said("influence", "a [formula](#laws-that-are-typed)",
+               "instead of `law`: a typed law, by the force (or velocity) that p gets");
+  all.add_said("parameters", "a table of quantities", "of a typed law: `{ depth = \"0.1 eV\" }`", "none");
+  all.add_said("from_outside", "`true` or `false`", "a typed law that acts from outside", "false");
   all.at("law").needed = "\"lennard-jones\"";
   return all;
 }

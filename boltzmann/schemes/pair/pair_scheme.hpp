@@ -2,6 +2,7 @@
 // connections.
 #pragma once
 
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/neighbours/connection.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
@@ -9,6 +10,7 @@
 #include <boltzmann/schemes/pair/pair_kernels.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 
+#include <concepts>
 #include <limits>
 #include <memory>
 #include <string>
@@ -28,11 +30,11 @@ class PairScheme final : public Scheme {
 
   /// Influences among the particles of one ensemble.
   template <class P, class Law>
-  void internal(Ensemble<P>& ensemble, Law const& law) {
+  requires(!std::same_as<Law, FormulaLaw>) void internal(Ensemble<P>& ensemble, Law const& law) {
     internal(ensemble, law, cutoff_);
   }
   template <class P, class Law>
-  void internal(Ensemble<P>& ensemble, Law const& law, double cutoff) {
+  requires(!std::same_as<Law, FormulaLaw>) void internal(Ensemble<P>& ensemble, Law const& law, double cutoff) {
     static_assert(PairLaw<Law, P, P>,
                   "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
                   "auto const& q) { ... }");
@@ -41,11 +43,11 @@ class PairScheme final : public Scheme {
 
   /// Influences between two ensembles: law(p, q) on p in `a` and law(q, p) on q in `b`; a one-way law acts on `a` only.
   template <class P, class Q, class Law>
-  void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law) {
+  requires(!std::same_as<Law, FormulaLaw>) void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law) {
     between(a, b, law, cutoff_);
   }
   template <class P, class Q, class Law>
-  void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law, double cutoff) {
+  requires(!std::same_as<Law, FormulaLaw>) void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law, double cutoff) {
     static_assert(PairLaw<Law, P, Q>,
                   "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
                   "auto const& q) { ... }");
@@ -57,7 +59,8 @@ class PairScheme final : public Scheme {
 
   /// Influences between fixed pairs of one ensemble, over the nearest image on periodic axes.
   template <class P, class Law>
-  void connect(Ensemble<P>& ensemble, std::vector<Connection> const& connections, Law const& law) {
+  requires(!std::same_as<Law, FormulaLaw>) void connect(Ensemble<P>& ensemble,
+                                                        std::vector<Connection> const& connections, Law const& law) {
     static_assert(PairLaw<Law, P, P>,
                   "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
                   "auto const& q) { ... }");
@@ -66,15 +69,29 @@ class PairScheme final : public Scheme {
 
   /// An influence from outside, law(p) or law(p, time), on all particles of an ensemble or on the chosen ones.
   template <class P, class Law>
-  void external(Ensemble<P>& ensemble, Law const& law) {
+  requires(!std::same_as<Law, FormulaLaw>) void external(Ensemble<P>& ensemble, Law const& law) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
     add_external(ensemble, external_kernels<P, Law>(), keep(law), traits_of(law), nullptr);
   }
   template <class P, class Law>
-  void external(Ensemble<P>& ensemble, Law const& law, std::vector<std::uint32_t> const& only) {
+  requires(!std::same_as<Law, FormulaLaw>) void external(Ensemble<P>& ensemble, Law const& law,
+                                                         std::vector<std::uint32_t> const& only) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
     add_external(ensemble, external_kernels<P, Law>(), keep(law), traits_of(law), &only);
   }
+
+  // The same with a law that is a formula, on particles of any class: FormulaLawError if it is wrong.
+  void internal(AnyEnsemble& ensemble, FormulaLaw const& law) { internal(ensemble, law, cutoff_); }
+  void internal(AnyEnsemble& ensemble, FormulaLaw const& law, double cutoff);
+  void between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law) { between(a, b, law, cutoff_); }
+  void between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law, double cutoff);
+  /// On `target` alone: p is of the target, q of the source.
+  void one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law) {
+    one_way(target, source, law, cutoff_);
+  }
+  void one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff);
+  void connect(AnyEnsemble& ensemble, std::vector<Connection> const& connections, FormulaLaw const& law);
+  void external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vector<std::uint32_t> const* only = nullptr);
 
   /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
   void skin(double length) { neighbourhood_.skin(length); }

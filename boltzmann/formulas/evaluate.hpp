@@ -1,0 +1,158 @@
+// Runs a program on blocks of columns, W numbers at a time. For kernel units (see core/kernel_unit.hpp).
+#pragma once
+
+#include <boltzmann/core/pack.hpp>
+#include <boltzmann/formulas/formula_program.hpp>
+
+#include <cmath>
+#include <cstddef>
+
+namespace boltzmann::detail {
+
+/// Columns and scalars of one thread. A scalar fills a pack, so that both are read alike.
+template <int W>
+struct Workspace {
+  using Real = Pack<double, W>;
+  alignas(64) double columns[max_columns * block_pairs];
+  alignas(64) double scalars[max_scalars * W];
+
+  double* column(std::size_t which) { return columns + which * block_pairs; }
+  void set_scalar(std::size_t which, double value) {
+    *reinterpret_cast<typename Real::Native*>(scalars + which * W) = Real(value).native;
+  }
+  void set_constants(FormulaProgram const& program) {
+    for (std::size_t k = 0; k < program.constants.size(); ++k) set_scalar(k, program.constants[k]);
+  }
+  double* place(Operand operand) { return operand.scalar ? scalars + operand.index * W : column(operand.index); }
+};
+
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> load_pack(double const* from) {
+  return *reinterpret_cast<typename Pack<double, W>::Native const*>(from);
+}
+template <int W>
+[[gnu::always_inline]] inline void store_pack(double* to, Pack<double, W> value) {
+  *reinterpret_cast<typename Pack<double, W>::Native*>(to) = value.native;
+}
+
+/// How far the next pack of an operand is.
+template <int W>
+[[gnu::always_inline]] inline std::size_t stride_of(Operand operand) {
+  return operand.scalar ? 0 : W;
+}
+
+template <int W, class F>
+[[gnu::always_inline]] inline void each(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
+  double* const to = work.place(step.to);
+  double const *const a = work.place(step.a), *const b = work.place(step.b), *const c = work.place(step.c);
+  std::size_t const da = stride_of<W>(step.a), db = stride_of<W>(step.b), dc = stride_of<W>(step.c);
+  for (std::size_t k = 0; k < packs; ++k)
+    store_pack<W>(to + k * W, f(load_pack<W>(a + k * da), load_pack<W>(b + k * db), load_pack<W>(c + k * dc)));
+}
+/// Of the C library, lane by lane.
+template <int W, class F>
+[[gnu::always_inline]] inline void each_lane(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
+  each<W>(work, step, packs, [&](Pack<double, W> x, Pack<double, W> y, Pack<double, W>) {
+    Pack<double, W> result;
+    for (int lane = 0; lane < W; ++lane) result.native[lane] = f(x.native[lane], y.native[lane]);
+    return result;
+  });
+}
+
+template <int W>
+[[gnu::noinline]] void run_function(Workspace<W>& work, Step const& step, std::size_t packs) {
+  using Real = Pack<double, W>;
+  Real const zero = 0.0, one = 1.0;
+  switch (step.operation) {
+    case Operation::exp:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return exp(a); });
+    case Operation::log:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return log(a); });
+    case Operation::sin:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return sin(a); });
+    case Operation::cos:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return cos(a); });
+    case Operation::tan:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return sin(a) / cos(a); });
+    case Operation::tanh:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return tanh(a); });
+    case Operation::erf:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return erf(a); });
+    case Operation::erfc:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return erfc(a); });
+    case Operation::sinh:
+      return each<W>(work, step, packs, [](Real a, Real, Real) {
+        Real const e = expm1(abs(a)), half = 0.5 * (e + e / (e + 1.0));
+        return select(a < 0.0, -half, half);
+      });
+    case Operation::cosh:
+      return each<W>(work, step, packs, [](Real a, Real, Real) {
+        Real const e = exp(abs(a));
+        return 0.5 * (e + 1.0 / e);
+      });
+    case Operation::abs:
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return abs(a); });
+    case Operation::pow:
+      return each<W>(work, step, packs, [](Real a, Real b, Real) { return pow(a, b); });
+    case Operation::min:
+      return each<W>(work, step, packs, [](Real a, Real b, Real) { return min(a, b); });
+    case Operation::max:
+      return each<W>(work, step, packs, [](Real a, Real b, Real) { return max(a, b); });
+    case Operation::less:
+      return each<W>(work, step, packs, [&](Real a, Real b, Real) { return select(a < b, one, zero); });
+    case Operation::less_equal:
+      return each<W>(work, step, packs, [&](Real a, Real b, Real) { return select(a <= b, one, zero); });
+    case Operation::equal:
+      return each<W>(work, step, packs, [&](Real a, Real b, Real) { return select(a == b, one, zero); });
+    case Operation::select:
+      return each<W>(work, step, packs, [&](Real a, Real b, Real c) { return select(a != zero, b, c); });
+    case Operation::asin:
+      return each_lane<W>(work, step, packs, [](double a, double) { return std::asin(a); });
+    case Operation::acos:
+      return each_lane<W>(work, step, packs, [](double a, double) { return std::acos(a); });
+    case Operation::atan:
+      return each_lane<W>(work, step, packs, [](double a, double) { return std::atan(a); });
+    case Operation::atan2:
+      return each_lane<W>(work, step, packs, [](double a, double b) { return std::atan2(a, b); });
+    case Operation::floor:
+      return each_lane<W>(work, step, packs, [](double a, double) { return std::floor(a); });
+  }
+}
+
+template <int W>
+[[gnu::noinline]] void run_steps(Workspace<W>& work, Step const* steps, std::size_t count, std::size_t packs) {
+  using Real = Pack<double, W>;
+  for (Step const* step = steps; step < steps + count; ++step) {
+    switch (step->instruction) {
+      case Instruction::add:
+        each<W>(work, *step, packs, [](Real a, Real b, Real) { return a + b; });
+        break;
+      case Instruction::subtract:
+        each<W>(work, *step, packs, [](Real a, Real b, Real) { return a - b; });
+        break;
+      case Instruction::multiply:
+        each<W>(work, *step, packs, [](Real a, Real b, Real) { return a * b; });
+        break;
+      case Instruction::multiply3:
+        each<W>(work, *step, packs, [](Real a, Real b, Real c) { return a * b * c; });
+        break;
+      case Instruction::fuse:
+        each<W>(work, *step, packs, [](Real a, Real b, Real c) { return a * b + c; });
+        break;
+      case Instruction::reciprocal:
+        each<W>(work, *step, packs, [](Real a, Real, Real) { return 1.0 / a; });
+        break;
+      case Instruction::root:
+        each<W>(work, *step, packs, [](Real a, Real, Real) { return sqrt(a); });
+        break;
+      case Instruction::inverse_root:
+        each<W>(work, *step, packs, [](Real a, Real, Real) { return rsqrt(a); });
+        break;
+      case Instruction::function:
+        run_function<W>(work, *step, packs);
+        break;
+    }
+  }
+}
+
+}  // namespace boltzmann::detail

@@ -1,0 +1,493 @@
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/formulas/expression_graph.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <numbers>
+
+namespace boltzmann {
+namespace {
+
+using Kind = ExpressionGraph::Kind;
+using Term = ExpressionGraph::Term;
+
+constexpr std::size_t max_expressions = 10'000;
+
+bool is_whole(double x) { return x == std::floor(x); }
+bool is_half(double x) { return is_whole(2 * x) && std::fabs(x) <= 64; }
+
+/// Of numbers.
+double value_of(Operation operation, double a, double b, double c) {
+  switch (operation) {
+    case Operation::exp:
+      return std::exp(a);
+    case Operation::log:
+      return std::log(a);
+    case Operation::sin:
+      return std::sin(a);
+    case Operation::cos:
+      return std::cos(a);
+    case Operation::tan:
+      return std::tan(a);
+    case Operation::asin:
+      return std::asin(a);
+    case Operation::acos:
+      return std::acos(a);
+    case Operation::atan:
+      return std::atan(a);
+    case Operation::sinh:
+      return std::sinh(a);
+    case Operation::cosh:
+      return std::cosh(a);
+    case Operation::tanh:
+      return std::tanh(a);
+    case Operation::erf:
+      return std::erf(a);
+    case Operation::erfc:
+      return std::erfc(a);
+    case Operation::abs:
+      return std::fabs(a);
+    case Operation::floor:
+      return std::floor(a);
+    case Operation::atan2:
+      return std::atan2(a, b);
+    case Operation::pow:
+      return std::pow(a, b);
+    case Operation::min:
+      return b < a ? b : a;
+    case Operation::max:
+      return a < b ? b : a;
+    case Operation::less:
+      return a < b;
+    case Operation::less_equal:
+      return a <= b;
+    case Operation::equal:
+      return a == b;
+    case Operation::select:
+      return a != 0 ? b : c;
+  }
+  return 0;
+}
+
+/// Sorted by node, equal ones merged, those with nothing dropped.
+std::vector<Term> merged(std::vector<Term> terms) {
+  std::stable_sort(terms.begin(), terms.end(), [](Term const& a, Term const& b) { return a.node < b.node; });
+  std::vector<Term> result;
+  for (auto const& term : terms) {
+    if (!result.empty() && result.back().node == term.node)
+      result.back().factor += term.factor;
+    else
+      result.push_back(term);
+    if (result.back().factor == 0) result.pop_back();
+  }
+  return result;
+}
+
+}  // namespace
+
+int arguments_of(Operation operation) {
+  if (operation == Operation::select) return 3;
+  return operation >= Operation::atan2 ? 2 : 1;
+}
+
+Expression ExpressionGraph::keep(Node node) {
+  std::string key;
+  auto const write = [&key](auto const& value) { key.append(reinterpret_cast<char const*>(&value), sizeof value); };
+  write(node.kind);
+  write(node.operation);
+  write(node.number);
+  write(node.input);
+  for (auto const& term : node.terms) write(term.node), write(term.factor);
+  for (auto const argument : node.arguments) write(argument);
+  auto const [place, is_new] = known_.try_emplace(std::move(key), static_cast<Expression>(nodes_.size()));
+  if (!is_new) return place->second;
+  if (nodes_.size() >= max_expressions) {
+    known_.erase(place);
+    throw Error(fmt::format("the formula is too long: it needs more than {} operations", max_expressions));
+  }
+  node.never_negative = node.never_negative || never_negative(node);
+  nodes_.push_back(std::move(node));
+  return static_cast<Expression>(nodes_.size() - 1);
+}
+
+bool ExpressionGraph::never_negative(Node const& node) const {
+  auto const good = [this](Term const& term) { return nodes_[term.node].never_negative; };
+  switch (node.kind) {
+    case Kind::number:
+      return node.number >= 0;
+    case Kind::input:
+      return false;
+    case Kind::sum:
+      return node.number >= 0 &&
+             std::all_of(node.terms.begin(), node.terms.end(), [&](Term const& t) { return t.factor > 0 && good(t); });
+    case Kind::product:
+      return std::all_of(node.terms.begin(), node.terms.end(),
+                         [&](Term const& t) { return good(t) || std::fmod(t.factor, 2) == 0 || !is_whole(t.factor); });
+    case Kind::operation:
+      return node.operation == Operation::exp || node.operation == Operation::abs ||
+             node.operation == Operation::erfc || node.operation == Operation::cosh;
+  }
+  return false;
+}
+
+Expression ExpressionGraph::number(double value) {
+  Node node;
+  node.number = value == 0 ? 0 : value;  // no -0
+  return keep(std::move(node));
+}
+
+Expression ExpressionGraph::input(std::uint32_t which, bool never_negative) {
+  Node node;
+  node.kind = Kind::input;
+  node.input = which;
+  node.never_negative = never_negative;
+  return keep(std::move(node));
+}
+
+Expression ExpressionGraph::sum(double constant, std::vector<Term> const& terms) {
+  std::vector<Term> flat;
+  for (auto const& [node, factor] : terms) {
+    if (factor == 0) continue;
+    Node const& inside = nodes_[node];
+    if (inside.kind == Kind::number) {
+      constant += factor * inside.number;
+    } else if (inside.kind == Kind::sum) {
+      constant += factor * inside.number;
+      for (auto const& term : inside.terms) flat.push_back({term.node, factor * term.factor});
+    } else {
+      flat.push_back({node, factor});
+    }
+  }
+  flat = merged(std::move(flat));
+  if (flat.empty()) return number(constant);
+  if (constant == 0 && flat.size() == 1 && flat[0].factor == 1) return flat[0].node;
+  Node result;
+  result.kind = Kind::sum;
+  result.number = constant == 0 ? 0 : constant;
+  result.terms = std::move(flat);
+  return keep(std::move(result));
+}
+
+Expression ExpressionGraph::product(std::vector<Term> const& factors) {
+  double coefficient = 1;
+  std::vector<Term> flat;
+  std::function<void(Expression, double)> const take = [&](Expression base, double exponent) {
+    Node const& inside = nodes_[base];
+    bool const whole = is_whole(exponent);
+    if (inside.kind == Kind::number && (whole || inside.number >= 0)) {
+      coefficient *= std::pow(inside.number, exponent);
+    } else if (inside.kind == Kind::sum && inside.number == 0 && inside.terms.size() == 1 &&
+               (whole || inside.terms[0].factor > 0)) {
+      coefficient *= std::pow(inside.terms[0].factor, exponent);
+      take(Expression(inside.terms[0].node), exponent);
+    } else if (inside.kind == Kind::product &&
+               (whole || std::all_of(inside.terms.begin(), inside.terms.end(),
+                                     [&](Term const& t) { return nodes_[t.node].never_negative; }))) {
+      for (Term const term : std::vector<Term>(inside.terms)) flat.push_back({term.node, term.factor * exponent});
+    } else {
+      flat.push_back({base, exponent});
+    }
+  };
+  for (auto const& [node, exponent] : factors)
+    if (exponent != 0) take(node, exponent);
+  flat = merged(std::move(flat));
+  if (coefficient == 0 || flat.empty()) return number(coefficient);
+  if (flat.size() == 1 && flat[0].factor == 1) return sum(0, {{flat[0].node, coefficient}});
+  Node result;
+  result.kind = Kind::product;
+  result.terms = std::move(flat);
+  return sum(0, {{keep(std::move(result)), coefficient}});
+}
+
+Expression ExpressionGraph::apply(Operation operation, Expression a, Expression b, Expression c) {
+  int const count = arguments_of(operation);
+  bool const fixed = is_number(a) && (count < 2 || is_number(b)) && (count < 3 || is_number(c));
+  if (fixed)
+    return number(
+        value_of(operation, nodes_[a].number, count > 1 ? nodes_[b].number : 0, count > 2 ? nodes_[c].number : 0));
+  if (operation == Operation::select) {
+    if (is_number(a)) return nodes_[a].number != 0 ? b : c;
+    if (b == c) return b;
+  }
+  if ((operation == Operation::min || operation == Operation::max) && a == b) return a;
+  if (operation == Operation::abs && nodes_[a].never_negative) return a;
+  Node node;
+  node.kind = Kind::operation;
+  node.operation = operation;
+  node.arguments = {a, count > 1 ? b : 0, count > 2 ? c : 0};
+  return keep(std::move(node));
+}
+
+Expression ExpressionGraph::power(Expression a, Expression b) {
+  if (is_number(b) && is_half(nodes_[b].number)) return product({{a, nodes_[b].number}});
+  return apply(Operation::pow, a, b);
+}
+
+Expression ExpressionGraph::derivative(Expression of, std::uint32_t input) {
+  std::unordered_map<Expression, Expression> known;
+  return derive(of, input, known);
+}
+
+Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
+                                   std::unordered_map<Expression, Expression>& known) {
+  if (auto const found = known.find(of); found != known.end()) return found->second;
+  Node const node = nodes_[of];  // a copy: nodes are added below
+  Expression result = 0;
+  switch (node.kind) {
+    case Kind::number:
+      result = number(0);
+      break;
+    case Kind::input:
+      result = number(node.input == input ? 1 : 0);
+      break;
+    case Kind::sum: {
+      std::vector<Term> terms;
+      for (auto const& term : node.terms) terms.push_back({derive(term.node, input, known), term.factor});
+      result = sum(0, terms);
+      break;
+    }
+    case Kind::product: {
+      std::vector<Term> terms;
+      for (std::size_t k = 0; k < node.terms.size(); ++k) {
+        Expression const inside = derive(node.terms[k].node, input, known);
+        if (is_number(inside, 0)) continue;
+        auto factors = node.terms;
+        factors[k].factor -= 1;
+        factors.push_back({inside, 1});
+        terms.push_back({product(factors), node.terms[k].factor});
+      }
+      result = sum(0, terms);
+      break;
+    }
+    case Kind::operation: {
+      auto const [a, b, c] = node.arguments;
+      int const count = arguments_of(node.operation);
+      bool const chooses = node.operation == Operation::select;
+      Expression const zero = number(0), one = number(1);
+      Expression const da = chooses ? zero : derive(a, input, known), db = count > 1 ? derive(b, input, known) : zero,
+                       dc = count > 2 ? derive(c, input, known) : zero;
+      Expression outer = zero;
+      switch (node.operation) {
+        case Operation::exp:
+          outer = of;
+          break;
+        case Operation::log:
+          outer = divide(one, a);
+          break;
+        case Operation::sin:
+          outer = apply(Operation::cos, a);
+          break;
+        case Operation::cos:
+          outer = scale(-1, apply(Operation::sin, a));
+          break;
+        case Operation::tan:
+          outer = sum(1, {{product({{of, 2}}), 1}});
+          break;
+        case Operation::asin:
+          outer = product({{sum(1, {{product({{a, 2}}), -1}}), -0.5}});
+          break;
+        case Operation::acos:
+          outer = scale(-1, product({{sum(1, {{product({{a, 2}}), -1}}), -0.5}}));
+          break;
+        case Operation::atan:
+          outer = product({{sum(1, {{product({{a, 2}}), 1}}), -1}});
+          break;
+        case Operation::sinh:
+          outer = apply(Operation::cosh, a);
+          break;
+        case Operation::cosh:
+          outer = apply(Operation::sinh, a);
+          break;
+        case Operation::tanh:
+          outer = sum(1, {{product({{of, 2}}), -1}});
+          break;
+        case Operation::erf:
+        case Operation::erfc:
+          outer = scale((node.operation == Operation::erf ? 2 : -2) * std::numbers::inv_sqrtpi,
+                        apply(Operation::exp, scale(-1, product({{a, 2}}))));
+          break;
+        case Operation::abs:
+          outer = apply(Operation::select, apply(Operation::less, a, zero), number(-1), one);
+          break;
+        default:
+          break;
+      }
+      switch (node.operation) {
+        case Operation::atan2:
+          result = divide(sum(0, {{multiply(b, da), 1}, {multiply(a, db), -1}}),
+                          sum(0, {{product({{a, 2}}), 1}, {product({{b, 2}}), 1}}));
+          break;
+        case Operation::pow: {
+          Expression const along = multiply(b, multiply(power(a, sum(-1, {{b, 1}})), da));
+          result = is_number(db, 0) ? along : add(along, multiply(of, multiply(apply(Operation::log, a), db)));
+          break;
+        }
+        case Operation::min:
+          result = apply(Operation::select, apply(Operation::less, b, a), db, da);
+          break;
+        case Operation::max:
+          result = apply(Operation::select, apply(Operation::less, a, b), db, da);
+          break;
+        case Operation::select:
+          result = apply(Operation::select, a, db, dc);
+          break;
+        case Operation::floor:
+        case Operation::less:
+        case Operation::less_equal:
+        case Operation::equal:
+          result = zero;
+          break;
+        default:
+          result = is_number(da, 0) ? zero : multiply(outer, da);
+          break;
+      }
+      break;
+    }
+  }
+  known.emplace(of, result);
+  return result;
+}
+
+Expression ExpressionGraph::substitute(Expression in, std::vector<Expression> const& for_inputs) {
+  std::unordered_map<Expression, Expression> known;
+  std::function<Expression(Expression)> const replace = [&](Expression e) -> Expression {
+    if (auto const found = known.find(e); found != known.end()) return found->second;
+    Node const node = nodes_[e];
+    Expression result = e;
+    if (node.kind == Kind::input) {
+      if (node.input < for_inputs.size()) result = for_inputs[node.input];
+    } else if (node.kind == Kind::operation) {
+      int const count = arguments_of(node.operation);
+      Expression const a = replace(node.arguments[0]), b = count > 1 ? replace(node.arguments[1]) : 0,
+                       c = count > 2 ? replace(node.arguments[2]) : 0;
+      result = apply(node.operation, a, b, c);
+    } else if (node.kind != Kind::number) {
+      auto terms = node.terms;
+      for (auto& term : terms) term.node = replace(term.node);
+      result = node.kind == Kind::sum ? sum(node.number, terms) : product(terms);
+    }
+    known.emplace(e, result);
+    return result;
+  };
+  return replace(in);
+}
+
+Expression ExpressionGraph::with_common_powers(Expression of) {
+  std::unordered_map<Expression, Expression> known;
+  return share_powers(of, known);
+}
+
+Expression ExpressionGraph::share_powers(Expression of, std::unordered_map<Expression, Expression>& known) {
+  if (auto const found = known.find(of); found != known.end()) return found->second;
+  Node const node = nodes_[of];
+  Expression result = of;
+  if (node.kind == Kind::operation) {
+    int const count = arguments_of(node.operation);
+    Expression const a = share_powers(node.arguments[0], known),
+                     b = count > 1 ? share_powers(node.arguments[1], known) : 0,
+                     c = count > 2 ? share_powers(node.arguments[2], known) : 0;
+    result = apply(node.operation, a, b, c);
+  } else if (node.kind == Kind::product) {
+    auto terms = node.terms;
+    for (auto& term : terms) term.node = share_powers(term.node, known);
+    result = product(terms);
+  } else if (node.kind == Kind::sum) {
+    // The power of one base, of one sign, that most terms have; the least of it is taken out of all these.
+    std::map<std::pair<Expression, bool>, std::pair<int, double>> shared;
+    std::vector<std::vector<Term>> factors;
+    for (auto const& term : node.terms) {
+      Node const& inside = nodes_[term.node];
+      factors.push_back(inside.kind == Kind::product ? inside.terms : std::vector<Term>{{term.node, 1}});
+      for (auto const& [base, exponent] : factors.back()) {
+        auto& [times, least] = shared[{base, exponent < 0}];
+        least = times++ == 0 ? std::fabs(exponent) : std::min(least, std::fabs(exponent));
+      }
+    }
+    auto best = shared.end();
+    for (auto at = shared.begin(); at != shared.end(); ++at)
+      if (at->second.first > 1 && (best == shared.end() || at->second.first > best->second.first)) best = at;
+    if (best == shared.end()) {
+      auto terms = node.terms;
+      for (auto& term : terms) term.node = share_powers(term.node, known);
+      result = sum(node.number, terms);
+    } else {
+      auto const [base, negative] = best->first;
+      double const out = negative ? -best->second.second : best->second.second;
+      std::vector<Term> inside, rest;
+      for (std::size_t k = 0; k < factors.size(); ++k) {
+        auto const has = std::find_if(factors[k].begin(), factors[k].end(),
+                                      [&](Term const& t) { return t.node == base && (t.factor < 0) == negative; });
+        if (has == factors[k].end()) {
+          rest.push_back(node.terms[k]);
+        } else {
+          has->factor -= out;
+          inside.push_back({product(factors[k]), node.terms[k].factor});
+        }
+      }
+      Expression const left = share_powers(sum(0, inside), known);
+      Expression const taken = product({{share_powers(base, known), out}, {left, 1}});
+      Expression const others = share_powers(sum(node.number, rest), known);
+      result = add(taken, others);
+    }
+  }
+  known.emplace(of, result);
+  return result;
+}
+
+double ExpressionGraph::value(Expression of, std::vector<double> const& inputs) const {
+  std::unordered_map<Expression, double> known;
+  std::function<double(Expression)> const find = [&](Expression e) -> double {
+    if (auto const found = known.find(e); found != known.end()) return found->second;
+    Node const& node = nodes_[e];
+    double result = node.number;
+    switch (node.kind) {
+      case Kind::number:
+        break;
+      case Kind::input:
+        result = inputs.at(node.input);
+        break;
+      case Kind::sum:
+        for (auto const& term : node.terms) result += term.factor * find(term.node);
+        break;
+      case Kind::product:
+        result = 1;
+        for (auto const& term : node.terms) result *= std::pow(find(term.node), term.factor);
+        break;
+      case Kind::operation: {
+        int const count = arguments_of(node.operation);
+        double const a = find(node.arguments[0]), b = count > 1 ? find(node.arguments[1]) : 0,
+                     c = count > 2 ? find(node.arguments[2]) : 0;
+        result = value_of(node.operation, a, b, c);
+        break;
+      }
+    }
+    known.emplace(e, result);
+    return result;
+  };
+  return find(of);
+}
+
+std::vector<std::uint32_t> ExpressionGraph::inputs_of(Expression e) const {
+  std::vector<bool> seen(nodes_.size());
+  std::vector<std::uint32_t> inputs;
+  std::function<void(Expression)> const look = [&](Expression at) {
+    if (seen[at]) return;
+    seen[at] = true;
+    Node const& node = nodes_[at];
+    if (node.kind == Kind::input) inputs.push_back(node.input);
+    for (auto const& term : node.terms) look(term.node);
+    if (node.kind == Kind::operation)
+      for (int k = 0; k < arguments_of(node.operation); ++k) look(node.arguments[static_cast<std::size_t>(k)]);
+  };
+  look(e);
+  std::sort(inputs.begin(), inputs.end());
+  inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
+  return inputs;
+}
+
+}  // namespace boltzmann

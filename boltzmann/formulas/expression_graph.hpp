@@ -1,0 +1,110 @@
+// Expression graphs: numbers that depend on inputs, each expression once, in a normal form; and their derivatives.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace boltzmann {
+
+/// An expression of a graph.
+using Expression = std::uint32_t;
+
+/// What is neither a sum nor a product.
+enum class Operation : std::uint8_t {
+  exp,
+  log,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  sinh,
+  cosh,
+  tanh,
+  erf,
+  erfc,
+  abs,
+  floor,
+  atan2,
+  pow,
+  min,
+  max,
+  less,        ///< comparisons: 1 or 0
+  less_equal,  ///<
+  equal,       ///<
+  select,      ///< select(condition, a, b): a unless the condition is 0
+};
+
+/// How many arguments an operation has.
+int arguments_of(Operation operation);
+
+/// Expressions in normal form: a sum is c + sum c_i x_i, a product is x_1^e_1 x_2^e_2 ... with exponents in halves, and
+/// two expressions of the same form are one. Numbers are folded, equal terms and powers merged; products are not
+/// multiplied out. Error beyond 10,000 expressions.
+class ExpressionGraph {
+ public:
+  /// `node`, times a coefficient in a sum, to an exponent in a product.
+  struct Term {
+    Expression node;
+    double factor;
+    friend bool operator==(Term const&, Term const&) = default;
+  };
+  enum class Kind : std::uint8_t { number, input, sum, product, operation };
+  struct Node {
+    Kind kind = Kind::number;
+    Operation operation = Operation::exp;
+    bool never_negative = false;
+    double number = 0;                             ///< its value; the constant of a sum
+    std::uint32_t input = 0;                       ///< which one
+    std::vector<Term> terms;                       ///< of sums and products, by node
+    std::array<Expression, 3> arguments{0, 0, 0};  ///< of operations
+  };
+
+  Expression number(double value);
+  /// Input `which` (counted by the caller). One that is never negative has powers of powers merged.
+  Expression input(std::uint32_t which, bool never_negative = false);
+  Expression sum(double constant, std::vector<Term> const& terms);
+  Expression product(std::vector<Term> const& factors);
+  Expression apply(Operation operation, Expression a, Expression b = 0, Expression c = 0);
+
+  Expression add(Expression a, Expression b) { return sum(0, {{a, 1}, {b, 1}}); }
+  Expression subtract(Expression a, Expression b) { return sum(0, {{a, 1}, {b, -1}}); }
+  Expression multiply(Expression a, Expression b) { return product({{a, 1}, {b, 1}}); }
+  Expression divide(Expression a, Expression b) { return product({{a, 1}, {b, -1}}); }
+  Expression scale(double c, Expression a) { return sum(0, {{a, c}}); }
+  Expression root(Expression a) { return product({{a, 0.5}}); }
+  /// a^b; exponents that are multiples of one half become products.
+  Expression power(Expression a, Expression b);
+
+  /// By an input. What jumps (floor, comparisons) has the derivative of its pieces, 0.
+  Expression derivative(Expression of, std::uint32_t input);
+  /// With expressions in place of inputs (those beyond the list stay).
+  Expression substitute(Expression in, std::vector<Expression> const& for_inputs);
+  /// Sums with the powers that their terms share taken out: fewer multiplications, the same value but for rounding.
+  Expression with_common_powers(Expression of);
+
+  Node const& node(Expression e) const { return nodes_[e]; }
+  bool is_number(Expression e) const { return nodes_[e].kind == Kind::number; }
+  bool is_number(Expression e, double value) const { return is_number(e) && nodes_[e].number == value; }
+  /// Its value for these inputs.
+  double value(Expression of, std::vector<double> const& inputs) const;
+  /// Which inputs it depends on, sorted.
+  std::vector<std::uint32_t> inputs_of(Expression e) const;
+  std::size_t size() const { return nodes_.size(); }
+
+ private:
+  Expression keep(Node node);
+  Expression derive(Expression of, std::uint32_t input, std::unordered_map<Expression, Expression>& known);
+  Expression share_powers(Expression of, std::unordered_map<Expression, Expression>& known);
+  bool never_negative(Node const& node) const;
+
+  std::vector<Node> nodes_;
+  std::unordered_map<std::string, Expression> known_;
+};
+
+}  // namespace boltzmann

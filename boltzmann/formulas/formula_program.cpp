@@ -1,0 +1,267 @@
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/formulas/formula_program.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+namespace boltzmann {
+namespace {
+
+using Kind = ExpressionGraph::Kind;
+using Term = ExpressionGraph::Term;
+
+/// A value while the program is being written: every step has one of its own.
+struct Value {
+  enum class Place : std::uint8_t { constant, row, column } place = Place::constant;
+  std::uint32_t index = 0;
+  friend auto operator<=>(Value const&, Value const&) = default;
+};
+
+struct Written {
+  Instruction instruction;
+  Operation operation;
+  Value to, a, b, c;
+  int operands;
+};
+
+class Writer {
+ public:
+  Writer(ExpressionGraph& graph, std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row)
+      : graph_(graph) {
+    for (auto const input : columns) inputs_[input] = {Value::Place::column, columns_++};
+    for (auto const input : of_row) inputs_[input] = {Value::Place::row, rows_++};
+    given_columns_ = columns_;
+    given_rows_ = rows_;
+  }
+
+  FormulaProgram write(std::span<Expression const> results) {
+    std::vector<Value> values;
+    for (auto const result : results) values.push_back(value_of(graph_.with_common_powers(result)));
+    return placed(values);
+  }
+
+ private:
+  Value constant(double number) {
+    auto const [place, is_new] = constants_known_.try_emplace(number, constants_.size());
+    if (is_new) constants_.push_back(number);
+    return {Value::Place::constant, static_cast<std::uint32_t>(place->second)};
+  }
+
+  /// What depends on the row alone is a value of the row.
+  Value step(Instruction instruction, Operation operation, int operands, Value a, Value b = {}, Value c = {}) {
+    auto const place = std::max({a.place, operands > 1 ? b.place : a.place, operands > 2 ? c.place : a.place});
+    bool const of_row = place != Value::Place::column;
+    Value const to{of_row ? Value::Place::row : Value::Place::column, of_row ? rows_++ : columns_++};
+    (of_row ? row_steps_ : steps_).push_back({instruction, operation, to, a, b, c, operands});
+    if (row_steps_.size() + steps_.size() > max_steps)
+      throw Error(fmt::format("the formula is too long: more than {} steps", max_steps));
+    return to;
+  }
+  Value multiply(Value a, Value b) { return step(Instruction::multiply, Operation::exp, 2, a, b); }
+
+  Value value_of(Expression e) {
+    if (auto const found = known_.find(e); found != known_.end()) return found->second;
+    auto const node = graph_.node(e);
+    Value value;
+    switch (node.kind) {
+      case Kind::number:
+        value = constant(node.number);
+        break;
+      case Kind::input:
+        value = inputs_.at(node.input);
+        break;
+      case Kind::sum:
+        value = sum_of(node);
+        break;
+      case Kind::product:
+        value = product_of(node.terms, {});
+        break;
+      case Kind::operation: {
+        int const count = arguments_of(node.operation);
+        Value const a = value_of(node.arguments[0]), b = count > 1 ? value_of(node.arguments[1]) : Value{},
+                    c = count > 2 ? value_of(node.arguments[2]) : Value{};
+        value = step(Instruction::function, node.operation, count, a, b, c);
+        break;
+      }
+    }
+    known_.emplace(e, value);
+    return value;
+  }
+
+  Value sum_of(ExpressionGraph::Node const& node) {
+    // Row values first, so that they are added up once for the row.
+    struct Part {
+      Value value;
+      double factor;
+    };
+    std::vector<Part> parts;
+    for (auto const& term : node.terms) parts.push_back({value_of(term.node), term.factor});
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](Part const& x, Part const& y) { return x.value.place < y.value.place; });
+    std::optional<Value> total;
+    if (node.number != 0) total = constant(node.number);
+    for (auto const& [value, factor] : parts) {
+      if (!total)
+        total = factor == 1 ? value : multiply(value, constant(factor));
+      else if (factor == 1)
+        total = step(Instruction::add, Operation::exp, 2, *total, value);
+      else if (factor == -1)
+        total = step(Instruction::subtract, Operation::exp, 2, *total, value);
+      else
+        total = step(Instruction::fuse, Operation::exp, 3, value, constant(factor), *total);
+    }
+    return *total;
+  }
+
+  /// base^n, n in halves, by squaring from 1/base, sqrt(base) or 1/sqrt(base).
+  Value power(Expression base, double exponent) {
+    Value const x = value_of(base);
+    bool const half = exponent != std::floor(exponent);
+    int const n = static_cast<int>(std::floor(std::fabs(exponent)));
+    if (exponent > 0 && half) {
+      Value const root = unary(Instruction::root, x);
+      return n == 0 ? root : multiply(whole_power(x, n), root);
+    }
+    if (half) {  // x^(-k/2) of 1/sqrt(x)
+      return whole_power(unary(Instruction::inverse_root, x), 2 * n + 1);
+    }
+    return whole_power(exponent < 0 ? unary(Instruction::reciprocal, x) : x, n);
+  }
+  Value unary(Instruction instruction, Value x) {
+    auto const [place, is_new] = unary_.try_emplace({instruction, x});
+    if (is_new) {
+      Value const made = step(instruction, Operation::exp, 1, x);
+      unary_[{instruction, x}] = made;
+      return made;
+    }
+    return place->second;
+  }
+  Value whole_power(Value x, int n) {
+    if (n == 1) return x;
+    if (auto const found = powers_.find({x, n}); found != powers_.end()) return found->second;
+    Value result;
+    if (n == 3) {
+      result = step(Instruction::multiply3, Operation::exp, 3, x, x, x);
+    } else if (n % 2 == 0) {
+      Value const half = whole_power(x, n / 2);
+      result = multiply(half, half);
+    } else {
+      result = multiply(whole_power(x, n - 1), x);
+    }
+    powers_[{x, n}] = result;
+    return result;
+  }
+
+  Value product_of(std::vector<Term> const& terms, std::optional<Value> start) {
+    std::vector<Value> factors;
+    if (start) factors.push_back(*start);
+    for (auto const& [base, exponent] : terms) factors.push_back(power(base, exponent));
+    std::stable_sort(factors.begin(), factors.end(), [](Value x, Value y) { return x.place < y.place; });
+    Value total = factors[0];
+    for (std::size_t k = 1; k < factors.size();) {
+      bool const three = k + 1 < factors.size() && factors[k + 1].place == Value::Place::column &&
+                         factors[k].place == Value::Place::column;
+      total = three ? step(Instruction::multiply3, Operation::exp, 3, total, factors[k], factors[k + 1])
+                    : multiply(total, factors[k]);
+      k += three ? 2 : 1;
+    }
+    return total;
+  }
+
+  /// Steps that no result needs go; columns are used again when nobody reads them any more.
+  FormulaProgram placed(std::vector<Value> const& results) {
+    FormulaProgram program;
+    program.constants = constants_;
+    program.row_inputs = given_rows_;
+    std::vector<bool> row_needed(rows_), column_needed(columns_);
+    std::vector<std::size_t> last_use(columns_, 0);
+    auto const need = [&](Value v, std::size_t at) {
+      if (v.place == Value::Place::row) row_needed[v.index] = true;
+      if (v.place == Value::Place::column) {
+        column_needed[v.index] = true;
+        last_use[v.index] = std::max(last_use[v.index], at);
+      }
+    };
+    for (auto const result : results) need(result, steps_.size());
+    auto const need_operands = [&](Written const& step, std::size_t at) {
+      need(step.a, at);
+      if (step.operands > 1) need(step.b, at);
+      if (step.operands > 2) need(step.c, at);
+    };
+    for (std::size_t k = steps_.size(); k-- > 0;)
+      if (column_needed[steps_[k].to.index]) need_operands(steps_[k], k);
+    for (std::size_t k = row_steps_.size(); k-- > 0;)
+      if (row_needed[row_steps_[k].to.index]) need_operands(row_steps_[k], 0);
+
+    auto const scalars = constants_.size() + rows_;
+    if (scalars > max_scalars) throw Error("the formula has too many numbers that are the same for a row");
+    program.scalars = scalars;
+    std::vector<std::uint16_t> where(columns_);
+    std::vector<std::uint16_t> free;
+    for (std::uint32_t k = 0; k < given_columns_; ++k) where[k] = static_cast<std::uint16_t>(k);
+    std::size_t used = given_columns_;
+    auto const operand = [&](Value v) -> Operand {
+      if (v.place == Value::Place::column) return {where[v.index], false};
+      return {static_cast<std::uint16_t>(v.place == Value::Place::constant ? v.index : constants_.size() + v.index),
+              true};
+    };
+    auto const put = [&](Written const& step, std::vector<Step>& into) {
+      Operand const a = operand(step.a), b = step.operands > 1 ? operand(step.b) : a,
+                    c = step.operands > 2 ? operand(step.c) : a;
+      into.push_back({step.instruction, step.operation, {}, a, b, c});
+    };
+    for (auto const& step : row_steps_) {
+      if (!row_needed[step.to.index]) continue;
+      put(step, program.row_steps);
+      program.row_steps.back().to = operand(step.to);
+    }
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      auto const& step = steps_[k];
+      if (!column_needed[step.to.index]) continue;
+      put(step, program.steps);
+      // An operand that is read here for the last time leaves its column to the result. Inputs stay: they are read
+      // again by the sums.
+      std::vector<std::uint32_t> ending;
+      auto const ends = [&](Value v, int which) {
+        if (which < step.operands && v.place == Value::Place::column && v.index >= given_columns_ &&
+            last_use[v.index] == k && std::find(ending.begin(), ending.end(), v.index) == ending.end())
+          ending.push_back(v.index);
+      };
+      ends(step.a, 0), ends(step.b, 1), ends(step.c, 2);
+      for (auto const index : ending) free.push_back(where[index]);
+      if (free.empty()) free.push_back(static_cast<std::uint16_t>(used++));
+      where[step.to.index] = free.back();
+      free.pop_back();
+      if (used > max_columns) throw Error(fmt::format("the formula has more than {} numbers at a time", max_columns));
+      program.steps.back().to = operand(step.to);
+    }
+    program.columns = used;
+    for (auto const result : results) program.results.push_back(operand(result));
+    return program;
+  }
+
+  ExpressionGraph& graph_;
+  std::unordered_map<std::uint32_t, Value> inputs_;
+  std::unordered_map<Expression, Value> known_;
+  std::map<std::pair<Instruction, Value>, Value> unary_;
+  std::map<std::pair<Value, int>, Value> powers_;
+  std::map<double, std::size_t> constants_known_;
+  std::vector<double> constants_;
+  std::vector<Written> row_steps_, steps_;
+  std::uint32_t columns_ = 0, rows_ = 0, given_columns_ = 0, given_rows_ = 0;
+};
+
+}  // namespace
+
+FormulaProgram make_program(ExpressionGraph& graph, std::span<Expression const> results,
+                            std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row) {
+  if (columns.size() > max_columns) throw Error(fmt::format("the formula reads more than {} fields", max_columns));
+  return Writer(graph, columns, of_row).write(results);
+}
+
+}  // namespace boltzmann

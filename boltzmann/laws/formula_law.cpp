@@ -1,0 +1,294 @@
+// From the text of a law to programs: names and fields become inputs, energies are differentiated.
+#include <boltzmann/formulas/formula_reader.hpp>
+#include <boltzmann/laws/formula_law.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+/// What acts on particles of this ensemble: a force, or the velocity of a flow.
+Dimension influence_dimension(AnyEnsemble const& ensemble) {
+  return ensemble.find_field("mass") && ensemble.find_field("velocity") ? dimensions::force : dimensions::velocity;
+}
+
+class Maker {
+ public:
+  Maker(FormulaLaw const& law, AnyEnsemble const& target) : law_(law), target_(target), dimension_(target.dimension()) {
+    names_.base = law.base;
+    names_.checked = !law.base.is_reduced();
+    if (target.influence_size() != static_cast<std::size_t>(dimension_))
+      throw FormulaLawError(
+          "", 0,
+          fmt::format("what acts on particles of class {} is more than a vector; a formula gives a vector",
+                      target.class_name()));
+  }
+
+  PairProgram pairs(AnyEnsemble const& source, FormulaLaw::Target part) {
+    bool const is_p = part == FormulaLaw::Target::p;
+    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
+    FormulaValue separation;
+    separation.is_vector = true;
+    separation.dimension = dimension_of(dimensions::length);
+    for (std::uint32_t c = 0; c < D; ++c) {
+      Expression const d = graph_.input(c);
+      separation.components.push_back(is_p ? d : graph_.scale(-1, d));
+    }
+    square_ = graph_.input(D, true);
+    next_ = D + 1;
+    names_.values["separation"] = separation;
+    names_.values["r"] = {{graph_.root(square_)}, dimension_of(dimensions::length), false, false};
+    auto const of_target = add_fields(target_, is_p ? "p." : "q.", false);
+    auto const of_source = add_fields(source, is_p ? "q." : "p.", false);
+    auto const p = names_.values.find("p.velocity"), q = names_.values.find("q.velocity");
+    if (p != names_.values.end() && q != names_.values.end()) {
+      FormulaValue relative = q->second;
+      for (std::uint32_t c = 0; c < D; ++c)
+        relative.components[c] = graph_.subtract(relative.components[c], p->second.components[c]);
+      names_.values["velocity"] = relative;
+    }
+    FormulaValue const value = read();
+    PairProgram program;
+    std::vector<Expression> results;
+    Expression energy = 0;
+    if (law_.gives == FormulaLaw::Gives::energy) {
+      need(value, dimensions::energy, "an energy");
+      energy = value.components[0];
+      if (&source == &target_) check_symmetry(energy, of_target, of_source);
+      results = forces_of(energy, program.along);
+      program.has_energy = true;
+      program.antisymmetric = true;
+    } else {
+      Dimension const wanted = influence_dimension(target_);
+      need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
+      program.along = !value.is_vector;
+      results = value.components;
+      // A positive number pushes p away from q.
+      if (program.along) results[0] = graph_.scale(-1, graph_.product({{results[0], 1}, {square_, -0.5}}));
+      program.antisymmetric = &source == &target_ && is_antisymmetric(results, program.along, of_target, of_source);
+    }
+    std::vector<Expression> measured = results;
+    if (program.has_energy) measured.push_back(energy);
+    std::vector<std::uint32_t> columns, rows;
+    for (std::uint32_t c = 0; c <= D; ++c) columns.push_back(c);
+    program.of_q = choose(measured, of_source, columns);
+    program.of_p = choose(measured, of_target, rows);
+    program.influence = make_program(graph_, results, columns, rows);
+    program.measure = make_program(graph_, measured, columns, rows);
+    program.velocity_dependent = reads(target_, program.of_p, "velocity") || reads(source, program.of_q, "velocity");
+    return program;
+  }
+
+  ExternalProgram external() {
+    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
+    next_ = 0;
+    auto const fields = add_fields(target_, "", true);
+    auto const position = names_.values.find("position");
+    for (std::uint32_t c = 0; c < D; ++c)
+      names_.values[std::string(1, "xyz"[c])] = {
+          {position->second.components[c]}, position->second.dimension, false, false};
+    std::uint32_t const time = next_++;
+    names_.values["time"] = {{graph_.input(time)}, dimension_of(dimensions::time), false, false};
+    FormulaValue const value = read();
+    ExternalProgram program;
+    std::vector<Expression> results;
+    Expression energy = 0;
+    if (law_.gives == FormulaLaw::Gives::energy) {
+      need(value, dimensions::energy, "an energy");
+      energy = value.components[0];
+      for (std::uint32_t c = 0; c < D; ++c) results.push_back(graph_.scale(-1, graph_.derivative(energy, c)));
+      program.has_energy = true;
+    } else {
+      Dimension const wanted = influence_dimension(target_);
+      need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
+      if (!value.is_vector && D > 1)
+        throw FormulaLawError("", 0, fmt::format("a vector is needed, [..., ...], of {} numbers", D));
+      results = value.components;
+    }
+    std::vector<Expression> measured = results;
+    if (program.has_energy) measured.push_back(energy);
+    std::vector<std::uint32_t> columns;
+    std::vector<std::uint32_t> const rows{time};
+    program.of_p = choose(measured, fields, columns);
+    program.influence = make_program(graph_, results, columns, rows);
+    program.measure = make_program(graph_, measured, columns, rows);
+    program.velocity_dependent = reads(target_, program.of_p, "velocity");
+    for (auto const e : measured) {
+      auto const inputs = graph_.inputs_of(e);
+      program.depends_on_time = program.depends_on_time || std::binary_search(inputs.begin(), inputs.end(), time);
+    }
+    return program;
+  }
+
+ private:
+  /// One number of a row, and the input that stands for it.
+  struct RowInput {
+    int offset;
+    std::uint32_t input;
+  };
+
+  Dimension dimension_of(Dimension dimension) const { return names_.checked ? dimension : Dimension{}; }
+
+  std::vector<RowInput> add_fields(AnyEnsemble const& ensemble, std::string const& prefix, bool with_position) {
+    std::vector<RowInput> inputs;
+    for (auto const& field : ensemble.fields()) {
+      if (field.name == "position" && !with_position) continue;
+      bool const vector =
+          field.components == dimension_ && (dimension_ > 1 || field.name == "position" || field.name == "velocity");
+      if (field.components != 1 && !vector) continue;
+      FormulaValue value;
+      value.is_vector = vector;
+      value.dimension = dimension_of(field.dimension);
+      for (int c = 0; c < field.components; ++c) {
+        value.components.push_back(graph_.input(next_));
+        inputs.push_back({field.offset + c, next_++});
+      }
+      names_.values[prefix + field.name] = value;
+    }
+    return inputs;
+  }
+
+  FormulaValue read() {
+    auto const taken = [&](std::string const& name) { return names_.values.contains(name) || name == "pi"; };
+    for (auto const& parameter : law_.parameters) {
+      if (taken(parameter.name))
+        throw FormulaLawError(parameter.name, 0,
+                              fmt::format("'{}' means something else in a formula already", parameter.name));
+      names_.values[parameter.name] = {
+          {graph_.number(parameter.value)}, dimension_of(parameter.dimension), false, false};
+    }
+    for (auto const& part : law_.where) {
+      if (taken(part.name))
+        throw FormulaLawError(part.name, 0, fmt::format("'{}' means something else in a formula already", part.name));
+      names_.values[part.name] = read_text(part.name, part.text);
+    }
+    return read_text("", law_.text);
+  }
+  FormulaValue read_text(std::string const& part, std::string const& text) {
+    try {
+      return read_formula_text(text, names_, dimension_, graph_);
+    } catch (FormulaError const& error) {
+      throw FormulaLawError(part, error.offset, error.what());
+    }
+  }
+
+  void need(FormulaValue const& value, Dimension dimension, char const* what, bool vector = false) const {
+    if (value.is_vector && !vector) throw FormulaLawError("", 0, fmt::format("{} is needed, not a vector", what));
+    if (names_.checked && !(value.dimension == dimension) && !(value.plain && graph_.is_number(value.components[0], 0)))
+      throw FormulaLawError("", 0, fmt::format("{} is needed; this is {}", what, dimension_text(value.dimension)));
+  }
+
+  /// On the target: (source - target) 2 dU/ds, and dU/dd where the energy knows directions.
+  std::vector<Expression> forces_of(Expression energy, bool& along) {
+    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
+    Expression const factor = graph_.scale(2, graph_.derivative(energy, D));
+    std::vector<Expression> direct;
+    along = true;
+    for (std::uint32_t c = 0; c < D; ++c) {
+      direct.push_back(graph_.derivative(energy, c));
+      along = along && graph_.is_number(direct[c], 0);
+    }
+    if (along) return {factor};
+    for (std::uint32_t c = 0; c < D; ++c)
+      direct[c] = graph_.sum(0, {{graph_.multiply(factor, graph_.input(c)), 1}, {direct[c], 1}});
+    return direct;
+  }
+
+  /// Inputs for a pair, and for the same pair seen from the other side.
+  struct Sample {
+    std::vector<double> here, there;
+  };
+  Sample sample(int number, std::vector<RowInput> const& of_target, std::vector<RowInput> const& of_source) const {
+    auto const some = [&](std::uint32_t k) {  // between 0.6 and 1.4
+      double const x = std::fmod((static_cast<double>(k) + 1) * 0.6180339887498949 + number * 0.7548776662466927, 1.0);
+      return 0.6 + 0.8 * x;
+    };
+    Sample result;
+    result.here.resize(next_);
+    result.there.resize(next_);
+    double square = 0;
+    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
+    for (std::uint32_t c = 0; c < D; ++c) {
+      result.here[c] = some(c);
+      result.there[c] = -result.here[c];
+      square += some(c) * some(c);
+    }
+    result.here[D] = result.there[D] = square;
+    for (std::size_t k = 0; k < of_target.size(); ++k) {
+      result.here[of_target[k].input] = result.there[of_source[k].input] = some(of_target[k].input);
+      result.here[of_source[k].input] = result.there[of_target[k].input] = some(of_source[k].input);
+    }
+    return result;
+  }
+  static bool equal(double a, double b) {
+    return (std::isnan(a) && std::isnan(b)) || std::fabs(a - b) <= 1e-10 * (std::fabs(a) + std::fabs(b));
+  }
+  static constexpr int samples = 5;
+
+  void check_symmetry(Expression energy, std::vector<RowInput> const& of_target,
+                      std::vector<RowInput> const& of_source) const {
+    for (int k = 0; k < samples; ++k) {
+      Sample const s = sample(k, of_target, of_source);
+      if (!equal(graph_.value(energy, s.here), graph_.value(energy, s.there)))
+        throw FormulaLawError("", 0,
+                              "the energy of a pair is another one when p and q change places; within one ensemble it "
+                              "must be the same");
+    }
+  }
+  bool is_antisymmetric(std::vector<Expression> const& results, bool along, std::vector<RowInput> const& of_target,
+                        std::vector<RowInput> const& of_source) const {
+    for (int k = 0; k < samples; ++k) {
+      Sample const s = sample(k, of_target, of_source);
+      for (auto const result : results)
+        if (!equal(graph_.value(result, s.here), (along ? 1 : -1) * graph_.value(result, s.there))) return false;
+    }
+    return true;
+  }
+
+  /// Of these inputs those that the expressions read: their offsets, and what they are called, added to `names`.
+  std::vector<int> choose(std::vector<Expression> const& expressions, std::vector<RowInput> const& inputs,
+                          std::vector<std::uint32_t>& names) const {
+    std::vector<std::uint32_t> read;
+    for (auto const e : expressions) {
+      auto const more = graph_.inputs_of(e);
+      read.insert(read.end(), more.begin(), more.end());
+    }
+    std::vector<RowInput> chosen;
+    for (auto const& input : inputs)
+      if (std::find(read.begin(), read.end(), input.input) != read.end()) chosen.push_back(input);
+    std::sort(chosen.begin(), chosen.end(), [](RowInput const& a, RowInput const& b) { return a.offset < b.offset; });
+    std::vector<int> offsets;
+    for (auto const& input : chosen) {
+      offsets.push_back(input.offset);
+      names.push_back(input.input);
+    }
+    return offsets;
+  }
+  static bool reads(AnyEnsemble const& ensemble, std::vector<int> const& offsets, char const* name) {
+    Field const* field = ensemble.find_field(name);
+    return field && std::any_of(offsets.begin(), offsets.end(), [&](int offset) {
+             return offset >= field->offset && offset < field->offset + field->components;
+           });
+  }
+
+  FormulaLaw const& law_;
+  AnyEnsemble const& target_;
+  int dimension_;
+  ExpressionGraph graph_;
+  NamesInFormula names_;
+  Expression square_ = 0;
+  std::uint32_t next_ = 0;
+};
+
+}  // namespace
+
+PairProgram FormulaLaw::between(AnyEnsemble const& target, AnyEnsemble const& source, Target part) const {
+  return Maker(*this, target).pairs(source, part);
+}
+
+ExternalProgram FormulaLaw::on(AnyEnsemble const& target) const { return Maker(*this, target).external(); }
+
+}  // namespace boltzmann

@@ -1,0 +1,67 @@
+// FormulaLaw: a law that somebody types, "4*depth*((sigma/r)^12 - (sigma/r)^6)", as a law like any other.
+#pragma once
+
+#include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/formulas/formula_error.hpp>
+#include <boltzmann/laws/law_program.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+
+/// A number with a name, in the base's units.
+struct FormulaParameter {
+  std::string name;
+  double value = 0;
+  Dimension dimension{};
+};
+
+/// A part of a law with a name of its own, `s = "(sigma/r)^6"`; later parts and the law may use it.
+struct FormulaPart {
+  std::string name, text;
+};
+
+/// What is wrong with a law: in which of its texts (a part's name; empty: the law's own), and where in it.
+struct FormulaLawError : FormulaError {
+  FormulaLawError(std::string the_part, std::size_t at, std::string const& message)
+      : FormulaError(at, message), part(std::move(the_part)) {}
+  std::string part;
+};
+
+/// A law as text. Between two particles it may use r (their distance), separation (q.position - p.position), velocity (of
+/// q relative to p), p.FIELD and q.FIELD for every field of their classes but the position; from outside: x, y, z,
+/// position, time, and the fields by their names. Either it is the energy, of which the influence is the negative
+/// gradient, exactly; or the influence on p itself: a vector, or a number, that pushes p away from q where it is positive.
+/// Dimensions are checked unless the base is reduced.
+struct FormulaLaw {
+  enum class Gives { energy, influence };
+
+  Gives gives = Gives::energy;
+  std::string text;
+  std::vector<FormulaParameter> parameters;
+  std::vector<FormulaPart> where;
+  UnitSystem base = UnitSystem::reduced();
+
+  static FormulaLaw energy(std::string text, std::vector<FormulaParameter> parameters = {},
+                           std::vector<FormulaPart> where = {}, UnitSystem base = UnitSystem::reduced()) {
+    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), base};
+  }
+  static FormulaLaw influence(std::string text, std::vector<FormulaParameter> parameters = {},
+                              std::vector<FormulaPart> where = {}, UnitSystem base = UnitSystem::reduced()) {
+    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), base};
+  }
+
+  /// Which of the formula's particles the target is: in energies between two ensembles p is of the first one, whoever is
+  /// asked about; an influence acts on p.
+  enum class Target { p, q };
+  /// The influence of `source` on `target`. FormulaLawError if a text is wrong, an energy is none, or the energy of two
+  /// particles of one ensemble changes when they change places.
+  PairProgram between(AnyEnsemble const& target, AnyEnsemble const& source, Target part = Target::p) const;
+  /// From outside.
+  ExternalProgram on(AnyEnsemble const& target) const;
+};
+
+}  // namespace boltzmann

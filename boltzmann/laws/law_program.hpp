@@ -1,0 +1,31 @@
+// Laws that are formulas, ready to be run: programs, and which fields of the particles they read.
+#pragma once
+
+#include <boltzmann/formulas/formula_program.hpp>
+
+#include <vector>
+
+namespace boltzmann {
+
+/// A law between p and q as programs. Their columns are the components of q.position - p.position, its square, and then
+/// these fields of q; the values of a row are these fields of p. A result multiplies q.position - p.position, or there is
+/// one for each of its components; the measuring program has the energy behind it, if there is one.
+struct PairProgram {
+  FormulaProgram influence, measure;
+  std::vector<int> of_p, of_q;  ///< where fields stand in a row, in doubles; sorted
+  bool along = true;            ///< on the line of centres
+  bool has_energy = false;
+  bool antisymmetric = false;
+  bool velocity_dependent = false;
+};
+
+/// An influence from outside. Columns are these fields of a particle; the value of a row is the time. There is a result
+/// for each component, and of the measuring program the energy.
+struct ExternalProgram {
+  FormulaProgram influence, measure;
+  std::vector<int> of_p;
+  bool has_energy = false;
+  bool velocity_dependent = false, depends_on_time = false;
+};
+
+}  // namespace boltzmann

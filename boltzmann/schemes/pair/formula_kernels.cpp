@@ -1,0 +1,23 @@
+// The kernels of laws that are formulas, for one instruction set.
+#include <boltzmann/core/kernel_unit.hpp>
+#include <boltzmann/schemes/pair/over_columns.hpp>
+
+namespace boltzmann {
+namespace detail {
+
+template <InstructionSet set>
+struct FormulaTable {
+  static constexpr int W = native_width<double>;
+  static constexpr FormulaKernelTable table{
+      {formula_pair_kernels<W, 1>(), formula_pair_kernels<W, 2>(), formula_pair_kernels<W, 3>()},
+      {formula_external_kernels<W, 1>(), formula_external_kernels<W, 2>(), formula_external_kernels<W, 3>()}};
+};
+
+}  // namespace detail
+
+template <>
+FormulaKernelTable const& formula_kernels<this_set>() {
+  return detail::FormulaTable<this_set>::table;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,66 @@
+// Laws that are formulas in a pair scheme: from their programs to the kernels of the instruction set in use.
+#include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/schemes/pair/formula_kernels.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+
+namespace boltzmann {
+namespace {
+
+std::size_t index_of_dimension(AnyEnsemble const& ensemble) {
+  return static_cast<std::size_t>(ensemble.dimension() - 1);
+}
+
+FormulaKernelTable const& kernels() {
+  return for_instruction_set(
+      [](auto set) -> FormulaKernelTable const& { return formula_kernels<decltype(set)::value>(); });
+}
+
+struct ReadyPairs {
+  PairKernels kernels;
+  PairScheme::LawPointer law;
+  PairScheme::LawTraits traits;
+
+  ReadyPairs(PairProgram program, AnyEnsemble const& target)
+      : kernels(boltzmann::kernels().pairs[index_of_dimension(target)]) {
+    kernels.has_energy = program.has_energy;
+    traits.velocity_dependent = program.velocity_dependent;
+    traits.antisymmetric = program.antisymmetric;
+    law = std::make_shared<PairProgram>(std::move(program));
+  }
+};
+
+}  // namespace
+
+void PairScheme::one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff) {
+  ReadyPairs const ready(law.between(target, source), target);
+  add_pairs(target, source, ready.kernels, ready.law, ready.traits, cutoff);
+}
+
+void PairScheme::internal(AnyEnsemble& ensemble, FormulaLaw const& law, double cutoff) {
+  one_way(ensemble, ensemble, law, cutoff);
+}
+
+void PairScheme::between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law, double cutoff) {
+  // An energy is one for both; an influence is that of the other one on p, whichever p is.
+  auto const part = law.gives == FormulaLaw::Gives::energy ? FormulaLaw::Target::q : FormulaLaw::Target::p;
+  ReadyPairs const on_a(law.between(a, b), a), on_b(law.between(b, a, part), b);
+  add_pairs(a, b, on_a.kernels, on_a.law, on_a.traits, cutoff);
+  add_pairs(b, a, on_b.kernels, on_b.law, on_b.traits, cutoff);
+}
+
+void PairScheme::connect(AnyEnsemble& ensemble, std::vector<Connection> const& connections, FormulaLaw const& law) {
+  ReadyPairs const ready(law.between(ensemble, ensemble), ensemble);
+  add_connections(ensemble, connections, ready.kernels, ready.law, ready.traits);
+}
+
+void PairScheme::external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vector<std::uint32_t> const* only) {
+  ExternalProgram program = law.on(ensemble);
+  ExternalKernels kernels = boltzmann::kernels().externals[index_of_dimension(ensemble)];
+  kernels.has_energy = program.has_energy;
+  kernels.depends_on_time = program.depends_on_time;
+  LawTraits traits;
+  traits.velocity_dependent = program.velocity_dependent;
+  add_external(ensemble, kernels, std::make_shared<ExternalProgram>(std::move(program)), traits, only);
+}
+
+}  // namespace boltzmann

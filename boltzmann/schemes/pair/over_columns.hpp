@@ -1,0 +1,289 @@
+// The traversals of laws that are formulas: a row's partners become columns, a program is run on them, and what it gives
+// is masked and summed in the order of the lanes. For kernel units.
+#pragma once
+
+#include <boltzmann/formulas/evaluate.hpp>
+#include <boltzmann/schemes/pair/formula_kernels.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace boltzmann::detail {
+
+/// Pairs at one place have this square of their distance, so that a law without a singularity there has a value, and
+/// times their separation, zero, no influence.
+inline constexpr double least_square = 1e-280;
+
+/// A row's sums. The columns of the workspace hold what PairProgram says; a pair that does not count has a square that is
+/// NaN.
+template <Pass pass, int W, int D>
+class ColumnSum {
+ public:
+  using Real = Pack<double, W>;
+
+  ColumnSum() {
+    for (auto& x : influence_) x = Real(0.0);
+    for (auto& x : virial_) x = Real(0.0);
+  }
+
+  void add(PairProgram const& law, Workspace<W>& work, std::size_t packs, double cutoff2, Real rounding,
+           double zero_at) {
+    FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
+    run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+    Real const zero = 0.0;
+    double const *result[D + 1], *d[D];
+    std::size_t stride[D + 1];
+    std::size_t const results = program.results.size();
+    for (std::size_t r = 0; r < results; ++r) {
+      result[r] = work.place(program.results[r]);
+      stride[r] = stride_of<W>(program.results[r]);
+    }
+    for (std::size_t c = 0; c < D; ++c) d[c] = work.column(c);
+    double* const square = work.column(D);
+    for (std::size_t k = 0; k < packs; ++k) {
+      auto const valid = load_pack<W>(square + k * W) < cutoff2;
+      Real const first = load_pack<W>(result[0] + k * stride[0]);
+      Real influence[D];
+      for (std::size_t c = 0; c < D; ++c) {
+        Real x = law.along ? first * load_pack<W>(d[c] + k * W) : load_pack<W>(result[c] + k * stride[c]);
+        x = select(valid, x, zero);
+        if constexpr (pass == Pass::reversible) x = (x + rounding) - rounding;
+        influence[c] = x;
+        influence_[c] += x;
+      }
+      if constexpr (pass == Pass::measure)
+        for (std::size_t a = 0; a < D; ++a) {
+          Real const r = select(valid, load_pack<W>(d[a] + k * W), zero);
+          for (std::size_t b = 0; b < D; ++b) virial_[a * D + b] += r * influence[b];
+        }
+    }
+    if constexpr (pass == Pass::measure) {
+      if (!law.has_energy) return;
+      double const* const energy = result[results - 1];
+      std::size_t const step = stride[results - 1];
+      for (std::size_t k = 0; k < packs; ++k)
+        energy_ += select(load_pack<W>(square + k * W) < cutoff2, load_pack<W>(energy + k * step), zero);
+      if (!(zero_at > 0)) return;
+      // The energy at the cut-off, in the same direction, is no part of it.
+      for (std::size_t k = 0; k < packs; ++k) {
+        Real const s = load_pack<W>(square + k * W), stretched = zero_at * rsqrt(s);
+        auto const valid = s < cutoff2;
+        for (std::size_t c = 0; c < D; ++c)
+          store_pack<W>(work.column(c) + k * W, load_pack<W>(d[c] + k * W) * stretched);
+        store_pack<W>(square + k * W,
+                      select(valid, Real(zero_at * zero_at), Real(std::numeric_limits<double>::quiet_NaN())));
+      }
+      run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+      for (std::size_t k = 0; k < packs; ++k) {
+        Real const s = load_pack<W>(square + k * W);
+        energy_ -= select(s == s, load_pack<W>(energy + k * step), zero);
+      }
+    }
+  }
+
+  void store(PairTask const& task, std::size_t particle, bool overwrite) const {
+    if constexpr (pass == Pass::measure) {
+      task.energy[particle] += 0.5 * sum(energy_);
+      for (std::size_t a = 0; a < D; ++a)
+        for (std::size_t b = 0; b < D; ++b) task.virial[9 * particle + 3 * a + b] -= 0.5 * sum(virial_[a * D + b]);
+    } else {
+      for (std::size_t c = 0; c < D; ++c) {
+        double& total = task.influence[particle * D + c];
+        total = overwrite ? sum(influence_[c]) : total + sum(influence_[c]);
+      }
+    }
+  }
+
+ private:
+  Real influence_[D];
+  Real energy_ = Real(0.0);
+  Real virial_[D * D];
+};
+
+/// The fields of p, and what follows from these alone. `field(offset)` is the number that stands there.
+template <int W, class FieldOf>
+void begin_row(PairProgram const& law, FormulaProgram const& program, Workspace<W>& work, FieldOf const& field) {
+  for (std::size_t k = 0; k < law.of_p.size(); ++k)
+    work.set_scalar(program.first_row_input() + k, field(static_cast<std::size_t>(law.of_p[k])));
+  run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
+}
+
+template <Pass pass, int W, int D>
+void formula_over_list(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
+  using Real = Pack<double, W>;
+  auto const& law = *static_cast<PairProgram const*>(the_law);
+  FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
+  Workspace<W> work;
+  work.set_constants(program);
+  std::size_t const blocks = task.source_block_stride;
+  for (std::size_t i = begin; i < end; ++i) {
+    double const* const p = task.target + row_block * i;
+    begin_row<W>(law, program, work, [&](std::size_t offset) {
+      return p[offset / row_block * task.target_block_stride + offset % row_block];
+    });
+    ColumnSum<pass, W, D> sum;
+    for (std::size_t from = 0; from < task.length[i]; from += block_pairs) {
+      std::uint32_t const* const j = task.row[i] + from;
+      std::size_t const left = task.length[i] - from, count = left < block_pairs ? left : block_pairs;
+      std::size_t const packs = (count + W - 1) / W;  // entries behind the last one point to no particle
+      for (std::size_t k = 0; k < packs; ++k) {
+        Pack<double, W> q[row_block];
+        transpose_block<W>([&](int lane) { return task.source + j[k * W + static_cast<std::size_t>(lane)]; }, 0, q, D);
+        Real square = 0.0;
+        for (std::size_t c = 0; c < D; ++c) {
+          Real const d = q[c] - p[c];
+          store_pack<W>(work.column(c) + k * W, d);
+          square = square + d * d;
+        }
+        store_pack<W>(work.column(D) + k * W, max(square, Real(least_square)));
+      }
+      // Blocks of q's rows, one after the other; a field of the block at hand gets its column.
+      for (std::size_t f = 0; f < law.of_q.size();) {
+        std::size_t const block = static_cast<std::size_t>(law.of_q[f]) / row_block;
+        std::size_t last = f + 1;
+        while (last < law.of_q.size() && static_cast<std::size_t>(law.of_q[last]) / row_block == block) ++last;
+        for (std::size_t k = 0; k < packs; ++k) {
+          Pack<double, W> q[row_block];
+          transpose_block<W>([&](int lane) { return task.source + j[k * W + static_cast<std::size_t>(lane)]; },
+                             block * blocks, q, row_block);
+          for (std::size_t g = f; g < last; ++g)
+            store_pack<W>(work.column(D + 1 + g) + k * W, q[static_cast<std::size_t>(law.of_q[g]) % row_block]);
+        }
+        f = last;
+      }
+      sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at);
+    }
+    sum.store(task, task.order ? task.order[i] : i, task.overwrite);
+  }
+}
+
+/// Sources become columns a block at a time, and every target of the range meets them.
+template <Pass pass, int W, int D>
+void formula_over_all(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
+  using Real = Pack<double, W>;
+  auto const& law = *static_cast<PairProgram const*>(the_law);
+  FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
+  Workspace<W> work;
+  work.set_constants(program);
+  alignas(64) double at[D][block_pairs];
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  std::size_t from = 0;
+  do {
+    std::size_t const count = task.sources - from < block_pairs ? task.sources - from : block_pairs;
+    std::size_t const packs = (count + W - 1) / W;
+    for (std::size_t k = 0; k < packs * W; ++k) {
+      double const* const q = task.source + (from + (k < count ? k : 0)) * task.source_row_stride;
+      for (std::size_t c = 0; c < D; ++c) at[c][k] = k < count ? q[c] : nan;
+      for (std::size_t f = 0; f < law.of_q.size(); ++f) work.column(D + 1 + f)[k] = count > 0 ? q[law.of_q[f]] : nan;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      double const* const p = task.target + i * task.target_row_stride;
+      begin_row<W>(law, program, work, [&](std::size_t offset) { return p[offset]; });
+      for (std::size_t k = 0; k < packs; ++k) {
+        Real square = 0.0;
+        for (std::size_t c = 0; c < D; ++c) {
+          Real const d = load_pack<W>(at[c] + k * W) - p[c];
+          store_pack<W>(work.column(c) + k * W, d);
+          square = square + d * d;
+        }
+        store_pack<W>(work.column(D) + k * W, max(square, Real(least_square)));
+      }
+      if (task.same && i >= from && i < from + count) work.column(D)[i - from] = nan;
+      ColumnSum<pass, W, D> sum;
+      sum.add(law, work, packs, std::numeric_limits<double>::infinity(), Real(0.0), task.zero_at);
+      sum.store(task, i, task.overwrite && from == 0);
+    }
+    from += block_pairs;
+  } while (from < task.sources);
+}
+
+template <Pass pass, int W, int D>
+void formula_over_connections(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
+  using Real = Pack<double, W>;
+  auto const& law = *static_cast<PairProgram const*>(the_law);
+  FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
+  Workspace<W> work;
+  work.set_constants(program);
+  constexpr double to_integer = 6755399441055744.0;  // 3/2 2^52
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = begin; i < end; ++i) {
+    double const* const p = task.target + i * task.target_row_stride;
+    begin_row<W>(law, program, work, [&](std::size_t offset) { return p[offset]; });
+    ColumnSum<pass, W, D> sum;
+    std::size_t last = task.start[i];
+    while (last < task.start[i + 1] && task.index[last] != i) ++last;  // its own number ends a list
+    for (std::size_t from = task.start[i]; from < last; from += block_pairs) {
+      std::size_t const left = last - from, count = left < block_pairs ? left : block_pairs;
+      std::size_t const packs = (count + W - 1) / W;
+      for (std::size_t k = 0; k < packs * W; ++k) {
+        double const* const q = task.source + task.index[from + (k < count ? k : 0)] * task.target_row_stride;
+        double square = 0;
+        for (std::size_t c = 0; c < D; ++c) {
+          double d = q[c] - p[c];
+          d -= ((d * task.inverse_period[c] + to_integer) - to_integer) * task.period[c];
+          work.column(c)[k] = d;
+          square += d * d;
+        }
+        work.column(D)[k] = k < count ? (square < least_square ? least_square : square) : nan;
+        for (std::size_t f = 0; f < law.of_q.size(); ++f) work.column(D + 1 + f)[k] = q[law.of_q[f]];
+      }
+      sum.add(law, work, packs, std::numeric_limits<double>::infinity(), Real(0.0), task.zero_at);
+    }
+    sum.store(task, i, task.overwrite);
+  }
+}
+
+template <Pass pass, int W, int D>
+void formula_over_particles(void const* the_law, ExternalTask const& task, std::size_t begin, std::size_t end) {
+  auto const& law = *static_cast<ExternalProgram const*>(the_law);
+  FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
+  if (pass == Pass::measure && !law.has_energy) return;
+  Workspace<W> work;
+  work.set_constants(program);
+  work.set_scalar(program.first_row_input(), task.time);
+  run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
+  for (std::size_t from = begin; from < end; from += block_pairs) {
+    std::size_t const count = end - from < block_pairs ? end - from : block_pairs, packs = (count + W - 1) / W;
+    for (std::size_t k = 0; k < packs * W; ++k) {
+      std::size_t const n = from + (k < count ? k : 0), i = task.only ? task.only[n] : n;
+      for (std::size_t f = 0; f < law.of_p.size(); ++f)
+        work.column(f)[k] = task.rows[i * task.row_stride + static_cast<std::size_t>(law.of_p[f])];
+    }
+    run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+    auto const result = [&](std::size_t r, std::size_t k) {
+      Operand const operand = program.results[r];
+      return operand.scalar ? work.place(operand)[0] : work.place(operand)[k];
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      std::size_t const i = task.only ? task.only[from + k] : from + k;
+      if constexpr (pass == Pass::measure) {
+        task.energy[i] += result(program.results.size() - 1, k);
+      } else {
+        for (std::size_t c = 0; c < D; ++c) task.influence[i * D + c] += result(c, k);
+      }
+    }
+  }
+}
+
+template <int W, int D>
+constexpr PairKernels formula_pair_kernels() {
+  PairKernels kernels;
+  kernels.list = formula_over_list<Pass::influence, W, D>;
+  kernels.list_reversible = formula_over_list<Pass::reversible, W, D>;
+  kernels.list_measure = formula_over_list<Pass::measure, W, D>;
+  kernels.all = formula_over_all<Pass::influence, W, D>;
+  kernels.all_measure = formula_over_all<Pass::measure, W, D>;
+  kernels.connected = formula_over_connections<Pass::influence, W, D>;
+  kernels.connected_measure = formula_over_connections<Pass::measure, W, D>;
+  return kernels;
+}
+template <int W, int D>
+constexpr ExternalKernels formula_external_kernels() {
+  ExternalKernels kernels;
+  kernels.influence = formula_over_particles<Pass::influence, W, D>;
+  kernels.measure = formula_over_particles<Pass::measure, W, D>;
+  return kernels;
+}
+
+}  // namespace boltzmann::detail
