@@ -274,12 +274,12 @@ class Reader {
       if (next < text_.size() && (text_[next] == '/' || text_[next] == '*')) ++next;
       while (next < text_.size() && text_[next] == ' ') ++next;
     }
-    if (names_.base.is_reduced())
+    if (names_.units.is_reduced())
       throw FormulaError(begin, fmt::format("'{}': the scenario has pure numbers, without units",
                                             quoted(text_.substr(begin, end - begin))));
     at_ = end;
     skip();
-    result = pure(graph_.number(names_.base.from_si(value * unit->si, unit->dimension)));
+    result = pure(graph_.number(names_.units.from_si(value * unit->si, unit->dimension)));
     result.dimension = names_.checked ? unit->dimension : Dimension{};
   }
   /// The end of a unit and its exponent.

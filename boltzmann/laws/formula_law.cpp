@@ -18,8 +18,8 @@ Dimension influence_dimension(AnyEnsemble const& ensemble) {
 class Maker {
  public:
   Maker(FormulaLaw const& law, AnyEnsemble const& target) : law_(law), target_(target), dimension_(target.dimension()) {
-    names_.base = law.base;
-    names_.checked = !law.base.is_reduced();
+    names_.units = law.units;
+    names_.checked = !law.units.is_reduced();
     if (target.influence_size() != static_cast<std::size_t>(dimension_))
       throw FormulaLawError(
           "", 0,

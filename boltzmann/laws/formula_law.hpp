@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-/// A number with a name, in the base's units.
+/// A number with a name, in the simulation's units.
 struct FormulaParameter {
   std::string name;
   double value = 0;
@@ -35,7 +35,7 @@ struct FormulaLawError : FormulaError {
 /// q relative to p), p.FIELD and q.FIELD for every field of their classes but the position; from outside: x, y, z,
 /// position, time, and the fields by their names. Either it is the energy, of which the influence is the negative
 /// gradient, exactly; or the influence on p itself: a vector, or a number, that pushes p away from q where it is positive.
-/// Dimensions are checked unless the base is reduced.
+/// Dimensions are checked unless units are reduced.
 struct FormulaLaw {
   enum class Gives { energy, influence };
 
@@ -43,15 +43,15 @@ struct FormulaLaw {
   std::string text;
   std::vector<FormulaParameter> parameters;
   std::vector<FormulaPart> where;
-  UnitSystem base = UnitSystem::reduced();
+  UnitSystem units = UnitSystem::reduced();
 
   static FormulaLaw energy(std::string text, std::vector<FormulaParameter> parameters = {},
-                           std::vector<FormulaPart> where = {}, UnitSystem base = UnitSystem::reduced()) {
-    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), base};
+                           std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
+    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), units};
   }
   static FormulaLaw influence(std::string text, std::vector<FormulaParameter> parameters = {},
-                              std::vector<FormulaPart> where = {}, UnitSystem base = UnitSystem::reduced()) {
-    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), base};
+                              std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
+    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), units};
   }
 
   /// Which of the formula's particles the target is: in energies between two ensembles p is of the first one, whoever is

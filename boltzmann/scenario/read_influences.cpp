@@ -102,7 +102,7 @@ class InfluenceReader {
     on_ = section_.find("on");
     if (!from_outside_) by_ = section_.find("by"), between_ = section_.find("between");
     typed_.gives = by_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
-    typed_.base = reading_.context.base;
+    typed_.units = reading_.context.units;
     auto const text = read_text(*typed_item_, by_energy ? "energy" : "influence", reading_.context);
     if (text) typed_.text = *text;
     read_typed_parameters();
@@ -169,7 +169,7 @@ class InfluenceReader {
       } else if (item.is(Item::Kind::text)) {
         bool const good = catch_errors(reading_, item.place, [&] {
           parameter.dimension = parse_quantity(item.text).dimension;
-          parameter.value = in_base(item.text, parameter.dimension, reading_.context.base);
+          parameter.value = in_units(item.text, parameter.dimension, reading_.context.units);
         });
         if (!good) continue;
         if (reading_.context.recorder) reading_.context.recorder->plain(item, "text");

@@ -13,7 +13,7 @@ namespace {
 
 NamesInFormula names_of(ExpressionGraph& graph, std::vector<std::string> const& names) {
   NamesInFormula all;
-  all.base = UnitSystem::reduced();
+  all.units = UnitSystem::reduced();
   all.checked = false;
   for (std::uint32_t k = 0; k < names.size(); ++k) all.values[names[k]] = {{graph.input(k)}, {}, false, false};
   return all;
@@ -136,7 +136,7 @@ TEST(Expressions, OfLennardJonesTakeSixSteps) {
 TEST(Formulas, SayWhatIsWrongAndWhere) {
   ExpressionGraph graph;
   NamesInFormula names;
-  names.base = UnitSystem::si();
+  names.units = UnitSystem::si();
   names.values["length"] = {{graph.input(0)}, dimensions::length, false, false};
   names.values["energy"] = {{graph.input(1)}, dimensions::energy, false, false};
   names.values["v"] = {{graph.input(2), graph.input(3)}, dimensions::velocity, false, true};
