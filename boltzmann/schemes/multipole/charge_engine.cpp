@@ -100,7 +100,8 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
     measures.reciprocal = reaction;
     measures.driven = !reaction;  // who makes the field works on them
     if (this->any_periodic())
-      measures.no_virial = "multipoles in a periodic box don't have it (P3M does)";
+      measures.no_virial =
+          "multipoles in a periodic box don't have it (P3M does); in 3D, unsoftened, its trace is the potential energy";
     else if (!reaction)
       measures.no_virial = "test particles feel forces that nobody feels in return";
     else

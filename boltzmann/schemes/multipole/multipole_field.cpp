@@ -13,7 +13,6 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t node_grain = 32;
 constexpr std::size_t parallel_visits = 64;
 
 MultipoleKernels kernels_for(int dimension) {
@@ -25,6 +24,9 @@ double pairs_of_a_translation(int dimension, int order) {
   double const p = order;
   return dimension == 3 ? 50 + 4.6 * p * p : 20 + p * p;
 }
+
+/// And as long as the curl of three.
+double pairs_of_a_curl(int order) { return 10.0 * (order + 2) * (order + 2); }
 
 /// And as long as to evaluate one at one particle.
 double pairs_of_an_evaluation(int dimension, int order) {
@@ -72,7 +74,7 @@ struct MultipoleField<Kind>::Workspace {
   std::vector<Point> sources, bare;  ///< bare: of images that are not softened
   /// Of `outside`, for softened laws.
   struct Softened {
-    SofteningMoments moments;
+    std::array<SofteningMoments, Kind::densities> moments;
     std::array<double, 3> centre;
     double square;
   };
@@ -93,6 +95,11 @@ void MultipoleField<Kind>::choose(MultipoleChoice const& choice) {
   choice_ = choice;
   pairs_of_a_translation_ = pairs_of_a_translation(D, choice.order);
   pairs_of_an_evaluation_ = pairs_of_an_evaluation(D, choice.order);
+  if constexpr (has_curl) {
+    pairs_of_a_curl_ = pairs_of_a_curl(choice.order);
+    tables_of_curl_.reset();
+    if (choice.order < highest_expansion_order) tables_of_curl_.emplace(D, choice.order + 1);
+  }
 }
 
 template <class Kind>
@@ -146,13 +153,13 @@ void MultipoleField<Kind>::gather(int threads) {
   auto const& nodes = tree_.nodes();
   moments_.resize(nodes.size() * numbers() / 4);
   acceptance_.start(choice_.order, choice_.error, nodes.size());
+  auto const& branches = tree_.branches();
   int const useful = threads_for(tree_.particles().size(), 4, threads);
-  for_ranges(nodes.size(), node_grain, useful, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (nodes[i].leaf()) gather(i);
+  for_ranges(branches.size(), 1, useful, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      for (std::size_t i = branches[k].end; i-- > branches[k].begin;) gather(i);
   });
-  for (std::size_t i = nodes.size(); i-- > 0;)
-    if (!nodes[i].leaf()) gather(i);
+  for (std::size_t i = branches.empty() ? nodes.size() : branches.front().begin; i-- > 0;) gather(i);
   softest_ = acceptance_.softest2();
 }
 
@@ -238,6 +245,14 @@ bool MultipoleField<Kind>::clear_of(TreeNode const& node, std::array<double, 3> 
   return true;
 }
 
+/// Whether to evaluate the moments of a source at each particle of a target takes less than all pairs.
+template <class Kind>
+bool MultipoleField<Kind>::evaluates_moments(TreeNode const& target, TreeNode const& source) const {
+  if (has_curl && !tables_of_curl_) return false;
+  double const saved = static_cast<double>(source.size()) - pairs_of_an_evaluation_;
+  return static_cast<double>(target.size()) * saved > pairs_of_a_curl_;
+}
+
 /// Sorts those that a node has to meet by what is done with them.
 template <class Kind>
 void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& others, Workspace& work) const {
@@ -252,8 +267,7 @@ void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& 
     bool const leaves = target.leaf() && source.leaf();
     bool const softened = beside_[other.image];
     // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
-    if (evaluates_moments && target.leaf() && target.radius > 1.5 * source.radius &&
-        count(source) > pairs_of_an_evaluation_ &&
+    if (target.leaf() && target.radius > 1.5 * source.radius && evaluates_moments(target, source) &&
         clear_of(target, centre(other), acceptance_.outside(source, other.node, softened)))
       work.outside.push_back(other);
     else if (source.leaf() && source.radius > 1.5 * target.radius && count(target) > pairs_of_an_evaluation_ &&
@@ -382,18 +396,21 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
   double const constant = Kind::constant(law_);
   Softening const softening = Kind::softening(law_);
   work.softened.clear();
-  for (Other const& other : work.outside)
-    if (beside_[other.image])
-      work.softened.push_back({softened_source(other.node, 0), centre(other), acceptance_.softening2(other.node)});
+  for (Other const& other : work.outside) {
+    if (!beside_[other.image]) continue;
+    work.softened.push_back({{}, centre(other), acceptance_.softening2(other.node)});
+    for (int k = 0; k < Kind::densities; ++k) work.softened.back().moments[k] = softened_source(other.node, k);
+  }
   for (std::size_t i = 0; i < target.count; ++i) {
     std::array<double, 3> place{};
     std::copy_n(&target.particles[i].position[0], D, place.begin());
     auto const r = between<D>(target.centre, place);
+    std::array<SofteningCorrection<D>, Kind::densities> corrections;
     Vector<D> fields[Kind::densities];
     for (int k = 0; k < Kind::densities; ++k) {
-      auto correction = visit.softening[k].at(r);
+      auto& correction = corrections[k] = visit.softening[k].at(r);
       for (auto const& source : work.softened)
-        correction.add(softening, source.moments, between<D>(source.centre, place), source.square);
+        correction.add(softening, source.moments[k], between<D>(source.centre, place), source.square);
       fields[k] = correction.slope({}) * -constant;
       if (potential) potential[i] += constant * correction.value({});
     }
@@ -403,7 +420,7 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
       for (int b = 0; b < D; ++b) {
         Vector<D> axis{}, along[Kind::densities];
         axis[b] = 1;
-        for (int k = 0; k < Kind::densities; ++k) along[k] = visit.softening[k].curve(axis) * -constant;
+        for (int k = 0; k < Kind::densities; ++k) along[k] = corrections[k].curve(axis) * -constant;
         auto const change = Kind::velocity(along);
         for (int a = 0; a < D; ++a) slopes[a][b] = change[a];
       }
@@ -436,14 +453,24 @@ void MultipoleField<Kind>::add_local(Cluster const& target, double const* local,
     for (std::size_t i = 0; i < target.count; ++i)
       add_fields({{scratch.field[i * D], scratch.field[i * D + 1]}}, field + i * D);
   } else {
-    // Components of the velocity are harmonic, too: each is evaluated as a potential, with its slope.
     scratch.curl.resize(numbers());
-    curl(tables_.view(), local, tables_.size(), target.radius, scratch.curl.data());
+    curl_of_local(tables_.view(), local, tables_.size(), target.radius, scratch.curl.data());
+    add_curl(target, places, tables_, kernels_.evaluate, field, scratch);
+  }
+}
+
+/// Of the expansions in scratch. Components of the velocity are harmonic, too: each is evaluated as a potential, with its
+/// slope.
+template <class Kind>
+void MultipoleField<Kind>::add_curl(Cluster const& target, NodeParticles const& places, ExpansionTables const& tables,
+                                    decltype(MultipoleKernels::evaluate) evaluate, double* field,
+                                    Scratch& scratch) const {
+  if constexpr (has_curl)
     for (std::size_t a = 0; a < D; ++a) {
       scratch.field.assign(target.count * D, 0.0);
       scratch.value.assign(target.count, 0.0);
-      kernels_.evaluate(tables_.view(), places, scratch.curl.data() + a * tables_.size(), constant,
-                        scratch.field.data(), scratch.value.data());
+      evaluate(tables.view(), places, scratch.curl.data() + a * tables.size(), Kind::constant(law_),
+               scratch.field.data(), scratch.value.data());
       for (std::size_t i = 0; i < target.count; ++i) {
         double* const influence = field + i * Kind::width;
         influence[a] += scratch.value[i];
@@ -452,7 +479,6 @@ void MultipoleField<Kind>::add_local(Cluster const& target, double const* local,
         Kind::add_stretching(law_, target.particles[i].vorticity, static_cast<int>(a), slope, influence + D);
       }
     }
-  }
 }
 
 /// What the moments of a node make at particles outside of it.
@@ -464,13 +490,19 @@ void MultipoleField<Kind>::add_outside(Cluster const& target, Other const& sourc
   about.radius = tree_.nodes()[source.node].radius;
   NodeParticles const places = amounts_of(about, 0, scratch.places);
   double const constant = Kind::constant(law_);
-  if constexpr (Kind::potential)
-    return kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, field, potential);
-  scratch.field.assign(target.count * D, 0.0);
-  kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, scratch.field.data(), nullptr);
-  if constexpr (D == 2)
+  if constexpr (Kind::potential) {
+    kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, field, potential);
+  } else if constexpr (D == 2) {
+    scratch.field.assign(target.count * D, 0.0);
+    kernels_.evaluate_moments(tables_.view(), places, moments(source.node), constant, scratch.field.data(), nullptr);
     for (std::size_t i = 0; i < target.count; ++i)
       add_fields({{scratch.field[i * D], scratch.field[i * D + 1]}}, field + i * D);
+  } else {
+    scratch.curl.resize(Kind::densities * tables_of_curl_->size());
+    curl_of_moments(tables_.view(), moments(source.node), tables_.size(), about.radius, tables_of_curl_->view(),
+                    scratch.curl.data(), tables_of_curl_->size());
+    add_curl(target, places, *tables_of_curl_, kernels_.evaluate_moments, field, scratch);
+  }
 }
 
 template <class Kind>

@@ -71,8 +71,8 @@ class MultipoleField {
   std::size_t bytes() const;
 
  private:
-  /// Slopes of a velocity are of local expansions.
-  static constexpr bool evaluates_moments = Kind::potential || D == 2;
+  /// What is felt of three densities is the curl of their fields.
+  static constexpr bool has_curl = Kind::densities == 3;
 
   /// A node in the box or in an image.
   struct Other {
@@ -114,6 +114,7 @@ class MultipoleField {
   void visit(Visit visit, Workspace& work, std::vector<Visit>& next);
   void visit_below(Visit visit, Workspace& work);
   void meet(std::uint32_t target, std::vector<Other> const& others, Workspace& work) const;
+  bool evaluates_moments(TreeNode const& target, TreeNode const& source) const;
   bool clear_of(TreeNode const& node, std::array<double, 3> const& place, double distance) const;
   std::array<double, 3> centre(Other const& other) const;
   std::array<double, 3> seen_from(Other const& image, std::array<double, 3> const& place) const;
@@ -125,6 +126,8 @@ class MultipoleField {
   void add_local(Cluster const& target, double const* local, double* field, double* potential, Scratch& scratch) const;
   void add_outside(Cluster const& target, Other const& source, double* field, double* potential,
                    Scratch& scratch) const;
+  void add_curl(Cluster const& target, NodeParticles const& places, ExpansionTables const& tables,
+                decltype(MultipoleKernels::evaluate) evaluate, double* field, Scratch& scratch) const;
   void add_backgrounds(Cluster const& target, double* field, double* potential) const;
   void add_near(Law const& law, PairTask const& task, Workspace& work) const;
   void finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work);
@@ -141,6 +144,7 @@ class MultipoleField {
   MultipoleChoice choice_;
   MultipoleKernels kernels_;
   ExpansionTables tables_;
+  std::optional<ExpansionTables> tables_of_curl_;  // of moments; none: its order would be too high
   Tree<typename Kind::Source> tree_;
   std::vector<Block> moments_;
   AcceptanceCriterion<Kind> acceptance_;
@@ -152,7 +156,7 @@ class MultipoleField {
   std::vector<double> sorted_field_, sorted_potential_, field_, potential_;
   std::vector<float> sorted_nearness_, nearness_;
   MultipoleCost cost_;
-  double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0;  // what takes as long
+  double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0, pairs_of_a_curl_ = 0;  // what takes as long
   bool with_potential_ = false, watched_ = false;
 };
 

@@ -85,7 +85,10 @@ void MultipoleScheme::background(bool yes) {
                       "{} is open; without it strengths need not cancel: leave it out",
                       "xyz"[a]));
   if (yes && !law_ && box().dimension() == 3)
-    throw Error("multipoles: vorticity has no uniform background in 3D: what vortices carry has to cancel");
+    throw Error(
+        "multipoles: vorticity has no uniform background in 3D, since the flow would stretch it: what vortices carry "
+        "has "
+        "to cancel");
   background_ = yes;
 }
 
@@ -124,7 +127,7 @@ ErrorSamples MultipoleScheme::choose_samples() const {
 
 std::size_t MultipoleScheme::leaf() const {
   double const digits = digits_of(tolerance_);
-  return box().dimension() == 2 || digits < 4.1 ? 48 : digits < 7.2 ? 64 : 100;
+  return box().dimension() == 2 || digits < 4.1 ? 48 : digits < 7.2 ? 90 : 100;
 }
 
 /// Calculates with an order and a criterion for which the error of the samples is between an eighth of the tolerance and

@@ -54,10 +54,8 @@ std::array<bool, 3> cuts(Ends<D> const& ends, std::size_t count, std::size_t lea
 }  // namespace
 
 template <class P>
-void Tree<P>::surround(TreeNode& node) const {
+void Tree<P>::find_radius(TreeNode& node) const {
   Point const* const first = particles_.data() + node.begin;
-  Ends<D> const ends(first, node.size());
-  for (int a = 0; a < D; ++a) node.centre[a] = 0.5 * ends.low[a] + 0.5 * ends.high[a];
   double furthest = 0;
   for (std::size_t i = 0; i < node.size(); ++i) {
     double square = 0;
@@ -69,18 +67,18 @@ void Tree<P>::surround(TreeNode& node) const {
 }
 
 template <class P>
-void Tree<P>::split(std::size_t number, std::size_t leaf) {
-  TreeNode node = nodes_[number];
+void Tree<P>::split(std::vector<TreeNode>& nodes, std::size_t number, std::size_t leaf) {
+  TreeNode node = nodes[number];
   Point* const first = particles_.data() + node.begin;
   std::size_t const count = node.size();
   Ends<D> const ends(first, count);
+  for (int a = 0; a < D; ++a) node.centre[a] = 0.5 * ends.low[a] + 0.5 * ends.high[a];
+  nodes[number] = node;
   if (count <= leaf || !(ends.longest() > 0)) return;
   auto const cut = cuts(ends, count, leaf);
-  std::array<double, 3> middle{};
-  for (int a = 0; a < D; ++a) middle[a] = 0.5 * ends.low[a] + 0.5 * ends.high[a];
   auto const part = [&](Point const& p) {
     unsigned part = 0;
-    for (int a = 0; a < D; ++a) part |= cut[a] && p.position[a] > middle[a] ? 1U << a : 0U;
+    for (int a = 0; a < D; ++a) part |= cut[a] && p.position[a] > node.centre[a] ? 1U << a : 0U;
     return part;
   };
   std::array<std::uint32_t, 9> begin{};
@@ -96,16 +94,31 @@ void Tree<P>::split(std::size_t number, std::size_t leaf) {
   }
   std::copy_n(other_.data() + node.begin, count, first);
   std::copy_n(other_numbers_.data() + node.begin, count, numbers_.data() + node.begin);
-  node.child = static_cast<std::uint32_t>(nodes_.size());
+  node.child = static_cast<std::uint32_t>(nodes.size());
   for (std::size_t k = 0; k < 8; ++k)
     if (begin[k + 1] > begin[k]) {
       TreeNode child;
       child.begin = node.begin + begin[k];
       child.end = node.begin + begin[k + 1];
-      nodes_.push_back(child);
+      nodes.push_back(child);
       ++node.children;
     }
-  nodes_[number] = node;
+  nodes[number] = node;
+}
+
+/// Of a node makes all that is below it, branch by branch: what a branch holds stays in the cache.
+template <class P>
+std::vector<TreeNode> Tree<P>::branch(TreeNode const& root, std::size_t leaf) {
+  std::vector<TreeNode> nodes{root};
+  std::vector<std::size_t> open{0};
+  while (!open.empty()) {
+    std::size_t const number = open.back();
+    open.pop_back();
+    split(nodes, number, leaf);
+    find_radius(nodes[number]);
+    for (std::size_t k = nodes[number].children; k-- > 0;) open.push_back(nodes[number].child + k);
+  }
+  return nodes;
 }
 
 template <class P>
@@ -116,15 +129,41 @@ void Tree<P>::build(std::vector<Point> particles, std::size_t leaf, int threads)
   numbers_.resize(particles_.size());
   for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = static_cast<std::uint32_t>(i);
   nodes_.clear();
+  branches_.clear();
   TreeNode root;
   root.end = static_cast<std::uint32_t>(particles_.size());
-  if (root.end > 0) nodes_.push_back(root);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) split(i, leaf);
-  for_ranges(nodes_.size(), 64, threads_for(particles_.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) surround(nodes_[i]);
+  if (root.end == 0) return;
+  nodes_.push_back(root);
+  // The uppermost nodes one by one, then branches beside each other: the same of them for any number of threads.
+  std::size_t const large = std::max<std::size_t>({leaf, particles_.size() / 64, 4096});
+  std::vector<std::size_t> roots;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].size() > large)
+      split(nodes_, i, leaf);
+    else
+      roots.push_back(i);
+  std::size_t const top = nodes_.size();
+  std::vector<std::vector<TreeNode>> branches(roots.size());
+  int const useful = threads_for(particles_.size(), 1, threads);
+  for_ranges(roots.size(), 1, useful, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) branches[i] = branch(nodes_[roots[i]], leaf);
   });
+  for_ranges(top, 1, useful, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (nodes_[i].size() > large) find_radius(nodes_[i]);
+  });
+  std::size_t total = top;
+  for (auto const& one : branches) total += one.size() - 1;
+  nodes_.reserve(total);
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    std::size_t const further = nodes_.size() - 1;  // the first of a branch stands among the uppermost
+    for (auto& node : branches[k]) node.child += static_cast<std::uint32_t>(node.leaf() ? 0 : further);
+    nodes_[roots[k]] = branches[k].front();
+    nodes_.insert(nodes_.end(), branches[k].begin() + 1, branches[k].end());
+    branches_.push_back({further + 1, nodes_.size()});
+  }
   // A node without extent would divide by nothing.
-  double const least = nodes_.empty() || !(nodes_.front().radius > 0) ? 1 : 1e-10 * nodes_.front().radius;
+  double const least = !(nodes_.front().radius > 0) ? 1 : 1e-10 * nodes_.front().radius;
   for (auto& node : nodes_) node.radius = std::max(node.radius, least);
 }
 

@@ -37,15 +37,23 @@ class Tree {
   std::vector<std::uint32_t> const& numbers() const { return numbers_; }
   /// Parents stand before their children.
   std::vector<TreeNode> const& nodes() const { return nodes_; }
+  /// Ranges of nodes whose children are in the same range; the nodes before the first range are the uppermost.
+  struct Branch {
+    std::size_t begin, end;
+  };
+  std::vector<Branch> const& branches() const { return branches_; }
   std::size_t bytes() const;
 
  private:
-  void surround(TreeNode& node) const;
-  void split(std::size_t node, std::size_t leaf);
+  void find_radius(TreeNode& node) const;
+  /// Finds the centre of a node, and its children unless it is a leaf.
+  void split(std::vector<TreeNode>& nodes, std::size_t number, std::size_t leaf);
+  std::vector<TreeNode> branch(TreeNode const& root, std::size_t leaf);
 
   std::vector<Point> particles_, other_;
   std::vector<std::uint32_t> numbers_, other_numbers_;
   std::vector<TreeNode> nodes_;
+  std::vector<Branch> branches_;
 };
 
 }  // namespace boltzmann
