@@ -1,4 +1,4 @@
-// Reads [cylinder]: a circle past which a stream and vortices flow.
+// Reads [cylinder_flow]: a circle past which a stream and vortices flow.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
@@ -19,10 +19,10 @@ Vector<2> read_pair(Section& section, char const* key, Dimension dimension, Read
 
 void read_cylinder(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
-  Section section(table, "[cylinder]", reading.context);
+  Section section(table, "[cylinder_flow]", reading.context);
   CylinderOptions options;
   read_options(section, cylinder_options(), &options, {.dimension = reading.dimension});
-  if (!section.has("radius")) reading.mistake(section.place(), "[cylinder] has no 'radius'; add e.g. radius = 1");
+  if (!section.has("radius")) reading.mistake(section.place(), "[cylinder_flow] has no 'radius'; add e.g. radius = 1");
   options.centre = read_pair(section, "centre", dimensions::length, reading);
   options.stream = read_pair(section, "stream", dimensions::velocity, reading);
   section.finish();
@@ -43,8 +43,9 @@ void add_to_cylinder(Item const& table, Reading& reading) {
     catch_errors(reading, ensemble.place, [&] { scheme->add(*ensemble.particles, kind); });
   }
   if (!anybody && !reading.ensembles.empty())
-    reading.mistake(table.place,
-                    "[cylinder]: no ensemble is carried by a flow; classes Tracer, Vortex, Inviscid and Viscous are");
+    reading.mistake(
+        table.place,
+        "[cylinder_flow]: no ensemble is carried by a flow; classes Tracer, Vortex, Inviscid and Viscous are");
 }
 
 }  // namespace boltzmann

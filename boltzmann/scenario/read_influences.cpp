@@ -275,12 +275,12 @@ class InfluenceReader {
     cutoff_ = section_.quantity("cutoff", dimensions::length, positive);
     Item const* precision = section_.find("precision");
     auto const word =
-        precision ? read_word(*precision, "precision", std::vector<std::string>{"double", "single"}, reading_.context)
+        precision ? read_word(*precision, "precision", std::vector<std::string>{"full", "single"}, reading_.context)
                   : std::nullopt;
     single_ = word == "single";
     connect_ = section_.find("connect");
     if (!connect_) return;
-    if (single_) reading_.mistake(precision->place, "precision: connections have none but double");
+    if (single_) reading_.mistake(precision->place, "precision: connections have full precision only");
     connections_ = read_connections(*connect_, a_ ? a_->particles : nullptr, reading_);
     if (between_ || by_) reading_.mistake(connect_->place, "connect: connections are within one ensemble; write 'on'");
     if (section_.has("cutoff")) reading_.mistake(section_.place("cutoff"), "cutoff: connections have none");

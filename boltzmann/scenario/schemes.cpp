@@ -29,7 +29,7 @@ std::vector<SchemeEntry> const& scheme_entries() {
        {},
        read_multipole,
        add_to_multipole},
-      {{"cylinder", "[cylinder]", "a cylinder in 2D, past which a stream and vortices flow, by images",
+      {{"cylinder_flow", "[cylinder_flow]", "a cylinder in 2D, past which a stream and vortices flow, by images",
         &cylinder_options(), &cylinder},
        {},
        read_cylinder,

@@ -215,10 +215,10 @@ OptionTable make_influence_options() {
                "`on` or `between`");
   all.add_said("by", "the name of an ensemble", "with `on`: who acts; nothing acts back", "the same as `on`");
   all.add_said("cutoff", "a length, positive", "of this law", "that of `[run]`");
-  all.add_said("precision", "`\"double\"` or `\"single\"`",
+  all.add_said("precision", "`\"full\"` or `\"single\"`",
                "in which the law is summed over all pairs; single is right to some 1e-6 and twice as fast, and for "
                "`biot-savart` and `biot-savart-algebraic`",
-               "`\"double\"`");
+               "`\"full\"`");
   all.add_said("connect", "`[[first, last, interval]]`",
                "with `on`: only between fixed pairs, (first, first + interval), (first + interval, first + 2 "
                "interval), ... up to last",

@@ -1,4 +1,6 @@
 // Flows past walls and a cylinder by images, and streams from outside, against closed forms.
+#include "shipped.hpp"
+
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/stream.hpp>
 #include <boltzmann/laws/vortex.hpp>
@@ -423,6 +425,34 @@ TEST(CylinderFlow, FopplsPairRests) {
     pairs.calculate(), cylinder.add_influences(0);
     EXPECT_GT(magnitude(pair.influence_on(0)), 1e-3) << r;
   }
+}
+
+// The shipped ones: a pair that rests, with dye that goes around it; and one that parts at a wall.
+TEST(ShippedFlows, FopplsPairRestsAndDyeGoesAround) {
+  auto const run = shipped("foppl");
+  run->simulation->run(run->steps);
+  AnyEnsemble &pair = ensemble(*run, "pair"), &dye = ensemble(*run, "dye");
+  double const r = std::hypot(pair.row(0)[0], pair.row(0)[1]);
+  EXPECT_NEAR(pair.row(0)[0], 1.8540496217739157, 1e-9);
+  EXPECT_NEAR(r * r - 1, 2 * r * pair.row(0)[1], 1e-9);
+  EXPECT_EQ(dye.size(), 1U + 12 * 200);
+  for (std::size_t i = 0; i < dye.size(); ++i) EXPECT_GT(std::hypot(dye.row(i)[0], dye.row(i)[1]), 1) << i;
+  for (std::size_t i = 1; i < dye.size(); i += 12)  // and it is symmetric
+    EXPECT_NEAR(dye.row(i)[1], -dye.row(i + 11)[1], 1e-8);
+}
+TEST(ShippedFlows, APairPartsAtAWall) {
+  auto const run = shipped("vortex-wall");
+  AnyEnsemble& pair = ensemble(*run, "pair");
+  auto const curve = [&] { return 1 / square(pair.row(1)[0]) + 1 / square(pair.row(1)[1]); };
+  double const start = curve();
+  run->simulation->run(run->steps);
+  EXPECT_NEAR(curve() / start, 1, 1e-6);
+  EXPECT_NEAR(pair.row(0)[0], -pair.row(1)[0], 1e-9);
+  double const x = pair.row(1)[0], y = pair.row(1)[1];
+  EXPECT_GT(x, 3);
+  run->simulation->run(1);
+  // Along the wall at 1 / (4 pi h), less what the other one does.
+  EXPECT_NEAR((pair.row(1)[0] - x) / 0.05, 1 / (4 * pi) * (1 / y - y / (x * x + y * y)), 1e-5);
 }
 
 TEST(CylinderFlow, HasTheSameBitsForAnyThreadsAndRefusesWhatCantBe) {

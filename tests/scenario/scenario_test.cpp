@@ -249,7 +249,12 @@ TEST(Scenario, EveryLawOfTheCatalogueCanBeNamed) {
             (law.target == "Pendulum" ? "length = 1\nbob_mass = 1\npivot = [0, 0]\n" : "") +
             "[[influences]]\nlaw = \"" + std::string(law.name) + "\"\non = \"a\"\n";
     for (auto const& parameter : law.parameters)
-      text += std::string(parameter.name) + " = " + (parameter.vector ? "[1" + rest + "]" : "0.9") + "\n";
+      text += std::string(parameter.name) + " = " +
+              (parameter.name == "rates"      ? "[1, -1, 0]"  // their sum, and the gradient along the direction, are 0
+               : parameter.name == "gradient" ? "[0, 1, 0]"
+               : parameter.vector             ? "[1" + rest + "]"
+                                              : "0.9") +
+              "\n";
     std::unique_ptr<ScenarioSimulation> scenario;
     EXPECT_NO_THROW(scenario = parse_scenario(text, "law.toml")) << law.name;
     if (!scenario) continue;

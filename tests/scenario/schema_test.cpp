@@ -80,7 +80,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
        {start + "[multipole]\nlaw = \"coulomb\"\nk = 1\n" + wrong + ensemble("Coulomb"),
         start + "[multipole]\nlaw = \"gravity\"\nG = 1\n" + wrong + ensemble("Kepler"),
         start + "[multipole]\nlaw = \"biot-savart\"\n" + wrong + ensemble("Vortex")}},
-      {"cylinder", {start + "[cylinder]\nradius = 1\n" + wrong + ensemble("Tracer")}},
+      {"cylinder_flow", {start + "[cylinder_flow]\nradius = 1\n" + wrong + ensemble("Tracer")}},
       {"dye", {start + ensemble("Tracer") + "[[dye]]\non = \"a\"\nfrom = [1, 1]\n" + wrong}},
       {"smooth", {start + "[smooth]\n" + wrong + ensemble("Smooth")}},
       {"smooth.rezone", {start + "[[smooth.rezone]]\nevery = 1\n" + wrong + ensemble("Smooth")}},
