@@ -1,0 +1,100 @@
+// Typed laws beside the same ones compiled, in turns: passes over the lists of a liquid of 32,000 atoms, and whole steps of
+// its Lennard-Jones run. CPU time of one thread, medians.
+#include <boltzmann/boltzmann.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+
+namespace {
+
+using namespace boltzmann;
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// A liquid of charged atoms and its scheme.
+struct Liquid {
+  Ensemble<Coulomb<3>> atoms{"atoms"};
+  std::unique_ptr<PairScheme> scheme;
+
+  template <class Law>
+  explicit Liquid(Law const& law) {
+    LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {20, 20, 20}};
+    block_load(atoms, block);
+    maxwellian_load(atoms, {.temperature = 1.44});
+    for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i].charge = i % 2 == 0 ? 1 : -1;
+    auto const length = repeat_lengths(block, 3);
+    scheme = std::make_unique<PairScheme>(
+        Box(Vector{0.0, 0.0, 0.0}, Vector{length[0], length[1], length[2]}, Boundary::periodic), 2.5);
+    scheme->skin(0.3);
+    scheme->threads(1);
+    scheme->internal(atoms, law);
+  }
+};
+
+template <class Law>
+void compare(char const* name, Law const& compiled, FormulaLaw const& typed, bool with_steps) {
+  Liquid a(compiled), b(typed);
+  Simulation one(*a.scheme, 0.002), other(*b.scheme, 0.002);
+  if (with_steps) one.run(50), other.run(50);  // a melt
+  a.scheme->calculate(), b.scheme->calculate();
+  double largest = 0, off = 0;
+  if (!with_steps)
+    for (std::size_t i = 0; i < a.atoms.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        largest = std::max(largest, std::fabs(a.atoms.influence(i)[c]));
+        off = std::max(off, std::fabs(a.atoms.influence(i)[c] - b.atoms.influence(i)[c]));
+      }
+  std::vector<double> passes, steps;
+  for (int turn = 0; turn < 21; ++turn) {
+    double const start = cpu_seconds();
+    a.scheme->calculate();
+    double const middle = cpu_seconds();
+    b.scheme->calculate();
+    passes.push_back((middle - start) / (cpu_seconds() - middle));
+  }
+  std::printf("%-42s pass: %3.0f %% of the compiled law's speed", name, 100 * median(passes));
+  if (with_steps) {
+    for (int turn = 0; turn < 9; ++turn) {
+      double const start = cpu_seconds();
+      one.run(20);
+      double const middle = cpu_seconds();
+      other.run(20);
+      steps.push_back((middle - start) / (cpu_seconds() - middle));
+    }
+    std::printf(", whole steps: %3.0f %%\n", 100 * median(steps));
+  } else {
+    std::printf(", influences differ by %.1e of the largest\n", largest > 0 ? off / largest : 0);
+  }
+}
+
+}  // namespace
+
+int main() {
+  double const r0 = std::pow(2.0, 1.0 / 6);
+  auto const lennard_jones = FormulaLaw::energy("depth*((r0/r)^12 - 2*(r0/r)^6)", {{"depth", 1}, {"r0", r0}});
+  compare("lennard-jones", LennardJones{.depth = 1, .r0 = r0}, lennard_jones, true);
+  compare("morse", Morse{.depth = 1, .r0 = r0, .a = 5},
+          FormulaLaw::energy("depth*((1 - exp(-a*(r - r0)))^2 - 1)", {{"depth", 1}, {"r0", r0}, {"a", 5}}), false);
+  compare("charges behind a screen (by_energy)", by_energy([](auto const& p, auto const& q) {
+            auto const r = magnitude(q.position - p.position);
+            return p.charge * q.charge * exp(-1.0 * r) / r;
+          }),
+          FormulaLaw::energy("p.charge*q.charge*exp(-r/1)/r"), false);
+  compare(
+      "friction along the line of centres",
+      [](auto const& p, auto const& q) {
+        auto const d = q.position - p.position;
+        auto const square = dot(d, d);
+        auto const w = 1.0 - sqrt(square) * (1 / 2.5);
+        return d * (3.0 * w * w * dot(d, q.velocity - p.velocity) / square);
+      },
+      FormulaLaw::influence("3*(1 - r/2.5)^2*dot(separation, velocity)*separation/r^2"), false);
+}
