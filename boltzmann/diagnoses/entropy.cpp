@@ -14,7 +14,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr double most_nodes = 4e6;
+constexpr double max_nodes = 4e6;
 
 /// <v^2> and <(v - <v>)^2> at points, the density and what else is asked for, in one go.
 struct Averages {
@@ -102,7 +102,7 @@ SmoothEntropy smooth_entropy(Ensembles of, Box const& box, EntropyOptions const&
     auto const wanted = [&](int a) { return std::min(std::ceil(4 * box.length(a) / field.mean_range()), 1e9); };
     double nodes = 1;
     for (int a = 0; a < D; ++a) nodes *= wanted(a);
-    double const fewer = nodes > most_nodes ? std::pow(most_nodes / nodes, 1.0 / D) : 1;
+    double const fewer = nodes > max_nodes ? std::pow(max_nodes / nodes, 1.0 / D) : 1;
     for (int a = 0; a < D; ++a) cells.push_back(static_cast<std::size_t>(std::ceil(fewer * wanted(a))));
   }
   SmoothColumn inverse_mass = field.column("mass");

@@ -15,7 +15,7 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t usual_modes = 256;
-constexpr std::size_t least_looks = 4;
+constexpr std::size_t min_looks = 4;
 
 }  // namespace
 
@@ -81,11 +81,11 @@ void WaveSpectrum::restore(std::span<double const> state) {
   amplitudes_.assign(state.begin() + head, state.end());
 }
 
-bool WaveSpectrum::enough() const { return looks_ >= least_looks && std::abs(interval_) > 0; }
+bool WaveSpectrum::enough() const { return looks_ >= min_looks && std::abs(interval_) > 0; }
 
 WavePower WaveSpectrum::power() const {
   if (!enough())
-    throw Error(fmt::format("a wave spectrum needs {} or more looks at different times, not {}", least_looks, looks_));
+    throw Error(fmt::format("a wave spectrum needs {} or more looks at different times, not {}", min_looks, looks_));
   std::size_t const looks = looks_, columns = 2 * modes_ + 1, rows = looks / 2 + 1;
   WavePower result;
   result.dimension = dimension_;

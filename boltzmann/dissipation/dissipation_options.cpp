@@ -1,4 +1,5 @@
 // The members of friction and noise with their keys.
+#include <boltzmann/core/once.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 
 namespace boltzmann {
@@ -62,14 +63,8 @@ OptionTable make_bath_options() {
 
 }  // namespace
 
-OptionTable const& dissipation_options() {
-  static OptionTable const all = make_dissipation_options();
-  return all;
-}
-OptionTable const& bath_options() {
-  static OptionTable const all = make_bath_options();
-  return all;
-}
+OptionTable const& dissipation_options() { return once<make_dissipation_options>(); }
+OptionTable const& bath_options() { return once<make_bath_options>(); }
 
 std::vector<DissipationKind> const& dissipation_kinds() {
   static std::vector<DissipationKind> const all = {

@@ -15,7 +15,7 @@ namespace boltzmann {
 namespace {
 
 constexpr double negligible = -750;  // exp of it is zero
-constexpr double most_terms = 1e7;   // heat capacities over k above which gamma functions take too long
+constexpr double max_terms = 1e7;    // heat capacities over k above which gamma functions take too long
 constexpr double sharpest = 1e16;    // and above which deviations of energies are lost in their rounding
 constexpr double far = 12;           // standard deviations, beyond which there is 1e-32 of a law
 
@@ -67,9 +67,9 @@ InvariantLaw::InvariantLaw(StateLaw const& law, double temperature, double boltz
     cover(bath_ * (1 - half), bath_ * (1 + half));
   } else {
     double first = law.temperature_.front(), last = law.temperature_.back();
-    if (double const alpha = law.capacity_.front() / k_; alpha > most_terms)
+    if (double const alpha = law.capacity_.front() / k_; alpha > max_terms)
       first = std::min(first, bath_ * (1 - far / std::sqrt(alpha)));
-    if (double const alpha = law.capacity_.back() / k_; alpha > most_terms)
+    if (double const alpha = law.capacity_.back() / k_; alpha > max_terms)
       last = std::max(last, bath_ * (1 + far / std::sqrt(alpha)));
     cover(first, last);
   }
@@ -164,7 +164,7 @@ double InvariantLaw::scaled(double temperature, End const& end) const { return e
 InvariantLaw::End InvariantLaw::end(double temperature, double capacity, double exponent, bool low) const {
   double const alpha = capacity / k_;
   End result{temperature, alpha};
-  if (alpha > most_terms) return result;  // far from the bath: nothing
+  if (alpha > max_terms) return result;  // far from the bath: nothing
   double const y = scaled(temperature, result);
   result.log_below = log_lower_gamma(alpha + 1, y);
   result.log_above = log_upper_gamma(alpha + 1, y);

@@ -17,7 +17,7 @@ constexpr double skin_of_cutoff = 0.12;
 // than these shares of finding everybody's: at any time, so that lists are read less far, and when the lists would not
 // hold.
 constexpr double share_of_few = 0.005, share_of_some = 0.25;
-constexpr std::size_t most_moved = 256;
+constexpr std::size_t max_moved = 256;
 
 void check_cutoff(double cutoff) {
   if (!(cutoff > 0) || !std::isfinite(cutoff))
@@ -153,10 +153,9 @@ bool Neighbourhood::lists_hold() {
     moved_before += copy.moved().size();
   }
   // Everybody pays for particles that have moved: some, until a build is cheaper.
-  bool const may_move = moved_before < most_moved && found_again_ < all;
+  bool const may_move = moved_before < max_moved && found_again_ < all;
   auto const affordable = [&](double share) {
-    return may_move ? std::min(static_cast<std::size_t>(share * all / rows_around_one()), most_moved - moved_before)
-                    : 0;
+    return may_move ? std::min(static_cast<std::size_t>(share * all / rows_around_one()), max_moved - moved_before) : 0;
   };
   std::size_t const few = affordable(share_of_few);
   for (int ring = 0; ring < list_rings; ++ring) {

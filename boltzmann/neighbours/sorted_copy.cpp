@@ -10,16 +10,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t together = 256;                     // rows that share a largest displacement
-constexpr std::size_t refresh_grain = 2048;               // a multiple of it
-constexpr std::size_t most_rows = std::size_t{1} << 30U;  // items are 32 bits
-constexpr double most_lengths = 8;                        // of a periodic axis, that images are moved
+constexpr std::size_t together = 256;                    // rows that share a largest displacement
+constexpr std::size_t refresh_grain = 2048;              // a multiple of it
+constexpr std::size_t max_rows = std::size_t{1} << 30U;  // items are 32 bits
+constexpr double max_lengths = 8;                        // of a periodic axis, that images are moved
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
@@ -96,14 +95,14 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
   double images = static_cast<double>(ensemble_->size());
   for (int a = 0; a < box_->dimension(); ++a) {
     if (!box_->periodic(a)) continue;
-    if (reach > most_lengths * box_->length(a))
+    if (reach > max_lengths * box_->length(a))
       throw Error(
           fmt::format("neighbours of '{}' are found up to a distance of {:.6g}; a periodic axis of {:.6g} ({}) "
                       "allows at most {:.6g}",
-                      ensemble_->name(), reach, box_->length(a), "xyz"[a], most_lengths * box_ -> length(a)));
+                      ensemble_->name(), reach, box_->length(a), "xyz"[a], max_lengths * box_ -> length(a)));
     images *= 1 + 2 * reach / box_->length(a);
   }
-  if (images >= static_cast<double>(most_rows)) too_many_rows(images);
+  if (images >= static_cast<double>(max_rows)) too_many_rows(images);
   reach_ = reach;
   built_edges_ = edges;
   images_ = Images(*box_, edges);
@@ -113,7 +112,7 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
   free_.clear();
   sort(reach, references, threads);
   add_ghosts(threads);
-  if (total() >= most_rows) too_many_rows(static_cast<double>(total()));
+  if (total() >= max_rows) too_many_rows(static_cast<double>(total()));
   capacity_ = 0;
   make_room(total() + 1);
   largest2_.assign(owned() / together + 1, 0.0);
@@ -127,7 +126,7 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
 
 void SortedCopy::too_many_rows(double count) const {
   throw Error(fmt::format("ensemble '{}' has {:.10g} particles and images within reach, lists allow {}",
-                          ensemble_->name(), count, most_rows - 1));
+                          ensemble_->name(), count, max_rows - 1));
 }
 
 void SortedCopy::sort(double reach, std::span<double const> references, int threads) {

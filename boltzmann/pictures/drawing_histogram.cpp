@@ -9,7 +9,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t fewest_bins = 10, most_bins = 200;
+constexpr std::size_t min_bins = 10, max_bins = 200;
 
 // The width of bins that D. Freedman and P. Diaconis give (Z. Wahrscheinlichkeitstheorie 57 (1981) 453); 0 if half of
 // the values are the same. Of many values, some ten thousand tell the quartiles well enough.
@@ -56,8 +56,7 @@ std::vector<Histogram> histograms(std::span<std::span<double const> const> sampl
       if (double const width = fitting_width(values); width > 0 && (narrowest == 0 || width < narrowest))
         narrowest = width;
     double const wanted = narrowest > 0 ? std::ceil((high - low) / narrowest) : 0;
-    bins =
-        static_cast<std::size_t>(std::clamp(wanted, static_cast<double>(fewest_bins), static_cast<double>(most_bins)));
+    bins = static_cast<std::size_t>(std::clamp(wanted, static_cast<double>(min_bins), static_cast<double>(max_bins)));
   }
   std::vector<Histogram> all;
   double const width = (high - low) / static_cast<double>(bins);

@@ -1,5 +1,6 @@
 // The members of a picture with their keys, and which of them each drawing has.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/once.hpp>
 #include <boltzmann/laws/weight.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
@@ -77,10 +78,7 @@ OptionTable make_members() {
   return all;
 }
 
-OptionTable const& members() {
-  static OptionTable const table = make_members();
-  return table;
-}
+OptionTable const& members() { return once<make_members>(); }
 
 /// A further drawing is an entry here with its three functions, which picture_scene.hpp declares and a source of its
 /// own (picture_....cpp) has.
@@ -164,10 +162,7 @@ OptionTable const& picture_options() {
   return table;
 }
 
-std::vector<Drawing> const& drawings() {
-  static std::vector<Drawing> const all = make_drawings();
-  return all;
-}
+std::vector<Drawing> const& drawings() { return once<make_drawings>(); }
 
 std::vector<std::string> const& drawing_names() {
   static std::vector<std::string> const names = [] {

@@ -14,7 +14,7 @@ namespace boltzmann::pictures {
 namespace {
 
 using Sides = std::array<std::array<double, 2>, 3>;
-constexpr std::size_t most_arrows = 2000;
+constexpr std::size_t max_arrows = 2000;
 
 std::string coordinate(int axis) { return std::string("position.") + "xyz"[axis]; }
 
@@ -127,7 +127,7 @@ void draw_vectors(Canvas& canvas, Scene& scene, std::vector<std::array<double, 2
     vectors.push_back(vector_of(*scene.ensembles[e], name));
     if (vectors[e].first) candidates += canvas.clouds()[e].count();
   }
-  std::size_t const every = std::max<std::size_t>((candidates + most_arrows - 1) / most_arrows, 1);
+  std::size_t const every = std::max<std::size_t>((candidates + max_arrows - 1) / max_arrows, 1);
   std::vector<PlacedVector> arrows;
   for (std::size_t e = 0; e < scene.ensembles.size(); ++e) {
     auto const& cloud = canvas.clouds()[e];

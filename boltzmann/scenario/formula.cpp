@@ -13,7 +13,7 @@ namespace boltzmann {
 namespace {
 
 constexpr int deepest = 200;  // parentheses in parentheses
-constexpr std::size_t most_nodes = 10'000;
+constexpr std::size_t max_nodes = 10'000;
 
 struct Operator {
   std::string_view sign;
@@ -427,7 +427,7 @@ class FormulaReader {
   }
 
   std::size_t add(Formula::Node const& node, Measure measure = {}) {
-    if (formula_.nodes_.size() == most_nodes) throw error("the formula is too long");
+    if (formula_.nodes_.size() == max_nodes) throw error("the formula is too long");
     formula_.nodes_.push_back(node);
     if (measured_) measures_.push_back(measure);
     return formula_.nodes_.size() - 1;

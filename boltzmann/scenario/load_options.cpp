@@ -1,5 +1,6 @@
 // The members of loaders with their keys, and which of them each kind has.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/once.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 
 #include <limits>
@@ -94,10 +95,7 @@ std::vector<LoadKind> make_kinds() {
 
 }  // namespace
 
-std::vector<LoadKind> const& load_kinds() {
-  static std::vector<LoadKind> const all = make_kinds();
-  return all;
-}
+std::vector<LoadKind> const& load_kinds() { return once<make_kinds>(); }
 
 OptionTable const& wave_options() {
   static OptionTable const all = make_members().only({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}});

@@ -17,7 +17,7 @@ namespace boltzmann {
 namespace {
 
 /// An equilibration longer than this is a slip of the pen.
-constexpr double most_steps = 9e15;
+constexpr double max_steps = 9e15;
 
 /// Two ensembles (or one, twice) with dissipation of some kind, and where it says so.
 struct DissipatingPair {
@@ -299,7 +299,7 @@ void read_equilibration(Item const& table, Reading& reading) {
   if (reading.context.mistakes.count() != before || !bath || !time || !reading.run.step) return;
   // A time of so many steps, but for rounding, is that many.
   double const steps = std::ceil(*time / *reading.run.step * (1 - 1e-12));
-  if (steps > most_steps)
+  if (steps > max_steps)
     return reading.mistake(section.place("time"), fmt::format("time: it would need {:.3g} steps", steps));
   bool const loaded = std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
                                   [](ReadEnsemble const& ensemble) { return ensemble.particles != nullptr; });

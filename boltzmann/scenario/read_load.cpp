@@ -19,7 +19,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr double most_particles = 1e9;
+constexpr double max_particles = 1e9;
 
 /// What so many particles take, with their influences, the schemes' copies and lists.
 double memory_of(double count, ClassVariant const& variant) {
@@ -29,7 +29,7 @@ double memory_of(double count, ClassVariant const& variant) {
 bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
   double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   double const needed = memory_of(count, variant), gib = 1024.0 * 1024 * 1024;
-  if (count <= most_particles && needed <= machine) return true;
+  if (count <= max_particles && needed <= machine) return true;
   reading.mistake(place, fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} "
                                      "GiB, and at most 1000000000 are allowed",
                                      count, std::ceil(needed / gib), machine / gib));

@@ -14,8 +14,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::int64_t most_seeds = 10'000;
-constexpr std::size_t most_runs = 100'000;
+constexpr std::int64_t max_seeds = 10'000;
+constexpr std::size_t max_runs = 100'000;
 
 /// A value as a person reads it: 300 K, [2000 m/s, 0].
 std::string words_of(Item const& item) {
@@ -136,9 +136,9 @@ void read_key(std::string const& path, Item const& item, Place const& place, Swe
         item.place, fmt::format("{}: it has {} value{}, but {} has {}; keys that vary together need as many each", path,
                                 item.elements.size(), item.elements.size() == 1 ? "" : "s", result.keys.front().path,
                                 result.keys.front().values.size()));
-  if (item.elements.size() * static_cast<std::size_t>(result.seeds) > most_runs)
+  if (item.elements.size() * static_cast<std::size_t>(result.seeds) > max_runs)
     return mistakes.add(item.place, fmt::format("{}: {} values with {} seeds each are more than {} runs", path,
-                                                item.elements.size(), result.seeds, most_runs));
+                                                item.elements.size(), result.seeds, max_runs));
   result.keys.push_back({path, place, item.elements});
 }
 
@@ -265,7 +265,7 @@ SweepValues read_sweep_values(Item const& sweep, Mistakes& mistakes) {
   SweepValues result;
   ReadContext context{mistakes, UnitSystem::si(), ""};
   if (Entry const* seeds = sweep.find("seeds"))
-    result.seeds = read_integer(seeds->item, "seeds", 1, most_seeds, context).value_or(1);
+    result.seeds = read_integer(seeds->item, "seeds", 1, max_seeds, context).value_or(1);
   if (Entry const* vary = sweep.find("vary")) {
     if (vary->item.is(Item::Kind::table))
       read_key("", vary->item, vary->place, result, mistakes);

@@ -9,7 +9,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t most_absent = 10'000;  // that a page is told of
+constexpr std::size_t max_absent = 10'000;  // that a page is told of
 
 bool has_tables(Item const& array) {
   return std::any_of(array.elements.begin(), array.elements.end(),
@@ -201,7 +201,7 @@ void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& unit
     if (Value* present = find(entry->item)) present->parameter.doc = plain_text(option.doc);
     return;
   }
-  if (table.written < 0 || absent_ == most_absent) return;
+  if (table.written < 0 || absent_ == max_absent) return;
   Table& of = tables_[static_cast<std::size_t>(table.written)];
   auto const& kind = option.kind;
   Value told;

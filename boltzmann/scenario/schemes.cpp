@@ -1,7 +1,6 @@
 // The table of schemes. Influences of all that a scenario has add up. A further one is a table of options in its room,
-// a reader and an entry here; readers that have to know of it (laws, friction, diagnoses, views) are where
-// reading.hpp's
-// `mesh` and `smooth` are used.
+// a reader and an entry here; readers that have to know of it (laws, friction, diagnoses, views) are where `mesh` and
+// `smooth` of reading.hpp are used.
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>

@@ -1,5 +1,6 @@
 // What the tables of a scenario say, but those whose room has its own.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/once.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/pictures/colour.hpp>
@@ -305,46 +306,16 @@ OptionTable make_equilibration_options() {
 
 }  // namespace
 
-OptionTable const& run_options() {
-  static OptionTable const all = make_run_options();
-  return all;
-}
-OptionTable const& box_options() {
-  static OptionTable const all = make_box_options();
-  return all;
-}
-OptionTable const& ensemble_options() {
-  static OptionTable const all = make_ensemble_options();
-  return all;
-}
-OptionTable const& influence_options() {
-  static OptionTable const all = make_influence_options();
-  return all;
-}
-OptionTable const& output_options() {
-  static OptionTable const all = make_output_options();
-  return all;
-}
-OptionTable const& wall_options() {
-  static OptionTable const all = make_wall_options();
-  return all;
-}
-OptionTable const& region_options() {
-  static OptionTable const all = make_region_options();
-  return all;
-}
-OptionTable const& set_options() {
-  static OptionTable const all = make_set_options();
-  return all;
-}
-OptionTable const& dissipation_pair_options() {
-  static OptionTable const all = make_dissipation_pair_options();
-  return all;
-}
-OptionTable const& equilibration_options() {
-  static OptionTable const all = make_equilibration_options();
-  return all;
-}
+OptionTable const& run_options() { return once<make_run_options>(); }
+OptionTable const& box_options() { return once<make_box_options>(); }
+OptionTable const& ensemble_options() { return once<make_ensemble_options>(); }
+OptionTable const& influence_options() { return once<make_influence_options>(); }
+OptionTable const& output_options() { return once<make_output_options>(); }
+OptionTable const& wall_options() { return once<make_wall_options>(); }
+OptionTable const& region_options() { return once<make_region_options>(); }
+OptionTable const& set_options() { return once<make_set_options>(); }
+OptionTable const& dissipation_pair_options() { return once<make_dissipation_pair_options>(); }
+OptionTable const& equilibration_options() { return once<make_equilibration_options>(); }
 
 namespace {
 
@@ -390,9 +361,6 @@ std::vector<ScenarioTable> make_tables() {
 
 }  // namespace
 
-std::vector<ScenarioTable> const& scenario_tables() {
-  static std::vector<ScenarioTable> const all = make_tables();
-  return all;
-}
+std::vector<ScenarioTable> const& scenario_tables() { return once<make_tables>(); }
 
 }  // namespace boltzmann

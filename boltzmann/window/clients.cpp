@@ -20,8 +20,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_views = 8;
-constexpr std::size_t most_requests = 256;  // of one browser, not yet answered
+constexpr std::size_t max_views = 8;
+constexpr std::size_t max_requests = 256;  // of one browser, not yet answered
 constexpr std::uint64_t never_drawn = ~std::uint64_t{0};
 constexpr double watching_seconds = 10;  // a slow page may take some for one picture
 
@@ -139,7 +139,7 @@ struct Clients::State {
       stir();
       return;
     }
-    if (found->second.requests >= most_requests) {
+    if (found->second.requests >= max_requests) {
       lock.unlock();
       if (WebServer* const open = speaks) open->dismiss(id, "too many requests at a time");
       return;
@@ -173,8 +173,8 @@ struct Clients::State {
     std::string const what = request["do"];
     if (what == "views") {
       auto const& list = request.value("views", json());
-      if (!list.is_array() || list.empty() || list.size() > most_views)
-        throw Error(fmt::format("\"views\" is a list of 1 to {} views", most_views));
+      if (!list.is_array() || list.empty() || list.size() > max_views)
+        throw Error(fmt::format("\"views\" is a list of 1 to {} views", max_views));
       std::vector<Wanted> views;
       for (auto const& given : list) {
         json const view = view_of(given);

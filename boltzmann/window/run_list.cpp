@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int deepest = 4;
-constexpr std::size_t most_entries = 200'000;  // that are looked at
-constexpr std::size_t most_runs = 5'000;
+constexpr std::size_t max_entries = 200'000;  // that are looked at
+constexpr std::size_t max_runs = 5'000;
 
 /// picture.png, or the first by name; empty if there is none.
 std::string picture_in(fs::path const& run) {
@@ -38,7 +38,7 @@ std::vector<std::string> RunList::names(std::size_t most) const {
   std::error_code failure;
   std::size_t seen = 0;
   fs::recursive_directory_iterator entry(folder_, fs::directory_options::skip_permission_denied, failure), end;
-  for (; !failure && entry != end && found.size() < most && ++seen < most_entries; entry.increment(failure)) {
+  for (; !failure && entry != end && found.size() < most && ++seen < max_entries; entry.increment(failure)) {
     std::error_code ignored;
     if (entry->is_symlink(ignored) || !entry->is_directory(ignored)) continue;
     bool const run = holds_run(entry->path().string());
@@ -54,7 +54,7 @@ bool RunList::any() const { return !names(1).empty(); }
 json RunList::runs() {
   json list = json::array();
   std::vector<std::string> pictures;
-  for (auto const& name : names(most_runs)) {
+  for (auto const& name : names(max_runs)) {
     std::string const run = folder_ + "/" + name;
     json one{{"name", name},     {"title", name}, {"description", ""}, {"particles", nullptr},
              {"steps", nullptr}, {"own", false},  {"picture", nullptr}};
@@ -81,7 +81,7 @@ json RunList::runs() {
 }
 
 std::string RunList::find(std::string const& name) const {
-  auto const all = names(most_runs);
+  auto const all = names(max_runs);
   if (std::find(all.begin(), all.end(), name) == all.end())
     throw Error(fmt::format("there is no run '{}'{}", boltzmann::quoted(name), did_you_mean(name, all)));
   std::string const run = folder_ + "/" + name;

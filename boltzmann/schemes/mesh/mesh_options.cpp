@@ -1,5 +1,6 @@
 // The members of mesh schemes with their keys.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/once.hpp>
 #include <boltzmann/schemes/field_options.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
 
@@ -35,9 +36,6 @@ OptionTable make_mesh_options() {
 
 }  // namespace
 
-OptionTable const& mesh_options() {
-  static OptionTable const all = make_mesh_options();
-  return all;
-}
+OptionTable const& mesh_options() { return once<make_mesh_options>(); }
 
 }  // namespace boltzmann

@@ -22,7 +22,7 @@ constexpr std::size_t column_padding = 64 / sizeof(float);
 constexpr std::size_t slots_worth_sorting = 1U << 13U;
 // Particles are sorted again when the fastest one has come so many cells, or after so many steps.
 constexpr double cells_between_sorts = 5;
-constexpr int most_steps_between_sorts = 50;
+constexpr int max_steps_between_sorts = 50;
 // Where many particles meet a slot, each waits for the one before, unless the slots of the density are kept several
 // times: so many particles to a slot are worth 2 and 4 copies.
 constexpr std::size_t worth_two_copies = 8, worth_four_copies = 64;
@@ -368,7 +368,7 @@ class MeshSteps final : public FusedSteps {
       double least = std::numeric_limits<double>::infinity();
       for (int a = 0; a < dimension_; ++a) least = std::min(least, work_.grid.spacing[a]);
       columns.travelled += 0.3 * std::sqrt(columns.fastest) * std::abs(dt_) / least;  // most are slower
-      if (++columns.steps >= most_steps_between_sorts || columns.travelled > cells_between_sorts) sort(columns);
+      if (++columns.steps >= max_steps_between_sorts || columns.travelled > cells_between_sorts) sort(columns);
     }
   }
 

@@ -259,7 +259,7 @@ double minimum_of(double low, double high, Function const& f) {
 }
 
 // alpha times the length of a cell: below, no mesh is too coarse; above, the field is not resolved.
-constexpr double least_alpha_h = 0.02, most_alpha_h = 3;
+constexpr double min_alpha_h = 0.02, max_alpha_h = 3;
 
 /// The error of the mesh for cubic cells, per order, once: sum of errors = cells h^2 q(alpha h).
 class MeshErrors {
@@ -280,7 +280,7 @@ class MeshErrors {
     if (wanted <= table[0]) return 0;
     int i = 0;
     while (i < points && table[i + 1] < wanted) ++i;
-    if (i == points) return most_alpha_h;
+    if (i == points) return max_alpha_h;
     double const part = (wanted - table[i]) / (table[i + 1] - table[i]);
     return alpha_h(i) * std::pow(alpha_h(i + 1) / alpha_h(i), part);
   }
@@ -288,7 +288,7 @@ class MeshErrors {
  private:
   static constexpr int points = 32;
   static constexpr std::size_t many = 4096, sample = 10;
-  static double alpha_h(int i) { return least_alpha_h * std::pow(most_alpha_h / least_alpha_h, double(i) / points); }
+  static double alpha_h(int i) { return min_alpha_h * std::pow(max_alpha_h / min_alpha_h, double(i) / points); }
   std::array<std::array<double, points + 1>, highest_order> log_q_{};
 };
 
@@ -347,7 +347,7 @@ double longest_cell(P3mSystem const& system, MeshCells const& cells) {
   return longest;
 }
 
-constexpr std::size_t most_cells = std::size_t{1} << 20;  // on an axis
+constexpr std::size_t max_cells = std::size_t{1} << 20;  // on an axis
 
 struct Candidate {
   int order;
@@ -366,7 +366,7 @@ std::optional<P3mParameters> smallest_cutoff(P3mSystem const& system, int order,
     return root_of(1e-4 * half, 64 * half,
                    [&](double cutoff) { return std::sqrt(left) - error_near(system, alpha, cutoff); });
   };
-  double const most = root_of(least_alpha_h / h, most_alpha_h / h, [&](double a) { return mesh(a) - accuracy; });
+  double const most = root_of(min_alpha_h / h, max_alpha_h / h, [&](double a) { return mesh(a) - accuracy; });
   double const alpha = minimum_of(most / 16, most, [&](double a) { return cutoff_for(a, mesh(a)); });
   P3mParameters result{order, cells, alpha, 0, 0, mesh(alpha)};
   result.cutoff = cutoff_for(alpha, result.error_mesh);
@@ -381,7 +381,7 @@ double smallest_error(P3mSystem const& system, int order, MeshCells const& cells
   auto const total = [&](double alpha) {
     return std::hypot(error_near(system, alpha, half), error_mesh(system, order, cells, alpha, finest_sample));
   };
-  return total(minimum_of(least_alpha_h / h, most_alpha_h / h, total));
+  return total(minimum_of(min_alpha_h / h, max_alpha_h / h, total));
 }
 
 /// What rounding leaves of the force of a neighbour.
@@ -504,7 +504,7 @@ P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, st
   if (!fits(finest)) throw Error(fmt::format("p3m: {} bytes of memory are not enough for any mesh", memory));
   for (int order = 1; order <= highest_order; ++order) {
     double least = infinity;
-    for (std::size_t longest = 2; longest <= most_cells; longest = next_good_size(longest + 1 + longest / 32)) {
+    for (std::size_t longest = 2; longest <= max_cells; longest = next_good_size(longest + 1 + longest / 32)) {
       MeshCells const cells = cells_for(system, longest, order);
       if (!fits(cells)) break;
       if (order == highest_order) finest = cells;

@@ -1,4 +1,5 @@
 // The members of smooth schemes and of rezoning with their keys.
+#include <boltzmann/core/once.hpp>
 #include <boltzmann/schemes/smooth/smooth_options.hpp>
 
 #include <limits>
@@ -106,13 +107,7 @@ OptionTable make_rezone_options() {
 
 }  // namespace
 
-OptionTable const& smooth_options() {
-  static OptionTable const all = make_smooth_options();
-  return all;
-}
-OptionTable const& rezone_options() {
-  static OptionTable const all = make_rezone_options();
-  return all;
-}
+OptionTable const& smooth_options() { return once<make_smooth_options>(); }
+OptionTable const& rezone_options() { return once<make_rezone_options>(); }
 
 }  // namespace boltzmann

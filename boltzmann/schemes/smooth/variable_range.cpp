@@ -58,7 +58,7 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
   hood_.reset();
   // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
   // between two ranges that are too short and too long: density range^D grows with the range.
-  constexpr int most_iterations = 200;
+  constexpr int max_iterations = 200;
   RangeBracket bracket{std::vector<double>(count()), std::vector<double>(count(), variable_->shortest),
                        std::vector<double>(count(), variable_->longest)};
   for (int iteration = 0;; ++iteration) {
@@ -66,11 +66,11 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
     for (std::size_t k = 0; k < factors_.size(); ++k) bracket.factor[hood_->target(0).order()[k]] = factors_[k];
     double const largest_change = new_ranges(bracket);
     if (largest_change < precision) break;
-    if (iteration == most_iterations)
+    if (iteration == max_iterations)
       throw Error(
           fmt::format("variable range: there are no ranges of {:.6g} spacings (after {} iterations they still change "
                       "by {:.1e}); with this weight it takes more than {:.3g}, 3 are usual",
-                      variable.spacings, most_iterations, largest_change,
+                      variable.spacings, max_iterations, largest_change,
                       std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
   }
   // A gas that becomes thin is not to end the run: no longer than lists fit between the walls, with room to overshoot.
