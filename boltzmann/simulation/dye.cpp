@@ -58,7 +58,7 @@ void DyeSource::change() {
   released_ += options_.places;
 }
 
-std::string DyeSource::report(UnitSystem const& /*base*/) const {
+std::string DyeSource::report(UnitSystem const& /*units*/) const {
   bool const full = ensemble_->size() + options_.places > options_.limit;
   return fmt::format("'{}': {} released, {} now{}", ensemble_->name(), released_, ensemble_->size(),
                      full ? ", which is the limit" : "");

@@ -32,7 +32,7 @@ class DyeSource final : public Adaptation {
   DyeSource(AnyEnsemble& ensemble, DyeOptions const& options);
 
   void change() override;
-  std::string report(UnitSystem const& base) const override;
+  std::string report(UnitSystem const& units) const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

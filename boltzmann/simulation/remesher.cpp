@@ -21,7 +21,7 @@ void Remesher::change() {
   done_.left_as_they_are += now.left_as_they_are;
 }
 
-std::string Remesher::report(UnitSystem const& base) const {
+std::string Remesher::report(UnitSystem const& units) const {
   bool const plane = ensemble_->dimension() == 2;
   Dimension const dimension = plane ? dimensions::circulation : dimensions::circulation * dimensions::length;
   std::string line = fmt::format("'{}': remeshed {} time{}, {} vortices now", ensemble_->name(), times_,
@@ -29,8 +29,8 @@ std::string Remesher::report(UnitSystem const& base) const {
   if (done_.removed > 0)
     line += fmt::format("; {} weak ones left out, {} lost: {} (sum of magnitudes {})", done_.removed,
                         plane ? "circulation" : "vorticity",
-                        base.text(plane ? done_.vorticity_lost[2] : magnitude(done_.vorticity_lost), dimension),
-                        base.text(done_.magnitudes_lost, dimension));
+                        units.text(plane ? done_.vorticity_lost[2] : magnitude(done_.vorticity_lost), dimension),
+                        units.text(done_.magnitudes_lost, dimension));
   if (done_.left_as_they_are > 0)
     line += fmt::format("; {} times a vortex stayed as it was, with no nodes around it", done_.left_as_they_are);
   return line;

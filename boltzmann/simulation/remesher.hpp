@@ -14,7 +14,7 @@ class Remesher final : public Adaptation {
   Remesher(AnyEnsemble& ensemble, Box const& box, Remeshing remeshing);
 
   void change() override;
-  std::string report(UnitSystem const& base) const override;
+  std::string report(UnitSystem const& units) const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
