@@ -13,8 +13,7 @@ namespace boltzmann {
 struct Overrides {
   std::vector<std::string>
       set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
-  std::vector<std::string> without = {};  ///< keys by their paths: the scenario as if they were not there
-  std::optional<std::int64_t> steps = {};
+  std::optional<std::int64_t> steps;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::vector<std::string> vary = {};         ///< "key.path=[values]": instead of what [sweep] varies
@@ -23,6 +22,7 @@ struct Overrides {
   bool no_sweep = false;                      ///< the scenario as if it had no [sweep]
   bool by_page = false;  ///< `set` comes from a page: it may name what [sweep] varies, since it edits the file's own
                          ///< values, and only files in the folder of the scenario. The page is told of all keys
+  std::vector<std::string> without = {};  ///< keys by their paths: the scenario as if they were not there
 };
 
 }  // namespace boltzmann

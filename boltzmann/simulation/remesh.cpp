@@ -14,7 +14,7 @@ namespace boltzmann {
 namespace {
 
 constexpr std::uint32_t no_particle = std::numeric_limits<std::uint32_t>::max();
-constexpr double most_nodes = 4e7;
+constexpr double max_nodes = 4e7;
 constexpr double fit = 1e-6;  // how exactly a lattice repeats along a periodic axis
 
 using Node = std::array<std::int64_t, 3>;
@@ -143,11 +143,11 @@ class Mesh {
       counts_[a] = high[a] - low[a] + 1;
       total *= static_cast<double>(counts_[a]);
     }
-    if (total > most_nodes)
+    if (total > max_nodes)
       throw Error(
           fmt::format("remesh: the vortices of '{}' are spread over {:.3g} nodes of spacing {}, more than {:.3g}; "
                       "take a wider spacing, or remove some that are far away",
-                      ensemble_.name(), total, how_.spacing, most_nodes));
+                      ensemble_.name(), total, how_.spacing, max_nodes));
     low_ = low;
     auto const size = static_cast<std::size_t>(total);
     strength_.assign(size * static_cast<std::size_t>(components_), 0.0);
