@@ -342,6 +342,32 @@ TEST(Examples, AtmosphereStaysIsothermalAndExponential) {
   }
 }
 
+// What was one vortex and what was the other have one centre in the end, and all of the circulation is there.
+TEST(Examples, MergerMakesOneVortexOfTwo) {
+  Example const example("merger");
+  ASSERT_TRUE(example.good());
+  auto const trajectory = example.trajectory();
+  std::vector<double> apart;
+  for (std::size_t const frame : {std::size_t{0}, trajectory.frames() - 1}) {
+    double centre[2][2] = {{0, 0}, {0, 0}};
+    for (std::size_t k = 0; k < 2; ++k) {
+      char const* const name = k == 0 ? "first" : "second";
+      auto const position = trajectory.read(frame, name, "position"),
+                 vorticity = trajectory.read(frame, name, "vorticity");
+      double sum = 0;
+      for (std::size_t i = 0; i < vorticity.size(); ++i) {
+        sum += vorticity[i];
+        for (std::size_t a = 0; a < 2; ++a) centre[k][a] += vorticity[i] * position[2 * i + a];
+      }
+      EXPECT_NEAR(sum, 1, 0.02) << name << " in frame " << frame;
+      for (double& x : centre[k]) x /= sum;
+    }
+    apart.push_back(std::hypot(centre[0][0] - centre[1][0], centre[0][1] - centre[1][1]));
+  }
+  EXPECT_NEAR(apart[0], 1, 0.01);
+  EXPECT_LT(apart[1], 0.4);
+}
+
 // Circle theorem: w(z) = sum of Gamma/(2 pi i) ln of z less each line; the stream function is constant on every track.
 TEST(Examples, CylinderHasSymmetricalTracksThatDoNotEnterIt) {
   Example const example("cylinder");
