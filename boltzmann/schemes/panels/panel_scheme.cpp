@@ -52,7 +52,7 @@ void PanelScheme::find_sheet() {
     for (std::size_t i = 0; i < body->size(); ++i, ++at) {
       double const *row = body->row(i), *velocity = body->influence(i);
       auto const& panel = sheet_.panels()[at];
-      if (Vector<2>{row[0], row[1]} != panel.middle())
+      if (!(magnitude(Vector<2>{row[0], row[1]} - panel.middle()) <= 1e-6 * panel.length))
         throw PhysicsFailure(fmt::format("panel {} of '{}' has moved; bodies stand still", i, body->name()));
       auto const normal = panel.normal();
       normal_velocity_[at] = velocity[0] * normal[0] + velocity[1] * normal[1];
