@@ -15,7 +15,7 @@ struct PairProgram {
   std::vector<int> of_p, of_q;  ///< where fields stand in a row, in doubles; sorted
   bool along = true;            ///< on the line of centres
   bool has_energy = false;
-  bool antisymmetric = false;
+  bool antisymmetric = false;  ///< known to obey Newton's third law
   bool velocity_dependent = false;
 };
 

@@ -24,7 +24,7 @@ struct ReadyPairs {
       : kernels(boltzmann::kernels().pairs[index_of_dimension(target)]) {
     kernels.has_energy = program.has_energy;
     traits.velocity_dependent = program.velocity_dependent;
-    traits.antisymmetric = program.antisymmetric;
+    traits.one_way = !program.antisymmetric;
     law = std::make_shared<PairProgram>(std::move(program));
   }
 };
