@@ -43,7 +43,7 @@ class CoreSplitter final : public Adaptation {
   CoreSplitter(AnyEnsemble& ensemble, Box const& box, CoreSplitting const& splitting);
 
   void change() override;
-  std::string report(UnitSystem const& base) const override;
+  std::string report(UnitSystem const& units) const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

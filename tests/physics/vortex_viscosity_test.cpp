@@ -257,7 +257,7 @@ double distance(ScenarioSimulation& run) {
   return std::hypot(centre[0][0] - centre[1][0], centre[0][1] - centre[1][1]);
 }
 
-// Vortices of a / b = 0.3 merge in about one turn, those of 0.18 do not: the limit is 0.22 to 0.24.
+// Vortices of a / b = 0.3 merge in less than a turn, those of 0.18 do not: the limit is 0.22 to 0.24.
 TEST(Merger, HasACriticalDistance) {
   for (double const ratio : {0.18, 0.3}) {
     double const spacing = 0.075,
