@@ -277,11 +277,11 @@ TEST(Merger, HasACriticalDistance) {
     auto const run = shipped("merger", overrides);
     double const start = distance(*run);
     EXPECT_NEAR(start, 1, 0.01);
-    run->simulation->run(180);
+    run->simulation->run(150);
     if (ratio < 0.2) {
       EXPECT_NEAR(distance(*run), 1, 0.1);
     } else {
-      EXPECT_LT(distance(*run), 0.4);
+      EXPECT_LT(distance(*run), 0.5);
     }
     double sum = 0;
     for (auto const& e : run->ensembles)
