@@ -7,7 +7,8 @@
 using namespace boltzmann;
 
 void merger(Program& program) {
-  double const spacing = 0.08, viscosity = 1e-3, variance = 0.02;  // a / b = 0.2 at the start
+  double const spacing = 0.1, viscosity = 1e-3, variance = 0.02;  // a / b = 0.2 at the start,
+  double const narrower = variance - spacing * spacing;           // the rest of which are the cores
 
   Ensemble<Diffusive<2>> first("first"), second("second");
   PairScheme flow(Box({-3, -3}, {3, 3}));
@@ -18,10 +19,10 @@ void merger(Program& program) {
       p.volume = spacing * spacing;
       p.viscosity = viscosity;
       p.core = spacing;
-      p.vorticity = {p.volume * std::exp(-norm2(p.position - centre) / (2 * variance)) / (2 * pi * variance)};
+      p.vorticity = {p.volume * std::exp(-norm2(p.position - centre) / (2 * narrower)) / (2 * pi * narrower)};
     }
     remesh(*vortex, flow.box(),
-           {.spacing = spacing, .core = spacing, .threshold = 1e-3, .max_loss = 0.01, .margin = 2});
+           {.spacing = spacing, .core = spacing, .threshold = 2e-3, .max_loss = 0.01, .margin = 1});
     flow.internal(*vortex, GaussianBiotSavart{});
     flow.internal(*vortex, VorticityExchange{.width = spacing}, 5 * spacing);
   }
@@ -33,7 +34,7 @@ void merger(Program& program) {
   for (auto* vortex : {&first, &second})
     simulation.adapt(5,
                      Remesher(*vortex, flow.box(),
-                              {.spacing = spacing, .core = spacing, .threshold = 1e-3, .max_loss = 1e-3, .margin = 2}));
+                              {.spacing = spacing, .core = spacing, .threshold = 2e-3, .max_loss = 1e-3, .margin = 1}));
   Recording recording = program.recording(simulation);
   recording.trajectory(10).diagnoses(5, {"vortex-invariants"}).picture({});
   program.run(recording, 200);

@@ -132,6 +132,25 @@ TEST(VorticityExchange, BetweenViscositiesIsTheirMean) {
   EXPECT_NEAR(square / expected, 1, 1e-6);
 }
 
+// Beyond a mirror stands an image of the opposite vorticity: there is none at a wall that slips.
+TEST(VorticityExchange, BeyondAMirrorIsTheOpposite) {
+  Box box({0, 0}, {9, 9}, {Boundary::mirror, Boundary::open});
+  box.open_end(0, Box::End::high);
+  PairScheme scheme(box), far(Box({0, 0}, {9, 9}));
+  Ensemble<Diffusive<2>> near("near", 1), free("free", 2);
+  for (auto* ensemble : {&near, &free})
+    for (auto& p : *ensemble) p.core = 0.5, p.viscosity = 0.1, p.volume = 0.2, p.position = {0.4, 3.0};
+  near[0].vorticity[0] = 1, free[0].vorticity[0] = 1;
+  free[1].vorticity[0] = -1, free[1].position[0] = -0.4;
+  scheme.internal(near, VorticityExchange{});
+  scheme.calculate();
+  far.internal(free, VorticityExchange{});
+  far.calculate();
+  double const expected = -0.1 / 0.25 * 2 * 0.2 * 2 * std::exp(-0.64 / 0.5) / (2 * pi * 0.25);
+  EXPECT_NEAR(near.influence_on(0).exchange[0], expected, 1e-14);
+  EXPECT_NEAR(free.influence_on(0).exchange[0], expected, 1e-14);
+}
+
 TEST(VorticityExchange, ParametersAreChecked) {
   EXPECT_THROW(check_parameters(VorticityExchange{-1}), Error);
   EXPECT_THROW(check_parameters(VorticityExchange{std::nan("")}), Error);
