@@ -188,6 +188,9 @@ TEST(FlowScenario, RefusesWhatCantBe) {
   for (auto const& [text, part] : std::vector<Case>{
            {start + "[cylinder_flow]\nstream = [1, 0]\n" + vortices, "[cylinder_flow] has no 'radius'"},
            {start + "[cylinder_flow]\nradius = 3\n" + vortices, "vortex 0 of 'vortices' is inside"},
+           {start + cylinder + vortices +
+                "[[bodies]]\nname = \"b\"\nshape = \"circle\"\ncentre = [3, 3]\nradius = 0.5\n",
+            "let the cylinder be one of the [[bodies]]"},
            {start + "[cylinder_flow]\nradius = 1\n[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\nload = { kind = "
                     "\"positions\", "
                     "positions = [[2, 2]] }\n",
