@@ -48,6 +48,7 @@ class MultipoleScheme final : public Scheme {
   /// Vortices carry each other and fluid particles, by BiotSavart or one of its kind. In 3D the tolerance is kept for velocities and for what the flow
   /// does to the vorticity of Inviscid and its kind, each by itself. If all axes are periodic the vorticities have to
   /// cancel (in 2D, or have a background that turns as a whole), and the flow is zero in the mean.
+  /// Mirror axes are walls that slip and rest, as they stand when the scheme is made: vortices have images beyond them.
   MultipoleScheme(Box box, VortexLaw const& law, double tolerance);
   ~MultipoleScheme() override;
 
