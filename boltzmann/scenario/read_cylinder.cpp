@@ -2,6 +2,7 @@
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
+#include <boltzmann/schemes/panels/panel_scheme.hpp>
 
 #include <memory>
 
@@ -34,6 +35,11 @@ void read_cylinder(Item const& table, Reading& reading) {
 void add_to_cylinder(Item const& table, Reading& reading) {
   auto* const scheme = reading.result->scheme<CylinderFlow>();
   if (!scheme) return;
+  if (reading.bodies)
+    return reading.mistake(
+        table.place,
+        "[cylinder_flow]: there are bodies, whose sheets would need images in it; let the cylinder be "
+        "one of the [[bodies]]");
   bool anybody = false;
   for (auto& ensemble : reading.ensembles) {
     if (!ensemble.particles || !ensemble.kind) return;

@@ -256,6 +256,7 @@ std::string scenario_schema() {
       {"run", closed("run")},
       {"ensembles", ensembles()},
       {"bodies", tables(closed("bodies"))},
+      {"dye", tables(closed("dye"))},
       {"influences", influences()},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},

@@ -85,6 +85,13 @@ TEST(LawCatalogue, Dimensions) {
   EXPECT_EQ(parameter("uniform-electric-field", "field").dimension.in(3) * charge, force);
   EXPECT_EQ(parameter("uniform-magnetic-field", "field").dimension.in(3) * velocity * charge, force);
   EXPECT_EQ(parameter("uniform-flow", "velocity").dimension.in(3), velocity);
+  EXPECT_EQ(parameter("oscillating-flow", "velocity").dimension.in(3), velocity);
+  EXPECT_EQ(parameter("oscillating-flow", "angular_frequency").dimension.in(3) * time, angle);
+  EXPECT_EQ(parameter("shear-flow", "direction").dimension.in(3) * parameter("shear-flow", "gradient").dimension.in(3) *
+                parameter("shear-flow", "origin").dimension.in(3),
+            velocity);
+  EXPECT_EQ(parameter("strain-flow", "rates").dimension.in(3) * parameter("strain-flow", "origin").dimension.in(3),
+            velocity);
 }
 
 TEST(LawCatalogue, UnknownNamesAreAnErrorThatHelps) {

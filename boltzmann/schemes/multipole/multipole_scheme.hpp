@@ -45,9 +45,10 @@ class MultipoleScheme final : public Scheme {
   /// Error if the box is not of 2 or 3 dimensions, has mirrors or regions, or if the tolerance is not between 1e-10 and
   /// 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
-  /// Vortices carry each other and fluid particles, by BiotSavart or one of its kind. In 3D the tolerance is kept for velocities and for what the flow
-  /// does to the vorticity of Inviscid and its kind, each by itself. If all axes are periodic the vorticities have to
-  /// cancel (in 2D, or have a background that turns as a whole), and the flow is zero in the mean.
+  /// Vortices carry each other and fluid particles, by BiotSavart or one of its kind. In 3D the tolerance is kept for
+  /// velocities and for what the flow does to the vorticity of Inviscid and its kind, each by itself. If all axes are
+  /// periodic vorticities have to cancel (in 2D, or have a background that turns), and the flow is zero in the mean.
+  /// Mirror axes are walls that slip and rest, as they stand when the scheme is made: vortices have images beyond them.
   MultipoleScheme(Box box, VortexLaw const& law, double tolerance);
   ~MultipoleScheme() override;
 
