@@ -79,8 +79,11 @@ void load_bodies(Reading& reading) {
     if (ensemble.integrator && ensemble.integrator->method() == Method::deactivate) continue;
     catch_errors(reading, ensemble.place, [&] { reading.bodies->add(*ensemble.particles); });
   }
-  Place const place = reading.ensembles.back().place;
-  catch_errors(reading, place, [&] { check_outside(*reading.bodies); });
+  try {
+    check_outside(*reading.bodies);
+  } catch (Error const& error) {
+    reading.mistake(place_of(error.what(), reading), error.what());
+  }
   reading.bodies->threads(reading.run.threads);
   reading.result->schemes.push_back(std::move(reading.bodies));
 }

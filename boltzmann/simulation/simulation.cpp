@@ -278,6 +278,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
         whole->step(time());
       else
         advance(dt, dissipations_);
+      if (last && stages_ == 0) influences_.outdated();  // nothing has moved, but a stream may have changed
     } catch (PhysicsFailure const& failure) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }

@@ -1,5 +1,6 @@
 // The members of bodies with their keys.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/number.hpp>
 #include <boltzmann/schemes/panels/body_options.hpp>
 
 namespace boltzmann {
@@ -73,16 +74,17 @@ Outline outline_of(BodyOptions const& options) {
     return numbers ? Vector<2>{(*numbers)[0], (*numbers)[1]} : Vector<2>{0, 0};
   };
   auto const panels = static_cast<std::size_t>(options.panels);
+  double const angle = options.angle * pi / 180;
   switch (options.shape) {
     case BodyShape::circle:
       return circle_outline(place(options.centre), options.radius, panels);
     case BodyShape::ellipse: {
       auto const axes = place(options.semi_axes);
       if (!(axes[0] > 0 && axes[1] > 0)) throw Error("semi_axes: both must be above zero");
-      return ellipse_outline(place(options.centre), axes[0], axes[1], options.angle, panels);
+      return ellipse_outline(place(options.centre), axes[0], axes[1], angle, panels);
     }
     case BodyShape::naca:
-      return naca_outline(options.naca, place(options.centre), options.chord, options.angle, panels);
+      return naca_outline(options.naca, place(options.centre), options.chord, angle, panels);
     case BodyShape::polygon:
       break;
   }

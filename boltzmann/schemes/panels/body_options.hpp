@@ -19,7 +19,8 @@ struct BodyOptions {
   std::string name;
   BodyShape shape = BodyShape::circle;
   std::optional<std::array<double, 3>> centre;
-  double radius = 0, chord = 0, angle = 0;
+  double radius = 0, chord = 0;
+  double angle = 0;  ///< in degrees
   std::optional<std::array<double, 3>> semi_axes;
   std::string naca;
   std::vector<std::array<double, 2>> points;
