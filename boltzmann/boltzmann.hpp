@@ -64,6 +64,7 @@
 #include <boltzmann/particles/panel.hpp>
 #include <boltzmann/particles/pendulum.hpp>
 #include <boltzmann/particles/species.hpp>
+#include <boltzmann/particles/spreading.hpp>
 #include <boltzmann/particles/tethered.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/program/program.hpp>
