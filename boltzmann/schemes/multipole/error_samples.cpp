@@ -11,18 +11,19 @@
 namespace boltzmann {
 namespace {
 
-/// 200 samples, or more as long as that takes hardly any time.
-std::size_t sample_count(std::size_t candidates, std::size_t particles) {
-  return std::min(candidates, std::max<std::size_t>(200, 20'000'000 / std::max<std::size_t>(1, particles)));
+/// Several hundred samples, or more as long as that takes hardly any time.
+std::size_t sample_count(std::size_t candidates, std::size_t particles, std::size_t least) {
+  return std::min(candidates, std::max(least, 20'000'000 / std::max<std::size_t>(1, particles)));
 }
 
 }  // namespace
 
-ErrorSamples::ErrorSamples(MultipoleEngine const& engine, std::size_t particles, double exact_to, int threads)
+ErrorSamples::ErrorSamples(MultipoleEngine const& engine, std::size_t particles, std::size_t least, double exact_to,
+                           int threads)
     : engine_(engine), exact_to_(exact_to), threads_(threads) {
   for (std::size_t i = 0; i < particles; ++i)
     if (engine.feels(i)) shuffled_.push_back(static_cast<std::uint32_t>(i));
-  wanted_ = sample_count(shuffled_.size(), particles);
+  wanted_ = sample_count(shuffled_.size(), particles, least);
   Stream stream(0, 0, particles, Purpose::selection);
   for (std::size_t i = shuffled_.size(); i > 1; --i) std::swap(shuffled_[i - 1], shuffled_[stream.bits() % i]);
 }

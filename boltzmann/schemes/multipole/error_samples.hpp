@@ -15,9 +15,9 @@ namespace boltzmann {
 
 class ErrorSamples {
  public:
-  /// Of the first `particles` of an engine; only those that feel something. What they feel exactly is known to this part
-  /// of it.
-  ErrorSamples(MultipoleEngine const& engine, std::size_t particles, double exact_to, int threads);
+  /// Of the first `particles` of an engine; only those that feel something. At least so many are drawn, if there are as
+  /// many; what they feel exactly is known to this part of it.
+  ErrorSamples(MultipoleEngine const& engine, std::size_t particles, std::size_t least, double exact_to, int threads);
 
   /// The field in the mean, over that of a unit strength at distance 1; without the fiftieth of all that is felt most,
   /// since a few that are near to each other would count for all.
