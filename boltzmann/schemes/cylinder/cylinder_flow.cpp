@@ -30,7 +30,7 @@ OptionTable const& cylinder_options() {
     all.add_said("centre", "a length along each axis", "of the cylinder", "0 on each axis");
     all.add_said("stream", "a velocity along each axis", "far from the cylinder", "none");
     all.add("circulation", &CylinderOptions::circulation, number(dimensions::circulation), "around the cylinder");
-    all.at("radius").needed = "1";
+    all.at("radius").needed = "0.5";
     return all;
   }();
   return all;
