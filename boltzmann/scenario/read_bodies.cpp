@@ -3,6 +3,7 @@
 #include <boltzmann/scenario/class_variant.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
 #include <boltzmann/schemes/panels/body_options.hpp>
 #include <boltzmann/simulation/no_slip.hpp>
 #include <boltzmann/simulation/outside_bodies.hpp>
@@ -38,6 +39,7 @@ void read_body(Item const& table, Reading& reading) {
   read.kind = &body_class();
   if (reading.context.mistakes.count() == before && reading.box)
     catch_errors(reading, table.place, [&] {
+      reading.bodies_place = table.place;
       if (!reading.bodies) reading.bodies = std::make_unique<PanelScheme>(*reading.box);
       auto body = std::make_unique<Ensemble<Panel<2>>>(options.name);
       body->appearance = options.appearance;
@@ -74,6 +76,11 @@ void read_bodies(Section& document, Reading& reading) {
 
 void load_bodies(Reading& reading) {
   if (!reading.bodies) return;
+  if (reading.result->scheme<CylinderFlow>())
+    return reading.mistake(
+        reading.bodies_place,
+        "[[bodies]] and [cylinder_flow] don't go together: images know nothing of other bodies; make "
+        "the cylinder one of the bodies, shape = \"circle\"");
   for (auto const& ensemble : reading.ensembles) {
     if (!ensemble.particles || ensemble.kind == &body_class() || ensemble.kind->classical) continue;
     if (ensemble.integrator && ensemble.integrator->method() == Method::deactivate) continue;

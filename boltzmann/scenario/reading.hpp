@@ -115,7 +115,8 @@ struct Reading {
   std::vector<std::function<void(Simulation&)>> adaptations = {};  ///< what changes particles between steps
   std::unique_ptr<PanelScheme> bodies = {};  ///< until it stands behind the other schemes; null: there are none
   std::vector<std::pair<std::size_t, std::pair<std::string, Place>>> sticky_bodies =
-      {};                                     ///< by number, and what they shed
+      {};  ///< by number, and what they shed
+  Place bodies_place = {};
   std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
