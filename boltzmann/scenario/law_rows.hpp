@@ -26,6 +26,12 @@ struct Layouts {};
 template <class Pairs, class Connections = Layouts<>, class Externals = Layouts<>>
 struct LawRows {};
 
+/// How many pairs of classes a law runs on.
+template <class Rows>
+inline constexpr std::size_t pair_layouts = 0;
+template <class... Pair, class Connections, class Externals>
+inline constexpr std::size_t pair_layouts<LawRows<Layouts<Pair...>, Connections, Externals>> = sizeof...(Pair);
+
 /// A law among particles of each class, and over their connections.
 template <class... P>
 using Among = LawRows<Layouts<On<P, P>...>, Layouts<P...>>;

@@ -10,7 +10,7 @@ namespace boltzmann {
 
 /// Of all pairs, for the rows of the law in their order (VortexRows).
 struct SingleKernels {
-  std::array<PairKernel, 5> plain, algebraic;
+  std::array<PairKernel, pair_layouts<VortexRows>> plain, algebraic;
 };
 
 /// Kernel units define it, once for each instruction set.
