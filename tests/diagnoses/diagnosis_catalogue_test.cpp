@@ -8,6 +8,7 @@
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/particles/panel.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <tests/message.hpp>
@@ -180,8 +181,9 @@ TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
-      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, temperature, "
-      "pressure, number, entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, extremes, "
+      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, body-forces, "
+      "temperature, pressure, number, entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, "
+      "extremes, "
       "field-energy, "
       "field-mode, "
       "wave-spectrum, "
@@ -216,9 +218,10 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 19U);
+  EXPECT_EQ(diagnosis_kinds().size(), 20U);
   Ensemble<Smooth<2>> gas("gas");
   Ensemble<Vortex<2>> vortices("vortices");
+  Ensemble<Panel<2>> body("body");
   for (auto const& kind : diagnosis_kinds()) {
     auto any = parameters();
     if (kind.of_mesh) {
@@ -229,6 +232,10 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
     if (kind.name == "entropy" || kind.name == "heat-flux") any.available = {&gas};
     if (kind.name == "heat-flux") any.conductivity = 1;
     if (kind.name == "vortex-invariants") any.available = {&vortices};
+    if (kind.name == "body-forces") {
+      EXPECT_EQ(message([&] { make_diagnosis(kind.name, any); }), "there is no body; [[bodies]] are");
+      any.available = {&body};
+    }
     std::unique_ptr<Diagnosis> made;
     ASSERT_NO_THROW(made = make_diagnosis(kind.name, any)) << kind.name;
     EXPECT_EQ(made->needs_energies() || made->needs_virial(), kind.name == "energies" || kind.name == "pressure" ||
@@ -261,6 +268,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
   for (auto const& kind : diagnosis_kinds()) {
     if (kind.of_mesh || kind.name == "heat-flux") continue;     // these need a mesh, and walls of two temperatures
     if (kind.name == "slab" || kind.name == "shock") continue;  // and these, matter (see their own tests)
+    if (kind.name == "body-forces") continue;                   // bodies stand in 2D
     // An entropy belongs to matter that has an internal energy.
     AnyEnsemble* of = kind.name == "entropy" ? static_cast<AnyEnsemble*>(&gas) : &space;
     if (kind.name == "vortex-invariants") of = &vortices;
