@@ -243,7 +243,7 @@ OptionTable const& core_splitting_options() {
         "merge_within", how(&CoreSplitting::merge_within), number(dimensions::none, {0, 1, false}),
         "two of like direction that are nearer to each other than this part of the narrower core become one, "
         "unless its core would be wider than `above`; 0: nothing merges");
-    table.at("every").needed = "5";
+    table.at("every").needed = std::string("5");
     table.at("above").needed = "0.1";
     return table;
   }();
