@@ -23,9 +23,9 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/integrators/methods.hpp>
-#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/laws/magnetic.hpp>
@@ -58,6 +58,7 @@
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ring_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
+#include <boltzmann/loaders/vortex_tube_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -77,6 +78,7 @@
 #include <boltzmann/schemes/pair/single_precision.hpp>
 #include <boltzmann/schemes/panels/panel_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/schemes/vortices/vortex_flow.hpp>
 #include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/no_slip.hpp>
 #include <boltzmann/simulation/outside_bodies.hpp>
@@ -84,6 +86,7 @@
 #include <boltzmann/simulation/rezoner.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
+#include <boltzmann/simulation/vortex_relaxation.hpp>
 #include <boltzmann/window/window.hpp>
 
 #include <algorithm>

@@ -26,6 +26,7 @@ struct Sample {
   double time;
   std::int64_t step;
   std::span<MeshField const* const> mesh_fields = {};  ///< empty unless the diagnosis needs_mesh()
+  int threads = 1;                                     ///< for whoever sums over all pairs
 };
 
 class Diagnosis {

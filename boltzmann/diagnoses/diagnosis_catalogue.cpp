@@ -14,6 +14,7 @@
 #include <boltzmann/diagnoses/unknown.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
+#include <boltzmann/schemes/vortices/vortex_flow.hpp>
 
 #include <fmt/format.h>
 
@@ -156,6 +157,42 @@ class VortexInvariants final : public SystemDiagnosis {
     values.insert(values.end(), found.angular_impulse.begin(), found.angular_impulse.begin() + numbers);
     if (numbers == 3) values.push_back(found.helicity);
   }
+};
+
+class VortexEnergy final : public Diagnosis {
+ public:
+  explicit VortexEnergy(DiagnosisParameters const& parameters) {
+    if (parameters.vortices.empty())
+      throw Error("there are no vortices that make a flow: no law of Biot and Savart acts");
+    for (auto const& source : parameters.vortices) {
+      names_.push_back(source.ensemble->name());
+      laws_.push_back(source.law);
+    }
+    dimension_ = dimension_of(parameters);
+  }
+  std::vector<Column> columns() const override {
+    using namespace dimensions;
+    Dimension const of_plane = circulation * circulation;
+    bool const plane = dimension_ == 2;
+    std::vector<Column> all{{"vortex energy", plane ? of_plane : of_plane * length},
+                            {"enstrophy", plane ? circulation * frequency : circulation * velocity},
+                            {"largest vorticity", frequency}};
+    if (!plane) all.push_back({"vorticity divergence", none});
+    return all;
+  }
+  void measure(Sample const& sample, std::vector<double>& values) override {
+    std::vector<VortexSource> sources;
+    for (std::size_t k = 0; k < names_.size(); ++k)
+      sources.push_back({sample.ensembles[index_in(sample, names_[k])], laws_[k]});
+    FlowMeasures const found = VortexFlow(sources, sample.box, sample.threads).measure();
+    values.insert(values.end(), {found.energy, found.enstrophy, found.largest_vorticity});
+    if (dimension_ == 3) values.push_back(found.divergence);
+  }
+
+ private:
+  int dimension_;
+  std::vector<std::string> names_;
+  std::vector<VortexLaw> laws_;
 };
 
 class AngularMomentum final : public SystemDiagnosis {
@@ -606,6 +643,15 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
           "in open space",
           told({{"ensembles"}})},
          make<VortexInvariants>},
+        {{"vortex-energy",
+          "of the flow of vortices in open space: energy (2D: Hamilton's function) and enstrophy over the density of "
+          "the "
+          "fluid, the largest vorticity at an element, in 3D how much of the vorticity has a divergence; sums over all "
+          "pairs",
+          {},
+          false,
+          true},
+         make<VortexEnergy>},
         {{"body-forces",
           "what a flow does to the bodies in it, over its density and in the mean since the row before: on all of them "
           "by "
@@ -697,6 +743,11 @@ std::vector<DiagnosisKind> const& diagnosis_kinds() {
     return all;
   }();
   return kinds;
+}
+
+void find_vortices(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes) {
+  parameters.vortices = vortex_sources(schemes);
+  if (!schemes.empty()) VortexFlow::refuse_images(schemes.front()->box());
 }
 
 std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters) {

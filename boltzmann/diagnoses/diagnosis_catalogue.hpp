@@ -17,10 +17,14 @@ struct DiagnosisKind {
   std::string doc;       ///< one line
   OptionTable options;   ///< the members of DiagnosisParameters that it looks at
   bool of_mesh = false;  ///< it looks at what a mesh has on its nodes
+  bool of_flow = false;  ///< and at the law by which vortices act
 };
 
 /// All kinds there are.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
+
+/// What kinds that are of_flow need. Error if an axis is periodic, or if vortices act by several laws.
+void find_vortices(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes);
 
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or
 /// missing, or a parameter is given that the kind does not look at.

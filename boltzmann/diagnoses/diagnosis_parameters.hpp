@@ -5,6 +5,7 @@
 #include <boltzmann/laws/weight.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
+#include <boltzmann/schemes/vortices/vortex_source.hpp>
 
 #include <array>
 #include <cstdint>
@@ -34,10 +35,11 @@ struct DiagnosisParameters {
   std::string quantity = {};  ///< extremes: a name that quantity() knows; of a mesh: one that mesh_quantity() knows;
                               ///< shock: "velocity" (empty) or "density"
   std::vector<MeshField const*> mesh_fields =
-      {};                      ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
-  std::vector<int> mode = {};  ///< field-mode: periods in the box along each axis
-  std::string axis = {};       ///< wave-spectrum, heat-flux, slab, shock: "x", "y" or "z"
-  std::size_t modes = 0;       ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
+      {};  ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
+  std::vector<VortexSource> vortices = {};  ///< those that act, for kinds that are of_flow
+  std::vector<int> mode = {};               ///< field-mode: periods in the box along each axis
+  std::string axis = {};                    ///< wave-spectrum, heat-flux, slab, shock: "x", "y" or "z"
+  std::size_t modes = 0;  ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
   WeightShape weight = WeightShape::lucy;  ///< entropy: of the averages
   double range = 0;                        ///< entropy: of the weight; 0: each particle's own
   double gamma = 0;                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D

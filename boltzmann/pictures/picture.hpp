@@ -34,6 +34,7 @@ struct Picture {
   std::string y = {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over
                        ///< time. time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's
                        ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential.
+                       ///< flow: "vorticity" (also if empty), "speed", "velocity.x", in 3D "vorticity.x", "Q".
                        ///< profile: names of profile_quantities(), separated by commas; empty: "density".
                        ///< wave-spectrum: which of those recorded, by its quantity; empty: the first
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
@@ -58,6 +59,7 @@ struct Picture {
   std::size_t most = 0;  ///< cartesian, phase-space: one of every n particles, so that so many are drawn; 0: all
   std::vector<std::array<double, 2>> region = {};  ///< cartesian, phase-space: only particles with low <= x <= high,
                                                    ///< for each axis; empty: all
+  int streamlines = 0;               ///< flow, streamlines: so many beside each other; 0: none, and 25 of streamlines
   std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()
   std::optional<int> cells = {};     ///< of the grid, along the longest side of the picture
   /// Of a profile at most, fewer if they had less than 50 particles in the mean; 300 without it. Of a histogram;
@@ -66,7 +68,7 @@ struct Picture {
 };
 
 /// "cartesian" (in 1D phase space, since space is a line), "phase-space", "histogram", "spectrum", "time-series",
-/// "profile", "mesh", "wave-spectrum"; of the smooth fields of particles "map" (colours), "contours" (lines) and
+/// "profile", "mesh", "wave-spectrum"; of vortices "flow" (colours) and "streamlines"; of the smooth fields of particles "map" (colours), "contours" (lines) and
 /// "bands" (shades between levels).
 std::vector<std::string> const& drawing_names();
 

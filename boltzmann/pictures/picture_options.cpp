@@ -63,6 +63,8 @@ OptionTable make_members() {
       "range", [](Picture& p) -> OptionPlace { return &p.smoothing.range; }, number(dimensions::length, positive),
       "how far they are spread", "each particle's own, or one that fits");
   all.add("cells", &Picture::cells, whole(1, 100'000), "cells along the longest side of the picture");
+  all.add("streamlines", &Picture::streamlines, whole(0, 200), "2D: lines along the flow, so many beside each other",
+          "none");
   all.add("bins", &Picture::bins, whole(1, 100'000), "bins");
   all.add_of<Picture>("curve", curves_of, tables(),
                       "`{ frequency = wp, speed = c }` draws omega^2 = wp^2 + c^2 k^2; or a list of them", "none");
@@ -140,6 +142,19 @@ std::vector<Drawing> make_drawings() {  // long: a table, an entry for each draw
        "the power of a quantity of a mesh over wave number and frequency, as its diagnosis recorded it",
        all({{{"y", "which of those recorded, by its quantity", "the first"}, {"curve"}}}), draw_wave_spectrum,
        check_waves, nullptr},
+      {"flow", "the flow of vortices, with streams from outside, in colours; in 3D on a slice",
+       all({{{"y",
+              "`\"vorticity\"`, `\"speed\"`, `\"velocity.x\"`, ...; in 3D, where `\"vorticity\"` is its magnitude, "
+              "also `\"vorticity.x\"`, ..., and `\"Q\"`",
+              "`\"vorticity\"`"}},
+            slices,
+            ends,
+            {{"streamlines"}, {"cells", "", "`200`", "", whole(2, 2000)}}}),
+       draw_flow, check_flow, dimension_of_flow},
+      {"streamlines", "lines along the flow of vortices in 2D",
+       all({{{"streamlines", "so many beside each other", "`25`", "", whole(1, 200)},
+             {"cells", "of the grid on which the flow is found", "`200`", "", whole(2, 2000)}}}),
+       draw_flow, check_flow, dimension_of_flow},
       {"map", "a field of the particles in colours; in 1D a curve", all({{field}, slices, ends, smoothing}),
        draw_smooth_field, check_smooth_field, dimension_of_smooth_field},
       {"contours", "the same as lines", all({{field}, slices, ends, {{"levels", "", "8"}}, smoothing}),

@@ -182,6 +182,23 @@ std::array<std::array<double, 2>, 3> Scene::open_reach() const {
   return reach;
 }
 
+MeshGrid picture_grid(Scene const& scene, std::vector<std::array<double, 2>> const& shown,
+                      std::array<int, 2> const& axes, bool corners, int usual_cells) {
+  MeshGrid grid;
+  grid.dimension = static_cast<int>(std::min<std::size_t>(shown.size(), 2));
+  double longest = 0;
+  for (int k = 0; k < grid.dimension; ++k) longest = std::max(longest, shown[axes[k]][1] - shown[axes[k]][0]);
+  for (int k = 0; k < grid.dimension; ++k) {
+    auto const [low, high] = shown[axes[k]];
+    double const cells = std::max(2.0, std::round(scene.picture.cells.value_or(usual_cells) * (high - low) / longest));
+    grid.spacing[k] = (high - low) / cells;
+    grid.periodic[k] = scene.box().periodic(axes[k]);
+    grid.low[k] = corners ? low : low + grid.spacing[k] / 2;
+    grid.nodes[k] = static_cast<std::size_t>(cells) + (corners && !grid.periodic[k] ? 1 : 0);
+  }
+  return grid;
+}
+
 CloudOptions cloud_options(Scene const& scene) {
   CloudOptions options;
   options.low = scene.picture.low;

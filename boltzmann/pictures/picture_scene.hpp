@@ -78,6 +78,11 @@ class Scene {
   std::vector<Values> schemes_;
 };
 
+/// The grid of a picture: its first two axes are those of the picture, with so many cells along the longest side unless
+/// the picture says. Nodes are the middles of its cells, or its corners, so that lines end at the walls.
+MeshGrid picture_grid(Scene const& scene, std::vector<std::array<double, 2>> const& shown,
+                      std::array<int, 2> const& axes, bool corners, int usual_cells);
+
 /// What particle_clouds() needs to know: the picture's limits, from `origin` on.
 CloudOptions cloud_options(Scene const& scene);
 /// "1 of 5 particles shown", "120 of 4000 particles are in this region", values that are missing.
@@ -145,6 +150,10 @@ std::optional<Dimension> dimension_of_profile(Question const& question);
 Canvas draw_mesh(Scene& scene);
 void check_mesh(Question const& question);
 std::optional<Dimension> dimension_on_mesh(Question const& question);
+
+Canvas draw_flow(Scene& scene);
+void check_flow(Question const& question);
+std::optional<Dimension> dimension_of_flow(Question const& question);
 
 Canvas draw_smooth_field(Scene& scene);
 void check_smooth_field(Question const& question);

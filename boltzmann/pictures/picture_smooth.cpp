@@ -51,25 +51,6 @@ SmoothColumn smooth_column(Scene& scene, SmoothField const& field, std::string c
   return field.column(name);
 }
 
-// The grid of a picture: its first two axes are those of the picture. Nodes are the middles of its cells, or its
-// corners, so that contours end at the walls.
-MeshGrid picture_grid(Scene const& scene, std::vector<std::array<double, 2>> const& shown,
-                      std::array<int, 2> const& axes, bool corners) {
-  MeshGrid grid;
-  grid.dimension = static_cast<int>(std::min<std::size_t>(shown.size(), 2));
-  double longest = 0;
-  for (int k = 0; k < grid.dimension; ++k) longest = std::max(longest, shown[axes[k]][1] - shown[axes[k]][0]);
-  for (int k = 0; k < grid.dimension; ++k) {
-    auto const [low, high] = shown[axes[k]];
-    double const cells = std::max(2.0, std::round(scene.picture.cells.value_or(300) * (high - low) / longest));
-    grid.spacing[k] = (high - low) / cells;
-    grid.periodic[k] = scene.box().periodic(axes[k]);
-    grid.low[k] = corners ? low : low + grid.spacing[k] / 2;
-    grid.nodes[k] = static_cast<std::size_t>(cells) + (corners && !grid.periodic[k] ? 1 : 0);
-  }
-  return grid;
-}
-
 }  // namespace
 
 Canvas draw_smooth_field(Scene& scene) {
@@ -88,7 +69,7 @@ Canvas draw_smooth_field(Scene& scene) {
   std::array<int, 2> const axes{normal == 0 ? 1 : 0, normal == 2 ? 1 : 2};
   double const at = D == 3 && std::isnan(scene.picture.at) ? 0.5 * (scene.box().low(normal) + scene.box().high(normal))
                                                            : scene.picture.at;
-  MeshGrid const grid = picture_grid(scene, shown, axes, D == 1 || scene.picture.drawing == "contours");
+  MeshGrid const grid = picture_grid(scene, shown, axes, D == 1 || scene.picture.drawing == "contours", 300);
   Values points;
   auto const on_plane = points_on_grid(grid);
   for (std::size_t p = 0; p < grid.size(); ++p)

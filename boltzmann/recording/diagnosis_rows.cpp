@@ -80,7 +80,9 @@ Sample DiagnosisRows::sample(std::span<AnyEnsemble* const> ensembles) const {
           nullptr,
           units_.is_reduced() ? 1.0 : units_(constants::boltzmann),
           simulation_.time(),
-          simulation_.step()};
+          simulation_.step(),
+          {},
+          simulation_.schemes().front()->threads()};
 }
 
 void DiagnosisRows::follow() {

@@ -86,8 +86,11 @@ struct Recording::State {
     DiagnosisParameters parameters;
     auto const all = ensembles();
     parameters.available.assign(all.begin(), all.end());
-    for (auto const& known : diagnosis_kinds())
-      if (known.name == kind && known.of_mesh) parameters.mesh_fields = mesh_fields_of(simulation.schemes());
+    for (auto const& known : diagnosis_kinds()) {
+      if (known.name != kind) continue;
+      if (known.of_mesh) parameters.mesh_fields = mesh_fields_of(simulation.schemes());
+      if (known.of_flow) find_vortices(parameters, simulation.schemes());
+    }
     return parameters;
   }
 

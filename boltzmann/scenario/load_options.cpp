@@ -52,6 +52,13 @@ OptionTable make_members() {
   all.add("normal", &L::normal, vector(dimensions::none), "in 3D, of any length: the ring goes around it",
           "the z axis");
   all.add("ripple", &L::ripple, number(dimensions::none, {-1, 1}), "its radius is radius (1 + ripple cos(mode angle))");
+  all.add("circulation", &L::circulation, number(dimensions::circulation), "around the tube");
+  all.add("core_radius", &L::core_radius, number(dimensions::length, positive),
+          "where the vorticity of the tube is 1/e of that in its middle");
+  all.add("layers", &L::layers, whole(0, 50), "of elements around the one in the middle of a section");
+  all.add("overlap", &L::overlap, number(dimensions::none, positive), "the core of an element over the spacing");
+  all.add("sections", &L::sections, whole(1, 1e6), "around the ring", "as dense as elements are in a section");
+  all.at("core_radius").needed = "0.1";
   all.at("mass").needed = "\"1e4 Msun\"";
   all.at("radius").needed = "\"1 pc\"";
   all.at("spacing").needed = "\"2.551 angstrom\"";
@@ -87,6 +94,16 @@ std::vector<LoadKind> make_kinds() {
            {"normal"},
            {"mode", "periods of a ripple around the circle", "none"},
            {"ripple"}})},
+      {"vortex-ring", "a ring of vorticity with a resolved core in 3D, whose elements get their vorticity and cores",
+       false,
+       of({{"radius", "of the ring", "", "1"},
+           {"core_radius"},
+           {"circulation"},
+           {"centre", "of the ring"},
+           {"normal", "of any length: where the ring goes to"},
+           {"layers"},
+           {"sections"},
+           {"overlap"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file", "an XYZ file; its `Lattice` has to be the box along axes that are periodic in both (`pbc`)", false,
        of({{"path"}, {"frame"}, {"species"}, {"length"}, {"velocity"}})},

@@ -31,6 +31,8 @@ struct LoadOptions {
   std::optional<double> G;
   std::optional<std::array<double, 3>> centre, drift, normal;
   double ripple = 0;
+  double circulation = 1, core_radius = 1, overlap = 1.25;
+  std::int64_t layers = 4, sections = 0;
 };
 
 struct LoadKind {

@@ -57,6 +57,8 @@ class Loader {
   void load_plummer(AnyEnsemble& particles);
   double read_ring();
   void load_ring(AnyEnsemble& particles);
+  double read_vortex_ring();
+  void load_vortex_ring(AnyEnsemble& particles);
   double read_positions();
   void load_places(AnyEnsemble& particles);
   double read_file();

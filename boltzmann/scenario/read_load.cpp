@@ -3,6 +3,7 @@
 #include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ring_load.hpp>
+#include <boltzmann/loaders/vortex_tube_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/loader.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -85,6 +86,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
       Way{"barometric", nullptr, &Loader::load_barometric},
       Way{"plummer-sphere", nullptr, &Loader::load_plummer},
       Way{"ring", &Loader::read_ring, &Loader::load_ring},
+      Way{"vortex-ring", &Loader::read_vortex_ring, &Loader::load_vortex_ring},
       Way{"positions", &Loader::read_positions, &Loader::load_places},
       Way{"file", &Loader::read_file, &Loader::load_file},
   };
@@ -186,6 +188,38 @@ void Loader::load_ring(AnyEnsemble& particles) {
   if (options_.centre) options.centre = *options_.centre;
   if (options_.normal) options.normal = *options_.normal;
   ring_load(particles, options);
+}
+
+namespace {
+
+VortexTube tube_of(LoadOptions const& options) {
+  return {.circulation = options.circulation,
+          .core_radius = options.core_radius,
+          .layers = static_cast<std::size_t>(options.layers),
+          .overlap = options.overlap,
+          .sections = static_cast<std::size_t>(options.sections)};
+}
+
+}  // namespace
+
+double Loader::read_vortex_ring() {
+  double count = 0;
+  if (!section_.has("radius") || !section_.has("core_radius")) return 0;
+  catch_errors(reading_, section_.place("core_radius"),
+               [&] { count = static_cast<double>(vortex_tube_count(2 * pi * options_.radius, tube_of(options_))); });
+  return count;
+}
+
+void Loader::load_vortex_ring(AnyEnsemble& particles) {
+  if (!particles.find_field("vorticity"))
+    throw Error(
+        fmt::format("'{}' is of class {}, which has no vorticity; a vortex-ring is of Vortex, Inviscid or "
+                    "Viscous",
+                    particles.name(), particles.class_name()));
+  VortexRing ring{.radius = options_.radius, .tube = tube_of(options_)};
+  if (options_.centre) ring.centre = *options_.centre;
+  if (options_.normal) ring.normal = *options_.normal;
+  vortex_ring_load(particles, ring);
 }
 
 /// Of `fill` and `positions`.

@@ -103,6 +103,11 @@ void read_diagnosis(Item const& table, Reading& reading) {
     place = section.has("mode") ? section.place("mode") : section.has("axis") ? section.place("axis") : word->place;
   }
   catch_errors(reading, place, [&] {
+    if (kind.of_flow) {
+      std::vector<Scheme*> schemes;
+      for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
+      find_vortices(parameters, schemes);
+    }
     auto diagnosis = make_diagnosis(*name, parameters);
     if (*name == "heat-flux" && reading.box)
       temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');

@@ -16,6 +16,7 @@
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/dye.hpp>
+#include <boltzmann/simulation/vortex_relaxation.hpp>
 
 #include <functional>
 #include <memory>
@@ -79,6 +80,11 @@ struct ReadSmooth {
   std::vector<ReadRezone> rezones;
 };
 
+struct ReadRelaxation {
+  std::optional<RelaxationOptions> options;
+  Place place;
+};
+
 struct ReadDye {
   AnyEnsemble* ensemble;
   DyeOptions options;
@@ -109,6 +115,7 @@ struct Reading {
   std::vector<ReadEnsemble> ensembles;
   std::vector<ReadDye> dyes = {};
   ReadEquilibration equilibration = {};
+  ReadRelaxation relaxation = {};
   std::vector<Place> diagnosis_places = {};  ///< of each in the result
   bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
@@ -218,6 +225,9 @@ void read_influences(Section& document, Reading& reading);
 /// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
 void read_dissipations(Section& document, Reading& reading);
 void add_dissipations(Reading const& reading);
+/// Reads [relaxation]; lets the simulation have it.
+void read_relaxation(Section& document, Reading& reading);
+void add_relaxation(Reading& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.
 void read_output(Section& document, Item& resolved, Reading& reading);

@@ -45,6 +45,7 @@ void build(Item& document, Reading& reading) {
   read_adaptations(top, reading);
   settle_run(document, reading);
   read_dissipations(top, reading);
+  read_relaxation(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
   read_stop(reading);
@@ -75,6 +76,7 @@ void build(Item& document, Reading& reading) {
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
   add_rezoners(reading);
+  add_relaxation(reading);
   add_bodies(reading);
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   add_dyes(reading);

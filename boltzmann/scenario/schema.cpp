@@ -260,6 +260,7 @@ std::string scenario_schema() {
       {"influences", influences()},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
+      {"relaxation", closed("relaxation")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"remesh", one_or_tables(closed("remesh"))},
       {"split_cores", one_or_tables(closed("split_cores"))},

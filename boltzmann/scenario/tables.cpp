@@ -10,6 +10,7 @@
 #include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/remesh.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
+#include <boltzmann/simulation/vortex_relaxation.hpp>
 
 #include <limits>
 
@@ -226,9 +227,10 @@ OptionTable make_influence_options() {
   all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`",
                "laws from outside: only on these, written as in `[[ensembles.set]]`", "on all");
   all.add_said("margin", "a length", "with `particles = \"edge\"`", "0");
-  all.add_said("where", "a [formula](#formulas); beside `energy` or `influence` a table of them",
-               "laws from outside: only on those for which it is true. Of a typed law: its parts, `{ s = \"(sigma/r)^6\" }`",
-               "on all");
+  all.add_said(
+      "where", "a [formula](#formulas); beside `energy` or `influence` a table of them",
+      "laws from outside: only on those for which it is true. Of a typed law: its parts, `{ s = \"(sigma/r)^6\" }`",
+      "on all");
   all.add_said("energy", "a [formula](#laws-that-are-typed)", "instead of `law`: a typed law, by its energy");
   all.add_said("influence", "a [formula](#laws-that-are-typed)",
                "instead of `law`: a typed law, by the force (or velocity) that p gets");
@@ -340,6 +342,7 @@ std::vector<ScenarioTable> make_tables() {
   static RegionOptions region;
   static SetOptions set;
   static OutputOptions output;
+  static RelaxationOptions relaxation;
   static RemeshOptions remesh;
   static CoreSplittingOptions split;
   static DyeOptions dye;
@@ -371,6 +374,8 @@ std::vector<ScenarioTable> make_tables() {
        {"dye", "[[dye]]", "where tracers are released while the run goes on", &dye_options(), &dye},
        {"output", "[output]", "what is written, and how often", &output_options(), &output},
        {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
+       {"relaxation", "[relaxation]", "vortices in 3D: vorticity is turned towards the curl of the flow",
+        &relaxation_options(), &relaxation},
        {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,
         nullptr},
        {"sweep.pictures", "[[sweep.pictures]]", "a picture of all runs of a sweep", &picture, nullptr}});

@@ -1,5 +1,6 @@
 // Loading particles into a scheme.
 #include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/schemes/vortices/vortex_source.hpp>
 
 #include <fmt/format.h>
 
@@ -52,5 +53,7 @@ std::vector<MeshField const*> mesh_fields_of(std::vector<Scheme*> const& schemes
     for (auto const* field : scheme->mesh_fields()) all.push_back(field);
   return all;
 }
+
+std::vector<VortexSource> Scheme::vortices() const { return {}; }
 
 }  // namespace boltzmann

@@ -49,6 +49,8 @@ struct EnergyAndVirial {
                                                          ///< unknown
 };
 
+struct VortexSource;
+
 class Scheme {
  public:
   explicit Scheme(Box box) : box_(std::move(box)) {}
@@ -95,6 +97,11 @@ class Scheme {
   /// What a mesh scheme has on its nodes (density, potential, field) for the state as it stands; nothing otherwise.
   /// They live until the next call.
   virtual std::vector<MeshField const*> mesh_fields() { return {}; }
+
+  /// The vortices that carry others by this scheme (schemes/vortices/vortex_flow.hpp).
+  virtual std::vector<VortexSource> vortices() const;
+  /// Adds the velocity that everything else of this scheme gives to a fluid at places, D numbers each: streams, walls.
+  virtual void add_stream(std::span<double const> /*places*/, double /*time*/, std::span<double> /*velocities*/) {}
 
   /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
   /// more, until they are asked for again with `taken` false.

@@ -181,13 +181,9 @@ TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
-      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, body-forces, "
-      "temperature, pressure, number, entropy, heat-flux, slab, shock, mean-velocity, velocity-diffusion, diffusion, "
-      "extremes, "
-      "field-energy, "
-      "field-mode, "
-      "wave-spectrum, "
-      "energy-balance; "
+      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, "
+      "vortex-energy, body-forces, temperature, pressure, number, entropy, heat-flux, slab, shock, mean-velocity, "
+      "velocity-diffusion, diffusion, extremes, field-energy, field-mode, wave-spectrum, energy-balance; "
       "did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
@@ -218,7 +214,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 20U);
+  EXPECT_EQ(diagnosis_kinds().size(), 21U);
   Ensemble<Smooth<2>> gas("gas");
   Ensemble<Vortex<2>> vortices("vortices");
   Ensemble<Panel<2>> body("body");
@@ -228,14 +224,19 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
       EXPECT_EQ(message([&] { make_diagnosis(kind.name, any); }), "there is no mesh in this simulation");
       continue;
     }
+    if (kind.name == "body-forces") {
+      EXPECT_EQ(message([&] { make_diagnosis(kind.name, any); }), "there is no body; [[bodies]] are");
+      continue;
+    }
     if (kind.name == "extremes") any.quantity = "speed";
     if (kind.name == "entropy" || kind.name == "heat-flux") any.available = {&gas};
     if (kind.name == "heat-flux") any.conductivity = 1;
-    if (kind.name == "vortex-invariants") any.available = {&vortices};
     if (kind.name == "body-forces") {
       EXPECT_EQ(message([&] { make_diagnosis(kind.name, any); }), "there is no body; [[bodies]] are");
       any.available = {&body};
     }
+    if (kind.name == "vortex-invariants" || kind.of_flow) any.available = {&vortices};
+    if (kind.of_flow) any.vortices = {{&vortices, BiotSavart{}}};
     std::unique_ptr<Diagnosis> made;
     ASSERT_NO_THROW(made = make_diagnosis(kind.name, any)) << kind.name;
     EXPECT_EQ(made->needs_energies() || made->needs_virial(), kind.name == "energies" || kind.name == "pressure" ||
@@ -271,10 +272,11 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     if (kind.name == "body-forces") continue;                   // bodies stand in 2D
     // An entropy belongs to matter that has an internal energy.
     AnyEnsemble* of = kind.name == "entropy" ? static_cast<AnyEnsemble*>(&gas) : &space;
-    if (kind.name == "vortex-invariants") of = &vortices;
+    if (kind.name == "vortex-invariants" || kind.of_flow) of = &vortices;
     std::vector<AnyEnsemble*> const ensembles{of};
     DiagnosisParameters with{.available = {of}};
     if (kind.name == "extremes") with.quantity = "speed";
+    if (kind.of_flow) with.vortices = {{&vortices, BiotSavart{}}};
     auto const diagnosis = make_diagnosis(kind.name, with);
     std::vector<double> values;
     diagnosis->measure({ensembles, box, &measures, 1, 0, 0}, values);

@@ -239,5 +239,80 @@ TEST(LeapfrogRings, MoveAsTwoCirclesDo) {
   EXPECT_TRUE(leapt);
 }
 
+/// Where the vorticity of a ring is along its axis, z.
+double middle(AnyEnsemble const& ring) {
+  int const at = ring.field("vorticity").offset;
+  double sum = 0, all = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    double const part = std::hypot(ring.row(i)[at], ring.row(i)[at + 1]);
+    sum += part * ring.row(i)[2], all += part;
+  }
+  return sum / all;
+}
+
+FlowMeasures measures_of(ScenarioSimulation const& run) {
+  auto const& schemes = run.simulation->schemes();
+  return VortexFlow(vortex_sources(schemes), run.box()).measure();
+}
+
+// A core that goes as exp(-d^2 / a^2): Gamma / (4 pi R) (ln(8 R / a) - 0.558), the energy 1/2 Gamma^2 R (ln(8 R / a) -
+// 2.058) (P. G. Saffman, Stud. Appl. Math. 49, 371 (1970)), pi Gamma R^2 the impulse; the next term of the speed is
+// -0.918 (a / R)^2 (Y. Fukumoto and H. K. Moffatt, J. Fluid Mech. 417, 1 (2000)).
+TEST(VortexRing, MovesAsSaffmanHasItWithAResolvedCore) {
+  auto const run = shipped("vortex-ring");
+  AnyEnsemble& ring = ensemble(*run, "ring");
+  double const a = 0.2, start = middle(ring), impulse = vortex_measures(ring).impulse[2];
+  double const R = std::sqrt(impulse / pi), thin = std::log(8 * R / a) - 0.558;
+  FlowMeasures const before = measures_of(*run);
+  EXPECT_NEAR(impulse, pi * (1 + a * a / 2 - square(ring.row(0)[ring.field("core").offset])), 1e-3);
+  EXPECT_NEAR(before.energy / (0.5 * R * (thin - 1.5)), 1, 0.01);
+  EXPECT_NEAR(before.enstrophy * a * a, 1, 0.02) << "of a straight tube: Gamma^2 / (2 pi a^2) times 2 pi R";
+  EXPECT_LT(before.divergence, 0.02);
+  run->simulation->run(run->steps);
+  double const speed = (middle(ring) - start) / run->simulation->time();
+  EXPECT_NEAR(speed / ((thin - 0.918 * square(a / R)) / (4 * pi * R)), 1, 0.01);
+  FlowMeasures const after = measures_of(*run);
+  EXPECT_NEAR(after.energy / before.energy, 1, 2e-3);
+  EXPECT_NEAR(vortex_measures(ring).impulse[2] / impulse, 1, 2e-3);
+  for (double const sum : vortex_measures(ring).circulation) EXPECT_NEAR(sum, 0, 1e-3);
+}
+
+// Head on: the rings are stretched to twice their radius in front of the plane between them, and neither impulse nor
+// helicity appears. Cores keep their radius, which a fluid without viscosity would not allow: that costs energy, and more
+// of it the further the rings are stretched.
+TEST(RingCollision, StretchesRingsWithoutImpulseAndHelicity) {
+  auto const run = shipped("ring-collision");
+  AnyEnsemble &upper = ensemble(*run, "upper"), &lower = ensemble(*run, "lower");
+  auto const radius = [](AnyEnsemble const& ring) {
+    int const at = ring.field("vorticity").offset;
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      double const part = std::hypot(ring.row(i)[at], ring.row(i)[at + 1]);
+      sum += part * std::hypot(ring.row(i)[0], ring.row(i)[1]), all += part;
+    }
+    return sum / all;
+  };
+  FlowMeasures const before = measures_of(*run);
+  double const wide = radius(upper);
+  run->simulation->run(30);
+  FlowMeasures const between = measures_of(*run);
+  EXPECT_LT(between.energy, before.energy);
+  EXPECT_NEAR(between.energy / before.energy, 1, 0.08);
+  run->simulation->run(30);
+  FlowMeasures const after = measures_of(*run);
+  EXPECT_GT(radius(upper), 1.9 * wide);
+  EXPECT_NEAR(radius(upper), radius(lower), 0.01);
+  EXPECT_NEAR(middle(upper), -middle(lower), 0.01);
+  EXPECT_GT(middle(upper), 0.1) << "they never meet";
+  EXPECT_LT(middle(upper), 0.4);
+  EXPECT_NEAR(after.energy / before.energy, 0.8, 0.05);
+  EXPECT_GT(after.enstrophy, 1.7 * before.enstrophy);
+  EXPECT_LT(after.divergence, 0.01);
+  std::vector<AnyEnsemble const*> const both{&upper, &lower};
+  auto const conserved = vortex_measures(both);
+  for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(conserved.impulse[a], 0, 1e-3);
+  EXPECT_NEAR(conserved.helicity, 0, 1e-3);
+}
+
 }  // namespace
 }  // namespace boltzmann::vortices_test

@@ -84,6 +84,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"dye", {start + ensemble("Tracer") + "[[dye]]\non = \"a\"\nfrom = [1, 1]\n" + wrong}},
       {"smooth", {start + "[smooth]\n" + wrong + ensemble("Smooth")}},
       {"smooth.rezone", {start + "[[smooth.rezone]]\nevery = 1\n" + wrong + ensemble("Smooth")}},
+      {"relaxation", {start + "[relaxation]\nevery = 1\n" + wrong + atoms}},
       {"equilibrate", {start + "[equilibrate]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
       {"ensembles",
        {start + atoms + wrong, start + ensemble("Meso") + wrong, start + "[smooth]\n" + ensemble("Smooth") + wrong}},

@@ -120,6 +120,7 @@ TEST(Views, SayEverythingOfADrawing) {
     cube.replace(cube.find(two), std::string(two).size(), three);
   for (auto const& drawing : drawings()) {
     if (drawing.name == "mesh" || drawing.name == "wave-spectrum" || drawing.name == "time-series") continue;
+    if (drawing.name == "flow" || drawing.name == "streamlines") continue;  // of vortices
     std::string text = cube + "[[views]]\nname = \"all\"\ndrawing = \"" + drawing.name + "\"\n";
     for (auto const& option : drawing.options) {
       ASSERT_TRUE(values.contains(option.key)) << option.key;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace boltzmann {
 namespace {
@@ -97,35 +98,48 @@ void CylinderFlow::find_images() {
 
 void CylinderFlow::add_influences(double /*time*/) {
   find_images();
+  for (auto const& carried : carried_) carry(*carried.ensemble);
+}
+
+void CylinderFlow::add_stream(std::span<double const> places, double /*time*/, std::span<double> velocities) {
+  find_images();
+  Ensemble<Tracer<2>> tracers("places", places.size() / 2);
+  for (std::size_t i = 0; i < tracers.size(); ++i) tracers[i].position = {places[2 * i], places[2 * i + 1]};
+  carry(tracers);
+  double const nowhere = std::numeric_limits<double>::quiet_NaN();  // there is no fluid inside
+  for (std::size_t i = 0; i < tracers.size(); ++i)
+    for (std::size_t a = 0; a < 2; ++a)
+      velocities[2 * i + a] = outside(tracers.row(i)) ? velocities[2 * i + a] + tracers.influence(i)[a] : nowhere;
+}
+
+/// By the images as they are.
+void CylinderFlow::carry(AnyEnsemble& ensemble) {
   PairKernel const kernel = for_instruction_set([](auto set) { return image_kernel<decltype(set)::value>(); });
   ImageLaw const law{};
   Complex const stream(options_.stream[0], options_.stream[1]);
   double const square = options_.radius * options_.radius;
   std::size_t const sources = images_.size() / image_doubles;
-  for (auto const& carried : carried_) {
-    AnyEnsemble& ensemble = *carried.ensemble;
-    if (ensemble.size() == 0) continue;
-    std::size_t const felt = ensemble.influence_size();
-    velocity_.resize(2 * ensemble.size());
-    PairTask task;
-    task.target = ensemble.row(0), task.targets = ensemble.size(), task.target_row_stride = ensemble.stride();
-    task.source = images_.data(), task.sources = sources, task.source_row_stride = image_doubles;
-    task.overwrite = true;
-    task.influence = velocity_.data();
-    double const work = static_cast<double>(sources * ensemble.size());
-    for_ranges(ensemble.size(), grain * (1 + 2048 / (sources + 1)),
-               threads_for(static_cast<std::size_t>(work), 0.125, threads()), [&](std::size_t begin, std::size_t end) {
-                 kernel(&law, task, begin, end);
-                 for (std::size_t i = begin; i < end; ++i) {
-                   double const* const row = ensemble.row(i);
-                   if (!outside(row)) continue;
-                   Complex const z(row[0] - options_.centre[0], row[1] - options_.centre[1]);
-                   Complex const flow = std::conj(stream) - stream * square / (z * z);  // u - i v
-                   ensemble.influence(i)[0] += velocity_[2 * i] + flow.real();
-                   ensemble.influence(i)[felt > 1 ? 1 : 0] += velocity_[2 * i + 1] - flow.imag();
-                 }
-               });
-  }
+  if (ensemble.size() == 0) return;
+  std::size_t const felt = ensemble.influence_size();
+  velocity_.resize(2 * ensemble.size());
+  PairTask task;
+  task.target = ensemble.row(0), task.targets = ensemble.size(), task.target_row_stride = ensemble.stride();
+  task.source = images_.data(), task.sources = sources, task.source_row_stride = image_doubles;
+  task.overwrite = true;
+  task.influence = velocity_.data();
+  double const work = static_cast<double>(sources * ensemble.size());
+  for_ranges(ensemble.size(), grain * (1 + 2048 / (sources + 1)),
+             threads_for(static_cast<std::size_t>(work), 0.125, threads()), [&](std::size_t begin, std::size_t end) {
+               kernel(&law, task, begin, end);
+               for (std::size_t i = begin; i < end; ++i) {
+                 double const* const row = ensemble.row(i);
+                 if (!outside(row)) continue;
+                 Complex const z(row[0] - options_.centre[0], row[1] - options_.centre[1]);
+                 Complex const flow = std::conj(stream) - stream * square / (z * z);  // u - i v
+                 ensemble.influence(i)[0] += velocity_[2 * i] + flow.real();
+                 ensemble.influence(i)[felt > 1 ? 1 : 0] += velocity_[2 * i + 1] - flow.imag();
+               }
+             });
 }
 
 EnergyAndVirial CylinderFlow::measure(double /*time*/) {

@@ -46,6 +46,7 @@ class CylinderFlow final : public Scheme {
 
   /// PhysicsFailure if a vortex is not outside of the cylinder.
   void add_influences(double time) override;
+  void add_stream(std::span<double const> places, double time, std::span<double> velocities) override;
   EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
@@ -59,6 +60,7 @@ class CylinderFlow final : public Scheme {
     SourceKind kind;
   };
   void find_images();
+  void carry(AnyEnsemble& ensemble);
   bool outside(double const* position) const;
 
   CylinderOptions options_;

@@ -111,5 +111,6 @@ template class AcceptanceCriterion<Charges<2>>;
 template class AcceptanceCriterion<Charges<3>>;
 template class AcceptanceCriterion<Vortices<2>>;
 template class AcceptanceCriterion<Vortices<3>>;
+template class AcceptanceCriterion<VortexSlopes>;
 
 }  // namespace boltzmann

@@ -82,6 +82,8 @@ class MultipoleEngine {
 /// Error unless the law has an effect.
 std::unique_ptr<MultipoleEngine> multipole_engine(LaplaceLaw const& law, Box const& box);
 std::unique_ptr<MultipoleEngine> multipole_engine(VortexLaw const& law, Box const& box);
+/// What is felt is the velocity and its slopes. Error if space has not 3 dimensions.
+std::unique_ptr<MultipoleEngine> slopes_engine(VortexLaw const& law, Box const& box);
 
 /// Whether an axis has mirror walls at both of its ends.
 inline bool repeats_between_walls(Box const& box, int axis) {

@@ -424,8 +424,7 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
         auto const change = Kind::velocity(along);
         for (int a = 0; a < D; ++a) slopes[a][b] = change[a];
       }
-      for (int a = 0; a < D; ++a)
-        Kind::add_stretching(law_, target.particles[i].vorticity, a, slopes[a], field + i * Kind::width + D);
+      for (int a = 0; a < D; ++a) Kind::add_slope(law_, target.particles[i], a, slopes[a], field + i * Kind::width + D);
     }
   }
 }
@@ -476,7 +475,7 @@ void MultipoleField<Kind>::add_curl(Cluster const& target, NodeParticles const& 
         influence[a] += scratch.value[i];
         Vector<D> slope;
         for (int b = 0; b < D; ++b) slope[b] = -scratch.field[i * D + static_cast<std::size_t>(b)];
-        Kind::add_stretching(law_, target.particles[i].vorticity, static_cast<int>(a), slope, influence + D);
+        Kind::add_slope(law_, target.particles[i], static_cast<int>(a), slope, influence + D);
       }
     }
 }
@@ -729,5 +728,6 @@ template class MultipoleField<Charges<2>>;
 template class MultipoleField<Charges<3>>;
 template class MultipoleField<Vortices<2>>;
 template class MultipoleField<Vortices<3>>;
+template class MultipoleField<VortexSlopes>;
 
 }  // namespace boltzmann

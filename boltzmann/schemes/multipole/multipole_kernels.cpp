@@ -4,6 +4,7 @@
 #include <boltzmann/schemes/multipole/plane_series.hpp>
 #include <boltzmann/schemes/multipole/solid_harmonics.hpp>
 #include <boltzmann/schemes/pair/over_all.hpp>
+#include <boltzmann/schemes/vortices/flow_laws.hpp>
 
 #include <bit>
 #include <cmath>
@@ -275,6 +276,14 @@ class Kernels {
   }
 };
 
+template <int D, int W, class Core>
+constexpr PairKernel slopes() {
+  if constexpr (D == 3)
+    return detail::over_all<detail::Pass::influence, W, Inviscid<3>, Inviscid<3>, SlopesOf<Core>>;
+  else
+    return nullptr;
+}
+
 template <int D, int W = native_width<double>>
 constexpr MultipoleKernels kernels() {
   using K = Kernels<D, W>;
@@ -289,7 +298,8 @@ constexpr MultipoleKernels kernels() {
           detail::over_all<detail::Pass::with_energy, W, Probe<D>, PointSource<D>, LaplaceLaw>,
           {detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, BiotSavart>,
            detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, AlgebraicBiotSavart>,
-           detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, GaussianBiotSavart>}};
+           detail::over_all<detail::Pass::influence, W, Inviscid<D>, Inviscid<D>, GaussianBiotSavart>},
+          {slopes<D, W, PlainCore>(), slopes<D, W, AlgebraicCore>(), slopes<D, W, GaussianCore>()}};
 }
 
 }  // namespace multipole

@@ -48,6 +48,7 @@ struct MultipoleKernels {
   PairKernel near = nullptr;  ///< the field at PointSource<D> of others by LaplaceLaw, on unit strength (P2P)
   PairKernel near_with_potential = nullptr;  ///< and half the potential
   PairKernel near_vortices[3] = {};          ///< what Inviscid<D> feel of others, by VortexCore
+  PairKernel near_slopes[3] = {};            ///< 3D: SlopedFlow at Inviscid<3>, by VortexCore
 };
 
 /// By [dimension - 2].

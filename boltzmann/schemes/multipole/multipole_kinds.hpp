@@ -66,10 +66,10 @@ struct Vortices {
     law.visit([&](auto const& own) { f(kernels.near_vortices[static_cast<int>(law.core)], &own); });
   }
 
-  /// What a velocity with this slope of its component a does to vorticity.
-  static void add_stretching(Law const& law, Vector<3> const& vorticity, int a, Vector<3> const& slope, double* rate) {
-    rate[a] += (1 - law.transposed) * dot(vorticity, slope);
-    for (int b = 0; b < 3; ++b) rate[b] += law.transposed * vorticity[a] * slope[b];
+  /// What a velocity with this slope of its component a does to the vorticity of p.
+  static void add_slope(Law const& law, Source const& p, int a, Vector<3> const& slope, double* rate) {
+    rate[a] += (1 - law.transposed) * dot(p.vorticity, slope);
+    for (int b = 0; b < 3; ++b) rate[b] += law.transposed * p.vorticity[a] * slope[b];
   }
   /// The velocity of these fields.
   static Vector<D> velocity(Vector<D> const (&field)[densities]) {
@@ -77,6 +77,19 @@ struct Vortices {
       return {-field[0][1], field[0][0]};
     else
       return {field[1][2] - field[2][1], field[2][0] - field[0][2], field[0][1] - field[1][0]};
+  }
+};
+
+/// The same in 3D for whoever asks for the slopes of the velocity themselves: SlopedFlow.
+struct VortexSlopes : Vortices<3> {
+  static constexpr int width = 12;
+
+  template <class F>
+  static void near(MultipoleKernels const& kernels, Law const& law, bool /*with_potential*/, F const& f) {
+    law.visit([&](auto const& own) { f(kernels.near_slopes[static_cast<int>(law.core)], &own); });
+  }
+  static void add_slope(Law const&, Source const&, int a, Vector<3> const& slope, double* slopes) {
+    for (int b = 0; b < 3; ++b) slopes[3 * a + b] += slope[b];
   }
 };
 

@@ -6,6 +6,7 @@
 #include <boltzmann/schemes/multipole/error_samples.hpp>
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
+#include <boltzmann/schemes/vortices/vortex_source.hpp>
 
 #include <fmt/format.h>
 
@@ -72,6 +73,7 @@ MultipoleScheme::MultipoleScheme(Box box, LaplaceLaw const& law, double toleranc
 
 MultipoleScheme::MultipoleScheme(Box box, VortexLaw const& law, double tolerance)
     : MultipoleScheme(box, tolerance, std::nullopt) {
+  vortex_law_ = law;
   engine_ = multipole_engine(law, box);
 }
 
@@ -219,6 +221,13 @@ void MultipoleScheme::choose_and_calculate(bool with_potential) {
   }
 }
 
+std::vector<VortexSource> MultipoleScheme::vortices() const {
+  std::vector<VortexSource> all;
+  for (auto const& one : loaded_)
+    if (vortex_law_ && one.acts) all.push_back({one.ensemble, *vortex_law_, tolerance_, background_});
+  return all;
+}
+
 void MultipoleScheme::add_influences(double /*time*/) {
   calculate_field(false);
   last_ = chosen_and_taken();
@@ -288,6 +297,24 @@ std::vector<Vector<D>> MultipoleScheme::velocity_at(std::vector<Vector<D>> const
 }
 template std::vector<Vector<2>> MultipoleScheme::velocity_at(std::vector<Vector<2>> const&);
 template std::vector<Vector<3>> MultipoleScheme::velocity_at(std::vector<Vector<3>> const&);
+
+std::unique_ptr<MultipoleScheme> MultipoleScheme::of_slopes(Box const& box, VortexLaw const& law, double tolerance) {
+  std::unique_ptr<MultipoleScheme> scheme(new MultipoleScheme(box, tolerance, std::nullopt));
+  scheme->engine_ = slopes_engine(law, box);
+  return scheme;
+}
+
+std::vector<double> MultipoleScheme::slopes_at_particles() {
+  calculate_field(false);
+  return engine_->field();
+}
+
+std::vector<double> MultipoleScheme::slopes_at(double const* places, std::size_t count) {
+  Look const look(*this);
+  calculate_at(places, count);
+  auto const from = static_cast<std::ptrdiff_t>((engine_->count() - count) * engine_->width());
+  return {engine_->field().begin() + from, engine_->field().end()};
+}
 
 void MultipoleScheme::grid(std::vector<std::size_t> const& cells) {
   using namespace dimensions;

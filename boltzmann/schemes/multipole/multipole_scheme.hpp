@@ -93,6 +93,12 @@ class MultipoleScheme final : public Scheme {
   /// The velocity of the flow at places. Error unless the scheme is of vortices.
   template <int D>
   std::vector<Vector<D>> velocity_at(std::vector<Vector<D>> const& places);
+  /// A scheme for the slopes of the velocity of vortices in 3D, to the tolerance: a simulation can't have it. What it
+  /// gives are 12 numbers at each particle, or at each place of 3 numbers: the velocity, and the gradients of its
+  /// components one after the other. A particle's own vorticity is not in what is found there.
+  static std::unique_ptr<MultipoleScheme> of_slopes(Box const& box, VortexLaw const& law, double tolerance);
+  std::vector<double> slopes_at_particles();
+  std::vector<double> slopes_at(double const* places, std::size_t count);
   /// Lets mesh_fields() have the potential and the field (of vortices the velocity) on the nodes of a grid with so many
   /// cells, for pictures and files; no particle feels it. Error unless there is a number for each axis.
   void grid(std::vector<std::size_t> const& cells);
@@ -107,6 +113,7 @@ class MultipoleScheme final : public Scheme {
   };
   Trial try_tolerance(double tolerance);
 
+  std::vector<VortexSource> vortices() const override;
   void add_influences(double time) override;
   EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
@@ -142,6 +149,7 @@ class MultipoleScheme final : public Scheme {
   Fit fit(int order, double criterion, ErrorSamples& samples, bool with_potential);
 
   std::optional<LaplaceLaw> law_;
+  std::optional<VortexLaw> vortex_law_;
   double tolerance_;
   std::vector<LoadedSources> loaded_;
   std::unique_ptr<MultipoleEngine> engine_;

@@ -5,10 +5,11 @@
 namespace boltzmann {
 namespace {
 
-template <int D>
-class VortexEngine final : public EngineOf<Vortices<D>> {
-  using Base = EngineOf<Vortices<D>>;
-  using Kind = Vortices<D>;
+template <class Kind>
+class VortexEngine final : public EngineOf<Kind> {
+  using Base = EngineOf<Kind>;
+  static constexpr int D = Kind::dimension;
+  static constexpr bool of_slopes = std::is_same_v<Kind, VortexSlopes>;
   using Base::points_;
 
  public:
@@ -62,9 +63,9 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
   bool feels(std::size_t) const override { return true; }
   int parts() const override { return D == 3 ? 2 : 1; }
   MultipoleEngine::Squares compare(int part, std::size_t i, double const* found, double const* exact) const override {
-    double const least = part == 0 ? least_field_ : least_slope_ * magnitude(points_[i].vorticity);
+    double const least = part == 0 ? least_field_ : least_slope_ * (of_slopes ? 1 : magnitude(points_[i].vorticity));
     MultipoleEngine::Squares squares{0, least * least};
-    for (int a = part * D; a < (part + 1) * D; ++a)
+    for (int a = part * D; a < (part == 0 ? D : Kind::width); ++a)
       squares.error += square(found[a] - exact[a]), squares.felt += square(exact[a]);
     return squares;
   }
@@ -117,8 +118,13 @@ class VortexEngine final : public EngineOf<Vortices<D>> {
 }  // namespace
 
 std::unique_ptr<MultipoleEngine> multipole_engine(VortexLaw const& law, Box const& box) {
-  if (box.dimension() == 2) return std::make_unique<VortexEngine<2>>(law, box);
-  return std::make_unique<VortexEngine<3>>(law, box);
+  if (box.dimension() == 2) return std::make_unique<VortexEngine<Vortices<2>>>(law, box);
+  return std::make_unique<VortexEngine<Vortices<3>>>(law, box);
+}
+
+std::unique_ptr<MultipoleEngine> slopes_engine(VortexLaw const& law, Box const& box) {
+  if (box.dimension() != 3) throw Error("multipoles: slopes of the flow of vortices are found in 3D");
+  return std::make_unique<VortexEngine<VortexSlopes>>(law, box);
 }
 
 }  // namespace boltzmann

@@ -3,7 +3,9 @@
 
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/pair/closing_speed.hpp>
+#include <boltzmann/schemes/vortices/vortex_source.hpp>
 
 #include <fmt/format.h>
 
@@ -484,6 +486,35 @@ std::vector<std::string> PairScheme::warnings(double step_size) {
         told(length, dimensions::length), told(with_two_digits_below(longest), dimensions::time)));
   }
   return lines;
+}
+
+std::vector<VortexSource> PairScheme::vortices() const {
+  std::vector<VortexSource> all;
+  for (auto const& near : near_)
+    if (near->traits.vortices && std::none_of(all.begin(), all.end(), [&](VortexSource const& one) {
+          return one.ensemble == near->source && one.law.core == near->traits.vortices->core;
+        }))
+      all.push_back({near->source, *near->traits.vortices});
+  return all;
+}
+
+void PairScheme::add_stream(std::span<double const> places, double time, std::span<double> velocities) {
+  auto const D = static_cast<std::size_t>(box().dimension());
+  auto const carried = [&](AnyEnsemble const& one) {
+    return one.size() > 0 &&
+           (one.moves_as() == typeid(Tracer<2>) || one.moves_as() == typeid(Tracer<3>) || one.find_field("vorticity"));
+  };
+  auto const first = std::find_if(external_.begin(), external_.end(),
+                                  [&](auto const& external) { return carried(*external->ensemble); });
+  if (first == external_.end()) return;
+  AnyEnsemble const& ensemble = *(*first)->ensemble;
+  std::vector<double> row(ensemble.row(0), ensemble.row(0) + ensemble.stride()), influence(ensemble.influence_size());
+  for (std::size_t k = 0; k < places.size() / D; ++k) {
+    std::copy_n(places.begin() + static_cast<std::ptrdiff_t>(k * D), D, row.begin());
+    std::fill(influence.begin(), influence.end(), 0.0);
+    add_outside(ensemble, row.data(), time, influence.data());
+    for (std::size_t a = 0; a < D; ++a) velocities[k * D + a] += influence[a];
+  }
 }
 
 std::string PairScheme::report() const {

@@ -4,6 +4,7 @@
 
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/parameter.hpp>
+#include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/neighbours/connection.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/schemes/pair/external_kernels.hpp>
@@ -13,7 +14,9 @@
 #include <concepts>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace boltzmann {
@@ -109,6 +112,10 @@ class PairScheme final : public Scheme {
     std::uint32_t i, j;
   };
   std::vector<Bond> bonds() const;
+  /// The vortices that act, and by which law.
+  std::vector<VortexSource> vortices() const override;
+  /// What acts from outside on the first ensemble of those that a flow carries.
+  void add_stream(std::span<double const> places, double time, std::span<double> velocities) override;
 
   void calculate(double time = 0) override;
   void add_influences(double time) override;
@@ -141,11 +148,19 @@ class PairScheme final : public Scheme {
     bool velocity_dependent = false;
     bool one_way = false;  ///< who is influenced does not influence in return
     bool uniform = false;  ///< an external law that acts on equal particles equally, wherever they are
+    std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart that it is
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
     return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::one_way,
-            is_uniform<Law>()};
+            is_uniform<Law>(), vortex_law(law)};
+  }
+  template <class Law>
+  static std::optional<VortexLaw> vortex_law(Law const& law) {
+    if constexpr (std::is_constructible_v<VortexLaw, Law const&>)
+      return VortexLaw(law);
+    else
+      return std::nullopt;
   }
   using LawPointer = std::shared_ptr<void const>;
   void add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law, LawTraits traits,

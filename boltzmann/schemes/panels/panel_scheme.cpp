@@ -95,6 +95,14 @@ void PanelScheme::add_influences(double /*time*/) {
   for (auto* ensemble : carried_) carry(*ensemble);
 }
 
+void PanelScheme::add_stream(std::span<double const> places, double /*time*/, std::span<double> velocities) {
+  std::size_t const count = places.size() / 2;
+  std::vector<double> x(count + places_padding), y(x), u(x), v(x);
+  for (std::size_t i = 0; i < count; ++i) x[i] = places[2 * i], y[i] = places[2 * i + 1];
+  sheet_.add_velocities(x.data(), y.data(), u.data(), v.data(), count, threads());
+  for (std::size_t i = 0; i < count; ++i) velocities[2 * i] += u[i], velocities[2 * i + 1] += v[i];
+}
+
 EnergyAndVirial PanelScheme::measure(double /*time*/) {
   EnergyAndVirial measures;
   measures.unknown = "the vortex sheet of a body";

@@ -43,6 +43,8 @@ class PanelScheme final : public Scheme, public AfterOthers {
   PanelSheet& sheet() { return sheet_; }
 
   void add_influences(double time) override;
+  /// Of the sheet as the last calculation has found it.
+  void add_stream(std::span<double const> places, double time, std::span<double> velocities) override;
   EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
