@@ -53,14 +53,14 @@ namespace {
 
 /// The force of pressure on a body whose sheet was another one some time ago. Pressures of neighbouring panels differ by
 /// half of what goes on along each of them.
-std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* before, double passed) {
+std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* before, double const* shed, double passed) {
   int const normal = body.field("normal").offset, length = body.field("length").offset;
-  int const sheet = body.field("sheet").offset, flux = body.field("flux").offset;
+  int const sheet = body.field("sheet").offset;
   double rising = 0, half_before = 0, x = 0, y = 0, around = 0;
   std::size_t const count = body.size();
   auto const slope = [&](std::size_t i) {
     double const* const row = body.row(i);
-    return -((row[sheet] - before[i]) / passed + row[flux]) * row[length];
+    return -(row[sheet] - before[i] + shed[i]) / passed * row[length];
   };
   for (std::size_t i = 0; i < count; ++i) around += slope(i);  // nothing, but for rounding: pressures have one value
   for (std::size_t i = 0; i < count; ++i) {
@@ -75,8 +75,22 @@ std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* befo
 
 }  // namespace
 
+void BodyForces::follow(Sample const& sample) {
+  if (!last_) return;
+  double const passed = sample.time - last_->shed_until;
+  std::size_t at = 0;
+  for (auto const* ensemble : sample.ensembles) {
+    if (!is_body(*ensemble)) continue;
+    int const flux = ensemble->field("flux").offset;
+    for (std::size_t i = 0; i < ensemble->size() && at < last_->shed.size(); ++i, ++at)
+      last_->shed[at] += ensemble->row(i)[flux] * passed;
+  }
+  last_->shed_until = sample.time;
+}
+
 void BodyForces::measure(Sample const& sample, std::vector<double>& values) {
-  Look now{sample.time, flow_impulse(sample.ensembles), {}};
+  follow(sample);
+  Look now{sample.time, flow_impulse(sample.ensembles), {}, sample.time, {}};
   std::vector<AnyEnsemble const*> bodies;
   for (auto const* ensemble : sample.ensembles)
     if (is_body(*ensemble)) {
@@ -99,26 +113,31 @@ void BodyForces::measure(Sample const& sample, std::vector<double>& values) {
     }
     std::size_t at = 0;
     for (auto const* body : bodies) {
-      auto const force = pressure_force(*body, &last_->sheet[at], passed);
+      auto const force = pressure_force(*body, &last_->sheet[at], &last_->shed[at], passed);
       values.insert(values.end(), force.begin(), force.end());
       at += body->size();
     }
   }
+  now.shed.assign(now.sheet.size(), 0.0);
   last_ = std::move(now);
 }
 
 std::vector<double> BodyForces::state() const {
   if (!last_) return {};
-  std::vector<double> all{last_->time, last_->flow.impulse[0], last_->flow.impulse[1], last_->flow.circulation};
+  std::vector<double> all{last_->time, last_->flow.impulse[0], last_->flow.impulse[1], last_->flow.circulation,
+                          last_->shed_until};
   all.insert(all.end(), last_->sheet.begin(), last_->sheet.end());
+  all.insert(all.end(), last_->shed.begin(), last_->shed.end());
   return all;
 }
 
 void BodyForces::restore(std::span<double const> state) {
   last_.reset();
   if (state.empty()) return;
-  if (state.size() < 4) throw Error("the checkpoint does not fit this simulation: it has no forces on bodies");
-  last_ = Look{state[0], {{state[1], state[2]}, state[3]}, {state.begin() + 4, state.end()}};
+  if (state.size() < 5 || state.size() % 2 == 0)
+    throw Error("the checkpoint does not fit this simulation: it has no forces on bodies");
+  auto const half = state.begin() + 5 + static_cast<std::ptrdiff_t>(state.size() / 2 - 2);
+  last_ = Look{state[0], {{state[1], state[2]}, state[3]}, {state.begin() + 5, half}, state[4], {half, state.end()}};
 }
 
 }  // namespace boltzmann

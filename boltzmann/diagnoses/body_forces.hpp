@@ -34,6 +34,9 @@ class BodyForces final : public Diagnosis {
 
   std::vector<Column> columns() const override;
   void measure(Sample const& sample, std::vector<double>& values) override;
+  /// What walls that fluid sticks to have shed in a step.
+  bool follows() const override { return true; }
+  void follow(Sample const& sample) override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
@@ -42,6 +45,8 @@ class BodyForces final : public Diagnosis {
     double time = 0;
     FlowImpulse flow;
     std::vector<double> sheet;  // of all panels
+    double shed_until = 0;      // since the look up to here ...
+    std::vector<double> shed;   // ... of each panel, over its length
   };
 
   std::vector<std::string> bodies_;
