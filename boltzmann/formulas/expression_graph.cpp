@@ -233,11 +233,77 @@ Expression ExpressionGraph::derivative(Expression of, std::uint32_t input) {
   return derive(of, input, known);
 }
 
+/// Of functions of one argument, by that.
+Expression ExpressionGraph::slope_of(Expression of) {
+  Operation const operation = nodes_[of].operation;
+  Expression const a = nodes_[of].arguments[0], square = product({{a, 2}});
+  switch (operation) {
+    case Operation::exp:
+      return of;
+    case Operation::log:
+      return product({{a, -1}});
+    case Operation::sin:
+      return apply(Operation::cos, a);
+    case Operation::cos:
+      return scale(-1, apply(Operation::sin, a));
+    case Operation::tan:
+      return sum(1, {{product({{of, 2}}), 1}});
+    case Operation::asin:
+      return product({{sum(1, {{square, -1}}), -0.5}});
+    case Operation::acos:
+      return scale(-1, product({{sum(1, {{square, -1}}), -0.5}}));
+    case Operation::atan:
+      return product({{sum(1, {{square, 1}}), -1}});
+    case Operation::sinh:
+      return apply(Operation::cosh, a);
+    case Operation::cosh:
+      return apply(Operation::sinh, a);
+    case Operation::tanh:
+      return sum(1, {{product({{of, 2}}), -1}});
+    case Operation::erf:
+      return scale(2 * std::numbers::inv_sqrtpi, apply(Operation::exp, scale(-1, square)));
+    case Operation::erfc:
+      return scale(-2 * std::numbers::inv_sqrtpi, apply(Operation::exp, scale(-1, square)));
+    case Operation::abs:
+      return apply(Operation::select, apply(Operation::less, a, number(0)), number(-1), number(1));
+    default:
+      return number(0);  // floor
+  }
+}
+
+/// Of an operation, given the derivatives of its arguments.
+Expression ExpressionGraph::derive_operation(Expression of, Expression da, Expression db, Expression dc) {
+  Operation const operation = nodes_[of].operation;
+  auto const [a, b, c] = nodes_[of].arguments;
+  switch (operation) {
+    case Operation::atan2:
+      return divide(sum(0, {{multiply(b, da), 1}, {multiply(a, db), -1}}),
+                    sum(0, {{product({{a, 2}}), 1}, {product({{b, 2}}), 1}}));
+    case Operation::pow: {
+      Expression const along = multiply(b, multiply(power(a, sum(-1, {{b, 1}})), da));
+      return is_number(db, 0) ? along : add(along, multiply(of, multiply(apply(Operation::log, a), db)));
+    }
+    case Operation::min:
+      return apply(Operation::select, apply(Operation::less, b, a), db, da);
+    case Operation::max:
+      return apply(Operation::select, apply(Operation::less, a, b), db, da);
+    case Operation::select:
+      return apply(Operation::select, a, db, dc);
+    case Operation::less:
+    case Operation::less_equal:
+    case Operation::equal:
+      return number(0);
+    default:
+      return is_number(da, 0) ? da : multiply(slope_of(of), da);
+  }
+}
+
 Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
                                    std::unordered_map<Expression, Expression>& known) {
   if (auto const found = known.find(of); found != known.end()) return found->second;
   Node const node = nodes_[of];  // a copy: nodes are added below
   Expression result = 0;
+  std::vector<Term> terms;
   switch (node.kind) {
     case Kind::number:
       result = number(0);
@@ -245,14 +311,11 @@ Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
     case Kind::input:
       result = number(node.input == input ? 1 : 0);
       break;
-    case Kind::sum: {
-      std::vector<Term> terms;
+    case Kind::sum:
       for (auto const& term : node.terms) terms.push_back({derive(term.node, input, known), term.factor});
       result = sum(0, terms);
       break;
-    }
-    case Kind::product: {
-      std::vector<Term> terms;
+    case Kind::product:
       for (std::size_t k = 0; k < node.terms.size(); ++k) {
         Expression const inside = derive(node.terms[k].node, input, known);
         if (is_number(inside, 0)) continue;
@@ -263,118 +326,19 @@ Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
       }
       result = sum(0, terms);
       break;
-    }
     case Kind::operation: {
-      auto const [a, b, c] = node.arguments;
+      Expression of_argument[3];
       int const count = arguments_of(node.operation);
-      bool const chooses = node.operation == Operation::select;
-      Expression const zero = number(0), one = number(1);
-      Expression const da = chooses ? zero : derive(a, input, known), db = count > 1 ? derive(b, input, known) : zero,
-                       dc = count > 2 ? derive(c, input, known) : zero;
-      Expression outer = zero;
-      switch (node.operation) {
-        case Operation::exp:
-          outer = of;
-          break;
-        case Operation::log:
-          outer = divide(one, a);
-          break;
-        case Operation::sin:
-          outer = apply(Operation::cos, a);
-          break;
-        case Operation::cos:
-          outer = scale(-1, apply(Operation::sin, a));
-          break;
-        case Operation::tan:
-          outer = sum(1, {{product({{of, 2}}), 1}});
-          break;
-        case Operation::asin:
-          outer = product({{sum(1, {{product({{a, 2}}), -1}}), -0.5}});
-          break;
-        case Operation::acos:
-          outer = scale(-1, product({{sum(1, {{product({{a, 2}}), -1}}), -0.5}}));
-          break;
-        case Operation::atan:
-          outer = product({{sum(1, {{product({{a, 2}}), 1}}), -1}});
-          break;
-        case Operation::sinh:
-          outer = apply(Operation::cosh, a);
-          break;
-        case Operation::cosh:
-          outer = apply(Operation::sinh, a);
-          break;
-        case Operation::tanh:
-          outer = sum(1, {{product({{of, 2}}), -1}});
-          break;
-        case Operation::erf:
-        case Operation::erfc:
-          outer = scale((node.operation == Operation::erf ? 2 : -2) * std::numbers::inv_sqrtpi,
-                        apply(Operation::exp, scale(-1, product({{a, 2}}))));
-          break;
-        case Operation::abs:
-          outer = apply(Operation::select, apply(Operation::less, a, zero), number(-1), one);
-          break;
-        default:
-          break;
-      }
-      switch (node.operation) {
-        case Operation::atan2:
-          result = divide(sum(0, {{multiply(b, da), 1}, {multiply(a, db), -1}}),
-                          sum(0, {{product({{a, 2}}), 1}, {product({{b, 2}}), 1}}));
-          break;
-        case Operation::pow: {
-          Expression const along = multiply(b, multiply(power(a, sum(-1, {{b, 1}})), da));
-          result = is_number(db, 0) ? along : add(along, multiply(of, multiply(apply(Operation::log, a), db)));
-          break;
-        }
-        case Operation::min:
-          result = apply(Operation::select, apply(Operation::less, b, a), db, da);
-          break;
-        case Operation::max:
-          result = apply(Operation::select, apply(Operation::less, a, b), db, da);
-          break;
-        case Operation::select:
-          result = apply(Operation::select, a, db, dc);
-          break;
-        case Operation::floor:
-        case Operation::less:
-        case Operation::less_equal:
-        case Operation::equal:
-          result = zero;
-          break;
-        default:
-          result = is_number(da, 0) ? zero : multiply(outer, da);
-          break;
-      }
+      for (int k = 0; k < 3; ++k)
+        of_argument[k] = k < count && !(k == 0 && node.operation == Operation::select)
+                             ? derive(node.arguments[static_cast<std::size_t>(k)], input, known)
+                             : number(0);
+      result = derive_operation(of, of_argument[0], of_argument[1], of_argument[2]);
       break;
     }
   }
   known.emplace(of, result);
   return result;
-}
-
-Expression ExpressionGraph::substitute(Expression in, std::vector<Expression> const& for_inputs) {
-  std::unordered_map<Expression, Expression> known;
-  std::function<Expression(Expression)> const replace = [&](Expression e) -> Expression {
-    if (auto const found = known.find(e); found != known.end()) return found->second;
-    Node const node = nodes_[e];
-    Expression result = e;
-    if (node.kind == Kind::input) {
-      if (node.input < for_inputs.size()) result = for_inputs[node.input];
-    } else if (node.kind == Kind::operation) {
-      int const count = arguments_of(node.operation);
-      Expression const a = replace(node.arguments[0]), b = count > 1 ? replace(node.arguments[1]) : 0,
-                       c = count > 2 ? replace(node.arguments[2]) : 0;
-      result = apply(node.operation, a, b, c);
-    } else if (node.kind != Kind::number) {
-      auto terms = node.terms;
-      for (auto& term : terms) term.node = replace(term.node);
-      result = node.kind == Kind::sum ? sum(node.number, terms) : product(terms);
-    }
-    known.emplace(e, result);
-    return result;
-  };
-  return replace(in);
 }
 
 Expression ExpressionGraph::with_common_powers(Expression of) {

@@ -83,8 +83,6 @@ class ExpressionGraph {
 
   /// By an input. What jumps (floor, comparisons) has the derivative of its pieces, 0.
   Expression derivative(Expression of, std::uint32_t input);
-  /// With expressions in place of inputs (those beyond the list stay).
-  Expression substitute(Expression in, std::vector<Expression> const& for_inputs);
   /// Sums with the powers that their terms share taken out: fewer multiplications, the same value but for rounding.
   Expression with_common_powers(Expression of);
 
@@ -100,6 +98,8 @@ class ExpressionGraph {
  private:
   Expression keep(Node node);
   Expression derive(Expression of, std::uint32_t input, std::unordered_map<Expression, Expression>& known);
+  Expression derive_operation(Expression of, Expression da, Expression db, Expression dc);
+  Expression slope_of(Expression of);
   Expression share_powers(Expression of, std::unordered_map<Expression, Expression>& known);
   bool never_negative(Node const& node) const;
 

@@ -173,76 +173,89 @@ class Writer {
     return total;
   }
 
+  // ---- From values to places ----
+
+  /// Which values the results need, and the last step that reads each column.
+  struct Needs {
+    std::vector<bool> row, column;
+    std::vector<std::size_t> last_use;
+
+    void add(Value v, std::size_t at) {
+      if (v.place == Value::Place::row) row[v.index] = true;
+      if (v.place != Value::Place::column) return;
+      column[v.index] = true;
+      last_use[v.index] = std::max(last_use[v.index], at);
+    }
+    void add(Written const& step, std::size_t at) {
+      add(step.a, at);
+      if (step.operands > 1) add(step.b, at);
+      if (step.operands > 2) add(step.c, at);
+    }
+  };
+  Needs needs_of(std::vector<Value> const& results) const {
+    Needs needs{std::vector<bool>(rows_), std::vector<bool>(columns_), std::vector<std::size_t>(columns_, 0)};
+    for (auto const result : results) needs.add(result, steps_.size());
+    for (std::size_t k = steps_.size(); k-- > 0;)
+      if (needs.column[steps_[k].to.index]) needs.add(steps_[k], k);
+    for (std::size_t k = row_steps_.size(); k-- > 0;)
+      if (needs.row[row_steps_[k].to.index]) needs.add(row_steps_[k], 0);
+    return needs;
+  }
+
+  Operand place_of(Value v) const {
+    if (v.place == Value::Place::column) return {where_[v.index], false};
+    return {static_cast<std::uint16_t>(v.place == Value::Place::constant ? v.index : constants_.size() + v.index),
+            true};
+  }
+  Step placed(Written const& step) const {
+    Operand const a = place_of(step.a), b = step.operands > 1 ? place_of(step.b) : a,
+                  c = step.operands > 2 ? place_of(step.c) : a;
+    return {step.instruction, step.operation, {}, a, b, c};
+  }
+
   /// Steps that no result needs go; columns are used again when nobody reads them any more.
   FormulaProgram placed(std::vector<Value> const& results) {
     FormulaProgram program;
     program.constants = constants_;
     program.row_inputs = given_rows_;
-    std::vector<bool> row_needed(rows_), column_needed(columns_);
-    std::vector<std::size_t> last_use(columns_, 0);
-    auto const need = [&](Value v, std::size_t at) {
-      if (v.place == Value::Place::row) row_needed[v.index] = true;
-      if (v.place == Value::Place::column) {
-        column_needed[v.index] = true;
-        last_use[v.index] = std::max(last_use[v.index], at);
-      }
-    };
-    for (auto const result : results) need(result, steps_.size());
-    auto const need_operands = [&](Written const& step, std::size_t at) {
-      need(step.a, at);
-      if (step.operands > 1) need(step.b, at);
-      if (step.operands > 2) need(step.c, at);
-    };
-    for (std::size_t k = steps_.size(); k-- > 0;)
-      if (column_needed[steps_[k].to.index]) need_operands(steps_[k], k);
-    for (std::size_t k = row_steps_.size(); k-- > 0;)
-      if (row_needed[row_steps_[k].to.index]) need_operands(row_steps_[k], 0);
-
-    auto const scalars = constants_.size() + rows_;
-    if (scalars > max_scalars) throw Error("the formula has too many numbers that are the same for a row");
-    program.scalars = scalars;
-    std::vector<std::uint16_t> where(columns_);
-    std::vector<std::uint16_t> free;
-    for (std::uint32_t k = 0; k < given_columns_; ++k) where[k] = static_cast<std::uint16_t>(k);
-    std::size_t used = given_columns_;
-    auto const operand = [&](Value v) -> Operand {
-      if (v.place == Value::Place::column) return {where[v.index], false};
-      return {static_cast<std::uint16_t>(v.place == Value::Place::constant ? v.index : constants_.size() + v.index),
-              true};
-    };
-    auto const put = [&](Written const& step, std::vector<Step>& into) {
-      Operand const a = operand(step.a), b = step.operands > 1 ? operand(step.b) : a,
-                    c = step.operands > 2 ? operand(step.c) : a;
-      into.push_back({step.instruction, step.operation, {}, a, b, c});
-    };
+    program.scalars = constants_.size() + rows_;
+    if (program.scalars > max_scalars) throw Error("the formula has too many numbers that are the same for a row");
+    Needs const needs = needs_of(results);
+    where_.assign(columns_, 0);
+    for (std::uint32_t k = 0; k < given_columns_; ++k) where_[k] = static_cast<std::uint16_t>(k);
     for (auto const& step : row_steps_) {
-      if (!row_needed[step.to.index]) continue;
-      put(step, program.row_steps);
-      program.row_steps.back().to = operand(step.to);
+      if (!needs.row[step.to.index]) continue;
+      program.row_steps.push_back(placed(step));
+      program.row_steps.back().to = place_of(step.to);
     }
+    std::vector<std::uint16_t> free;
+    std::size_t used = given_columns_;
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       auto const& step = steps_[k];
-      if (!column_needed[step.to.index]) continue;
-      put(step, program.steps);
-      // An operand that is read here for the last time leaves its column to the result. Inputs stay: they are read
-      // again by the sums.
-      std::vector<std::uint32_t> ending;
-      auto const ends = [&](Value v, int which) {
-        if (which < step.operands && v.place == Value::Place::column && v.index >= given_columns_ &&
-            last_use[v.index] == k && std::find(ending.begin(), ending.end(), v.index) == ending.end())
-          ending.push_back(v.index);
-      };
-      ends(step.a, 0), ends(step.b, 1), ends(step.c, 2);
-      for (auto const index : ending) free.push_back(where[index]);
+      if (!needs.column[step.to.index]) continue;
+      program.steps.push_back(placed(step));
+      for (auto const index : ending(step, k, needs)) free.push_back(where_[index]);
       if (free.empty()) free.push_back(static_cast<std::uint16_t>(used++));
-      where[step.to.index] = free.back();
+      where_[step.to.index] = free.back();
       free.pop_back();
       if (used > max_columns) throw Error(fmt::format("the formula has more than {} numbers at a time", max_columns));
-      program.steps.back().to = operand(step.to);
+      program.steps.back().to = place_of(step.to);
     }
     program.columns = used;
-    for (auto const result : results) program.results.push_back(operand(result));
+    for (auto const result : results) program.results.push_back(place_of(result));
     return program;
+  }
+  /// The operands that a step is the last to read: they leave their columns to its result. Inputs stay, for sums.
+  std::vector<std::uint32_t> ending(Written const& step, std::size_t k, Needs const& needs) const {
+    std::vector<std::uint32_t> all;
+    Value const operands[] = {step.a, step.b, step.c};
+    for (int n = 0; n < step.operands; ++n) {
+      Value const v = operands[n];
+      if (v.place == Value::Place::column && v.index >= given_columns_ && needs.last_use[v.index] == k &&
+          std::find(all.begin(), all.end(), v.index) == all.end())
+        all.push_back(v.index);
+    }
+    return all;
   }
 
   ExpressionGraph& graph_;
@@ -253,6 +266,7 @@ class Writer {
   std::map<double, std::size_t> constants_known_;
   std::vector<double> constants_;
   std::vector<Written> row_steps_, steps_;
+  std::vector<std::uint16_t> where_;  // the column of each value
   std::uint32_t columns_ = 0, rows_ = 0, given_columns_ = 0, given_rows_ = 0;
 };
 

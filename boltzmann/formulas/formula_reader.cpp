@@ -331,75 +331,79 @@ class Reader {
     return result;
   }
 
-  FormulaValue call(std::size_t begin, NamedFunction const& function) {
+  struct Arguments {
+    std::vector<FormulaValue> values;
+    std::vector<std::size_t> places;
+    bool plain = true;
+    Expression operator[](std::size_t k) const { return values[k].components[0]; }
+  };
+  Arguments read_arguments(std::size_t begin, NamedFunction const& function) {
     std::size_t const open = at_;
     take("(");
-    std::vector<FormulaValue> arguments;
-    std::vector<std::size_t> places;
+    Arguments all;
     if (!take(")")) {
-      do places.push_back(at_), arguments.push_back(choice());
-      while (take(","));
+      do {
+        all.places.push_back(at_);
+        all.values.push_back(choice());
+        all.plain = all.plain && all.values.back().plain;
+      } while (take(","));
       if (!take(")")) throw unclosed(open, ')');
     }
     auto const count = static_cast<std::size_t>(function.arguments);
-    if (arguments.size() != count)
+    if (all.values.size() != count)
       throw FormulaError(begin, fmt::format("{} takes {} value{}, not {}", function.name, count, count == 1 ? "" : "s",
-                                            arguments.size()));
-    std::string_view const name = function.name;
-    bool const of_vectors = name == "dot" || name == "cross" || name == "norm";
+                                            all.values.size()));
+    bool const of_vectors = function.name == "dot" || function.name == "cross" || function.name == "norm";
+    bool const chooses = function.name == "if" || function.name == "select";
     for (std::size_t k = 0; k < count; ++k) {
-      bool const chooses = (name == "if" || name == "select") && k > 0;
-      if (of_vectors && !arguments[k].is_vector)
-        throw FormulaError(places[k], fmt::format("{} takes vectors; this is a number", name));
-      if (!of_vectors && !chooses) need_number(arguments[k], places[k]);
+      if (of_vectors && !all.values[k].is_vector)
+        throw FormulaError(all.places[k], fmt::format("{} takes vectors; this is a number", function.name));
+      if (!of_vectors && !(chooses && k > 0)) need_number(all.values[k], all.places[k]);
     }
-    auto const first = [&](std::size_t k) { return arguments[k].components[0]; };
-    bool all_plain = true;
-    for (auto const& argument : arguments) all_plain = all_plain && argument.plain;
+    return all;
+  }
+
+  FormulaValue call(std::size_t begin, NamedFunction const& function) {
+    Arguments const of = read_arguments(begin, function);
+    std::string_view const name = function.name;
     for (auto const& [pure_name, operation] : pure_functions) {
       if (pure_name != name) continue;
-      need_pure(arguments[0], places[0], fmt::format("{} is taken of pure numbers; this", name));
-      FormulaValue result = pure(graph_.apply(operation, first(0)));
-      result.plain = all_plain;
+      need_pure(of.values[0], of.places[0], fmt::format("{} is taken of pure numbers; this", name));
+      FormulaValue result = pure(graph_.apply(operation, of[0]));
+      result.plain = of.plain;
       return result;
     }
-    if (name == "sqrt") {
-      FormulaValue half = pure(graph_.number(0.5));
-      return raised(arguments[0], half, places[0]);
+    if (name == "sqrt") return raised(of.values[0], pure(graph_.number(0.5)), of.places[0]);
+    if (name == "pow") return raised(of.values[0], of.values[1], of.places[1]);
+    if (name == "if" || name == "select") return chosen(of.values[0], of.values[1], of.values[2], of.places[2]);
+    if (name == "step") return pure(graph_.apply(Operation::less_equal, graph_.number(0), of[0]));
+    if (name == "norm" || name == "dot") return dot(of.values[0], of.values[name == "norm" ? 0 : 1], name == "norm");
+    if (name == "cross") return cross(of.values[0], of.values[1], begin);
+    FormulaValue result = of.values[0];
+    result.plain = of.plain;
+    if (name == "abs") {
+      result.components[0] = graph_.apply(Operation::abs, of[0]);
+    } else if (name == "floor") {
+      need_pure(of.values[0], of.places[0], "floor is taken of pure numbers; this");
+      result.components[0] = graph_.apply(Operation::floor, of[0]);
+    } else {  // min, max, atan2
+      result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
+      result.components[0] = graph_.apply(name == "min"   ? Operation::min
+                                          : name == "max" ? Operation::max
+                                                          : Operation::atan2,
+                                          of[0], of[1]);
+      if (name == "atan2") result.dimension = {};
     }
-    if (name == "pow") return raised(arguments[0], arguments[1], places[1]);
-    if (name == "if" || name == "select") return chosen(arguments[0], arguments[1], arguments[2], places[2]);
-    if (name == "step") return pure(graph_.apply(Operation::less_equal, graph_.number(0), first(0)));
-    if (name == "abs" || name == "floor") {
-      if (name == "floor") need_pure(arguments[0], places[0], "floor is taken of pure numbers; this");
-      FormulaValue result = arguments[0];
-      result.components[0] = graph_.apply(name == "abs" ? Operation::abs : Operation::floor, first(0));
-      return result;
-    }
-    if (name == "min" || name == "max" || name == "atan2") {
-      Dimension const dimension = same(arguments[0], arguments[1], places[1], "compared");
-      FormulaValue result = pure(graph_.apply(name == "min"   ? Operation::min
-                                              : name == "max" ? Operation::max
-                                                              : Operation::atan2,
-                                              first(0), first(1)));
-      if (name != "atan2") result.dimension = dimension;
-      result.plain = all_plain;
-      return result;
-    }
-    if (name == "norm" || name == "dot") {
-      auto const &a = arguments[0], &b = arguments[name == "norm" ? 0 : 1];
-      std::vector<ExpressionGraph::Term> terms;
-      for (std::size_t c = 0; c < a.components.size(); ++c)
-        terms.push_back({graph_.multiply(a.components[c], b.components[c]), 1});
-      FormulaValue result = pure(graph_.sum(0, terms));
-      result.dimension = a.dimension * b.dimension;
-      if (name == "norm") {
-        result.components[0] = graph_.root(result.components[0]);
-        result.dimension = a.dimension;
-      }
-      return result;
-    }
-    return cross(arguments[0], arguments[1], begin);
+    return result;
+  }
+  FormulaValue dot(FormulaValue const& a, FormulaValue const& b, bool root) {
+    std::vector<ExpressionGraph::Term> terms;
+    for (std::size_t c = 0; c < a.components.size(); ++c)
+      terms.push_back({graph_.multiply(a.components[c], b.components[c]), 1});
+    FormulaValue result = pure(graph_.sum(0, terms));
+    result.dimension = root ? a.dimension : a.dimension * b.dimension;
+    if (root) result.components[0] = graph_.root(result.components[0]);
+    return result;
   }
   FormulaValue cross(FormulaValue const& a, FormulaValue const& b, std::size_t begin) {
     auto const minor = [&](std::size_t i, std::size_t k) {

@@ -25,7 +25,7 @@ struct FormulaValue {
 /// What the names of a formula mean. A name may have dots; of a vector `name` also `name.x`, `name.y`, `name.z`.
 struct NamesInFormula {
   std::map<std::string, FormulaValue, std::less<>> values;
-  UnitSystem units;      ///< of the numbers; a reduced one has no units, and no dimension is checked
+  UnitSystem units;     ///< of the numbers; a reduced one has no units, and no dimension is checked
   bool checked = true;  ///< whether dimensions are
 };
 
