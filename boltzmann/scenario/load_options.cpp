@@ -94,7 +94,7 @@ std::vector<LoadKind> make_kinds() {
            {"normal"},
            {"mode", "periods of a ripple around the circle", "none"},
            {"ripple"}})},
-      {"vortex-ring", "a ring of vorticity with a resolved core in 3D, whose elements get their vorticity and cores",
+      {"ring-tube", "a ring of vorticity with a resolved core in 3D, whose elements get their vorticity and cores",
        false,
        of({{"radius", "of the ring", "", "1"},
            {"core_radius"},

@@ -86,7 +86,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
       Way{"barometric", nullptr, &Loader::load_barometric},
       Way{"plummer-sphere", nullptr, &Loader::load_plummer},
       Way{"ring", &Loader::read_ring, &Loader::load_ring},
-      Way{"vortex-ring", &Loader::read_vortex_ring, &Loader::load_vortex_ring},
+      Way{"ring-tube", &Loader::read_vortex_ring, &Loader::load_vortex_ring},
       Way{"positions", &Loader::read_positions, &Loader::load_places},
       Way{"file", &Loader::read_file, &Loader::load_file},
   };

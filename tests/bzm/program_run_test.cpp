@@ -234,6 +234,7 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
                   .projection = {12.5, -80},
                   .most = 99,
                   .region = {{0, 1}, {-2, 2}},
+                  .streamlines = 12,
                   .cells = 33,
                   .bins = 34};
   AnyEnsemble* const ensembles[] = {&beads};

@@ -113,6 +113,7 @@ TEST(FormulaLaw, ActsBetweenEnsemblesBothWaysOrOne) {
   auto const on_a = influences(a);
   one.calculate();
   EXPECT_EQ(on_a, influences(a));
+  both.calculate();
   double sum[2] = {0, 0}, size = 0;
   for (int c = 0; c < 2; ++c) {
     for (std::size_t i = 0; i < a.size(); ++i) sum[c] += a.influence(i)[c], size += std::fabs(a.influence(i)[c]);

@@ -88,6 +88,7 @@ std::vector<Member> members(AnyEnsemble& ensemble, std::size_t i) {
   if constexpr (requires { p.vorticity; }) all.push_back(member("vorticity", p.vorticity));
   if constexpr (requires { p.core; }) all.push_back(member("core", p.core));
   if constexpr (requires { p.viscosity; }) all.push_back(member("viscosity", p.viscosity));
+  if constexpr (requires { p.volume; }) all.push_back(member("volume", p.volume));
   if constexpr (requires { p.length; }) all.push_back(member("length", p.length));
   if constexpr (requires { p.bob_mass; }) all.push_back(member("bob_mass", p.bob_mass));
   if constexpr (requires { p.pivot; }) all.push_back(member("pivot", p.pivot));
