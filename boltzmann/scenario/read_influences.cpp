@@ -66,6 +66,12 @@ class InfluenceReader {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
     if (section_.has("energy")) typed_item_ = section_.find("energy");
     if (typed_item_) return read_typed();
+    for (char const* key : {"energy", "influence", "parameters", "from_outside"}) {
+      if (section_.has(key))
+        reading_.mistake(section_.place(key),
+                         fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
+      section_.allow(key);
+    }
     read_law();
     on_ = section_.find("on");
     if (!external()) by_ = section_.find("by"), between_ = section_.find("between");

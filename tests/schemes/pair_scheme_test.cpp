@@ -339,7 +339,7 @@ TEST(PairScheme, RefusesWhatItCannotDo) {
     PairScheme mirrored(Box(Vector{0., 0.}, Vector{4., 3.}, {Boundary::open, Boundary::mirror}), cutoff);
     EXPECT_EQ(message([&] { mirrored.internal(twin, smooth_law); }),
               "axis y is a mirror: particles that interact by pairs need a reflecting, periodic or open axis there "
-              "(mirrors are for smooth particles)");
+              "(mirrors are for smooth particles and vortices)");
   }
   atoms[2].position = {std::nan(""), 0};
   EXPECT_THROW(good.calculate(), PhysicsFailure);

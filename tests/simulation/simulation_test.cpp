@@ -475,43 +475,6 @@ class Trap final : public Scheme {
   bool states_;
 };
 
-/// A trap that counts how often somebody asks for its influences.
-class CountingTrap final : public Scheme {
- public:
-  using Scheme::Scheme;
-  void add_influences(double) override {
-    ++asked;
-    for (auto* ensemble : ensembles())
-      for (std::size_t i = 0; i < ensemble->size(); ++i) ensemble->influence(i)[0] -= ensemble->row(i)[0];
-  }
-  EnergyAndVirial measure(double) override { return {}; }
-  double length_scale(AnyEnsemble const&) const override { return std::numeric_limits<double>::infinity(); }
-  std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
-  void make_reversible(double) override {}
-  int asked = 0;
-};
-
-TEST(Simulation, ManyShortRunsAskForInfluencesAsOftenAsOneLongRun) {
-  for (Method const method : {Method::leap_frog, Method::rk4, Method::euler}) {
-    int asked[2];
-    double at[2];
-    for (int k = 0; k < 2; ++k) {
-      Ensemble<Newton<1>> ball("ball", 3);
-      ball[1].position[0] = 1;
-      CountingTrap trap(Box(Vector{-9.0}, Vector{9.0}));
-      trap.add(ball);
-      Simulation simulation(trap, 0.1);
-      simulation.integrate(ball, method);
-      if (k == 0) simulation.run(20);
-      for (int n = 0; k == 1 && n < 20; ++n) simulation.run(1);
-      asked[k] = trap.asked;
-      at[k] = ball[1].position[0];
-    }
-    EXPECT_EQ(asked[0], asked[1]);
-    EXPECT_EQ(at[0], at[1]);
-  }
-}
-
 TEST(Scheme, WhatItDoesNotStateIsUnknown) {
   Box const box(Vector{-9., -9.}, Vector{9., 9.});
   for (bool const states : {false, true}) {
