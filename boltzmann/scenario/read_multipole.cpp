@@ -31,6 +31,7 @@ std::optional<VortexLaw> read_vortex_law(Section& section, Reading& reading) {
   auto const names = vortex_laws();
   if (!word || !word->is(Item::Kind::text) || std::find(names.begin(), names.end(), word->text) == names.end())
     return std::nullopt;
+  read_word(*word, "law", names, reading.context);  // which notes it for forms
   section.explain(*multipole_options().find("law"));
   for (char const* key : {"k", "G", "softening"})
     section.refuse(key, fmt::format("the law '{}' has none (each vortex has a core); leave it out", word->text));
