@@ -4,6 +4,7 @@
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/scenario/parameters.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/schemes/panels/body_options.hpp>
 
 #include <fmt/format.h>
 
@@ -173,6 +174,13 @@ ScenarioOutline outline_scenario(std::string const& text, std::string const& fil
     if (!own || !(*own >= 0) || *own > 1e15) return outline;
     count += *own;
   }
+  if (Item const* bodies = value_in(document, "bodies"); bodies && bodies->is(Item::Kind::array))
+    for (auto const& body : bodies->elements) {
+      Item const* panels = value_in(body, "panels");
+      if (text_in(body, "shape") == "polygon" || (panels && !(panels->number > 0 && panels->number < 1e6)))
+        return outline;  // its corners have panels, too
+      count += panels ? panels->number : BodyOptions{}.panels;
+    }
   outline.particles = static_cast<std::size_t>(count);
   return outline;
 }
