@@ -15,7 +15,8 @@ json changes(json const& request) {
   if (!request.contains("set") || request["set"].is_null()) return json::object();
   if (!request["set"].is_object()) throw Error("\"set\" is an object, {\"run.steps\": \"100\"}");
   for (auto const& value : request["set"])
-    if (!value.is_string()) throw Error("what is set is written as in a scenario file, as a text");
+    if (!value.is_string() && !value.is_null())  // null: the key is left out
+      throw Error("what is set is written as in a scenario file, as a text");
   return request["set"];
 }
 
