@@ -14,7 +14,7 @@ namespace {
 std::string const space =
     "[units]\nbase = \"reduced\"\n[box]\nlow = [-2, -2, -2]\nhigh = [2, 2, 2]\n[run]\nstep = 0.1\nsteps = 2\n";
 std::string const ring =
-    "[[ensembles]]\nname = \"ring\"\nclass = \"Inviscid\"\nload = { kind = \"vortex-ring\", radius = 1, core_radius = "
+    "[[ensembles]]\nname = \"ring\"\nclass = \"Inviscid\"\nload = { kind = \"ring-tube\", radius = 1, core_radius = "
     "0.3, layers = 1 }\n";
 std::string const law = "[[influences]]\nlaw = \"biot-savart-gaussian\"\non = \"ring\"\n";
 std::string const multipole = "[multipole]\nlaw = \"biot-savart-gaussian\"\ntolerance = 1e-4\n";
