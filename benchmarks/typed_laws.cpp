@@ -29,7 +29,10 @@ struct Liquid {
     LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {20, 20, 20}};
     block_load(atoms, block);
     maxwellian_load(atoms, {.temperature = 1.44});
-    for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i].charge = i % 2 == 0 ? 1 : -1;
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+      atoms[i].charge = i % 2 == 0 ? 1 : -1;
+      atoms[i].position += 0.05 * atoms[i].velocity;  // off their sites, where all influences are zero
+    }
     auto const length = repeat_lengths(block, 3);
     scheme = std::make_unique<PairScheme>(
         Box(Vector{0.0, 0.0, 0.0}, Vector{length[0], length[1], length[2]}, Boundary::periodic), 2.5);

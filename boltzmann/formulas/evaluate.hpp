@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
-#include <boltzmann/formulas/formula_program.hpp>
+#include <boltzmann/formulas/machine_code.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +14,7 @@ template <int W>
 struct Workspace {
   using Real = Pack<double, W>;
   alignas(64) double columns[max_columns * block_pairs];
-  alignas(64) double scalars[max_scalars * W];
+  alignas(64) double scalars[(max_scalars + 4) * W];  // those of a list's rows stand behind a program's
 
   double* column(std::size_t which) { return columns + which * block_pairs; }
   void set_scalar(std::size_t which, double value) {
@@ -152,6 +152,33 @@ template <int W>
         run_function<W>(work, *step, packs);
         break;
     }
+  }
+}
+
+/// Whether the interpreter, as it is compiled here, rounds as machine code for this width does: a b + c once.
+#if defined(__FMA__) && defined(__OPTIMIZE__)
+template <int W>
+inline constexpr bool rounds_as_machine_code = W * sizeof(double) == 32 || W * sizeof(double) == 64;
+#else
+template <int W>
+inline constexpr bool rounds_as_machine_code = false;
+#endif
+
+/// What a program does once for a row.
+template <int W>
+void run_row(Workspace<W>& work, FormulaProgram const& program) {
+  if (program.code && program.code->row()) return program.code->row()(work.scalars);
+  run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
+}
+/// The steps of a program, by its machine code where it has some.
+template <int W>
+void run_program(Workspace<W>& work, FormulaProgram const& program, std::size_t packs) {
+  if (!program.code) return run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+  for (auto const& piece : program.code->pieces()) {
+    if (piece.function)
+      piece.function(work.columns, work.scalars, packs);
+    else
+      run_steps<W>(work, program.steps.data() + piece.first_step, piece.steps, packs);
   }
 }
 

@@ -66,7 +66,8 @@ class ExpressionGraph {
   };
 
   Expression number(double value);
-  /// Input `which` (counted by the caller). One that is never negative has powers of powers merged.
+  /// Input `which` (counted by the caller). One that is never negative has powers of powers merged; programs take it to be
+  /// above zero.
   Expression input(std::uint32_t which, bool never_negative = false);
   Expression sum(double constant, std::vector<Term> const& terms);
   Expression product(std::vector<Term> const& factors);

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace boltzmann {
 namespace {
@@ -40,8 +41,11 @@ class Writer {
   }
 
   FormulaProgram write(std::span<Expression const> results) {
+    std::vector<Expression> shared;
+    for (auto const result : results) shared.push_back(graph_.with_common_powers(result));
+    for (auto const e : shared) find_inverse_roots(e);
     std::vector<Value> values;
-    for (auto const result : results) values.push_back(value_of(graph_.with_common_powers(result)));
+    for (auto const e : shared) values.push_back(value_of(e));
     return placed(values);
   }
 
@@ -93,6 +97,20 @@ class Writer {
     return value;
   }
 
+  /// Bases of odd negative powers of a root.
+  void find_inverse_roots(Expression e) {
+    if (!seen_.insert(e).second) return;
+    auto const node = graph_.node(e);
+    for (auto const& term : node.terms) {
+      if (node.kind == Kind::product && term.factor < 0 && term.factor != std::floor(term.factor))
+        inverse_roots_.insert(term.node);
+      find_inverse_roots(term.node);
+    }
+    if (node.kind != Kind::operation) return;
+    for (int k = 0; k < arguments_of(node.operation); ++k)
+      find_inverse_roots(node.arguments[static_cast<std::size_t>(k)]);
+  }
+
   Value sum_of(ExpressionGraph::Node const& node) {
     // Row values first, so that they are added up once for the row.
     struct Part {
@@ -124,6 +142,10 @@ class Writer {
     bool const half = exponent != std::floor(exponent);
     int const n = static_cast<int>(std::floor(std::fabs(exponent)));
     if (exponent > 0 && half) {
+      // The inverse root, where it is wanted too, gives the root for one multiplication (but that of zero).
+      auto const& node = graph_.node(base);
+      bool const is_square = node.kind == Kind::input && node.never_negative && inverse_roots_.contains(base);
+      if (is_square) return multiply(whole_power(x, n + 1), unary(Instruction::inverse_root, x));
       Value const root = unary(Instruction::root, x);
       return n == 0 ? root : multiply(whole_power(x, n), root);
     }
@@ -261,6 +283,7 @@ class Writer {
   ExpressionGraph& graph_;
   std::unordered_map<std::uint32_t, Value> inputs_;
   std::unordered_map<Expression, Value> known_;
+  std::unordered_set<Expression> seen_, inverse_roots_;
   std::map<std::pair<Instruction, Value>, Value> unary_;
   std::map<std::pair<Value, int>, Value> powers_;
   std::map<double, std::size_t> constants_known_;

@@ -5,10 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace boltzmann {
+
+class MachineCode;
 
 /// What an instruction does with its operands a, b, c.
 enum class Instruction : std::uint8_t {
@@ -49,6 +52,7 @@ struct FormulaProgram {
   std::vector<Step> row_steps, steps;
   std::vector<Operand> results;
   std::size_t columns = 0, scalars = 0;
+  std::shared_ptr<MachineCode const> code;  ///< of the steps; null: they are interpreted
 
   std::size_t first_row_input() const { return constants.size(); }
 };

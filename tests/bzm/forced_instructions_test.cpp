@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 
 namespace boltzmann::forced_instructions_test {
 namespace {
@@ -104,6 +106,78 @@ TEST(Instructions, AWrongWordIsOneLineAndStatus2) {
   }
   EXPECT_FALSE(fs::exists(folder / "results"));
   EXPECT_EQ(bzm_with("x86-64-v9", {"--help"}, folder.string()).status, 0);
+}
+
+// Laws that are typed: interpreted, by machine code where there is some, and with any number of threads.
+TEST(TypedLaws, HaveTheSameBitsInterpretedAndByMachineCode) {
+  Folder folder;
+  std::string const text = R"([units]
+base = "reduced"
+[box]
+low = [0, 0, 0]
+high = [16.8, 16.8, 16.8]
+boundary = "periodic"
+[run]
+step = 0.004
+steps = 25
+cutoff = 2.5
+[[ensembles]]
+name = "atoms"
+class = "Coulomb"
+load = { kind = "block", lattice = "fcc", spacing = 1.1879394, counts = [10, 10, 10] }
+temperature = 1
+charge = 0.3
+[[ensembles]]
+name = "beads"
+class = "Newton"
+load = { kind = "positions", positions = [[1, 1, 1], [1.5, 1, 1], [2, 1.2, 1]] }
+[[influences]]
+on = "atoms"
+energy = "4*(r^-12 - r^-6) + p.charge*q.charge*exp(-r)/r"
+[[influences]]
+on = "atoms"
+influence = "-0.1*(1 - r/2.5)^2*dot(separation, velocity)*separation/r^2"
+[[influences]]
+on = "beads"
+by = "atoms"
+energy = "exp(-2*r)*min(r, 2) + log(1 + r)"
+[[influences]]
+on = "beads"
+connect = [[0, 1, 1]]
+energy = "20*(r - 0.5)^2"
+[[influences]]
+on = "atoms"
+from_outside = true
+energy = "0.1*floor(x) + 0.01*x^2*abs(y - 8)"
+[[diagnoses]]
+kind = "temperature"
+[output]
+trajectory = 25
+diagnoses = 5
+)";
+  std::ofstream(folder / "typed.toml") << text;
+  auto const run = [&](std::string const& set, char const* formulas, std::string const& threads) {
+    std::string const out = set + "-" + formulas + "-" + threads;
+    setenv("BOLTZMANN_FORMULAS", formulas, 1);
+    auto const outcome =
+        bzm_with(set, {"run", "typed.toml", "--threads", threads, "--quiet", "--out", out}, folder.string());
+    unsetenv("BOLTZMANN_FORMULAS");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return folder / out;
+  };
+  for (auto const set : instruction_sets()) {
+    auto const name = to_string(set);
+    auto const interpreted = run(name, "interpreted", "1");
+    for (char const* const threads : {"1", "2"}) {
+      auto const compiled = run(name, "compiled", threads);
+      EXPECT_EQ(last_frame(compiled), last_frame(interpreted)) << name;
+      EXPECT_EQ(text_of(compiled / "diagnoses.csv"), text_of(interpreted / "diagnoses.csv")) << name;
+    }
+  }
+  setenv("BOLTZMANN_FORMULAS", "jit", 1);
+  auto const wrong = bzm({"check", "typed.toml"}, folder.string());
+  unsetenv("BOLTZMANN_FORMULAS");
+  EXPECT_TRUE(has(wrong.err, "BOLTZMANN_FORMULAS is 'jit'; it may be interpreted or compiled")) << wrong.err;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <boltzmann/formulas/formula_reader.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/formulas/formula_texts.hpp>
 
 #include <cmath>
 #include <random>
@@ -51,51 +52,13 @@ TEST(Expressions, AreOneWhereTheirFormIs) {
   EXPECT_NE(read("sqrt(x^2)"), read("x")) << "x may be negative";
 }
 
-/// A random text of x, y, z, which stay between 0.5 and 2; deep enough for every operation.
-std::string random_text(std::mt19937& random, int depth) {
-  auto const pick = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); };
-  if (depth == 0) {
-    if (pick(4) == 0) return std::to_string(1 + pick(5));
-    return std::string(1, "xyz"[pick(3)]);
-  }
-  auto const inside = [&] { return random_text(random, depth - 1 - pick(2) * (depth > 1)); };
-  switch (pick(14)) {
-    case 0:
-    case 1:
-      return "(" + inside() + " + " + inside() + ")";
-    case 2:
-      return "(" + inside() + " - " + inside() + ")";
-    case 3:
-    case 4:
-      return inside() + "*" + inside();
-    case 5:
-      return inside() + "/(1.5 + (" + inside() + ")^2)";
-    case 6:
-      return "(" + inside() + ")^" + std::to_string(1 + pick(4));
-    case 7:
-      return "sqrt(1 + (" + inside() + ")^2)";
-    case 8:
-      return "exp(-(" + inside() + ")^2)";
-    case 9:
-      return "sin(" + inside() + ")";
-    case 10:
-      return "log(2 + (" + inside() + ")^2)";
-    case 11:
-      return "tanh(" + inside() + ")";
-    case 12:
-      return "max(" + inside() + ", " + inside() + ")";
-    default:
-      return "cos(" + inside() + ")";
-  }
-}
-
 TEST(Expressions, HaveDerivativesAsDifferencesSay) {
   std::mt19937 random(20);
   int compared = 0;
   for (int k = 0; k < 3000; ++k) {
     ExpressionGraph graph;
     auto const names = names_of(graph, {"x", "y", "z"});
-    auto const text = random_text(random, 4);
+    auto const text = formula_text(random, 4, "xyz");
     Expression const e = read_formula_text(text, names, 3, graph).components[0];
     std::vector<double> at(3);
     for (auto& x : at) x = std::uniform_real_distribution<double>(0.5, 2)(random);
@@ -114,7 +77,9 @@ TEST(Expressions, HaveDerivativesAsDifferencesSay) {
     }
     // The form with common powers taken out has the same value.
     double const value = graph.value(e, at), shared = graph.value(graph.with_common_powers(e), at);
-    if (std::isfinite(value)) EXPECT_NEAR(shared, value, 1e-9 * (std::fabs(value) + 1)) << text;
+    if (std::isfinite(value)) {
+      EXPECT_NEAR(shared, value, 1e-9 * (std::fabs(value) + 1)) << text;
+    }
   }
   EXPECT_GT(compared, 5000);
 }

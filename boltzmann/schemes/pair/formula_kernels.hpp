@@ -12,6 +12,7 @@ namespace boltzmann {
 struct FormulaKernelTable {
   PairKernels pairs[3];
   ExternalKernels externals[3];
+  int code_width = 0;  ///< numbers at a time of machine code that goes with these kernels; 0: none does
 };
 template <InstructionSet set>
 FormulaKernelTable const& formula_kernels();

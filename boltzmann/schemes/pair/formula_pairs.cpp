@@ -1,5 +1,6 @@
 // Laws that are formulas in a pair scheme: from their programs to the kernels of the instruction set in use.
 #include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/formulas/machine_code.hpp>
 #include <boltzmann/schemes/pair/formula_kernels.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
@@ -15,6 +16,19 @@ FormulaKernelTable const& kernels() {
       [](auto set) -> FormulaKernelTable const& { return formula_kernels<decltype(set)::value>(); });
 }
 
+/// Machine code, where the kernels in use go together with some.
+std::shared_ptr<PairProgram const> ready(PairProgram program, int dimension) {
+  int const width = kernels().code_width;
+  program.influence.code =
+      machine_code(program.influence, width, GatheredColumns{dimension, program.of_q, program.along});
+  program.measure.code = machine_code(program.measure, width);
+  return std::make_shared<PairProgram const>(std::move(program));
+}
+std::shared_ptr<ExternalProgram const> ready(ExternalProgram program) {
+  for (auto* part : {&program.influence, &program.measure}) part->code = machine_code(*part, kernels().code_width);
+  return std::make_shared<ExternalProgram const>(std::move(program));
+}
+
 struct ReadyPairs {
   PairKernels kernels;
   PairScheme::LawPointer law;
@@ -25,7 +39,7 @@ struct ReadyPairs {
     kernels.has_energy = program.has_energy;
     traits.velocity_dependent = program.velocity_dependent;
     traits.one_way = !program.antisymmetric;
-    law = std::make_shared<PairProgram>(std::move(program));
+    law = ready(std::move(program), target.dimension());
   }
 };
 
@@ -60,7 +74,7 @@ void PairScheme::external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vec
   kernels.depends_on_time = program.depends_on_time;
   LawTraits traits;
   traits.velocity_dependent = program.velocity_dependent;
-  add_external(ensemble, kernels, std::make_shared<ExternalProgram>(std::move(program)), traits, only);
+  add_external(ensemble, kernels, ready(std::move(program)), traits, only);
 }
 
 }  // namespace boltzmann

@@ -11,10 +11,6 @@
 
 namespace boltzmann::detail {
 
-/// Pairs at one place have this square of their distance, so that a law without a singularity there has a value, and
-/// times their separation, zero, no influence.
-inline constexpr double least_square = 1e-280;
-
 /// A row's sums. The columns of the workspace hold what PairProgram says; a pair that does not count has a square that is
 /// NaN.
 template <Pass pass, int W, int D>
@@ -30,7 +26,7 @@ class ColumnSum {
   void add(PairProgram const& law, Workspace<W>& work, std::size_t packs, double cutoff2, Real rounding,
            double zero_at) {
     FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
-    run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+    run_program<W>(work, program, packs);
     Real const zero = 0.0;
     double const *result[D + 1], *d[D];
     std::size_t stride[D + 1];
@@ -46,11 +42,16 @@ class ColumnSum {
       Real const first = load_pack<W>(result[0] + k * stride[0]);
       Real influence[D];
       for (std::size_t c = 0; c < D; ++c) {
-        Real x = law.along ? first * load_pack<W>(d[c] + k * W) : load_pack<W>(result[c] + k * stride[c]);
-        x = select(valid, x, zero);
-        if constexpr (pass == Pass::reversible) x = (x + rounding) - rounding;
-        influence[c] = x;
-        influence_[c] += x;
+        Real const more = law.along ? load_pack<W>(d[c] + k * W) : load_pack<W>(result[c] + k * stride[c]);
+        if constexpr (pass == Pass::influence) {
+          Real const total = influence_[c];
+          influence_[c] = select(valid, law.along ? total + first * more : total + more, total);
+        } else {
+          Real x = select(valid, law.along ? first * more : more, zero);
+          if constexpr (pass == Pass::reversible) x = (x + rounding) - rounding;
+          influence[c] = x;
+          influence_[c] += x;
+        }
       }
       if constexpr (pass == Pass::measure)
         for (std::size_t a = 0; a < D; ++a) {
@@ -74,12 +75,17 @@ class ColumnSum {
         store_pack<W>(square + k * W,
                       select(valid, Real(zero_at * zero_at), Real(std::numeric_limits<double>::quiet_NaN())));
       }
-      run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+      run_program<W>(work, program, packs);
       for (std::size_t k = 0; k < packs; ++k) {
         Real const s = load_pack<W>(square + k * W);
         energy_ -= select(s == s, load_pack<W>(energy + k * step), zero);
       }
     }
+  }
+
+  /// Sums that machine code has left in the first columns.
+  void take(Workspace<W>& work) {
+    for (std::size_t c = 0; c < D; ++c) influence_[c] = load_pack<W>(work.column(c));
   }
 
   void store(PairTask const& task, std::size_t particle, bool overwrite) const {
@@ -106,7 +112,7 @@ template <int W, class FieldOf>
 void begin_row(PairProgram const& law, FormulaProgram const& program, Workspace<W>& work, FieldOf const& field) {
   for (std::size_t k = 0; k < law.of_p.size(); ++k)
     work.set_scalar(program.first_row_input() + k, field(static_cast<std::size_t>(law.of_p[k])));
-  run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
+  run_row<W>(work, program);
 }
 
 template <Pass pass, int W, int D>
@@ -117,12 +123,22 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
   Workspace<W> work;
   work.set_constants(program);
   std::size_t const blocks = task.source_block_stride;
+  MachineCode::List const whole = pass == Pass::influence && program.code ? program.code->list() : nullptr;
+  work.set_scalar(program.scalars + D, task.cutoff2);
   for (std::size_t i = begin; i < end; ++i) {
     double const* const p = task.target + row_block * i;
     begin_row<W>(law, program, work, [&](std::size_t offset) {
       return p[offset / row_block * task.target_block_stride + offset % row_block];
     });
     ColumnSum<pass, W, D> sum;
+    if (whole) {
+      for (std::size_t c = 0; c < D; ++c) work.set_scalar(program.scalars + c, p[c]);
+      std::size_t const entries = (task.length[i] + W - 1) / W * W;
+      whole(task.row[i], task.row[i] + entries, task.source, work.scalars, work.columns, blocks * sizeof(double));
+      sum.take(work);
+      sum.store(task, task.order ? task.order[i] : i, task.overwrite);
+      continue;
+    }
     for (std::size_t from = 0; from < task.length[i]; from += block_pairs) {
       std::uint32_t const* const j = task.row[i] + from;
       std::size_t const left = task.length[i] - from, count = left < block_pairs ? left : block_pairs;
@@ -242,7 +258,7 @@ void formula_over_particles(void const* the_law, ExternalTask const& task, std::
   Workspace<W> work;
   work.set_constants(program);
   work.set_scalar(program.first_row_input(), task.time);
-  run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
+  run_row<W>(work, program);
   for (std::size_t from = begin; from < end; from += block_pairs) {
     std::size_t const count = end - from < block_pairs ? end - from : block_pairs, packs = (count + W - 1) / W;
     for (std::size_t k = 0; k < packs * W; ++k) {
@@ -250,7 +266,7 @@ void formula_over_particles(void const* the_law, ExternalTask const& task, std::
       for (std::size_t f = 0; f < law.of_p.size(); ++f)
         work.column(f)[k] = task.rows[i * task.row_stride + static_cast<std::size_t>(law.of_p[f])];
     }
-    run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+    run_program<W>(work, program, packs);
     auto const result = [&](std::size_t r, std::size_t k) {
       Operand const operand = program.results[r];
       return operand.scalar ? work.place(operand)[0] : work.place(operand)[k];

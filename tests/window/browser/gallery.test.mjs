@@ -197,7 +197,7 @@ test("a key whose field is emptied is left out, and put back; one that is needed
   await until(async () => /'step'/.test(await trouble(page, "run.step")), "an error at the step");
   await field(page, "run.step").getByRole("button", { name: "back to 0.01" }).click();
   await input(page, "ensembles.atoms.diameter").fill("");
-  await input(page, "output.pictures.0.colour").fill("");
+  await input(page, "output.pictures.0.high").fill("");
   await input(page, "ensembles.atoms.integrator").selectOption("");
   await checked(page, "ok");
   assert.match(await page.textContent("#gallery-state"), /3 changed/);
@@ -208,7 +208,7 @@ test("a key whose field is emptied is left out, and put back; one that is needed
   const file = join(run.cwd, "less.toml");
   await until(async () => (await page.textContent("#gallery-answer")).includes(file), "the path of the file");
   const text = readFileSync(file, "utf8");
-  assert.doesNotMatch(text, /^(diameter|integrator) =|colour = "speed"/m);
+  assert.doesNotMatch(text, /^(diameter|integrator) =|high = "100 angstrom/m);
   assert.match(text, /# 3 r0/);
   execFileSync(process.env.BZM, ["check", file]);
   await page.click("#gallery-all-back");
