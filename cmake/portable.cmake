@@ -1,21 +1,7 @@
-# The tarball's program: the objects of bzm, with everything but libc and libm linked in. Its archives come with the packages of
-# dependencies.txt on Debian 12.
-set(archive_names hdf5 sz aec fftw3 cairo pixman-1 fontconfig freetype png16 brotlidec brotlicommon expat uuid z)
+# The tarball's program: the objects of bzm, with everything but libc and libm linked in.
 # Their packages, whose copyright goes with the program.
 set(archive_packages libhdf5-dev libaec-dev libfftw3-dev libcairo2-dev libpixman-1-dev libfontconfig-dev libfreetype-dev libpng-dev
     libbrotli-dev libexpat1-dev uuid-dev zlib1g-dev libfmt-dev libstdc++-12-dev)
-set(archives)
-set(archives_missing)
-foreach(name ${archive_names})
-  find_library(ARCHIVE_${name} NAMES lib${name}.a PATH_SUFFIXES hdf5/serial)
-  mark_as_advanced(ARCHIVE_${name})
-  if(ARCHIVE_${name})
-    list(APPEND archives ${ARCHIVE_${name}})
-  else()
-    list(APPEND archives_missing lib${name}.a)
-  endif()
-endforeach()
-
 if(archives_missing)
   list(JOIN archives_missing ", " archives_missing)
   add_custom_target(portable COMMAND ${CMAKE_COMMAND} -E echo "no tarball here: not found: ${archives_missing}"

@@ -21,5 +21,5 @@ package-test: package tarball
 package-build:
 	@packaging/need.sh $$(cat dependencies.txt) dpkg-dev file
 	@packaging/versions.sh
-	cmake -S . -B build/package -G Ninja -DCMAKE_BUILD_TYPE=Release -DBOLTZMANN_SETS=all -DBOLTZMANN_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr
+	cmake -S . -B build/package -G Ninja -DCMAKE_BUILD_TYPE=Release -DBOLTZMANN_SETS=all -DBOLTZMANN_TESTS=OFF -DBOLTZMANN_ARCHIVES=OFF -DCMAKE_INSTALL_PREFIX=/usr
 	cmake --build build/package --target installable

@@ -217,6 +217,11 @@ void show_material(MaterialInfo const& material) {
   fmt::print("\n  in an ensemble of class Smooth or Solid: material = {{ kind = \"{}\", ... }}\n", material.name);
   show_options(options_of(material.parameters));
   if (material.tabulated) fmt::print("    points or file      at least two, of rising density\n");
+  if (material.typed)
+    fmt::print(
+        "    pressure            formula of density and specific_energy, \"0.4*density*specific_energy\"\n"
+        "    temperature         likewise; without it there is none\n"
+        "    sound_speed         likewise; without it that of this pressure\n");
   fmt::print("\n  with any material\n");
   show_options(options_of(flux_parameters()));
   fmt::print("\n  of class Solid, in elastic = {{ ... }} inside the material\n");

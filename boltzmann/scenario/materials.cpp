@@ -6,8 +6,13 @@ namespace {
 
 template <class Material>
 MaterialInfo described(char const* header, char const* type) {
-  return {Material::text, is_barotropic<Material>,  std::is_same_v<Material, PressureTable>, header,
-          type,           parameters_of<Material>()};
+  return {Material::text,
+          is_barotropic<Material>,
+          std::is_same_v<Material, PressureTable>,
+          std::is_same_v<Material, FormulaMaterial>,
+          header,
+          type,
+          parameters_of<Material>()};
 }
 
 template <class Material>
@@ -15,6 +20,8 @@ bool is_made(MaterialChoice const& choice, detail::EquationOfState& state) {
   if (choice.info->name != Material::text.name) return false;
   if constexpr (std::is_same_v<Material, PressureTable>)
     state = choice.table.value();
+  else if constexpr (std::is_same_v<Material, FormulaMaterial>)
+    state = choice.formulas.value();
   else
     state = made_from<Material>(choice.parameters);
   return true;

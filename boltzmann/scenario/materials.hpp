@@ -1,6 +1,7 @@
 // Materials: the shipped materials by name, for code that learns them at run time.
 #pragma once
 
+#include <boltzmann/laws/materials/formula_material.hpp>
 #include <boltzmann/laws/materials/pressure_table.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/law_parameters.hpp>
@@ -18,6 +19,7 @@ namespace boltzmann {
 struct MaterialInfo : MaterialText {
   bool barotropic;     ///< no temperature, no energy of its own: both follow from the density
   bool tabulated;      ///< has `points` or `file`
+  bool typed;          ///< has `pressure`, and may have `temperature` and `sound_speed`
   std::string header;  ///< for programs
   std::string type;    ///< "IdealGas"
   std::vector<Parameter> parameters;
@@ -36,7 +38,8 @@ std::vector<Parameter> const& elastic_parameters();
 struct MaterialChoice {
   MaterialInfo const* info = nullptr;
   ParameterValues parameters, fluxes, elastic;
-  std::optional<PressureTable> table = {};  ///< of one that is tabulated
+  std::optional<PressureTable> table = {};       ///< of one that is tabulated
+  std::optional<FormulaMaterial> formulas = {};  ///< of one that is typed
 };
 
 /// A material with its kernels for a class.

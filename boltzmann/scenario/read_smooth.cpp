@@ -1,4 +1,5 @@
 // Reads [smooth] and the materials of ensembles: continuum mechanics with smooth particles.
+#include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -63,6 +64,30 @@ std::optional<PressureTable> read_table(Section& section, Reading& reading) {
   return table;
 }
 
+/// Of one that is typed.
+std::optional<FormulaMaterial> read_state_formulas(Section& section, Reading& reading) {
+  StateFormulas formulas;
+  formulas.units = reading.context.units;
+  formulas.dimension = reading.dimension;
+  std::size_t const before = reading.context.mistakes.count();
+  Item const* items[] = {section.need("pressure", "pressure = \"0.4*density*specific_energy\""),
+                         section.find("temperature"), section.find("sound_speed")};
+  std::string* const texts[] = {&formulas.pressure, &formulas.temperature, &formulas.sound_speed};
+  constexpr char const* keys[] = {"pressure", "temperature", "sound_speed"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!items[k]) continue;
+    if (auto const text = read_text(*items[k], keys[k], reading.context)) *texts[k] = *text;
+  }
+  if (reading.context.mistakes.count() != before || reading.dimension == 0) return std::nullopt;
+  try {
+    return FormulaMaterial(formulas);
+  } catch (StateFormulaError const& error) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (error.part == keys[k]) formula_mistake(*items[k], keys[k], error, reading);
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading) {
@@ -87,6 +112,7 @@ std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass cons
       read_parameters(section, fmt::format("material '{}'", *name), choice.info->parameters, reading);
   if (parameters) choice.parameters = *parameters;
   if (choice.info->tabulated) choice.table = read_table(section, reading);
+  if (choice.info->typed) choice.formulas = read_state_formulas(section, reading);
   if (auto const fluxes = read_parameters(section, "a material", flux_parameters(), reading)) choice.fluxes = *fluxes;
   if (choice.info->barotropic && !choice.fluxes.empty() && value_of(choice.fluxes, "conductivity").front() > 0)
     reading.mistake(section.place("conductivity"),

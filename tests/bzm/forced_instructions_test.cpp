@@ -111,7 +111,7 @@ TEST(Instructions, AWrongWordIsOneLineAndStatus2) {
 // Laws that are typed: interpreted, by machine code where there is some, and with any number of threads.
 TEST(TypedLaws, HaveTheSameBitsInterpretedAndByMachineCode) {
   Folder folder;
-  std::string const text = R"([units]
+  std::string const text = R"toml([units]
 base = "reduced"
 [box]
 low = [0, 0, 0]
@@ -154,7 +154,7 @@ kind = "temperature"
 [output]
 trajectory = 25
 diagnoses = 5
-)";
+)toml";
   std::ofstream(folder / "typed.toml") << text;
   auto const run = [&](std::string const& set, char const* formulas, std::string const& threads) {
     std::string const out = set + "-" + formulas + "-" + threads;

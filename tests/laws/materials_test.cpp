@@ -1,5 +1,6 @@
 // Materials against thermodynamics, critical points, hand-made stresses, and solids that are turned, bent and broken.
 #include <boltzmann/laws/materials/elastic.hpp>
+#include <boltzmann/laws/materials/formula_material.hpp>
 #include <boltzmann/laws/materials/ideal_gas.hpp>
 #include <boltzmann/laws/materials/isentropic_gas.hpp>
 #include <boltzmann/laws/materials/newtonian.hpp>
@@ -8,6 +9,7 @@
 #include <boltzmann/laws/materials/tait.hpp>
 #include <boltzmann/laws/materials/van_der_waals.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <tests/message.hpp>
@@ -220,6 +222,59 @@ TEST(Materials, RefuseWrongParameters) {
 }
 
 // ---- Tables ----
+
+// ---- Materials that are typed ----
+
+/// The same states as the struct's, its sound speed from exact derivatives.
+template <class M>
+void expect_twin(M const& m, FormulaMaterial const& typed, double density_low, double density_high, double energy_low,
+                 double energy_high) {
+  std::mt19937_64 random(test_seed(11));
+  std::uniform_real_distribution<double> density(density_low, density_high), energy(energy_low, energy_high);
+  for (int trial = 0; trial < 300; ++trial) {
+    Fluid const fluid{density(random), energy(random)};
+    State const here = m.state(fluid), there = typed.state(fluid);
+    EXPECT_NEAR(there.pressure, here.pressure, 1e-12 * std::fabs(here.pressure) + 1e-12);
+    EXPECT_NEAR(there.temperature, here.temperature, 1e-12 * std::fabs(here.temperature));
+    EXPECT_NEAR(there.sound_speed, here.sound_speed, 1e-11 * here.sound_speed + 1e-6);
+  }
+}
+
+TEST(FormulaMaterials, AreTwinsOfTheShippedOnes) {
+  expect_twin(IdealGas{1.4, 0.7},
+              FormulaMaterial({.pressure = "0.4*density*specific_energy", .temperature = "specific_energy/0.7"}), 0.1,
+              10, 0.1, 10);
+  // k T = (2/3)(e + 3 rho)
+  expect_twin(VanDerWaals{3, 1.0 / 3, 8.0 / 3, 3},
+              FormulaMaterial({.pressure = "density*2/3*(specific_energy + 3*density)/(1 - density/3) - 3*density^2",
+                               .temperature = "2/3*(specific_energy + 3*density)/(8/3)"}),
+              0.1, 2.5, 0.1, 20);
+  expect_twin(Tait{1, 10, 7, 1.5}, FormulaMaterial({.pressure = "100/7*(density^7 - 1) + 1.5"}), 0.8, 1.3, 0, 1);
+  FormulaMaterial const slow({.pressure = "density", .sound_speed = "0.5*density"});
+  EXPECT_EQ(slow.state(Fluid{3, 1}).sound_speed, 1.5);
+  EXPECT_EQ(slow.state(Fluid{3, 1}).temperature, 0);
+  // No density has this pressure: a run ends with the particle named.
+  EXPECT_TRUE(std::isnan(FormulaMaterial({.pressure = "sqrt(density - 2)"}).state(Fluid{1, 1}).pressure));
+}
+
+TEST(FormulaMaterials, SayWhatIsWrongAndWhere) {
+  auto const wrong = [](StateFormulas const& formulas) -> std::string {
+    try {
+      FormulaMaterial const made(formulas);
+    } catch (StateFormulaError const& error) {
+      return fmt::format("{} {}: {}", error.part, error.offset, error.what());
+    }
+    return "";
+  };
+  auto const si = UnitSystem::si();
+  EXPECT_EQ(wrong({.pressure = "0.4*density*specific_energy", .units = si}), "");
+  EXPECT_NE(wrong({.pressure = "0.4*specific_energy", .units = si}).find("pressure 0: "), std::string::npos);
+  EXPECT_NE(wrong({.pressure = "0.4*densty"}).find("pressure 4: unknown name 'densty'"), std::string::npos);
+  EXPECT_NE(wrong({.pressure = "1", .temperature = "density +"}).find("temperature 9"), std::string::npos);
+  EXPECT_NE(wrong({.pressure = "2 Pa", .sound_speed = "3 K", .units = si}).find("sound_speed 0: a velocity is needed"),
+            std::string::npos);
+  EXPECT_NE(wrong({.pressure = "[1, 2, 3]"}).find("not a vector"), std::string::npos);
+}
 
 TEST(PressureTables, AreWhatTheyWereMadeFrom) {
   // P = rho^2 / 2 in points; beyond the ends too, for the first slope is 2 P / rho; c = sqrt(rho).

@@ -1,4 +1,5 @@
 // Scenarios whose laws are typed, against the theory of small waves in them.
+#include "riemann.hpp"
 #include "shipped.hpp"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,43 @@ TEST(Yukawa, WavesOfAChainHaveTheFrequencyOfItsLattice) {
     EXPECT_NEAR(2 * std::abs(mode_of(grains, 4, 1, 64)), std::abs(exact), 0.01 * 0.001 / omega) << simulation.time();
   }
   std::printf("[  YUKAWA  ] omega %.5f\n", omega);
+}
+
+/// The mean of a field between two places.
+double mean_between(AnyEnsemble const& gas, char const* name, double low, double high) {
+  Field const field = gas.field(name);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < gas.size(); ++i) {
+    if (gas.row(i)[0] < low || gas.row(i)[0] > high) continue;
+    sum += gas.row(i)[field.offset];
+    ++count;
+  }
+  return sum / count;
+}
+
+// A gas of molecules with room of their own has the waves of an ideal one whose volumes are smaller by that room.
+TEST(DenseGas, HasTheWavesOfSodWithRoomAdded) {
+  auto const run = shipped("dense-gas");
+  auto& simulation = *run->simulation;
+  while (simulation.time() < 0.2) simulation.run(20);
+  double const time = simulation.time();
+  Riemann const ideal({1, 0, 1}, {0.125, 0, 0.1}, 1.4);
+  auto const dense = [](double density) { return 1 / (1 / density + 1); };
+  auto const& gas = *run->ensembles[0];
+  double const contact = ideal.star_velocity() * time, shock = ideal.shock_speed() * 0.125 / dense(0.125) * time;
+  double const from = contact + 0.3 * (shock - contact), to = contact + 0.8 * (shock - contact);
+  EXPECT_NEAR(mean_between(gas, "pressure", from, to), ideal.star_pressure(), 0.01 * ideal.star_pressure());
+  EXPECT_NEAR(mean_between(gas, "velocity", from, to), ideal.star_velocity(), 0.01 * ideal.star_velocity());
+  EXPECT_NEAR(mean_between(gas, "density", from, to), dense(ideal.right_density()),
+              0.01 * dense(ideal.right_density()));
+  EXPECT_NEAR(mean_between(gas, "density", 0.55 * contact, 0.8 * contact), dense(ideal.left_density()),
+              0.01 * dense(ideal.left_density()));
+  // Half way up the jump of the density is the shock.
+  double front = 0;
+  double const half = 0.5 * (dense(ideal.right_density()) + dense(0.125));
+  for (std::size_t i = 0; i < gas.size(); ++i)
+    if (gas.row(i)[gas.field("density").offset] > half) front = std::max(front, gas.row(i)[0]);
+  EXPECT_NEAR(front, shock, 0.01 * shock);
 }
 
 }  // namespace
