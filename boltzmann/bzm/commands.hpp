@@ -76,7 +76,8 @@ std::vector<std::string> listed_kinds();
 int show(std::string const& name);
 int show_schema(std::string const& name);
 int check(std::string const& scenario, Overrides const& overrides);
-int new_scenario(std::string const& name);
+/// `own_class`: one with a class of its own.
+int new_scenario(std::string const& name, bool own_class);
 
 struct AccuracyOptions {
   std::string scenario;

@@ -286,8 +286,10 @@ class CommandLine {
         ->required();
     scenario_options(sub, accuracy_options_.overrides);
     sub->add_option("-o,--out", accuracy_options_.out, "draw seconds over errors: .png .svg .pdf")->type_name("FILE");
-    sub = command("new", "write a commented scenario to start from", [this] { return new_scenario(name_); });
+    sub =
+        command("new", "write a commented scenario to start from", [this] { return new_scenario(name_, own_class_); });
     sub->add_option("name", name_, "the scenario's name; NAME.toml is written here")->required();
+    sub->add_flag("--class", own_class_, "one that derives a class of its own, with fields and rates");
   }
 
   void add_tools() {
@@ -325,7 +327,7 @@ class CommandLine {
   bool names_only_ = false;
   std::string name_;
   Overrides overrides_;
-  bool schema_ = false;
+  bool schema_ = false, own_class_ = false;
   AccuracyOptions accuracy_options_;
   BuildOptions build_options_;
   std::string folder_;

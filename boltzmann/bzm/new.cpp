@@ -73,16 +73,87 @@ y = "kinetic energy, potential energy, total energy"
 file = "energies.png"
 )toml";
 
+// Grains that charge up, touch and spin, in two dimensions.
+constexpr char const* starter_of_class = R"toml(#:schema ./boltzmann.schema.json
+# A scenario of Boltzmann with a class of its own. Change what you like, then
+#   bzm check @name.toml    shows all mistakes, and runs nothing
+#   bzm run @name.toml      leaves its results in results/@name
+# `bzm show classes` and `bzm show classes.fields` explain the keys; `bzm list classes` has those to derive from.
+
+title = "Grains that charge up"
+
+[units]                       # what plain numbers mean, and the units of the results
+base = "custom"
+length = "1 mm"
+mass = "1 pg"
+time = "1 s"
+
+[box]
+low = [-5, -5]
+high = [5, 5]
+boundary = "reflecting"
+
+[run]
+step = "2 ms"
+time = "2 s"
+
+[[classes]]
+name = "Grain"
+base = "Newton"               # how it moves, and the fields that it has already: position, velocity, mass
+fields = [                    # kind = "vector" for those with a number for each axis; period = "2 pi" for angles
+  { name = "charge", unit = "e", default = 0, doc = "what it has taken up" },
+  { name = "glow", doc = "how much it has been near others" },
+]
+rate.charge = "(full - charge)/tau"     # how fast it changes, by what the particle knows: a charge in a time
+rate.glow = "-glow/tau"
+diffusion.glow = "0.001 1/s"            # noise: a random walk of variance 2 D t; leave it out for none
+parameters = { full = "2000 e", tau = "0.5 s" }
+
+[[ensembles]]
+name = "grains"
+class = "Grain"
+mass = "8 pg"
+load = { kind = "block", lattice = "square", spacing = 0.7, counts = [9, 9], origin = "centred" }
+charge = "10 e"               # at the start; formulas = { charge = "..." } for what depends on the place
+diameter = 0.4                # for pictures
+
+[[influences]]                # laws may read the fields of both particles
+energy = "k*p.charge*q.charge/r"
+parameters = { k = "8.9875517923e9 N m^2/C^2" }
+on = "grains"
+
+[[influences]]                # this one moves nobody: it is added to the rate of a field
+changes = "glow"
+influence = "strength*exp(-r/reach)"
+parameters = { strength = "0.5 1/s", reach = "1 mm" }
+on = "grains"
+
+[[diagnoses]]
+kind = "extremes"
+quantity = "charge"
+[[diagnoses]]
+kind = "extremes"
+quantity = "glow"
+
+[output]                      # every so many steps
+diagnoses = 10
+trajectory = 20
+
+[[output.pictures]]
+colour = "glow"
+file = "picture.png"
+)toml";
+
 }  // namespace
 
-int new_scenario(std::string const& word) {
+int new_scenario(std::string const& word, bool own_class) {
   namespace fs = std::filesystem;
   std::string const name = word.ends_with(".toml") ? word.substr(0, word.size() - 5) : word;
   if (name.empty() || name.ends_with('/')) throw Error("a new scenario needs a name");
   std::string const path = name + ".toml";
   std::error_code ignored;
   if (fs::exists(path, ignored)) throw Error("'" + path + "' is there already; it stays as it is");
-  std::string text = starter;
+  std::string text = own_class ? starter_of_class : starter;
   std::string const stem = fs::path(name).filename().string();
   for (std::size_t at = 0; (at = text.find("@name", at)) != std::string::npos;) {
     std::string const replacement = text.compare(at + 5, 5, ".toml") == 0 ? name : stem;

@@ -122,6 +122,13 @@ void show_scenario(std::string const& name) {
   fmt::print("\n  file        {}\n", path);
   auto const shown = [&](double number, Dimension dimension) { return scenario->units.text(number, dimension, 6); };
   fmt::print("  steps       {} of {}\n", scenario->steps, shown(scenario->simulation->step_size(), dimensions::time));
+  for (auto const& one : scenario->classes) {
+    fmt::print("  class       {}: from {}{}{}\n", one.name, one.base, one.doc.empty() ? "" : "; ", one.doc);
+    for (auto const& field : one.fields)
+      fmt::print("                {}: {}{}{}{}\n", field.name, field.components > 1 ? "a vector, " : "",
+                 name_of(field.dimension), field.doc.empty() ? "" : "; ", field.doc);
+    for (auto const& [left, right] : one.rates) fmt::print("                {} = {}\n", left, right);
+  }
   for (auto const& ensemble : scenario->ensembles)
     fmt::print("  ensemble    {}: {} of class {}, {}D\n", ensemble->name(), ensemble->size(), ensemble->class_name(),
                ensemble->dimension());

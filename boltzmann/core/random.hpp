@@ -38,7 +38,8 @@ enum class Purpose : std::uint32_t {
   pair_noise = 4,   ///< the fluctuating force between two particles (DPD, DPDE)
   random_walk = 5,  ///< diffusion of one particle (viscous vortices)
   thermostat = 6,
-  user = 0x10000,  ///< this and all above belong to users: user_purpose(n)
+  field_diffusion = 7,  ///< the random walk of a field that has a rate of its own
+  user = 0x10000,       ///< this and all above belong to users: user_purpose(n)
 };
 
 /// The n-th purpose of a user's own.

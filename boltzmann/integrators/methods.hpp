@@ -586,17 +586,24 @@ constexpr Method usual_method() {
 Method usual_method(AnyEnsemble const& ensemble);
 std::unique_ptr<Integrator> usual_integrator(AnyEnsemble& ensemble);
 
-/// The integrator of an ensemble. Error if its class can't be advanced that way.
+/// The integrator of an ensemble whose rows begin with those of P and that moves as P does. Error if it can't be
+/// advanced that way.
 template <class P>
-std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method) {
+std::unique_ptr<Integrator> make_integrator_as(AnyEnsemble& ensemble, Method method) {
   if (auto integrator = detail::method_of<detail::MovesAs<P>>(ensemble, method)) return integrator;
   throw Error("ensemble '" + ensemble.name() + "' of class " + ensemble.class_name() + " can't be advanced by " +
               to_string(method) + ": " +
-              (detail::walks_at_random<P>        ? "viscous vortices diffuse; use random-walk (or the class Inviscid)"
+              (detail::walks_at_random<P>      ? "viscous vortices diffuse; use random-walk (or the class Inviscid)"
                : method == Method::random_walk ? "the class has no viscosity; use euler, rk2 or rk4"
                : detail::has_velocity<P> ? "its influences depend on velocities; use leap-frog, rk4 or gauss-radau"
                                          : "the class has no velocity that a force could change; use euler, "
                                            "rk2, rk4 or gauss-radau"));
+}
+
+/// The integrator of an ensemble. Error if its class can't be advanced that way.
+template <class P>
+std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method) {
+  return make_integrator_as<P>(ensemble, method);
 }
 
 }  // namespace boltzmann

@@ -1,4 +1,5 @@
 // How ensembles are advanced of which nobody said it.
+#include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/particles/panel.hpp>
 #include <boltzmann/particles/spreading.hpp>
@@ -60,7 +61,7 @@ Method usual_method(AnyEnsemble const& ensemble) { return usual_of(ensemble).met
 
 std::unique_ptr<Integrator> usual_integrator(AnyEnsemble& ensemble) {
   auto const& usual = usual_of(ensemble);
-  return usual.make(ensemble, usual.method);
+  return with_driven_fields(usual.make(ensemble, usual.method), ensemble);
 }
 
 }  // namespace boltzmann

@@ -15,12 +15,22 @@ Dimension influence_dimension(AnyEnsemble const& ensemble) {
   return ensemble.find_field("mass") && ensemble.find_field("velocity") ? dimensions::force : dimensions::velocity;
 }
 
+/// An error about what the text of a part means is one of that part.
+template <class F>
+auto in_part(std::string const& part, F const& f) {
+  try {
+    return f();
+  } catch (FormulaLawError const& error) {
+    throw FormulaLawError(error.part.empty() ? part : error.part, error.offset, error.what());
+  }
+}
+
 class Maker {
  public:
   Maker(FormulaLaw const& law, AnyEnsemble const& target) : law_(law), target_(target), dimension_(target.dimension()) {
     names_.units = law.units;
     names_.checked = !law.units.is_reduced();
-    if (target.influence_size() != static_cast<std::size_t>(dimension_))
+    if (law.changes.empty() && target.influence_size() != static_cast<std::size_t>(dimension_))
       throw FormulaLawError(
           "", 0,
           fmt::format("what acts on particles of class {} is more than a vector; a formula gives a vector",
@@ -54,7 +64,10 @@ class Maker {
     PairProgram program;
     std::vector<Expression> results;
     Expression energy = 0;
-    if (law_.gives == FormulaLaw::Gives::energy) {
+    if (!law_.changes.empty()) {
+      results = rate_of(changed_field(), value);
+      program.along = false;
+    } else if (law_.gives == FormulaLaw::Gives::energy) {
       need(value, dimensions::energy, "an energy");
       energy = value.components[0];
       if (&source == &target_) check_symmetry(energy, of_target, of_source);
@@ -78,25 +91,21 @@ class Maker {
     program.of_p = choose(measured, of_target, rows);
     program.influence = make_program(graph_, results, columns, rows);
     program.measure = make_program(graph_, measured, columns, rows);
-    program.velocity_dependent = reads(target_, program.of_p, "velocity") || reads(source, program.of_q, "velocity");
+    program.velocity_dependent = reads_changing(target_, program.of_p) || reads_changing(source, program.of_q);
     return program;
   }
 
   ExternalProgram external() {
     std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
-    next_ = 0;
-    auto const fields = add_fields(target_, "", true);
-    auto const position = names_.values.find("position");
-    for (std::uint32_t c = 0; c < D; ++c)
-      names_.values[std::string(1, "xyz"[c])] = {
-          {position->second.components[c]}, position->second.dimension, false, false};
-    std::uint32_t const time = next_++;
-    names_.values["time"] = {{graph_.input(time)}, dimension_of(dimensions::time), false, false};
+    std::uint32_t time = 0;
+    auto const fields = add_names_from_outside(time);
     FormulaValue const value = read();
     ExternalProgram program;
     std::vector<Expression> results;
     Expression energy = 0;
-    if (law_.gives == FormulaLaw::Gives::energy) {
+    if (!law_.changes.empty()) {
+      results = rate_of(changed_field(), value);
+    } else if (law_.gives == FormulaLaw::Gives::energy) {
       need(value, dimensions::energy, "an energy");
       energy = value.components[0];
       for (std::uint32_t c = 0; c < D; ++c) results.push_back(graph_.scale(-1, graph_.derivative(energy, c)));
@@ -115,11 +124,56 @@ class Maker {
     program.of_p = choose(measured, fields, columns);
     program.influence = make_program(graph_, results, columns, rows);
     program.measure = make_program(graph_, measured, columns, rows);
-    program.velocity_dependent = reads(target_, program.of_p, "velocity");
-    for (auto const e : measured) {
-      auto const inputs = graph_.inputs_of(e);
-      program.depends_on_time = program.depends_on_time || std::binary_search(inputs.begin(), inputs.end(), time);
+    program.velocity_dependent = reads_changing(target_, program.of_p);
+    program.depends_on_time = depend_on(measured, time);
+    return program;
+  }
+
+  RateProgram rates(FieldRates const& all) {
+    std::uint32_t time = 0;
+    sums_known_ = true;
+    auto const fields = add_names_from_outside(time);
+    read_names();
+    RateProgram program;
+    std::vector<Expression> expressions;
+    auto const add = [&](std::vector<Expression> const& components, std::size_t rate, int count) {
+      for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
+        if (graph_.is_number(components[c], 0)) continue;
+        expressions.push_back(components[c]);
+        program.results.push_back({rate, c});
+      }
+    };
+    for (auto const& rate : all.rates) {
+      std::string const part = "rate." + rate.field;
+      Field const& field = target_.field(rate.field);
+      add(in_part(part, [&] { return rate_of(field, read_text(part, rate.text)); }),
+          static_cast<std::size_t>(target_.number_driven(field)), field.components);
     }
+    std::size_t place = target_.driven().size();
+    for (auto const& driven : target_.driven()) {
+      if (!driven.diffuses) continue;
+      for (auto const& diffusion : all.diffusions) {
+        Field const& field = target_.field(diffusion.field);
+        if (field.offset != driven.offset) continue;
+        add({diffusion_of(field, diffusion.text)}, place, 1);
+      }
+      ++place;
+    }
+    std::vector<std::uint32_t> columns;
+    std::vector<std::uint32_t> const rows{time};
+    program.of_p = choose(expressions, fields, columns);
+    for (std::size_t k = 0; k < target_.driven().size(); ++k)
+      for (auto const& input : fields) {
+        auto const& driven = target_.driven()[k];
+        int const component = input.offset - driven.offset;
+        if (!driven.sum || component < 0 || component >= driven.components || !depend_on(expressions, input.input))
+          continue;
+        program.sums.push_back({k, static_cast<std::size_t>(component)});
+        columns.push_back(input.input);
+      }
+    program.program = make_program(graph_, expressions, columns, rows);
+    program.velocity_dependent = reads_changing(target_, program.of_p);
+    program.depends_on_time = depend_on(expressions, time);
     return program;
   }
 
@@ -136,9 +190,13 @@ class Maker {
     std::vector<RowInput> inputs;
     for (auto const& field : ensemble.fields()) {
       if (field.name == "position" && !with_position) continue;
-      bool const vector =
-          field.components == dimension_ && (dimension_ > 1 || field.name == "position" || field.name == "velocity");
+      bool const vector = ensemble.is_vector(field);
       if (field.components != 1 && !vector) continue;
+      int const number = ensemble.number_driven(field);
+      if (number >= 0 && ensemble.driven()[static_cast<std::size_t>(number)].sum && !sums_known_) {
+        unknown_.push_back(prefix + field.name);
+        continue;
+      }
       FormulaValue value;
       value.is_vector = vector;
       value.dimension = dimension_of(field.dimension);
@@ -151,7 +209,83 @@ class Maker {
     return inputs;
   }
 
+  /// What laws from outside may use: x, y, z, fields, time.
+  std::vector<RowInput> add_names_from_outside(std::uint32_t& time) {
+    next_ = 0;
+    auto fields = add_fields(target_, "", true);
+    auto const position = names_.values.find("position");
+    for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(dimension_); ++c)
+      names_.values[std::string(1, "xyz"[c])] = {
+          {position->second.components[c]}, position->second.dimension, false, false};
+    time = next_++;
+    names_.values["time"] = {{graph_.input(time)}, dimension_of(dimensions::time), false, false};
+    return fields;
+  }
+  bool depend_on(std::vector<Expression> const& expressions, std::uint32_t input) const {
+    return std::any_of(expressions.begin(), expressions.end(), [&](Expression e) {
+      auto const inputs = graph_.inputs_of(e);
+      return std::binary_search(inputs.begin(), inputs.end(), input);
+    });
+  }
+
+  // ---- Fields that have rates ----
+
+  Field const& changed_field() const {
+    if (law_.gives == FormulaLaw::Gives::energy)
+      throw FormulaLawError("", 0,
+                            "an energy moves particles; what changes a field is an influence, which gives its rate");
+    return target_.field(law_.changes);
+  }
+  /// As many components as space has.
+  std::vector<Expression> rate_of(Field const& field, FormulaValue const& value) {
+    int const number = target_.number_driven(field);
+    bool const sum = number >= 0 && target_.driven()[static_cast<std::size_t>(number)].sum;
+    if (number < 0)
+      throw FormulaLawError(
+          "", 0,
+          fmt::format("{} of class {} does not change: give it a rate in [[classes]], 0 if nothing else changes it",
+                      field.name, target_.class_name()));
+    bool const vector = target_.is_vector(field);
+    if (value.is_vector != vector)
+      throw FormulaLawError("", 0,
+                            vector ? fmt::format("{} is a vector: its rate is one, [..., ...]", field.name)
+                                   : fmt::format("{} is a number: its rate is one, not a vector", field.name));
+    std::string const what =
+        fmt::format("{}{}, for {}", dimension_text(field.dimension), sum ? "" : " in a time", field.name);
+    need(value, sum ? field.dimension : field.dimension / dimensions::time, what.c_str(), vector);
+    auto components = value.components;
+    components.resize(static_cast<std::size_t>(dimension_), graph_.number(0));
+    return components;
+  }
+  Expression diffusion_of(Field const& field, std::string const& text) {
+    std::string const part = "diffusion." + field.name;
+    FormulaValue const value = read_text(part, text);
+    return in_part(part, [&] {
+      need(value, field.dimension * field.dimension / dimensions::time,
+           fmt::format("the square of {} in a time, for {}", dimension_text(field.dimension), field.name).c_str());
+      auto const inputs = graph_.inputs_of(value.components[0]);
+      for (auto const& name : names_.values)
+        for (auto const e : name.second.components)
+          if (changes(name.first) && std::binary_search(inputs.begin(), inputs.end(), graph_.node(e).input) &&
+              graph_.node(e).kind == ExpressionGraph::Kind::input)
+            throw FormulaLawError(
+                "", 0,
+                fmt::format("'{}' changes during a step, and diffusion may not: it may use parameters, "
+                            "the time, and fields that stay as they are",
+                            name.first));
+      return value.components[0];
+    });
+  }
+  bool changes(std::string const& name) const {
+    if (name == "x" || name == "y" || name == "z" || name == "position" || name == "velocity") return true;
+    Field const* field = target_.find_field(name);
+    return field && target_.number_driven(*field) >= 0;
+  }
   FormulaValue read() {
+    read_names();
+    return read_text("", law_.text);
+  }
+  void read_names() {
     auto const taken = [&](std::string const& name) { return names_.values.contains(name) || name == "pi"; };
     for (auto const& parameter : law_.parameters) {
       if (taken(parameter.name))
@@ -165,12 +299,15 @@ class Maker {
         throw FormulaLawError(part.name, 0, fmt::format("'{}' means something else in a formula already", part.name));
       names_.values[part.name] = read_text(part.name, part.text);
     }
-    return read_text("", law_.text);
   }
   FormulaValue read_text(std::string const& part, std::string const& text) {
     try {
       return read_formula_text(text, names_, dimension_, graph_);
     } catch (FormulaError const& error) {
+      for (auto const& sum : unknown_)
+        if (std::string_view(error.what()).find("'" + sum + "'") != std::string_view::npos)
+          throw FormulaLawError(part, error.offset,
+                                fmt::format("'{}' is a sum, which is not known while laws act; rates may use it", sum));
       throw FormulaLawError(part, error.offset, error.what());
     }
   }
@@ -248,7 +385,8 @@ class Maker {
     return true;
   }
 
-  /// Of these inputs those that the expressions read: their offsets, and what they are called, added to `names`.
+  /// Of these inputs those that the expressions read, but sums: their offsets, and what they are called, added to
+  /// `names`.
   std::vector<int> choose(std::vector<Expression> const& expressions, std::vector<RowInput> const& inputs,
                           std::vector<std::uint32_t>& names) const {
     std::vector<std::uint32_t> read;
@@ -257,8 +395,14 @@ class Maker {
       read.insert(read.end(), more.begin(), more.end());
     }
     std::vector<RowInput> chosen;
+    auto const is_sum = [&](RowInput const& input) {
+      return std::any_of(target_.driven().begin(), target_.driven().end(), [&](DrivenField const& driven) {
+        return sums_known_ && driven.sum && input.offset >= driven.offset &&
+               input.offset < driven.offset + driven.components;
+      });
+    };
     for (auto const& input : inputs)
-      if (std::find(read.begin(), read.end(), input.input) != read.end()) chosen.push_back(input);
+      if (!is_sum(input) && std::find(read.begin(), read.end(), input.input) != read.end()) chosen.push_back(input);
     std::sort(chosen.begin(), chosen.end(), [](RowInput const& a, RowInput const& b) { return a.offset < b.offset; });
     std::vector<int> offsets;
     for (auto const& input : chosen) {
@@ -267,11 +411,14 @@ class Maker {
     }
     return offsets;
   }
-  static bool reads(AnyEnsemble const& ensemble, std::vector<int> const& offsets, char const* name) {
-    Field const* field = ensemble.find_field(name);
-    return field && std::any_of(offsets.begin(), offsets.end(), [&](int offset) {
-             return offset >= field->offset && offset < field->offset + field->components;
-           });
+  /// Whether some of these numbers are of velocities, or of fields that have rates of their own: what changes while
+  /// influences stay as they are.
+  static bool reads_changing(AnyEnsemble const& ensemble, std::vector<int> const& offsets) {
+    for (auto const& field : ensemble.fields())
+      if (field.name == "velocity" || ensemble.number_driven(field) >= 0)
+        for (int const offset : offsets)
+          if (offset >= field.offset && offset < field.offset + field.components) return true;
+    return false;
   }
 
   FormulaLaw const& law_;
@@ -279,6 +426,8 @@ class Maker {
   int dimension_;
   ExpressionGraph graph_;
   NamesInFormula names_;
+  bool sums_known_ = false;
+  std::vector<std::string> unknown_;  // sums
   Expression square_ = 0;
   std::uint32_t next_ = 0;
 };
@@ -290,5 +439,11 @@ PairProgram FormulaLaw::between(AnyEnsemble const& target, AnyEnsemble const& so
 }
 
 ExternalProgram FormulaLaw::on(AnyEnsemble const& target) const { return Maker(*this, target).external(); }
+
+RateProgram FieldRates::on(AnyEnsemble const& target) const {
+  FormulaLaw law = FormulaLaw::influence("", parameters, where, units);
+  law.changes = rates.empty() ? "" : rates.front().field;
+  return Maker(law, target).rates(*this);
+}
 
 }  // namespace boltzmann

@@ -35,6 +35,7 @@ struct FormulaLawError : FormulaError {
 /// q relative to p), p.FIELD and q.FIELD for every field of their classes but the position; from outside: x, y, z,
 /// position, time, and the fields by their names. Either it is the energy, of which the influence is the negative
 /// gradient, exactly; or the influence on p itself: a vector, or a number, that pushes p away from q where it is positive.
+/// An influence may change a field of p instead of moving it: it is added to the rate of that field.
 /// Dimensions are checked unless units are reduced.
 struct FormulaLaw {
   enum class Gives { energy, influence };
@@ -44,6 +45,7 @@ struct FormulaLaw {
   std::vector<FormulaParameter> parameters;
   std::vector<FormulaPart> where;
   UnitSystem units = UnitSystem::reduced();
+  std::string changes = {};  ///< the driven field of p that an influence gives a rate to; empty: it moves p
 
   static FormulaLaw energy(std::string text, std::vector<FormulaParameter> parameters = {},
                            std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
@@ -62,6 +64,23 @@ struct FormulaLaw {
   PairProgram between(AnyEnsemble const& target, AnyEnsemble const& source, Target part = Target::p) const;
   /// From outside.
   ExternalProgram on(AnyEnsemble const& target) const;
+};
+
+/// How the driven fields of a class change, as text: d/dt of each, and the coefficients D of those that take a random
+/// walk, of variance 2 D t for each component. They may use position, x, y, z, time, and every field of the particle by
+/// its name; diffusion coefficients only what does not change by itself. Dimensions are checked unless units are reduced.
+struct FieldRates {
+  struct Rate {
+    std::string field, text;
+  };
+
+  std::vector<Rate> rates, diffusions;
+  std::vector<FormulaParameter> parameters = {};
+  std::vector<FormulaPart> where = {};
+  UnitSystem units = UnitSystem::reduced();
+
+  /// FormulaLawError, whose part is "rate.FIELD" or "diffusion.FIELD", if a text is wrong.
+  RateProgram on(AnyEnsemble const& target) const;
 };
 
 }  // namespace boltzmann

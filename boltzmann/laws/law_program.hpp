@@ -28,4 +28,18 @@ struct ExternalProgram {
   bool velocity_dependent = false, depends_on_time = false;
 };
 
+/// The rates of driven fields, and the diffusion coefficients of those that diffuse. Columns are these fields of a
+/// particle, then these components of sums; the value of a row is the time. Result k is one component of one of them
+/// (AnyEnsemble::rate()).
+struct RateProgram {
+  struct Result {
+    std::size_t rate, component;
+  };
+  FormulaProgram program;
+  std::vector<int> of_p;
+  std::vector<Result> sums;
+  std::vector<Result> results;
+  bool velocity_dependent = false, depends_on_time = false;
+};
+
 }  // namespace boltzmann

@@ -1,10 +1,13 @@
 // Field look-up by name, for everything that is told a field as a word.
 #include <boltzmann/particles/ensemble.hpp>
 
+#include <algorithm>
+
 namespace boltzmann {
 
 AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, std::type_info const& moves_as, int dimension,
-                         std::size_t stride, std::size_t doubles, std::size_t influence_size, std::vector<Field> fields)
+                         std::size_t stride, std::size_t doubles, std::size_t influence_size, std::vector<Field> fields,
+                         std::vector<DrivenField> driven, std::vector<int> vectors)
     : name_(std::move(name)),
       class_name_(std::move(class_name)),
       moves_as_(moves_as),
@@ -12,7 +15,11 @@ AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, std::type_inf
       stride_(stride),
       doubles_(doubles),
       influence_size_(influence_size),
-      fields_(std::move(fields)) {
+      fields_(std::move(fields)),
+      driven_(std::move(driven)),
+      vectors_(std::move(vectors)) {
+  rates_ = driven_.size();
+  for (auto const& field : driven_) rates_ += field.diffuses ? 1 : 0;
   for (auto const& field : fields_)
     for (auto const* other = &fields_.front(); other != &field; ++other)
       if (field.offset < other->offset + other->components && other->offset < field.offset + field.components)
@@ -23,7 +30,21 @@ AnyEnsemble::AnyEnsemble(std::string name, std::string class_name, std::type_inf
 void AnyEnsemble::attach(double* data, std::size_t size) {
   data_ = data;
   size_ = size;
-  influence_.resize(size * influence_size_, 0.0);
+  std::size_t const numbers = size * (influence_size_ + rates_ * rate_stride());
+  if (rates_ > 0 && numbers != influence_.size()) influence_.clear();  // whose places depend on the size
+  influence_.resize(numbers, 0.0);
+}
+
+bool AnyEnsemble::is_vector(Field const& field) const {
+  if (dimension_ > 1) return field.components == dimension_;
+  return field.name == "position" || field.name == "velocity" ||
+         std::find(vectors_.begin(), vectors_.end(), field.offset) != vectors_.end();
+}
+
+int AnyEnsemble::number_driven(Field const& field) const {
+  for (std::size_t k = 0; k < driven_.size(); ++k)
+    if (driven_[k].offset == field.offset) return static_cast<int>(k);
+  return -1;
 }
 
 Field const* AnyEnsemble::find_field(std::string_view name) const {

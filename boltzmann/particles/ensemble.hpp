@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <typeinfo>
 #include <vector>
@@ -19,6 +20,15 @@ namespace boltzmann {
 struct Appearance {
   std::string colour;   ///< a name that colour_named() knows; empty: the next of the palette
   double diameter = 0;  ///< in the simulation's length unit; 0: chosen by the drawing (on a lattice: its spacing)
+};
+
+/// Where a field stands that has a rate of its own: it changes beside what the equations of motion of the class change.
+/// Or one that has none, but is a sum: what laws give to it at each calculation, for rates to use.
+struct DrivenField {
+  int offset = 0, components = 1;
+  bool diffuses = false;  ///< it takes a random walk, too
+  bool sum = false;       ///< it has no rate
+  double period = 0;      ///< positive: after each step it is taken back to between -period/2 and period/2
 };
 
 /// An ensemble without its class: what schemes, boundaries, files and diagnoses see. Row i is particle i, always:
@@ -51,6 +61,21 @@ class AnyEnsemble {
     for (double& x : influence_) x = 0;
   }
 
+  /// The fields that have rates of their own.
+  std::vector<DrivenField> const& driven() const { return driven_; }
+  /// Whether a field is a vector: in 1D a vector has one component, too.
+  bool is_vector(Field const& field) const;
+  /// The number of a field among them; -1: it has no rate.
+  int number_driven(Field const& field) const;
+  /// What the schemes have summed up for driven field k: its rate, dimension() numbers a particle, of which a scalar has
+  /// the first. Behind the rates of all come the diffusion coefficients of those that diffuse, in the same form.
+  double* rate(std::size_t k) { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
+  double const* rate(std::size_t k) const { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
+  std::size_t rate_stride() const { return static_cast<std::size_t>(dimension_); }
+  /// Influences and rates of all particles, whatever their meaning.
+  std::span<double> influences() { return influence_; }
+  std::span<double const> influences() const { return influence_; }
+
   std::vector<Field> const& fields() const { return fields_; }
   /// The descriptor of a field, or nullptr if the class has none of that name.
   Field const* find_field(std::string_view name) const;
@@ -69,7 +94,8 @@ class AnyEnsemble {
 
  protected:
   AnyEnsemble(std::string name, std::string class_name, std::type_info const& moves_as, int dimension,
-              std::size_t stride, std::size_t doubles, std::size_t influence_size, std::vector<Field> fields);
+              std::size_t stride, std::size_t doubles, std::size_t influence_size, std::vector<Field> fields,
+              std::vector<DrivenField> driven = {}, std::vector<int> vectors = {});
   void attach(double* data, std::size_t size);
   std::size_t influence_bytes() const { return influence_.capacity() * sizeof(double); }
 
@@ -81,6 +107,9 @@ class AnyEnsemble {
   double* data_ = nullptr;
   std::vector<double> influence_;
   std::vector<Field> fields_;
+  std::vector<DrivenField> driven_;
+  std::vector<int> vectors_;  // where fields stand of one component that are vectors
+  std::size_t rates_ = 0;     // arrays of rates and diffusion coefficients
 };
 
 /// The particles of class P (for example Newton<2>, or your own class for doubles: Ion<double>). Behaves like a vector

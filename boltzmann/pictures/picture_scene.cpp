@@ -15,7 +15,7 @@ Scene::Scene(Picture const& what, PictureContext const& where)
 Scene::~Scene() {
   put_particles_back();
   for (std::size_t e = 0; e < influences_.size(); ++e)
-    std::copy(influences_[e].begin(), influences_[e].end(), ensembles[e]->influence(0));
+    std::copy(influences_[e].begin(), influences_[e].end(), ensembles[e]->influences().begin());
   auto const& schemes = context.simulation.schemes();
   for (std::size_t s = 0; s < schemes_.size(); ++s) schemes[s]->restore(schemes_[s]);
 }
@@ -123,8 +123,8 @@ void Scene::keep_influences() {
   if (kept_) return;
   kept_ = true;
   for (auto const* ensemble : ensembles) {
-    double const* first = ensemble->influence(0);
-    influences_.emplace_back(first, first + ensemble->size() * ensemble->influence_size());
+    std::span<double const> const influences = ensemble->influences();
+    influences_.emplace_back(influences.begin(), influences.end());
   }
 }
 

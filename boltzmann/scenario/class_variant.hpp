@@ -16,16 +16,15 @@ SourceKind source_kind_of() {
 
 template <class P>
 ClassVariant variant_of() {
-  return {
-      P::dimension,
-      [](std::string name, std::size_t size) -> std::unique_ptr<AnyEnsemble> {
-        return std::make_unique<Ensemble<P>>(std::move(name), size);
-      },
-      [](AnyEnsemble& ensemble, Method method) { return make_integrator(static_cast<Ensemble<P>&>(ensemble), method); },
-      P::fields().fields,
-      sizeof(Row<P>) + sizeof(typename P::Influence),
-      usual_method<P>(),
-      source_kind_of<P>()};
+  return {P::dimension,
+          [](std::string name, std::size_t size) -> std::unique_ptr<AnyEnsemble> {
+            return std::make_unique<Ensemble<P>>(std::move(name), size);
+          },
+          [](AnyEnsemble& ensemble, Method method) { return make_integrator_as<P>(ensemble, method); },
+          P::fields().fields,
+          sizeof(Row<P>) + sizeof(typename P::Influence),
+          usual_method<P>(),
+          source_kind_of<P>()};
 }
 
 }  // namespace boltzmann::detail

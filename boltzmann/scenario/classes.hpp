@@ -5,6 +5,7 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/source_kind.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,9 +16,9 @@ namespace boltzmann {
 /// A particle class in one dimension.
 struct ClassVariant {
   int dimension;
-  std::unique_ptr<AnyEnsemble> (*make)(std::string name, std::size_t size);
+  std::function<std::unique_ptr<AnyEnsemble>(std::string name, std::size_t size)> make;
   /// The integrator of an ensemble that make() has made. Error if the class can't be advanced that way.
-  std::unique_ptr<Integrator> (*integrate)(AnyEnsemble& ensemble, Method method);
+  std::function<std::unique_ptr<Integrator>(AnyEnsemble& ensemble, Method method)> integrate;
   std::vector<Field> fields;
   std::size_t row_bytes;  ///< memory of one particle
   Method usual_method;    ///< the integrator unless told otherwise

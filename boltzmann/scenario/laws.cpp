@@ -20,11 +20,13 @@ std::string missing(LawInfo const& law, std::string_view least, AnyEnsemble cons
                ? fmt::format("law '{}' exists in {}D only; the box is {}D", law.name, law.least_dimension, dimension)
                : fmt::format("law '{}' exists in {}D to {}D; the box is {}D", law.name, law.least_dimension,
                              law.greatest_dimension, dimension);
-  if (!wanted || !actual) return "";
-  if (is_target && wanted->classical != actual->classical)
+  if (!wanted) return "";
+  // Classes that a scenario derives are not in the table.
+  bool const classical = actual ? actual->classical : ensemble.find_field("mass") && ensemble.find_field("velocity");
+  if (is_target && wanted->classical != classical)
     return fmt::format("law '{}' gives {}; particles of class {} are moved by {}", law.name,
                        wanted->classical ? "a force" : "the velocity of a flow", ensemble.class_name(),
-                       actual->classical ? "forces" : "a flow");
+                       classical ? "forces" : "a flow");
   ClassVariant const* variant = wanted->in(dimension);
   if (!variant) return "";
   for (auto const& field : variant->fields) {

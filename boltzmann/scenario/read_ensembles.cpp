@@ -80,10 +80,8 @@ class EnsembleReader {
 
   void read_class() {
     Item const* item = section_.need("class", "class = \"Newton\"");
-    std::vector<std::string> names;
-    for (auto const& entry : particle_classes()) names.push_back(entry.name);
-    auto const name = item ? read_word(*item, "class", names, reading_.context) : std::nullopt;
-    ensemble_.kind = kind_ = name ? find_class(*name) : nullptr;
+    auto const name = item ? read_word(*item, "class", reading_.class_names(), reading_.context) : std::nullopt;
+    ensemble_.kind = kind_ = name ? reading_.find_class(*name) : nullptr;
     if (!kind_) return;
     section_.explain_word("class", kind_->doc);
     section_.explain_said(ensemble_options());

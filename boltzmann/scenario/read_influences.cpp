@@ -66,7 +66,7 @@ class InfluenceReader {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
     if (section_.has("energy")) typed_item_ = section_.find("energy");
     if (typed_item_) return read_typed();
-    for (char const* key : {"energy", "influence", "parameters", "from_outside"}) {
+    for (char const* key : {"energy", "influence", "parameters", "from_outside", "changes"}) {
       if (section_.has(key))
         reading_.mistake(section_.place(key),
                          fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
@@ -109,17 +109,26 @@ class InfluenceReader {
     if (!from_outside_) by_ = section_.find("by"), between_ = section_.find("between");
     typed_.gives = by_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
     typed_.units = reading_.context.units;
+    if (by_energy)
+      section_.refuse("changes",
+                      "an energy moves particles; what changes a field is an influence, which gives its rate");
+    else
+      read_changes();
     auto const text = read_text(*typed_item_, by_energy ? "energy" : "influence", reading_.context);
     if (text) typed_.text = *text;
-    read_typed_parameters();
-    read_parts();
+    typed_.parameters = read_formula_parameters(section_, reading_);
+    if (Item const* where = section_.item("where"); !from_outside_ || (where && where->is(Item::Kind::table)))
+      typed_.where = read_formula_parts(section_, reading_);
     read_ensembles();
     if (!from_outside_)
       read_pairs();
     else if (Item const* where = section_.item("where"); !where || !where->is(Item::Kind::table))
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
     section_.finish();
-    if ((a_ && a_->smooth()) || (b_ && b_->smooth()))
+    check_changes(a_);
+    if (between_ && a_ != b_) check_changes(b_);
+    bool const moves = typed_.changes.empty();
+    if (moves && ((a_ && a_->smooth()) || (b_ && b_->smooth())))
       reading_.mistake(law_place_, "typed laws don't act on smooth particles yet, which are moved by their 'material'");
     bool const there = a_ && b_ && a_->particles && b_->particles && pairs_;
     if (reading_.context.mistakes.count() != before_ || !there) return;
@@ -138,80 +147,34 @@ class InfluenceReader {
       else
         pairs_->internal(a, typed_, reach);
     } catch (FormulaLawError const& error) {
-      refuse_text(error);
+      refuse_formula(section_, error, *typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence",
+                     reading_);
     } catch (Error const& error) {
       reading_.mistake(law_place_, error.what());
     }
   }
-  /// At the text that the error is of.
-  void refuse_text(FormulaLawError const& error) {
-    for (char const* key : {"where", "parameters"}) {
-      Item const* table = section_.item(key);
-      Entry const* entry = table ? table->find(error.part) : nullptr;
-      if (!entry) continue;
-      if (entry->item.is(Item::Kind::text))
-        return formula_mistake(entry->item, fmt::format("{}.{}", key, error.part), error, reading_);
-      return reading_.mistake(entry->place, fmt::format("{}.{}: {}", key, error.part, error.what()));
-    }
-    formula_mistake(*typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence", error, reading_);
+  /// Of which field of those that it acts on it gives the rate.
+  void read_changes() {
+    Item const* item = section_.find("changes");
+    auto const field = item ? read_text(*item, "changes", reading_.context) : std::nullopt;
+    if (field) typed_.changes = *field;
   }
-  void read_typed_parameters() {
-    Item const* table = section_.find("parameters");
-    if (!table) return;
-    if (!table->is(Item::Kind::table))
-      return reading_.mistake(
-          table->place,
-          fmt::format("parameters: a table is needed, {{ depth = \"0.1 eV\" }}, not {}", describe(*table)));
-    for (auto const& [key, place, item] : table->entries) {
-      FormulaParameter parameter{key, 0, {}};
-      if (!is_name(key)) {
-        reading_.mistake(
-            place, fmt::format("parameters: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
-        continue;
-      }
-      if (item.is_number()) {
-        parameter.value = item.number;
-        if (reading_.context.recorder) reading_.context.recorder->plain(item, "number");
-      } else if (item.is(Item::Kind::text)) {
-        bool const good = catch_errors(reading_, item.place, [&] {
-          parameter.dimension = parse_quantity(item.text).dimension;
-          parameter.value = in_units(item.text, parameter.dimension, reading_.context.units);
-        });
-        if (!good) continue;
-        if (reading_.context.recorder) reading_.context.recorder->plain(item, "text");
-      } else {
-        reading_.mistake(item.place,
-                         fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", key, describe(item)));
-        continue;
-      }
-      typed_.parameters.push_back(std::move(parameter));
-    }
-  }
-  void read_parts() {
-    if (from_outside_) {
-      Item const* where = section_.item("where");
-      if (!where || !where->is(Item::Kind::table)) return;
-    }
-    Item const* table = section_.find("where");
-    if (!table) return;
-    if (!table->is(Item::Kind::table))
-      return reading_.mistake(
-          table->place,
-          fmt::format("where: a table of formulas is needed, {{ s = \"(sigma/r)^6\" }}, not {}", describe(*table)));
-    for (auto const& [key, place, item] : table->entries) {
-      if (!is_name(key)) {
-        reading_.mistake(place,
-                         fmt::format("where: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
-        continue;
-      }
-      if (auto const text = read_text(item, fmt::format("where.{}", key), reading_.context))
-        typed_.where.push_back({key, *text});
-    }
-  }
-  static bool is_name(std::string_view key) {
-    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    return !key.empty() && letter(key[0]) &&
-           std::all_of(key.begin(), key.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+  /// A mistake if an ensemble has no such field, or one that does not change.
+  void check_changes(ReadEnsemble const* one) {
+    if (typed_.changes.empty() || !one || !one->particles) return;
+    Item const& item = *section_.item("changes");
+    catch_errors(reading_, item.place, [&] {
+      AnyEnsemble const& particles = *one->particles;
+      if (particles.number_driven(particles.field(typed_.changes)) >= 0) return;
+      std::vector<std::string> names;
+      for (auto const& field : particles.fields())
+        if (particles.number_driven(field) >= 0) names.push_back(field.name);
+      throw Error(
+          fmt::format("changes: {} of class {} has no rate{}; its [[classes]] gives one, rate.{} = 0 if nothing "
+                      "else changes it",
+                      typed_.changes, particles.class_name(),
+                      names.empty() ? "" : fmt::format(", as {} has", join(names)), typed_.changes));
+    });
   }
 
   std::string called() const { return typed_item_ ? "the typed law" : fmt::format("law '{}'", law_->name); }

@@ -4,6 +4,7 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/dissipation/dissipation.hpp>
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/state_law.hpp>
 #include <boltzmann/scenario/classes.hpp>
@@ -30,6 +31,13 @@
 namespace boltzmann {
 
 struct SchemeEntry;
+
+/// A class that the file derives from another one.
+struct ReadClass {
+  ParticleClass kind;
+  FieldRates rates;
+  Place place;
+};
 
 /// An ensemble of the file; `particles` is null if it could not be loaded.
 struct ReadEnsemble {
@@ -125,12 +133,16 @@ struct Reading {
       {};  ///< by number, and what they shed
   Place bodies_place = {};
   std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
+  std::vector<std::unique_ptr<ReadClass>> classes = {};
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
   std::vector<std::string> ensemble_names() const;
   /// The ensemble that a word names; nullptr and a mistake if there is none.
   ReadEnsemble* ensemble(Item const& word, std::string_view key);
   double boltzmann_constant() const;
+  /// A class of the file or a shipped one; nullptr if there is none of that name.
+  ParticleClass const* find_class(std::string_view name) const;
+  std::vector<std::string> class_names() const;
 };
 
 /// Calls function(); an Error becomes a mistake at the place. False if there was one.
@@ -222,6 +234,17 @@ void load_bodies(Reading& reading);
 void add_bodies(Reading& reading);
 void keep_out_of_bodies(Reading const& reading);
 void read_influences(Section& document, Reading& reading);
+/// parameters = { depth = "0.1 eV" } and where = { s = "(sigma/r)^6" }, which formulas of a table may use.
+std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading);
+std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading);
+/// Whether formulas can have a name: letters, digits and _.
+bool is_formula_name(std::string_view name);
+/// A mistake at the text that the error is of: one of the table's parameters or parts; else `item`, called `key`.
+void refuse_formula(Section const& section, FormulaLawError const& error, Item const& item, std::string_view key,
+                    Reading& reading);
+/// Reads [[classes]]: those that the scenario derives. Gives the fields of their particles their rates.
+void read_classes(Section& document, Reading& reading);
+void load_rates(Reading& reading);
 /// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
 void read_dissipations(Section& document, Reading& reading);
 void add_dissipations(Reading const& reading);

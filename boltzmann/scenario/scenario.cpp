@@ -35,10 +35,12 @@ void build(Item& document, Reading& reading) {
   read_box(top, reading);
   read_run(top, reading);
   read_schemes(top, reading);
+  read_classes(top, reading);
   read_ensembles(top, reading);
   read_bodies(top, reading);
   load_schemes(reading);
   load_rezone(reading);
+  load_rates(reading);
   read_dyes(top, reading);
   read_influences(top, reading);
   load_bodies(reading);

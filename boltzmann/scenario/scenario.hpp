@@ -18,6 +18,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -43,6 +44,13 @@ struct OutputPlan {
   std::vector<PicturePlan> pictures;
 };
 
+/// A class that a scenario derives, as it says it.
+struct DerivedClassText {
+  std::string name, base, doc;
+  std::vector<Field> fields;                               ///< its own
+  std::vector<std::pair<std::string, std::string>> rates;  ///< "d charge / dt" and its formula
+};
+
 /// A scenario that is ready to run. Owns everything.
 struct ScenarioSimulation {
   std::string name, title, description;
@@ -63,6 +71,7 @@ struct ScenarioSimulation {
   std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
   std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
   std::vector<ScenarioParameter> absent;      ///< keys that its tables could have, too; only for a page
+  std::vector<DerivedClassText> classes;      ///< its own
 
   Box const& box() const { return schemes.front()->box(); }
   /// The scheme of this kind, scheme<MeshScheme>(); null if there is none.

@@ -191,7 +191,9 @@ ScenarioTable const& table_named(std::string_view name) {
   throw Error("there is no table '" + std::string(name) + "'");
 }
 
-std::string ensembles() {
+/// With `derived`, what ensembles may be beside [[classes]], whose fields are keys of theirs; else what they are closed
+/// to without them, in few words.
+std::string ensembles(bool derived) {
   auto properties = properties_of(ensemble_options()), set = properties_of(set_options());
   std::vector<std::string> classes;
   std::string class_docs;
@@ -204,11 +206,37 @@ std::string ensembles() {
       replace(set, field.name, said);
     }
   }
-  replace(properties, "set", tables(table(set, true)));
-  replace(properties, "class", words(classes, class_docs));
+  if (!derived) {
+    auto const names_of = [](Members const& members) {
+      std::vector<std::string> names;
+      for (auto const& one : members) names.push_back(one.first);
+      return object({{"enum", list(names)}});
+    };
+    std::string const some = object({{"items", object({{"propertyNames", names_of(set)}})}});
+    return object(
+        {{"items", object({{"propertyNames", names_of(properties)},
+                           {"properties", object({{"class", object({{"enum", list(classes)}})}, {"set", some}})}})}});
+  }
+  replace(properties, "set", tables(table(set, false)));
+  std::string const any = object({{"type", quoted_text("string")}, {"description", quoted_text("of [[classes]]")}});
+  replace(properties, "class", fmt::format("{{\"anyOf\": [{}, {}]}}", words(classes, class_docs), any));
   std::vector<KindOf> loads;
   for (auto const& kind : load_kinds()) loads.push_back({kind.name, kind.doc, &kind.options});
   replace(properties, "load", kinds("kind", loads, {}));
+  return tables(table(properties, false));
+}
+
+/// Classes that a scenario derives have fields of their own: other keys are fields, too.
+std::string classes() {
+  auto properties = properties_of(class_options());
+  std::vector<std::string> bases;
+  std::string docs;
+  for (auto const& one : particle_classes()) {
+    bases.push_back(one.name);
+    docs += (docs.empty() ? "" : "; ") + one.name + ": " + one.doc;
+  }
+  replace(properties, "base", words(bases, docs));
+  replace(properties, "fields", tables(table(properties_of(class_field_options()), true)));
   return tables(table(properties, true));
 }
 
@@ -254,7 +282,8 @@ std::string scenario_schema() {
                                        "the units in which the simulation counts")}})},
       {"box", closed("box", {{"walls", tables(closed("box.walls"))}, {"regions", tables(closed("box.regions"))}})},
       {"run", closed("run")},
-      {"ensembles", ensembles()},
+      {"classes", classes()},
+      {"ensembles", ensembles(true)},
       {"bodies", tables(closed("bodies"))},
       {"dye", tables(closed("dye"))},
       {"influences", influences()},
@@ -278,7 +307,9 @@ std::string scenario_schema() {
                  {"title", quoted_text("A scenario of Boltzmann")},
                  {"type", quoted_text("object")},
                  {"properties", object(properties)},
-                 {"additionalProperties", "false"}}) +
+                 {"additionalProperties", "false"},
+                 {"if", object({{"required", list({"classes"})}})},
+                 {"else", object({{"properties", object({{"ensembles", ensembles(false)}})}})}}) +
          "\n";
 }
 

@@ -59,9 +59,11 @@ namespace {
 /// What acts between particles that are not smooth, and on them; a mesh has its own.
 void load_pairs(Reading& reading) {
   ScenarioSimulation& result = *reading.result;
-  bool const needed =
-      !reading.smooth.wanted || std::any_of(reading.ensembles.begin(), reading.ensembles.end(),
-                                            [](ReadEnsemble const& ensemble) { return !ensemble.smooth(); });
+  bool const needed = !reading.smooth.wanted ||
+                      std::any_of(reading.ensembles.begin(), reading.ensembles.end(), [](ReadEnsemble const& ensemble) {
+                        bool const driven = ensemble.particles && !ensemble.particles->driven().empty();
+                        return !ensemble.smooth() || driven;
+                      });
   if (auto* mesh = result.scheme<MeshScheme>()) {
     result.pairs = &mesh->pairs();
   } else if (needed && reading.box) {

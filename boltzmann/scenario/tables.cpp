@@ -208,6 +208,49 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
   return all;
 }
 
+OptionTable make_class_options() {
+  OptionTable all;
+  all.add_said("name", "a text of letters, digits and _", "for `class = ...` of `[[ensembles]]`");
+  all.add_said("base", "a class (`bzm list classes`)",
+               "from which it is derived: how its particles move, which fields they have, and which laws act on them");
+  all.add_said("doc", "a text", "one line about it", "none");
+  all.add_said("fields", "a list of tables, [`{ name = \"charge\", unit = \"e\" }`](#classesfields)", "its own fields",
+               "none");
+  all.add_said("rate", "a table of [formulas](#laws-that-are-typed), `rate.charge = \"...\"`",
+               "how fast a field changes; influences that change it (`changes` in `[[influences]]`) are added. Fields "
+               "without a rate stay as they are",
+               "none");
+  all.add_said(
+      "diffusion", "a table of [formulas](#laws-that-are-typed), `diffusion.angle = \"...\"`",
+      "coefficients D of fields that take a random walk beside their rates, of variance 2 D t for each component",
+      "none");
+  all.add_said("parameters", "a table of quantities", "which its formulas use: `{ tau = \"1 s\" }`", "none");
+  all.add_said("where", "a table of [formulas](#laws-that-are-typed)",
+               "parts with names, which later ones and the rates may use", "none");
+  all.at("name").needed = "\"Grain\"";
+  all.at("base").needed = "\"Newton\"";
+  return all;
+}
+
+OptionTable make_class_field_options() {
+  OptionTable all;
+  all.add_said("name", "a text of letters, digits and _", "in formulas, files, diagnoses and pictures");
+  all.add_said("kind", "`\"scalar\"` or `\"vector\"`", "a number, or as many as the space has axes", "`\"scalar\"`");
+  all.add_said("unit", "a unit, `\"e\"`, `\"1/s\"`", "what it is measured in, which gives its dimension",
+               "a pure number");
+  all.add_said("default", "a quantity, or a list of them", "of particles of which nothing else is said", "0");
+  all.add_said("sum", "`true` or `false`",
+               "it has no rate, but is what influences with `changes` give to it at each calculation: rates may use it",
+               "false");
+  all.add_said("period", "a quantity, positive",
+               "of a field that has a rate: after each step it is taken back to between minus and plus half of it, as "
+               "`\"2 pi\"` does with an angle",
+               "it grows as it does");
+  all.add_said("doc", "a text", "one line about it", "none");
+  all.at("name").needed = "\"charge\"";
+  return all;
+}
+
 OptionTable make_influence_options() {
   OptionTable all;
   all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
@@ -235,6 +278,11 @@ OptionTable make_influence_options() {
   all.add_said("energy", "a [formula](#laws-that-are-typed)", "instead of `law`: a typed law, by its energy");
   all.add_said("influence", "a [formula](#laws-that-are-typed)",
                "instead of `law`: a typed law, by the force (or velocity) that p gets");
+  all.add_said(
+      "changes", "a field of those that it acts on",
+      "of a typed law by an influence: it moves nobody, but is added to the rate of that field, which a class of "
+      "[`[[classes]]`](#classes) has",
+      "it moves them");
   all.add_said("parameters", "a table of quantities", "of a typed law: `{ depth = \"0.1 eV\" }`", "none");
   all.add_said("from_outside", "`true` or `false`", "a typed law that acts from outside", "false");
   all.at("law").needed = "\"lennard-jones\"";
@@ -326,6 +374,8 @@ OptionTable const& run_options() { return once<make_run_options>(); }
 OptionTable const& box_options() { return once<make_box_options>(); }
 OptionTable const& ensemble_options() { return once<make_ensemble_options>(); }
 OptionTable const& influence_options() { return once<make_influence_options>(); }
+OptionTable const& class_options() { return once<make_class_options>(); }
+OptionTable const& class_field_options() { return once<make_class_field_options>(); }
 OptionTable const& output_options() { return once<make_output_options>(); }
 OptionTable const& wall_options() { return once<make_wall_options>(); }
 OptionTable const& region_options() { return once<make_region_options>(); }
@@ -364,7 +414,9 @@ std::vector<ScenarioTable> make_tables() {
   static OptionTable const sweep = make_sweep_options(), picture = make_sweep_picture_options();
   all.insert(
       all.end(),
-      {{"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
+      {{"classes", "[[classes]]", "a class of particles that is derived from another one", &class_options(), nullptr},
+       {"classes.fields", "[[classes.fields]]", "a field of such a class", &class_field_options(), nullptr},
+       {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
        {"ensembles.set", "[[ensembles.set]]", "other values for some particles, beside the fields of their class",
         &set_options(), &set},
        {"bodies", "[[bodies]]", "a solid body in a plane flow, which flows around its outline", &body_options(), &body},

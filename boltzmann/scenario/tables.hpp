@@ -52,6 +52,10 @@ struct EnsembleOptions {
 };
 OptionTable const& ensemble_options();
 
+/// [[classes]] and one of their `fields`, which are read by code of their own.
+OptionTable const& class_options();
+OptionTable const& class_field_options();
+
 /// [[ensembles.set]]; who is meant and the fields are read by code.
 struct SetOptions {
   bool freeze = false;

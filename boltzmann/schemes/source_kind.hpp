@@ -35,8 +35,10 @@ template <class P>
 concept FieldParticle = ForcedParticle<P> || CarriedParticle<P>;
 
 struct SourceKind {
-  /// strength() of particles begin ... end-1; of classes that have none the mass, which attracts.
-  void (*strengths)(double const* rows, std::size_t begin, std::size_t end, double* strengths) = nullptr;
+  /// strength() of particles begin ... end-1, whose rows are `stride` doubles apart; of classes that have none the mass,
+  /// which attracts.
+  void (*strengths)(double const* rows, std::size_t stride, std::size_t begin, std::size_t end,
+                    double* strengths) = nullptr;
   bool own = false;               ///< the class has a strength()
   double sign = 0;                ///< +1: equal strengths repel, -1: they attract, 0: the class does not say
   bool carried = false;           ///< a flow carries it (Tracer): what it feels is, or begins with, a velocity
@@ -53,13 +55,14 @@ template <class P>
 SourceKind strength_kind() {
   SourceKind kind;
   kind.own = requires(P const& p) { p.strength(); };
-  kind.strengths = [](double const* rows, std::size_t begin, std::size_t end, double* strengths) {
-    auto const* particles = reinterpret_cast<Row<P> const*>(rows);
-    for (std::size_t i = begin; i < end; ++i)
+  kind.strengths = [](double const* rows, std::size_t stride, std::size_t begin, std::size_t end, double* strengths) {
+    for (std::size_t i = begin; i < end; ++i) {
+      P const& particle = *reinterpret_cast<P const*>(rows + i * stride);
       if constexpr (requires(P const& p) { p.strength(); })
-        strengths[i] = particles[i].strength();
+        strengths[i] = particle.strength();
       else
-        strengths[i] = particles[i].mass;
+        strengths[i] = particle.mass;
+    }
   };
   if constexpr (requires { P::sign; })
     kind.sign = P::sign;

@@ -1,4 +1,5 @@
 // One step, by whatever advances the particles, and the checks that turn a failing one into one line.
+#include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/simulation/overlap.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -9,6 +10,22 @@
 #include <limits>
 
 namespace boltzmann {
+
+namespace {
+
+/// A field with a rate of its own that is not finite; null: there is none, or something else is not.
+Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i) {
+  Field const* driven = nullptr;
+  for (auto const& field : ensemble.fields())
+    for (int c = 0; c < field.components; ++c) {
+      if (std::isfinite(ensemble.row(i)[field.offset + c])) continue;
+      if (ensemble.number_driven(field) < 0) return nullptr;
+      driven = &field;
+    }
+  return driven;
+}
+
+}  // namespace
 
 void Simulation::move_walls(double time) {
   for (auto* scheme : schemes_)
@@ -85,7 +102,10 @@ void Simulation::advance_by_gauss_radau(double dt) {
     calculate(start + passed + since);
   };
   for (std::size_t k = 0; auto const& part : parts_)
-    if (part.integrator->equations_of_motion()) gauss_radau_.parts()[k++].max_move = std::sqrt(part.longest_move2);
+    if (part.integrator->equations_of_motion()) {
+      gauss_radau_.parts()[k++].max_move = std::sqrt(part.longest_move2);
+      if (equations_of_fields(*part.integrator)) ++k;
+    }
   while (passed != dt) {
     calculate(start + passed);
     double const rest = dt - passed, size = gauss_radau_.step(rest, schemes_.front()->threads(), influences);
@@ -142,20 +162,21 @@ void Simulation::advance_in_substeps(double dt) {
 void Simulation::keep_rows() {
   before_substep_.clear();
   for (auto const* ensemble : ensembles_) {
-    double const *row = ensemble->row(0), *influence = ensemble->influence(0);
+    double const* row = ensemble->row(0);
+    auto const influences = ensemble->influences();
     before_substep_.insert(before_substep_.end(), row, row + ensemble->size() * ensemble->stride());
-    before_substep_.insert(before_substep_.end(), influence, influence + ensemble->size() * ensemble->influence_size());
+    before_substep_.insert(before_substep_.end(), influences.begin(), influences.end());
   }
 }
 
 void Simulation::restore_rows() {
   double const* from = before_substep_.data();
   for (auto* ensemble : ensembles_) {
-    std::size_t const rows = ensemble->size() * ensemble->stride(),
-                      influences = ensemble->size() * ensemble->influence_size();
+    std::size_t const rows = ensemble->size() * ensemble->stride();
+    auto const influences = ensemble->influences();
     std::copy_n(from, rows, ensemble->row(0));
-    std::copy_n(from + rows, influences, ensemble->influence(0));
-    from += rows + influences;
+    std::copy_n(from + rows, influences.size(), influences.begin());
+    from += rows + influences.size();
   }
   influences_.calculated();
 }
@@ -165,7 +186,8 @@ std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
   std::vector<Mover> movers;
   for (auto const& part : parts_) {
     Method const method = part.integrator->method();
-    if ((method != Method::leap_frog && method != Method::deactivate) || !part.integrator->same_for_all())
+    if ((method != Method::leap_frog && method != Method::deactivate) || !part.integrator->same_for_all() ||
+        !part.ensemble->driven().empty())
       return nullptr;
     movers.push_back({part.ensemble, method == Method::leap_frog});
   }
@@ -177,6 +199,11 @@ void Simulation::check_moves(Part const& part) const {
   if (move.not_finite == LargestMove::nobody && move.square <= part.longest_move2) return;
   auto const& name = part.ensemble->name();
   if (move.not_finite != LargestMove::nobody) {
+    if (Field const* field = driven_field_not_finite(*part.ensemble, move.not_finite))
+      throw PhysicsFailure(
+          fmt::format("particle {} of '{}' has a {} that is not finite: its rate has become too large, or "
+                      "is not defined there",
+                      move.not_finite, name, field->name));
     std::string why;
     for (auto const* scheme : schemes_)
       if (why.empty()) why = scheme->explain(*part.ensemble, move.not_finite);

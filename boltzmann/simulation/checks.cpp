@@ -1,4 +1,5 @@
 // What is looked at before the first step, so that a wrong simulation is one line.
+#include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -21,8 +22,9 @@ void Simulation::check() {
   for (auto* ensemble : ensembles_) {
     Part const& part = ready_part(*ensemble);
     Method const method = part.integrator->method();
+    bool const driven = !ensemble->driven().empty();
     for (auto const* scheme : schemes_)
-      inside_step = inside_step || (method == Method::leap_frog && scheme->velocity_dependent(*ensemble));
+      inside_step = inside_step || (method == Method::leap_frog && (driven || scheme->velocity_dependent(*ensemble)));
     stages_ = std::max(stages_, part.stages);
     reversible = reversible || method == Method::reversible_leap_frog;
   }
@@ -84,10 +86,12 @@ void Simulation::check_methods() {
     if (method == Method::gauss_radau && !part.integrator->same_for_all())
       throw Error("some particles of ensemble '" + ensemble->name() +
                   "' are frozen, which gauss-radau does not know; put them into an ensemble with deactivate");
-    if (auto* equations = part.integrator->equations_of_motion())
+    if (auto* equations = part.integrator->equations_of_motion()) {
       together.push_back({equations});
-    else if (method != Method::deactivate)
+      if (auto* fields = equations_of_fields(*part.integrator)) together.push_back({fields});
+    } else if (method != Method::deactivate) {
       other = &part;
+    }
   }
   if (!together.empty() && other)
     throw Error("ensemble '" + together.front().equations->ensemble().name() +
@@ -107,6 +111,11 @@ void Simulation::check_substeps() const {
       throw Error("steps are divided into substeps where leap-frog or symplectic-4 advances; ensemble '" +
                   ensemble->name() + "' moves by " + to_string(method));
   }
+  for (auto* ensemble : ensembles_)
+    for (auto const& field : ensemble->driven())
+      if (field.diffuses)
+        throw Error("steps can't be divided into substeps where a field diffuses, as on ensemble '" + ensemble->name() +
+                    "': its random numbers are of whole steps");
   if (!dissipations_.empty() || !equilibrations_.empty())
     throw Error(
         "steps with friction and noise can't be divided into substeps: their random numbers are of whole steps");
@@ -127,6 +136,19 @@ void Simulation::check_influences() const {
                                               ensemble->name())
                                 : why);
       }
+  for (auto* ensemble : ensembles_) {
+    auto const influences = ensemble->influences();
+    std::size_t const begin = ensemble->size() * ensemble->influence_size();
+    for (std::size_t k = begin; k < influences.size(); ++k) {
+      if (std::isfinite(influences[k])) continue;
+      std::size_t const in_rates = (k - begin) / ensemble->rate_stride(), i = in_rates % ensemble->size();
+      std::string name = "a field";
+      for (auto const& field : ensemble->fields())
+        if (ensemble->number_driven(field) == static_cast<int>(in_rates / ensemble->size())) name = field.name;
+      throw Error(
+          fmt::format("the rate of {} of particle {} of '{}' is not finite at the start", name, i, ensemble->name()));
+    }
+  }
 }
 
 void Simulation::check_dissipations() {

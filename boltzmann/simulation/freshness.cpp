@@ -13,7 +13,7 @@ std::uint64_t rows_checksum(std::span<AnyEnsemble* const> ensembles, bool with_i
   };
   for (auto const* ensemble : ensembles) {
     take(ensemble->row(0), ensemble->size() * ensemble->stride());
-    if (with_influences) take(ensemble->influence(0), ensemble->size() * ensemble->influence_size());
+    if (with_influences) take(ensemble->influences().data(), ensemble->influences().size());
   }
   return sum;
 }

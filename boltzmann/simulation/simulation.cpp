@@ -364,9 +364,8 @@ std::vector<double> Simulation::state() const {
     bool const fresh = influences_.belong_to_state(ensembles_);
     state.push_back(fresh ? 1 : 0);
     for (auto const& part : parts_) {
-      auto const* influence = part.ensemble->influence(0);
-      if (fresh)
-        state.insert(state.end(), influence, influence + part.ensemble->size() * part.ensemble->influence_size());
+      auto const influences = part.ensemble->influences();
+      if (fresh) state.insert(state.end(), influences.begin(), influences.end());
     }
   }
   for (auto const& change : changes_) add(change.adaptation->state());
@@ -399,9 +398,9 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   bool const with_influences = influences_.inside_step() && state[at++] != 0;
   if (with_influences)
     for (auto const& part : parts_) {
-      std::size_t const count = part.ensemble->size() * part.ensemble->influence_size();
+      std::size_t const count = part.ensemble->influences().size();
       if (at + count > state.size()) throw misfit();
-      std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influence(0));
+      std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influences().begin());
       at += count;
     }
   for (auto const& change : changes_) change.adaptation->restore(next());

@@ -453,6 +453,8 @@ TEST(New, KeepsWhatIsThere) {
   EXPECT_EQ(text_of(folder / "other.toml").find("#:schema ./boltzmann.schema.json\n"), 0U);
   EXPECT_EQ(text_of(folder / "boltzmann.schema.json"), bzm({"show", "--schema"}, folder.string()).out);
   EXPECT_TRUE(has(text_of(folder / "other.toml"), "bzm run other.toml"));
+  EXPECT_EQ(bzm({"new", "grains", "--class"}, folder.string()).status, 0);
+  EXPECT_EQ(bzm({"check", "grains.toml"}, folder.string()).status, 0);
   expect_one_line(bzm({"new", "no/such/folder/x"}, folder.string()), 2, {"no/such/folder/x.toml"});
 }
 

@@ -185,7 +185,7 @@ std::vector<double> MeshScheme::strengths(AnyEnsemble const& ensemble) const {
   for (auto const& loaded : loaded_)
     if (loaded->ensemble == &ensemble) {
       std::vector<double> all(ensemble.size());
-      loaded->kind.strengths(ensemble.row(0), 0, ensemble.size(), all.data());
+      loaded->kind.strengths(ensemble.row(0), ensemble.stride(), 0, ensemble.size(), all.data());
       return all;
     }
   throw Error(fmt::format("mesh: ensemble '{}' is not loaded", ensemble.name()));

@@ -120,6 +120,7 @@ class MeshScheme : public Scheme {
   /// Those that make the field, then those that only pairs() knows.
   std::vector<AnyEnsemble*> const& ensembles() const override;
   void add_influences(double time) override;
+  void complete(double time) override { pairs_.complete(time); }
   void calculate(double time = 0) override;
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;

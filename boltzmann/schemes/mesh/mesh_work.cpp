@@ -15,9 +15,10 @@ double counts_per_strength(double greatest, std::size_t particles) {
 
 void MeshScheme::Loaded::refresh(int threads) {
   strengths.resize(ensemble->size());
-  for_ranges(
-      ensemble->size(), mesh_grain, threads_for(ensemble->size(), 1, threads),
-      [&](std::size_t begin, std::size_t end) { kind.strengths(ensemble->row(0), begin, end, strengths.data()); });
+  for_ranges(ensemble->size(), mesh_grain, threads_for(ensemble->size(), 1, threads),
+             [&](std::size_t begin, std::size_t end) {
+               kind.strengths(ensemble->row(0), ensemble->stride(), begin, end, strengths.data());
+             });
 }
 
 MeshScheme::Work::Work(Ghosts the_ghosts, MeshGrid const& the_grid, std::array<FieldEnds, 3> const& ends,

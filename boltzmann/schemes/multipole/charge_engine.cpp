@@ -29,7 +29,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
     double squares = 0;
     for (auto const& one : loaded) {
       std::size_t const count = one.ensemble->size();
-      one.kind.strengths(one.ensemble->row(0), 0, count, strengths_.data() + at);
+      one.kind.strengths(one.ensemble->row(0), one.ensemble->stride(), 0, count, strengths_.data() + at);
       for (std::size_t i = at; one.acts && i < at + count; ++i) {
         double const s = strengths_[i];
         sum += s, all += std::abs(s), squares += s * s;

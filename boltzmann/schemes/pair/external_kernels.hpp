@@ -17,7 +17,8 @@ struct ExternalTask {
   std::uint32_t const* only = nullptr;  ///< the particles it acts on; null: all
   double time = 0;
   double* influence = nullptr;
-  double* energy = nullptr;  ///< measuring: energy of each particle in the field
+  double* energy = nullptr;     ///< measuring: energy of each particle in the field
+  std::size_t rate_stride = 0;  ///< of rates: doubles from those of one driven field to those of the next
 };
 
 using ExternalKernel = void (*)(void const* law, ExternalTask const& task, std::size_t begin, std::size_t end);

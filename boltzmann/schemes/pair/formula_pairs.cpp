@@ -3,6 +3,7 @@
 #include <boltzmann/formulas/machine_code.hpp>
 #include <boltzmann/schemes/pair/formula_kernels.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/pair/rate_kernels.hpp>
 
 namespace boltzmann {
 namespace {
@@ -28,17 +29,27 @@ std::shared_ptr<ExternalProgram const> ready(ExternalProgram program) {
   for (auto* part : {&program.influence, &program.measure}) part->code = machine_code(*part, kernels().code_width);
   return std::make_shared<ExternalProgram const>(std::move(program));
 }
+std::shared_ptr<RateProgram const> ready(RateProgram program) {
+  program.program.code = machine_code(program.program, kernels().code_width);
+  return std::make_shared<RateProgram const>(std::move(program));
+}
+
+/// The driven field that a law changes; -1: it moves particles.
+int field_changed(FormulaLaw const& law, AnyEnsemble const& target) {
+  return law.changes.empty() ? -1 : target.number_driven(target.field(law.changes));
+}
 
 struct ReadyPairs {
   PairKernels kernels;
   PairScheme::LawPointer law;
   PairScheme::LawTraits traits;
 
-  ReadyPairs(PairProgram program, AnyEnsemble const& target)
+  ReadyPairs(PairProgram program, FormulaLaw const& of, AnyEnsemble const& target)
       : kernels(boltzmann::kernels().pairs[index_of_dimension(target)]) {
     kernels.has_energy = program.has_energy;
     traits.velocity_dependent = program.velocity_dependent;
     traits.one_way = !program.antisymmetric;
+    traits.changes = field_changed(of, target);
     law = ready(std::move(program), target.dimension());
   }
 };
@@ -46,7 +57,7 @@ struct ReadyPairs {
 }  // namespace
 
 void PairScheme::one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff) {
-  ReadyPairs const ready(law.between(target, source), target);
+  ReadyPairs const ready(law.between(target, source), law, target);
   add_pairs(target, source, ready.kernels, ready.law, ready.traits, cutoff);
 }
 
@@ -57,13 +68,13 @@ void PairScheme::internal(AnyEnsemble& ensemble, FormulaLaw const& law, double c
 void PairScheme::between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law, double cutoff) {
   // An energy is one for both; an influence is that of the other one on p, whichever p is.
   auto const part = law.gives == FormulaLaw::Gives::energy ? FormulaLaw::Target::q : FormulaLaw::Target::p;
-  ReadyPairs const on_a(law.between(a, b), a), on_b(law.between(b, a, part), b);
+  ReadyPairs const on_a(law.between(a, b), law, a), on_b(law.between(b, a, part), law, b);
   add_pairs(a, b, on_a.kernels, on_a.law, on_a.traits, cutoff);
   add_pairs(b, a, on_b.kernels, on_b.law, on_b.traits, cutoff);
 }
 
 void PairScheme::connect(AnyEnsemble& ensemble, std::vector<Connection> const& connections, FormulaLaw const& law) {
-  ReadyPairs const ready(law.between(ensemble, ensemble), ensemble);
+  ReadyPairs const ready(law.between(ensemble, ensemble), law, ensemble);
   add_connections(ensemble, connections, ready.kernels, ready.law, ready.traits);
 }
 
@@ -74,7 +85,22 @@ void PairScheme::external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vec
   kernels.depends_on_time = program.depends_on_time;
   LawTraits traits;
   traits.velocity_dependent = program.velocity_dependent;
+  traits.changes = field_changed(law, ensemble);
   add_external(ensemble, kernels, ready(std::move(program)), traits, only);
+}
+
+void PairScheme::rates(AnyEnsemble& ensemble, FieldRates const& rates) {
+  RateProgram program = rates.on(ensemble);
+  auto const& table =
+      for_instruction_set([](auto set) -> RateKernelTable const& { return rate_kernels<decltype(set)::value>(); });
+  ExternalKernels kernels;
+  kernels.influence = table.rates[index_of_dimension(ensemble)];
+  kernels.depends_on_time = program.depends_on_time;
+  LawTraits traits;
+  traits.velocity_dependent = program.velocity_dependent;
+  traits.changes = 0;
+  traits.rates = true;
+  add_external(ensemble, kernels, ready(std::move(program)), traits, nullptr);
 }
 
 }  // namespace boltzmann

@@ -32,6 +32,11 @@ bool is_flow(AnyEnsemble const& target, AnyEnsemble const& source) {
   return vorticity && is_vorticity(*vorticity, source.dimension()) && !target.find_field("velocity");
 }
 
+/// Where what a law gives to particles is summed up.
+double* sum_of(AnyEnsemble& ensemble, PairScheme::LawTraits const& traits) {
+  return traits.moves() ? ensemble.influence(0) : ensemble.rate(static_cast<std::size_t>(traits.changes));
+}
+
 /// Error unless influences beyond the walls of mirror axes are those of the images of a flow, as many as there are.
 void check_walls(Box const& box, AnyEnsemble const& target, AnyEnsemble const& source, double cutoff) {
   if (!box.any_wall()) return;
@@ -79,7 +84,7 @@ struct PairScheme::Near {
 
   /// Sets the task to where memory is now (ensembles may have been resized, sorted copies rebuilt).
   void locate(double quantum, Neighbourhood const& neighbourhood) {
-    task.influence = target->influence(0);
+    task.influence = sum_of(*target, traits);
     if (all_pairs()) {
       task.target = target->row(0);
       task.source = source->row(0);
@@ -133,7 +138,7 @@ struct PairScheme::Connected {
       throw Error(fmt::format("ensemble '{}' had {} particles when it was connected, now it has {}", ensemble->name(),
                               list.start.size() - 1, ensemble->size()));
     PairTask t;
-    t.influence = ensemble->influence(0);
+    t.influence = sum_of(*ensemble, traits);
     t.same = true;
     t.target = t.source = ensemble->row(0);
     t.targets = t.sources = ensemble->size();
@@ -173,7 +178,8 @@ struct PairScheme::External {
     t.row_stride = ensemble->stride();
     t.only = everyone ? nullptr : only.data();
     t.time = time;
-    t.influence = ensemble->influence(0);
+    t.influence = sum_of(*ensemble, traits);
+    t.rate_stride = ensemble->size() * ensemble->rate_stride();
     return t;
   }
 };
@@ -247,6 +253,18 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
 }
 
 void PairScheme::calculate(double time) { calculate(time, true); }
+
+void PairScheme::complete(double) {
+  for (auto* ensemble : ensembles())
+    for (std::size_t k = 0; k < ensemble->driven().size(); ++k) {
+      auto const field = ensemble->driven()[k];
+      if (!field.sum) continue;
+      double const* const sums = ensemble->rate(k);
+      for (std::size_t i = 0; i < ensemble->size(); ++i)
+        std::copy_n(sums + i * ensemble->rate_stride(), field.components, ensemble->row(i) + field.offset);
+    }
+}
+
 void PairScheme::add_influences(double time) { calculate(time, false); }
 
 void PairScheme::calculate(double time, bool overwrite) {
@@ -255,10 +273,15 @@ void PairScheme::calculate(double time, bool overwrite) {
   // The first law on an ensemble stores, further ones add.
   std::vector<AnyEnsemble*> clear;
   if (overwrite) clear = ensembles();
+  // Rates are only added, so that of their ensembles everything is cleared.
+  std::erase_if(clear, [](AnyEnsemble* ensemble) {
+    if (!ensemble->driven().empty()) ensemble->clear_influence();
+    return !ensemble->driven().empty();
+  });
   auto const first_on = [&](AnyEnsemble* ensemble) { return std::erase(clear, ensemble) > 0; };
   for (auto const& near : near_) {
     near->locate(quantum_, neighbourhood_);
-    near->task.overwrite = first_on(near->target);
+    near->task.overwrite = near->traits.moves() && first_on(near->target);
     PairTask const& task = near->task;
     PairKernel const kernel = near->all_pairs() ? near->kernels.all
                               : quantum_ > 0    ? near->kernels.list_reversible
@@ -283,14 +306,17 @@ void PairScheme::calculate(double time, bool overwrite) {
                  connected->kernels.connected(connected->law.get(), task, begin, end);
                });
   }
-  for (auto const& external : external_) {
-    ExternalTask const task = external->task(time);
-    if (external->taken) continue;
-    for_ranges(external->count(), 8 * particle_grain, threads_for(external->count(), 1, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 external->kernels.influence(external->law.get(), task, begin, end);
-               });
-  }
+  auto const add_external = [&](External const& external) {
+    ExternalTask const task = external.task(time);
+    if (external.taken) return;
+    for_ranges(
+        external.count(), 8 * particle_grain, threads_for(external.count(), 1, threads()),
+        [&](std::size_t begin, std::size_t end) { external.kernels.influence(external.law.get(), task, begin, end); });
+  };
+  for (auto const& external : external_)
+    if (!external->traits.rates) add_external(*external);
+  for (auto const& external : external_)
+    if (external->traits.rates) add_external(*external);
 }
 
 Scheme::SmallSystem PairScheme::small_system() {
@@ -312,7 +338,8 @@ Scheme::SmallSystem PairScheme::small_system() {
 
 EnergyAndVirial PairScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
-  measures.reciprocal = external_.empty();
+  measures.reciprocal =
+      std::none_of(external_.begin(), external_.end(), [](auto const& external) { return external->traits.moves(); });
   neighbourhood_.refresh(threads());
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
@@ -335,6 +362,7 @@ EnergyAndVirial PairScheme::measure(double time) {
                [&](std::size_t begin, std::size_t end) { kernel(law, task, begin, end); });
   };
   for (auto const& near : near_) {
+    if (!near->traits.moves()) continue;
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
     measures.reciprocal = measures.reciprocal && has_reaction(*near);
     measures.driven = measures.driven || near->traits.velocity_dependent || !has_reaction(*near);
@@ -344,12 +372,16 @@ EnergyAndVirial PairScheme::measure(double time) {
         near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
   }
   for (auto const& connected : connected_) {
+    if (!connected->traits.moves()) continue;
     if (!connected->kernels.has_energy) measures.unknown = "a connection of '" + connected->ensemble->name() + "'";
     measures.reciprocal = measures.reciprocal && !connected->traits.one_way;
     run(connected->task(box()), connected->ensemble, 4 * particle_grain, connected->kernels.connected_measure,
         connected->law.get());
   }
+  // Energies may depend on what changes by a rate of its own.
+  for (auto const* ensemble : all) measures.driven = measures.driven || !ensemble->driven().empty();
   for (auto const& external : external_) {
+    if (!external->traits.moves()) continue;
     measures.driven = measures.driven || external->drives(box());
     if (!external->kernels.has_energy) {
       if (!external->traits.velocity_dependent)
@@ -383,12 +415,12 @@ std::vector<Rotation> PairScheme::rotations(AnyEnsemble const& ensemble, bool ta
 }
 
 bool PairScheme::acts_uniformly(AnyEnsemble const& ensemble) const {
-  auto const pulls = [&](auto const& near) { return near->target == &ensemble; };
+  auto const pulls = [&](auto const& near) { return near->target == &ensemble && near->traits.moves(); };
   if (std::any_of(near_.begin(), near_.end(), pulls)) return false;
   for (auto const& connected : connected_)
-    if (connected->ensemble == &ensemble) return false;
+    if (connected->ensemble == &ensemble && connected->traits.moves()) return false;
   return std::all_of(external_.begin(), external_.end(), [&](auto const& external) {
-    if (external->ensemble != &ensemble) return true;
+    if (external->ensemble != &ensemble || !external->traits.moves()) return true;
     bool const by_velocity = external->traits.velocity_dependent && !external->kernels.rotate;
     return external->everyone && external->traits.uniform && !by_velocity;
   });
@@ -396,7 +428,7 @@ bool PairScheme::acts_uniformly(AnyEnsemble const& ensemble) const {
 
 void PairScheme::add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const {
   for (auto const& external : external_) {
-    if (external->ensemble != &ensemble || external->taken) continue;
+    if (external->ensemble != &ensemble || external->taken || !external->traits.moves()) continue;
     ExternalTask task;
     task.rows = row;
     task.time = time;
@@ -457,7 +489,7 @@ std::size_t PairScheme::bytes() const {
 
 bool PairScheme::has_reaction(Near const& near) const {
   return !near.traits.one_way && std::any_of(near_.begin(), near_.end(), [&](auto const& other) {
-    return other->target == near.source && other->source == near.target;
+    return other->traits.moves() && other->target == near.source && other->source == near.target;
   });
 }
 
@@ -504,8 +536,9 @@ void PairScheme::add_stream(std::span<double const> places, double time, std::sp
     return one.size() > 0 &&
            (one.moves_as() == typeid(Tracer<2>) || one.moves_as() == typeid(Tracer<3>) || one.find_field("vorticity"));
   };
-  auto const first = std::find_if(external_.begin(), external_.end(),
-                                  [&](auto const& external) { return carried(*external->ensemble); });
+  auto const first = std::find_if(external_.begin(), external_.end(), [&](auto const& external) {
+    return external->traits.moves() && carried(*external->ensemble);
+  });
   if (first == external_.end()) return;
   AnyEnsemble const& ensemble = *(*first)->ensemble;
   std::vector<double> row(ensemble.row(0), ensemble.row(0) + ensemble.stride()), influence(ensemble.influence_size());

@@ -95,6 +95,8 @@ class PairScheme final : public Scheme {
   void one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff);
   void connect(AnyEnsemble& ensemble, std::vector<Connection> const& connections, FormulaLaw const& law);
   void external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vector<std::uint32_t> const* only = nullptr);
+  /// The rates of fields (AnyEnsemble::driven()), and how they diffuse: FormulaLawError if one is wrong.
+  void rates(AnyEnsemble& ensemble, FieldRates const& rates);
 
   /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
   void skin(double length) { neighbourhood_.skin(length); }
@@ -119,6 +121,8 @@ class PairScheme final : public Scheme {
 
   void calculate(double time = 0) override;
   void add_influences(double time) override;
+  /// Fields that are sums, as laws have given them at the last calculation.
+  void complete(double time) override;
   SmallSystem small_system() override;
   EnergyAndVirial measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
@@ -149,6 +153,11 @@ class PairScheme final : public Scheme {
     bool one_way = false;  ///< who is influenced does not influence in return
     bool uniform = false;  ///< an external law that acts on equal particles equally, wherever they are
     std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart that it is
+    int changes = -1;  ///< the driven field of the target whose rate it gives; -1: it moves particles
+
+    bool rates = false;  ///< it gives those of all driven fields; sums must be known before
+
+    bool moves() const { return changes < 0; }
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {

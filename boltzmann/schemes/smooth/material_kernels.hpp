@@ -39,6 +39,7 @@ struct MaterialTask {
   bool balsara = false;
   double shortest = 0, longest = 0;  ///< between which ranges vary
   double spacings = 0;               ///< range = spacings (mass / density)^(1/D) between them
+  std::size_t particle_stride = 0;   ///< from one row of the ensemble to the next
 };
 
 using MaterialKernel = void (*)(void const* material, MaterialTask const& task, std::size_t begin, std::size_t end);
@@ -62,7 +63,7 @@ template <class P, class Body>
                                                Body const& body) {
   for (std::size_t n = begin; n < end; ++n) {
     std::size_t const k = task.members ? task.members[n] : n, i = task.order[k] - task.first;
-    body(k, i, reinterpret_cast<Row<P>*>(task.particles)[i]);
+    body(k, i, *reinterpret_cast<Row<P>*>(task.particles + i * task.particle_stride));
   }
 }
 

@@ -338,6 +338,7 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
     MaterialTask& task = loaded->task;
     task = {};
     task.particles = loaded->ensemble->row(0);
+    task.particle_stride = loaded->ensemble->stride();
     task.influence = loaded->ensemble->influence(0);
     task.first = static_cast<std::uint32_t>(loaded->first);
     task.order = copy.order();

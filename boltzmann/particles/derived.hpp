@@ -1,0 +1,54 @@
+// DerivedEnsemble: the particles of a class that is made while the program runs, from one that is compiled.
+#pragma once
+
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// A field that a derived class has beside those of its base, and what new particles have there.
+struct AddedField {
+  Field field;  ///< its offset is found
+  std::vector<double> value;
+  bool vector = false;  ///< as many numbers as space has axes: of one component, it is a vector in 1D
+  bool sum = false;     ///< DrivenField::sum; such fields need not be among the driven ones that are named
+  double period = 0;    ///< of an angle and the like, if it has a rate: DrivenField::period
+};
+
+/// A class that is derived from another one: its rows begin with that class's, so that laws and equations of motion of
+/// the base serve it. It may have fields of its own, and rates for them or for fields of the base that nothing changes.
+struct DerivedClass {
+  struct Driven {
+    std::string field;
+    bool diffuses = false;
+  };
+
+  std::string name;
+  std::vector<AddedField> added;
+  std::vector<Driven> driven;
+};
+
+/// The fields of the derived class: those of `base`, then its own where they stand in its rows.
+std::vector<Field> fields_of(DerivedClass const& derived, AnyEnsemble const& base);
+
+class DerivedEnsemble final : public AnyEnsemble {
+ public:
+  /// `base`: an ensemble of the base class, of any size. What a new particle has there, one has here, too.
+  DerivedEnsemble(std::string name, DerivedClass const& derived, AnyEnsemble& base, std::size_t size = 0);
+
+  void resize(std::size_t size) override;
+  std::size_t bytes() const override { return rows_.capacity() * sizeof(Block) + influence_bytes(); }
+
+ private:
+  struct alignas(32) Block {
+    double number[row_block] = {0, 0, 0, 0};
+  };
+
+  std::vector<Block> rows_;
+  std::vector<Block> new_row_;
+};
+
+}  // namespace boltzmann

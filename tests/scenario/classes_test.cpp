@@ -1,0 +1,395 @@
+// Classes that a scenario derives: their fields, their rates, and what changes these.
+#include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/scenario/scenario.hpp>
+
+#include "mistakes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace boltzmann::classes_test {
+namespace {
+
+using test::ensemble;
+using test::Mistake;
+using test::mistake_name;
+using test::replaced;
+
+double number(AnyEnsemble const& particles, std::size_t i, char const* field, int component = 0) {
+  return particles.row(i)[particles.field(field).offset + component];
+}
+
+void expect_same_bits(AnyEnsemble const& a, AnyEnsemble const& b) {
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_EQ(a.stride(), b.stride());
+  EXPECT_EQ(std::memcmp(a.row(0), b.row(0), a.size() * a.stride() * sizeof(double)), 0);
+}
+
+// A mass on a spring from outside, x = cos t, and fields of every kind of rate.
+std::string oscillator(std::string const& method, double step, std::string const& base = "Newton") {
+  std::string const moved = base == "Newton"
+                                ? "[[influences]]\nenergy = \"0.5*x^2\"\non = \"a\"\nfrom_outside = true\n"
+                                : "[[influences]]\ninfluence = \"[-sin(time)]\"\non = \"a\"\nfrom_outside = true\n";
+  std::string const with_velocity =
+      base == "Newton" ? "rate.worked = \"x*velocity.x\"\n" : "rate.worked = \"-x*sin(time)\"\n";
+  return "[units]\nbase = \"reduced\"\n[box]\nlow = [-2]\nhigh = [2]\n[run]\nstep = " + std::to_string(step) +
+         "\ntime = 1\n[[classes]]\nname = \"Thing\"\nbase = \"" + base +
+         "\"\nfields = [{ name = \"charge\" }, { name = \"worked\", default = 0.5 }, { name = \"grown\" }]\n"
+         "rate.charge = \"(final_charge - charge)/tau\"\n" +
+         with_velocity +
+         "rate.grown = \"cos(time)*grown\"\nparameters = { final_charge = 3, tau = 0.7 }\n"
+         "[[ensembles]]\nname = \"a\"\nclass = \"Thing\"\nintegrator = \"" +
+         method + "\"\nload = { kind = \"positions\", positions = [[1]] }\ngrown = 1\n" + moved;
+}
+
+double error_of(std::string const& method, double step, std::string const& base) {
+  auto const run = parse_scenario(oscillator(method, step, base), "oscillator.toml");
+  run->simulation->run(static_cast<std::uint64_t>(run->steps));
+  auto const& a = ensemble(*run, "a");
+  double const t = run->simulation->time();
+  EXPECT_NEAR(t, 1, 1e-12);
+  return std::max({std::abs(number(a, 0, "charge") - 3 * (1 - std::exp(-t / 0.7))),
+                   std::abs(number(a, 0, "worked") - (0.5 + 0.5 * (std::cos(t) * std::cos(t) - 1))),
+                   std::abs(number(a, 0, "grown") - std::exp(std::sin(t)))});
+}
+
+TEST(Classes, FieldsAreAdvancedAtTheOrderOfTheMethod) {
+  struct Order {
+    char const *method, *base;
+    double order;
+  };
+  for (auto const& [method, base, order] :
+       {Order{"euler", "Newton", 1}, Order{"leap-frog", "Newton", 2}, Order{"rk2", "Newton", 2},
+        Order{"rk4", "Newton", 4}, Order{"euler", "Tracer", 1}, Order{"rk2", "Tracer", 2}, Order{"rk4", "Tracer", 4}}) {
+    double const coarse = error_of(method, 0.05, base), fine = error_of(method, 0.025, base);
+    EXPECT_NEAR(std::log2(coarse / fine), order, 0.2) << method << " " << base << ": " << coarse << " " << fine;
+  }
+  EXPECT_LT(error_of("gauss-radau", 0.5, "Newton"), 1e-12);
+  EXPECT_LT(error_of("gauss-radau", 0.5, "Tracer"), 1e-12);
+}
+
+TEST(Classes, DeactivatedParticlesKeepTheirFields) {
+  auto const run = parse_scenario(oscillator("deactivate", 0.1), "still.toml");
+  run->simulation->run(10);
+  EXPECT_EQ(number(ensemble(*run, "a"), 0, "grown"), 1);
+}
+
+TEST(Classes, MethodsThatCannotAdvanceFieldsSayWhy) {
+  for (char const* method : {"reversible-leap-frog", "symplectic-4"}) {
+    auto const lines = test::mistakes_of(oscillator(method, 0.1));
+    ASSERT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
+    EXPECT_NE(lines[0].find("can't be advanced by " + std::string(method)), std::string::npos) << lines[0];
+    EXPECT_NE(lines[0].find("rates of their own"), std::string::npos) << lines[0];
+  }
+}
+
+/// Two species of spinning discs that push, turn and mark each other within a cut-off; every field is one of D numbers.
+std::string mixture(int dimension, std::string const& method, int threads, std::string const& more = "") {
+  auto const list = [&](std::string const& one) {
+    std::string all = "[";
+    for (int a = 0; a < dimension; ++a) all += (a > 0 ? ", " : "") + one;
+    return all + "]";
+  };
+  std::string const count = dimension == 1 ? "3000" : dimension == 2 ? "64" : "16";
+  return "[units]\nbase = \"reduced\"\n[box]\nlow = " + list("0") + "\nhigh = " + list(count) +
+         "\nboundary = \"periodic\"\n[run]\nstep = 0.01\nsteps = 12\ncutoff = 2.5\nthreads = " +
+         std::to_string(threads) +
+         "\n[[classes]]\nname = \"Disc\"\nbase = \"Newton\"\nfields = [{ name = \"angle\" }, { name = \"spin\", "
+         "default = "
+         "0.3 }, { name = \"trail\", kind = \"vector\" }]\nrate.angle = \"spin\"\nrate.spin = 0\n"
+         "rate.trail = \"velocity - trail\"\n" +
+         more + "[[ensembles]]\nname = \"a\"\nclass = \"Disc\"\nintegrator = \"" + method +
+         "\"\nload = { kind = \"fill\", lattice = \"square\", spacing = 1 }\ntemperature = 0.5\nformulas = { angle = "
+         "\"sin(3*x)\" }\n[[ensembles]]\nname = \"b\"\nclass = \"Newton\"\nintegrator = \"" +
+         method +
+         "\"\nload = { kind = \"random\" }\nnumber = 40\ntemperature = 1\n"
+         "[[influences]]\nenergy = \"exp(-r^2)*(1 + 0.1*cos(p.angle - q.angle))\"\non = \"a\"\n"
+         "[[influences]]\nenergy = \"exp(-r^2)\"\nbetween = [\"a\", \"b\"]\n"
+         "[[influences]]\nchanges = \"spin\"\ninfluence = \"0.1*exp(-r^2)*sin(q.angle - p.angle)\"\non = \"a\"\n"
+         "[[influences]]\nchanges = \"trail\"\ninfluence = \"separation*exp(-r^2)\"\non = \"a\"\nby = \"b\"\n"
+         "[[influences]]\nchanges = \"angle\"\ninfluence = \"0.01*cos(time)\"\non = \"a\"\nfrom_outside = true\n"
+         "particles = [0, 5]\n";
+}
+
+TEST(Classes, TheSameBitsForAnyNumberOfThreads) {
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (char const* method : {"leap-frog", "rk4"}) {
+      auto const one = parse_scenario(mixture(dimension, method, 1, "diffusion.angle = 0.1\n"), "one.toml");
+      one->simulation->run(4);
+      for (int threads : {2, 3}) {
+        auto const many = parse_scenario(mixture(dimension, method, threads, "diffusion.angle = 0.1\n"), "many.toml");
+        many->simulation->run(4);
+        expect_same_bits(ensemble(*one, "a"), ensemble(*many, "a"));
+        expect_same_bits(ensemble(*one, "b"), ensemble(*many, "b"));
+      }
+    }
+}
+
+TEST(Classes, AResumedRunHasTheSameBits) {
+  for (std::string const method : {"leap-frog", "rk2", "rk4", "euler", "gauss-radau"}) {
+    std::string const noise = method == "gauss-radau" ? "" : "diffusion.angle = 0.1\n";
+    auto const whole = parse_scenario(mixture(2, method, 1, noise), "whole.toml");
+    whole->simulation->run(7);
+    auto const half = parse_scenario(mixture(2, method, 1, noise), "half.toml");
+    half->simulation->run(3);
+    auto const rest = parse_scenario(mixture(2, method, 1, noise), "rest.toml");
+    for (char const* name : {"a", "b"}) restore_rows(copy_rows(ensemble(*half, name)), ensemble(*rest, name));
+    auto const state = half->simulation->state();
+    rest->simulation->restore(3, half->simulation->step_size(), half->simulation->seed(), state);
+    rest->simulation->run(4);
+    expect_same_bits(ensemble(*whole, "a"), ensemble(*rest, "a"));
+    expect_same_bits(ensemble(*whole, "b"), ensemble(*rest, "b"));
+  }
+}
+
+TEST(Classes, PairsChangeFieldsAsAPlainSumHasIt) {
+  for (int dimension = 1; dimension <= 3; ++dimension) {
+    auto const run = parse_scenario(mixture(dimension, "euler", 1), "sum.toml");
+    auto& a = ensemble(*run, "a");
+    auto& b = ensemble(*run, "b");
+    run->simulation->run(1);
+    for (auto* scheme : run->simulation->schemes()) scheme->calculate(0.25);
+    Box const& box = run->box();
+    auto const between = [&](AnyEnsemble const& p, std::size_t i, AnyEnsemble const& q, std::size_t j) {
+      std::array<double, 4> d{};  // and the square
+      for (int c = 0; c < dimension; ++c) {
+        auto const k = static_cast<std::size_t>(c);
+        d[k] = q.row(j)[c] - p.row(i)[c];
+        d[k] -= std::round(d[k] / box.length(c)) * box.length(c);
+        d[3] += d[k] * d[k];
+      }
+      return d;
+    };
+    for (std::size_t i = 0; i < 25; ++i) {
+      double spin = 0;
+      std::array<double, 3> trail{};
+      for (std::size_t j = 0; j < a.size(); ++j) {
+        double const s = between(a, i, a, j)[3];
+        if (j != i && s < 6.25) spin += 0.1 * std::exp(-s) * std::sin(number(a, j, "angle") - number(a, i, "angle"));
+      }
+      for (std::size_t j = 0; j < b.size(); ++j) {
+        auto const d = between(a, i, b, j);
+        for (int c = 0; c < dimension && d[3] < 6.25; ++c)
+          trail[static_cast<std::size_t>(c)] += d[static_cast<std::size_t>(c)] * std::exp(-d[3]);
+      }
+      std::size_t const at = i * a.rate_stride();
+      double const outside = i == 0 || i == 5 ? 0.01 * std::cos(0.25) : 0;
+      EXPECT_NEAR(a.rate(0)[at], number(a, i, "spin") + outside, 1e-12);
+      EXPECT_NEAR(a.rate(1)[at], spin, 1e-12);
+      for (int c = 0; c < dimension; ++c)
+        EXPECT_NEAR(a.rate(2)[at + static_cast<std::size_t>(c)],
+                    number(a, i, "velocity", c) - number(a, i, "trail", c) + trail[static_cast<std::size_t>(c)], 1e-12);
+    }
+  }
+}
+
+TEST(Classes, DiffusionIsThatOfItsCoefficient) {
+  std::string const text =
+      "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0]\nhigh = [1, 1]\n[run]\nstep = 0.1\nsteps = "
+      "20\n[[classes]]\nname = "
+      "\"Walker\"\nbase = \"Tracer\"\nfields = [{ name = \"angle\" }, { name = \"place\", kind = \"vector\" }, { name "
+      "= "
+      "\"width\" }]\nrate.angle = 1\ndiffusion.angle = 0.25\nrate.place = \"[0, 0]\"\ndiffusion.place = \"width^2\"\n"
+      "[[ensembles]]\nname = \"a\"\nclass = \"Walker\"\nload = { kind = \"random\" }\nnumber = 40000\nwidth = 2\n";
+  auto const run = parse_scenario(text, "walk.toml");
+  run->simulation->run(20);
+  auto const& a = ensemble(*run, "a");
+  double const n = 40000;
+  double mean = 0, angle2 = 0, x2 = 0, y2 = 0, xy = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double const away = number(a, i, "angle") - 2, x = number(a, i, "place"), y = number(a, i, "place", 1);
+    mean += away / n, angle2 += away * away / n, x2 += x * x / n, y2 += y * y / n, xy += x * y / n;
+  }
+  // Variances of normal numbers have the standard error sqrt(2/n) of themselves.
+  EXPECT_NEAR(mean, 0, 5 * std::sqrt(1 / n));
+  EXPECT_NEAR(angle2, 2 * 0.25 * 2, 5 * std::sqrt(2 / n));
+  EXPECT_NEAR(x2, 2 * 4 * 2, 5 * std::sqrt(2 / n) * 16);
+  EXPECT_NEAR(y2, 2 * 4 * 2, 5 * std::sqrt(2 / n) * 16);
+  EXPECT_NEAR(xy, 0, 5 * 16 / std::sqrt(n));
+}
+
+// ---- Classes without rates, and laws of the base ----
+
+std::string argon(std::string const& derived, std::string const& name) {
+  return "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0, 0]\nhigh = [8, 8, 8]\nboundary = \"periodic\"\n[run]\nstep "
+         "= "
+         "0.004\nsteps = 20\ncutoff = 2.5\n" +
+         derived + "[[ensembles]]\nname = \"a\"\nclass = \"" + name +
+         "\"\nload = { kind = \"fill\", lattice = \"fcc\", spacing = 1.6 }\ntemperature = 1\n[[influences]]\nlaw = "
+         "\"lennard-jones\"\ndepth = 1\nr0 = 1.1\non = \"a\"\n";
+}
+
+TEST(Classes, FieldsThatNothingReadsChangeNoBit) {
+  auto const plain = parse_scenario(argon("", "Newton"), "plain.toml");
+  auto const derived = parse_scenario(argon("[[classes]]\nname = \"Atom\"\nbase = \"Newton\"\nfields = [{ name = "
+                                            "\"colour_number\", default = 7 }, { name = "
+                                            "\"memory\", kind = \"vector\" }]\n",
+                                            "Atom"),
+                                      "derived.toml");
+  plain->simulation->run(20);
+  derived->simulation->run(20);
+  auto const &p = ensemble(*plain, "a"), &d = ensemble(*derived, "a");
+  EXPECT_GT(d.stride(), p.stride());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_EQ(std::memcmp(p.row(i), d.row(i), p.doubles() * sizeof(double)), 0);
+    EXPECT_EQ(number(d, i, "colour_number"), 7);
+  }
+}
+
+TEST(Classes, LawsOfAShippedClassActOnOneWithItsFields) {
+  std::string const text =
+      "[box]\nlow = [0, 0]\nhigh = [1, 1]\n[run]\nstep = \"1 s\"\nsteps = 1\n[[classes]]\nname = \"Grain\"\nbase = "
+      "\"Newton\"\nfields = [{ name = \"charge\", unit = \"e\", default = \"2 e\" }]\n[[ensembles]]\nname = "
+      "\"a\"\nclass = "
+      "\"Grain\"\nmass = 1\nload = { kind = \"positions\", positions = [[0.25, 0.5], [0.75, 0.5]] "
+      "}\n[[influences]]\nlaw = \"coulomb\"\nk = 3\non = \"a\"\n";
+  auto const run = parse_scenario(text, "coulomb.toml");
+  run->simulation->run(0);
+  double const e = 1.602176634e-19;
+  EXPECT_NEAR(ensemble(*run, "a").influence(1)[0] / (3 * 4 * e * e / 0.5), 1, 1e-9);  // in a plane 1/r
+  auto const lines = test::mistakes_of(replaced(text, "charge\", unit = \"e\", default = \"2 e\"", "tint\""));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("law 'coulomb' needs a charge; class Grain has none"), std::string::npos) << lines[0];
+}
+
+TEST(Classes, ChargesOfAMeshMayGrow) {
+  // Two plates of charge that grow: the field between them follows. One dimension, a periodic mesh.
+  std::string const text =
+      "[units]\nbase = \"reduced\"\n[box]\nlow = [0]\nhigh = [8]\nboundary = \"periodic\"\n[run]\nstep = 0.05\nsteps = "
+      "20\n[mesh]\ncells = 64\nk = 1\n[[classes]]\nname = \"Growing\"\nbase = \"Coulomb\"\nfields = [{ name = \"sign\" "
+      "}]\nrate.charge = \"sign - charge\"\n[[ensembles]]\nname = \"a\"\nclass = \"Growing\"\nmass = 1e9\nload = { "
+      "kind = "
+      "\"positions\", positions = [[2], [6]] }\nsign = [1, -1]\n";
+  auto const run = parse_scenario(text, "plates.toml");
+  run->simulation->run(20);
+  auto& a = ensemble(*run, "a");
+  double const charge = 1 - std::exp(-1.0);
+  EXPECT_NEAR(number(a, 0, "charge"), charge, 1e-3);
+  EXPECT_NEAR(number(a, 1, "charge"), -charge, 1e-3);
+  for (auto* scheme : run->simulation->schemes()) scheme->calculate(1);
+  double const now = number(a, 0, "charge");
+  auto const before = a.influence(0)[0];
+  a.row(0)[a.field("charge").offset] = 2 * now, a.row(1)[a.field("charge").offset] = -2 * now;
+  for (auto* scheme : run->simulation->schemes()) scheme->calculate(1);
+  EXPECT_NEAR(a.influence(0)[0], 4 * before, 1e-9 + 1e-6 * std::abs(before));
+}
+
+TEST(Classes, PiecesOfAContinuumMayHaveFieldsOfTheirOwn) {
+  auto const text = [](std::string const& derived, std::string const& name) {
+    return "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0]\nhigh = [12, 12]\nboundary = \"periodic\"\n[run]\nstep = "
+           "0.01\nsteps = 10\n[smooth]\nweight = \"lucy\"\n" +
+           derived + "[[ensembles]]\nname = \"a\"\nclass = \"" + name +
+           "\"\nload = { kind = \"fill\", lattice = \"square\", spacing = 1 }\nmass = 1\nrange = 3\nmaterial = { kind "
+           "= "
+           "\"ideal-gas\", gamma = 1.4 }\nformulas = { specific_energy = \"1 + 0.1*sin(2*pi*x/12)\" }\n";
+  };
+  auto const plain = parse_scenario(text("", "Smooth"), "plain.toml");
+  auto const derived =
+      parse_scenario(text("[[classes]]\nname = \"Dyed\"\nbase = \"Smooth\"\nfields = [{ name = \"age\" }, { "
+                          "name = \"way\" }]\nrate.age = 1\nrate.way = \"norm(velocity)\"\n",
+                          "Dyed"),
+                     "derived.toml");
+  plain->simulation->run(10);
+  derived->simulation->run(10);
+  auto const &p = ensemble(*plain, "a"), &d = ensemble(*derived, "a");
+  double way = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_EQ(std::memcmp(p.row(i), d.row(i), p.doubles() * sizeof(double)), 0) << i;
+    EXPECT_NEAR(number(d, i, "age"), 0.1, 1e-12);
+    way = std::max(way, number(d, i, "way"));
+  }
+  EXPECT_GT(way, 1e-5);
+}
+
+// ---- What is wrong ----
+
+// The numbers on the right are those of the lines.
+std::string const good =
+    "[box]\n"                                                                                                // 1
+    "low = [0, 0]\n"                                                                                         // 2
+    "high = [1, 1]\n"                                                                                        // 3
+    "[run]\n"                                                                                                // 4
+    "step = \"1 s\"\n"                                                                                       // 5
+    "steps = 2\n"                                                                                            // 6
+    "[[classes]]\n"                                                                                          // 7
+    "name = \"Grain\"\n"                                                                                     // 8
+    "base = \"Newton\"\n"                                                                                    // 9
+    "fields = [{ name = \"charge\", unit = \"e\" }, { name = \"way\", kind = \"vector\", unit = \"m\" }]\n"  // 10
+    "rate.charge = \"(full - charge)/tau\"\n"                                                                // 11
+    "rate.way = \"velocity\"\n"                                                                              // 12
+    "parameters = { full = \"100 e\", tau = \"1 s\" }\n"                                                     // 13
+    "[[ensembles]]\n"                                                                                        // 14
+    "name = \"a\"\n"                                                                                         // 15
+    "class = \"Grain\"\n"                                                                                    // 16
+    "mass = 1\n"                                                                                             // 17
+    "load = { kind = \"random\" }\n"                                                                         // 18
+    "number = 3\n"                                                                                           // 19
+    "charge = \"1 e\"\n"                                                                                     // 20
+    "[[influences]]\n"                                                                                       // 21
+    "changes = \"charge\"\n"                                                                                 // 22
+    "influence = \"leak*(q.charge - p.charge)\"\n"                                                           // 23
+    "parameters = { leak = \"2 1/s\" }\n"                                                                    // 24
+    "on = \"a\"\n";                                                                                          // 25
+
+std::string with(std::string const& old, std::string const& now) { return replaced(good, old, now); }
+
+class ClassMistakes : public testing::TestWithParam<Mistake> {};
+TEST_P(ClassMistakes, AreOneLineWithTheirPlace) { expect_one_line(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, ClassMistakes,
+    testing::Values(
+        Mistake{"not a rate", with("(full - charge)/tau", "full - charge"), "11:", {"a charge in a time", "this is"}},
+        Mistake{"a sum of two dimensions", with("(full - charge)/tau", "(full - tau)/tau"), "11:23", {"tau"}},
+        Mistake{"an unknown name", with("(full - charge)/tau", "(full - chorge)/tau"), "11:23", {"chorge", "'charge'"}},
+        Mistake{"a number for a vector",
+                with("rate.way = \"velocity\"", "rate.way = \"velocity.x\""),
+                "12:",
+                {"way is a vector"}},
+        Mistake{"a vector for a number", with("(full - charge)/tau", "velocity"), "11:", {"charge is a number"}},
+        Mistake{"a rate for nothing", with("rate.way", "rate.wey"), "12:", {"rate.wey", "did you mean 'way'"}},
+        Mistake{"a rate of the velocity",
+                with("rate.way = \"velocity\"", "rate.velocity = \"velocity\""),
+                "12:",
+                {"laws move particles"}},
+        Mistake{"an unknown base", with("\"Newton\"", "\"Newtom\""), "9:8", {"did you mean 'Newton'"}},
+        Mistake{"a shipped name", with("name = \"Grain\"", "name = \"Coulomb\""), "8:8", {"there is a class Coulomb"}},
+        Mistake{"an unknown unit", with("unit = \"e\"", "unit = \"elephant\""), "10:36", {"unit: ", "elephant"}},
+        Mistake{"a field of the base", with("name = \"way\"", "name = \"mass\""), "10:", {"'mass'"}},
+        Mistake{"a key of ensembles", with("name = \"way\"", "name = \"drift\""), "10:", {"key of [[ensembles]]"}},
+        Mistake{"a name of formulas", with("name = \"way\"", "name = \"time\""), "10:", {"something else in formulas"}},
+        Mistake{"an unknown key", with("kind = \"vector\"", "kynd = \"vector\""), "10:", {"kynd", "kind"}},
+        Mistake{"a diffusion alone", with("rate.way = \"velocity\"", "diffusion.way = 0"), "12:", {"needs a rate"}},
+        Mistake{"a diffusion of what changes",
+                with("rate.way = \"velocity\"", "rate.way = \"velocity\"\ndiffusion.charge = \"charge*full/tau\""),
+                "13:",
+                {"'charge' changes during a step"}},
+        Mistake{"a value of another dimension", with("charge = \"1 e\"", "charge = \"1 m\""), "20:10", {"charge"}},
+        Mistake{"an unknown field", with("charge = \"1 e\"", "chrge = \"1 e\""), "20:1", {"chrge", "charge"}},
+        Mistake{"changes what is not there",
+                with("changes = \"charge\"", "changes = \"charg\""),
+                "22:11",
+                {"charg", "'charge'"}},
+        Mistake{"changes what does not change",
+                with("changes = \"charge\"", "changes = \"mass\""),
+                "22:11",
+                {"mass of class Grain has no rate", "rate.mass = 0"}},
+        Mistake{"an influence that is no rate", with("leak*(q", "(q"), "23:", {"a charge in a time"}},
+        Mistake{"an energy",
+                with("influence = \"leak*(q.charge - p.charge)\"", "energy = \"leak*(q.charge - p.charge)\""),
+                "22:",
+                {"changes", "an energy moves particles"}},
+        Mistake{"not finite",
+                with("(full - charge)/tau", "(full - charge)/tau/(tau - tau)*full/full"),
+                "4:",
+                {"the rate of charge", "not finite"}}),
+    mistake_name);
+
+TEST(Classes, WhatIsMissingIsAMistakeAndNothingElse) { test::expect_mistakes_of_what_is_missing(good, 20, 1); }
+
+}  // namespace
+}  // namespace boltzmann::classes_test
