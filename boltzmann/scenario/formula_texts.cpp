@@ -15,36 +15,48 @@ bool is_formula_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
+namespace {
+
+/// The entries of a table, those whose keys can stand in formulas.
+std::vector<Entry const*> named_entries(Section& section, char const* key, char const* example, Reading& reading) {
+  std::vector<Entry const*> entries;
+  Item const* table = section.find(key);
+  if (!table) return entries;
+  if (!table->is(Item::Kind::table)) {
+    reading.mistake(table->place, fmt::format("{}: {}, not {}", key, example, describe(*table)));
+    return entries;
+  }
+  for (auto const& entry : table->entries) {
+    if (is_formula_name(entry.key))
+      entries.push_back(&entry);
+    else
+      reading.mistake(entry.place, fmt::format("{}: '{}' is no name for a formula; letters, digits and _ are", key,
+                                               quoted(entry.key)));
+  }
+  return entries;
+}
+
+}  // namespace
+
 std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading) {
   std::vector<FormulaParameter> parameters;
-  Item const* table = section.find("parameters");
-  if (!table) return parameters;
-  if (!table->is(Item::Kind::table)) {
-    reading.mistake(table->place,
-                    fmt::format("parameters: a table is needed, {{ depth = \"0.1 eV\" }}, not {}", describe(*table)));
-    return parameters;
-  }
-  for (auto const& [key, place, item] : table->entries) {
-    FormulaParameter parameter{key, 0, {}};
-    if (!is_formula_name(key)) {
-      reading.mistake(place,
-                      fmt::format("parameters: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
-      continue;
-    }
+  for (Entry const* entry :
+       named_entries(section, "parameters", "a table is needed, { depth = \"0.1 eV\" }", reading)) {
+    Item const& item = entry->item;
+    FormulaParameter parameter{entry->key, 0, {}};
     if (item.is_number()) {
       parameter.value = item.number;
       if (reading.context.recorder) reading.context.recorder->plain(item, "number");
     } else if (item.is(Item::Kind::text)) {
-      auto const& text = item.text;
       bool const good = catch_errors(reading, item.place, [&] {
-        parameter.dimension = parse_quantity(text).dimension;
-        parameter.value = in_units(text, parameter.dimension, reading.context.units);
+        parameter.dimension = parse_quantity(item.text).dimension;
+        parameter.value = in_units(item.text, parameter.dimension, reading.context.units);
       });
       if (!good) continue;
       if (reading.context.recorder) reading.context.recorder->plain(item, "text");
     } else {
-      reading.mistake(item.place,
-                      fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", key, describe(item)));
+      reading.mistake(item.place, fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", entry->key,
+                                              describe(item)));
       continue;
     }
     parameters.push_back(std::move(parameter));
@@ -54,35 +66,30 @@ std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading&
 
 std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading) {
   std::vector<FormulaPart> parts;
-  Item const* table = section.find("where");
-  if (!table) return parts;
-  if (!table->is(Item::Kind::table)) {
-    reading.mistake(table->place, fmt::format("where: a table of formulas is needed, {{ s = \"(sigma/r)^6\" }}, not {}",
-                                              describe(*table)));
-    return parts;
-  }
-  for (auto const& [key, place, item] : table->entries) {
-    if (!is_formula_name(key)) {
-      reading.mistake(place,
-                      fmt::format("where: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
-      continue;
-    }
-    if (auto const text = read_text(item, fmt::format("where.{}", key), reading.context)) parts.push_back({key, *text});
-  }
+  for (Entry const* entry :
+       named_entries(section, "where", "a table of formulas is needed, { s = \"(sigma/r)^6\" }", reading))
+    if (auto const text = read_text(entry->item, fmt::format("where.{}", entry->key), reading.context))
+      parts.push_back({entry->key, *text});
   return parts;
+}
+
+bool part_mistake(Section const& section, FormulaLawError const& error, Reading& reading) {
+  for (char const* key : {"where", "parameters"}) {
+    Item const* table = section.item(key);
+    Entry const* entry = table && !error.part.empty() ? table->find(error.part) : nullptr;
+    if (!entry) continue;
+    if (entry->item.is(Item::Kind::text))
+      formula_mistake(entry->item, fmt::format("{}.{}", key, error.part), error, reading);
+    else
+      reading.mistake(entry->place, fmt::format("{}.{}: {}", key, error.part, error.what()));
+    return true;
+  }
+  return false;
 }
 
 void refuse_formula(Section const& section, FormulaLawError const& error, Item const& item, std::string_view key,
                     Reading& reading) {
-  for (char const* name : {"where", "parameters"}) {
-    Item const* table = section.item(name);
-    Entry const* entry = table && table->is(Item::Kind::table) ? table->find(error.part) : nullptr;
-    if (!entry) continue;
-    std::string const part = fmt::format("{}.{}", name, error.part);
-    if (entry->item.is(Item::Kind::text)) return formula_mistake(entry->item, part, error, reading);
-    return reading.mistake(entry->place, fmt::format("{}: {}", part, error.what()));
-  }
-  formula_mistake(item, key, error, reading);
+  if (!part_mistake(section, error, reading)) formula_mistake(item, key, error, reading);
 }
 
 }  // namespace boltzmann

@@ -66,7 +66,8 @@ class InfluenceReader {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
     if (section_.has("energy")) typed_item_ = section_.find("energy");
     if (typed_item_) return read_typed();
-    for (char const* key : {"energy", "influence", "parameters", "from_outside", "changes"}) {
+    for (char const* key :
+         {"energy", "influence", "parameters", "from_outside", "changes", "at_cutoff", "switch_from"}) {
       if (section_.has(key))
         reading_.mistake(section_.place(key),
                          fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
@@ -117,12 +118,14 @@ class InfluenceReader {
     auto const text = read_text(*typed_item_, by_energy ? "energy" : "influence", reading_.context);
     if (text) typed_.text = *text;
     typed_.parameters = read_formula_parameters(section_, reading_);
-    if (Item const* where = section_.item("where"); !from_outside_ || (where && where->is(Item::Kind::table)))
+    Item const* where = from_outside_ ? section_.item("where") : nullptr;
+    if (!from_outside_ || (where && where->is(Item::Kind::table)))
       typed_.where = read_formula_parts(section_, reading_);
     read_ensembles();
+    read_end();
     if (!from_outside_)
       read_pairs();
-    else if (Item const* where = section_.item("where"); !where || !where->is(Item::Kind::table))
+    else if (!where || !where->is(Item::Kind::table))
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
     section_.finish();
     check_changes(a_);
@@ -177,6 +180,27 @@ class InfluenceReader {
     });
   }
 
+  /// at_cutoff, switch_from.
+  void read_end() {
+    using AtCutoff = FormulaLaw::AtCutoff;
+    static constexpr std::pair<char const*, AtCutoff> ways[] = {
+        {"cut", AtCutoff::cut}, {"shift", AtCutoff::shift}, {"switch", AtCutoff::switched}};
+    if (Item const* item = section_.find("at_cutoff")) {
+      if (from_outside_ || section_.has("connect"))
+        reading_.mistake(item->place, fmt::format("at_cutoff: {} no cut-off",
+                                                  from_outside_ ? "what comes from outside has" : "connections have"));
+      std::vector<std::string> words;
+      for (auto const& [word, way] : ways) words.emplace_back(word);
+      auto const word = read_word(*item, "at_cutoff", words, reading_.context);
+      if (!word) return section_.allow("switch_from");
+      for (auto const& [name, way] : ways)
+        if (*word == name) typed_.at_cutoff = way;
+    }
+    if (typed_.at_cutoff != AtCutoff::switched)
+      section_.refuse("switch_from", "it belongs to at_cutoff = \"switch\"");
+    else if (auto const from = section_.quantity("switch_from", dimensions::length, positive))
+      typed_.switch_from = *from;
+  }
   std::string called() const { return typed_item_ ? "the typed law" : fmt::format("law '{}'", law_->name); }
 
   // ---- A shipped law ----

@@ -164,8 +164,9 @@ Place place_of(std::string const& message, Reading const& reading);
 std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles);
 /// Which particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
 /// `ensemble` may be null: then only the form is checked.
+/// `where` may have another meaning there (`parts`): then it is left alone.
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
-                                                         Reading& reading);
+                                                         Reading& reading, bool parts = false);
 
 /// The parameters of a law or a material, `owner` in messages, that stand in a table. Nothing, and mistakes, if one is
 /// missing or wrong.
@@ -239,7 +240,9 @@ std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading&
 std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading);
 /// Whether formulas can have a name: letters, digits and _.
 bool is_formula_name(std::string_view name);
-/// A mistake at the text that the error is of: one of the table's parameters or parts; else `item`, called `key`.
+/// A mistake at the parameter or part of the table that the error is of; false if it is of none.
+bool part_mistake(Section const& section, FormulaLawError const& error, Reading& reading);
+/// The same, or else at `item`, called `key`.
 void refuse_formula(Section const& section, FormulaLawError const& error, Item const& item, std::string_view key,
                     Reading& reading);
 /// Reads [[classes]]: those that the scenario derives. Gives the fields of their particles their rates.

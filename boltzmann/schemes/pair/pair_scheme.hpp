@@ -158,6 +158,7 @@ class PairScheme final : public Scheme {
     bool rates = false;  ///< it gives those of all driven fields; sums must be known before
 
     bool moves() const { return changes < 0; }
+    std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to know its length
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
@@ -191,6 +192,7 @@ class PairScheme final : public Scheme {
 
   void calculate(double time, bool overwrite);
   bool has_reaction(Near const& near) const;
+  void warn_of_typed(Near const& near, std::vector<std::string>& lines) const;
 
   double cutoff_;
   double quantum_ = 0;
