@@ -54,11 +54,11 @@ struct FormulaLaw {
 
   static FormulaLaw energy(std::string text, std::vector<FormulaParameter> parameters = {},
                            std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
-    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), units, AtCutoff::cut, 0};
+    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), units, {}, AtCutoff::cut, 0};
   }
   static FormulaLaw influence(std::string text, std::vector<FormulaParameter> parameters = {},
                               std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
-    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), units, AtCutoff::cut, 0};
+    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), units, {}, AtCutoff::cut, 0};
   }
 
   /// Which of the formula's particles the target is: in energies between two ensembles p is of the first one, whoever is
