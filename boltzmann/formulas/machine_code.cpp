@@ -275,7 +275,7 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
   }
 
   void number_packs() {
-    auto const roots = detail::roots_of_two<8>;
+    auto const roots = detail::roots_of_two<1>;  // that of ordinary units
     for (std::size_t n = 0; n < numbers; ++n) {
       align(64, false);
       L(number_label_[n]);

@@ -5,9 +5,17 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <tests/formulas/formula_texts.hpp>
 
+#include <cerrno>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -147,6 +155,33 @@ TEST(MachineCode, IsNotMadeForOtherWidths) {
   Case const of({"x + y"});
   EXPECT_EQ(machine_code(of.program, 2), nullptr);
   EXPECT_EQ(machine_code(of.program, 0), nullptr);
+}
+
+/// From now on this process can't make pages executable, as on systems that allow it to nobody.
+void refuse_executable_pages() {
+  sock_filter rules[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_mprotect, 0, 3),
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args) + 2 * sizeof(std::uint64_t)),
+      BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, PROT_EXEC, 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  sock_fprog const program{std::size(rules), rules};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+    std::exit(2);
+}
+
+TEST(MachineCode, IsLeftOutWherePagesMayNotBeExecuted) {
+  EXPECT_EXIT(
+      {
+        refuse_executable_pages();
+        Case const of({"x*y + exp(z)"});
+        for (int const width : {4, 8})
+          if (machine_code(of.program, width)) std::exit(1);
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -218,6 +218,10 @@ TEST(SmoothScenario, HasTheStatesOfItsMaterials) {
        std::sqrt(2 * (e + 0.2 * rho) / std::pow(1 - 0.1 * rho, 2) - 0.4 * rho), e},
       {"kind = \"table\", points = [[1, 0.5], [2, 1.5], [3, 2.5]]", 1, 0, 1, std::nan("")},
       {"kind = \"table\", file = \"" + table + "\"", 1, 0, 1, std::nan("")},
+      {"kind = \"formula\", pressure = \"0.4*density*specific_energy\", temperature = \"specific_energy/0.5\"",
+       0.4 * rho * e, e / 0.5, std::sqrt(1.4 * 0.4 * e), e},
+      {"kind = \"formula\", pressure = \"density^2\", sound_speed = \"2*sqrt(density)\"", rho * rho, 0,
+       2 * std::sqrt(rho), e},
   };
   std::vector<std::string> seen;
   for (auto const& one : cases)
