@@ -222,7 +222,8 @@ std::string argon(std::string const& derived, std::string const& name) {
          "= "
          "0.004\nsteps = 20\ncutoff = 2.5\n" +
          derived + "[[ensembles]]\nname = \"a\"\nclass = \"" + name +
-         "\"\nload = { kind = \"fill\", lattice = \"fcc\", spacing = 1.6 }\ntemperature = 1\n[[influences]]\nlaw = "
+         "\"\nload = { kind = \"block\", lattice = \"fcc\", spacing = 1.6, counts = [5, 5, 5] }\ntemperature = "
+         "1\n[[influences]]\nlaw = "
          "\"lennard-jones\"\ndepth = 1\nr0 = 1.1\non = \"a\"\n";
 }
 
@@ -253,7 +254,7 @@ TEST(Classes, LawsOfAShippedClassActOnOneWithItsFields) {
   auto const run = parse_scenario(text, "coulomb.toml");
   run->simulation->run(0);
   double const e = 1.602176634e-19;
-  EXPECT_NEAR(ensemble(*run, "a").influence(1)[0] / (3 * 4 * e * e / 0.5), 1, 1e-9);  // in a plane 1/r
+  EXPECT_NEAR(ensemble(*run, "a").influence(1)[0] / (2 * 3 * 4 * e * e / 0.5), 1, 1e-9);  // in a plane 2 k q q' / r
   auto const lines = test::mistakes_of(replaced(text, "charge\", unit = \"e\", default = \"2 e\"", "tint\""));
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines[0].find("law 'coulomb' needs a charge; class Grain has none"), std::string::npos) << lines[0];
@@ -263,7 +264,8 @@ TEST(Classes, ChargesOfAMeshMayGrow) {
   // Two plates of charge that grow: the field between them follows. One dimension, a periodic mesh.
   std::string const text =
       "[units]\nbase = \"reduced\"\n[box]\nlow = [0]\nhigh = [8]\nboundary = \"periodic\"\n[run]\nstep = 0.05\nsteps = "
-      "20\n[mesh]\ncells = 64\nk = 1\n[[classes]]\nname = \"Growing\"\nbase = \"Coulomb\"\nfields = [{ name = \"sign\" "
+      "20\n[mesh]\nlaw = \"coulomb\"\ncells = 64\nk = 1\n[[classes]]\nname = \"Growing\"\nbase = \"Coulomb\"\nfields = "
+      "[{ name = \"sign\" "
       "}]\nrate.charge = \"sign - charge\"\n[[ensembles]]\nname = \"a\"\nclass = \"Growing\"\nmass = 1e9\nload = { "
       "kind = "
       "\"positions\", positions = [[2], [6]] }\nsign = [1, -1]\n";
@@ -347,7 +349,10 @@ INSTANTIATE_TEST_SUITE_P(
     Every, ClassMistakes,
     testing::Values(
         Mistake{"not a rate", with("(full - charge)/tau", "full - charge"), "11:16", {"a charge in a time", "this is"}},
-        Mistake{"a sum of two dimensions", with("(full - charge)/tau", "(full - tau)/tau"), "11:22", {"tau"}},
+        Mistake{"a sum of two dimensions",
+                with("(full - charge)/tau", "(full - tau)/tau"),
+                "11:22",
+                {"a charge and a time"}},
         Mistake{"an unknown name", with("(full - charge)/tau", "(full - chorge)/tau"), "11:24", {"chorge", "'charge'"}},
         Mistake{"a number for a vector",
                 with("rate.way = \"velocity\"", "rate.way = \"velocity.x\""),
