@@ -52,7 +52,8 @@ std::string scenario(bool liquid) {
          "\"way\" }]\nrate.charge = \"(3 - charge)/0.7\"\nrate.heat = \"charge^2 - 0.1*heat\"\n"
          "rate.way = \"dot(velocity, velocity)\"\n[[ensembles]]\nname = \"atoms\"\nclass = \"Grain\"\nmass = "
          "1\nintegrator = \"" +
-         (liquid ? "leap-frog" : "rk4") + "\"\nload = { kind = \"fill\", lattice = \"fcc\", spacing = " +
+         (liquid ? "leap-frog" : "rk4") +
+         "\"\nload = { kind = \"block\", lattice = \"fcc\", counts = [20, 20, 20], spacing = " +
          std::to_string(spacing_for_density(Lattice::fcc, 3, 0.8442)) + " }\ntemperature = 1.44\n" +
          (liquid ? "[[influences]]\nlaw = \"lennard-jones\"\ndepth = 1\nr0 = 1.122462048309373\non = \"atoms\"\n" : "");
 }

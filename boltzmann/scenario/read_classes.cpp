@@ -53,16 +53,23 @@ class ClassReader {
     read_name();
     read_base();
     told_.doc = section_.text("doc").value_or("");
+    auto const before = reading_.context.mistakes.count();
     read_fields();
+    fields_known_ = reading_.context.mistakes.count() == before;
     result_->rates.units = reading_.context.units;
     result_->rates.parameters = read_formula_parameters(section_, reading_);
     result_->rates.where = read_formula_parts(section_, reading_);
     read_rates("rate", result_->rates.rates);
     read_rates("diffusion", result_->rates.diffusions);
     section_.finish();
-    if (!base_ || derived_.name.empty()) return;
-    check_driven();
-    make();
+    if (base_ && !derived_.name.empty()) {
+      check_driven();
+      make();
+    }
+    if (result_ && !derived_.name.empty()) {  // it has mistakes: ensembles of it have none of their own
+      result_->kind.name = derived_.name;
+      reading_.classes.push_back(std::move(result_));
+    }
   }
 
  private:
@@ -208,6 +215,7 @@ class ClassReader {
     for (auto const& entry : table->entries) {
       std::string const whole = fmt::format("{}.{}", key, entry.key);
       if (base_ && !is_one_of(entry.key, names)) {
+        if (!fields_known_) continue;
         mistake(entry.place, fmt::format("{}: class {} has no such field; it has {}{}", whole, derived_.name,
                                          join(names), did_you_mean(entry.key, names)));
         continue;
@@ -334,6 +342,7 @@ class ClassReader {
   DerivedClass derived_;
   ParticleClass const* base_ = nullptr;
   ClassVariant const* variant_ = nullptr;
+  bool fields_known_ = true;                                ///< false: there are mistakes in them
   std::unique_ptr<AnyEnsemble> particles_;                  ///< one of the base
   std::vector<std::pair<std::string, Place>> periods_;      ///< of which fields, and where it says so
   std::vector<std::pair<std::string, Item const*>> texts_;  ///< "rate.charge"
@@ -343,7 +352,7 @@ class ClassReader {
 
 ParticleClass const* Reading::find_class(std::string_view name) const {
   for (auto const& one : classes)
-    if (one->kind.name == name) return &one->kind;
+    if (one->kind.name == name) return one->kind.variants.empty() ? nullptr : &one->kind;
   return boltzmann::find_class(name);
 }
 

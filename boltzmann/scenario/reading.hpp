@@ -34,7 +34,7 @@ struct SchemeEntry;
 
 /// A class that the file derives from another one.
 struct ReadClass {
-  ParticleClass kind;
+  ParticleClass kind;  ///< in the space of the file; without variants: there are mistakes in it
   FieldRates rates;
   Place place;
 };
@@ -140,7 +140,7 @@ struct Reading {
   /// The ensemble that a word names; nullptr and a mistake if there is none.
   ReadEnsemble* ensemble(Item const& word, std::string_view key);
   double boltzmann_constant() const;
-  /// A class of the file or a shipped one; nullptr if there is none of that name.
+  /// A class of the file or a shipped one; nullptr if there is none of that name, or mistakes in it.
   ParticleClass const* find_class(std::string_view name) const;
   std::vector<std::string> class_names() const;
 };

@@ -51,32 +51,9 @@ std::unique_ptr<ScenarioSimulation> oscillators(double coupling, int count, doub
   return shipped("kuramoto", few);
 }
 
-// About 4 s: a million pairs, 400 times.
+// Y. Kuramoto (1975): r = sqrt(1 - Kc / K) above Kc = 2 gamma = 1, and no order below.
 TEST(Kuramoto, OscillatorsFindTogetherAsTheoryHas) {
-  auto const run = shipped("kuramoto");
-  auto const& all = *run->ensembles[0];
-  auto& simulation = *run->simulation;
-  // S. H. Strogatz and R. E. Mirollo (J. Stat. Phys. 63, 613, 1991): disorder grows into order as exp((K/2 - gamma) t).
-  double first = 0, last = 0, from = 0, until = 0;
-  while (simulation.time() < 20) {
-    simulation.run(1);
-    double const r = std::abs(order_of(all));
-    if (r > 0.02 && first == 0) first = r, from = simulation.time();
-    if (r < 0.1) last = r, until = simulation.time();
-  }
-  double const growth = std::log(last / first) / (until - from);
-  double mean = 0;
-  for (int step = 0; step < 200; ++step) {
-    simulation.run(1);
-    mean += std::abs(order_of(all)) / 200;
-  }
-  std::printf("[ KURAMOTO ] K = 2: growth %.4f (0.5), order %.4f (%.4f)\n", growth, mean, std::sqrt(0.5));
-  EXPECT_NEAR(growth, 0.5, 0.03 * 0.5);
-  EXPECT_NEAR(mean, std::sqrt(0.5), 0.03 * std::sqrt(0.5));
-}
-
-TEST(Kuramoto, TheTransitionIsAtTwiceTheWidth) {
-  for (double const K : {0.6, 1.25, 3.0}) {
+  for (double const K : {0.6, 1.25, 2.0, 3.0}) {
     auto const run = oscillators(K, 400, 100);
     auto const& all = *run->ensembles[0];
     double const exact = K > 1 ? std::sqrt(1 - 1 / K) : 0;
@@ -96,7 +73,7 @@ TEST(Kuramoto, TheTransitionIsAtTwiceTheWidth) {
 
 TEST(ActiveMatter, SwimmersWithoutNeighboursWalkPersistently) {
   Overrides alone;
-  alone.set = {"influences.1.parameters.turning=0", "ensembles.swimmers.number=20000", "box.boundary='open'"};
+  alone.set = {"influences.1.parameters.turning=0", "ensembles.swimmers.number=2000", "box.boundary='open'"};
   auto const run = shipped("active-matter", alone);
   auto const& swimmers = *run->ensembles[0];
   std::vector<double> start;
