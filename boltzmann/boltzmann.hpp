@@ -81,6 +81,7 @@
 #include <boltzmann/schemes/vortices/vortex_flow.hpp>
 #include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/no_slip.hpp>
+#include <boltzmann/simulation/outflow.hpp>
 #include <boltzmann/simulation/outside_bodies.hpp>
 #include <boltzmann/simulation/remesher.hpp>
 #include <boltzmann/simulation/rezoner.hpp>

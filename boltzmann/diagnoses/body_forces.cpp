@@ -1,5 +1,4 @@
 // Differences from look to look.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
 
@@ -9,24 +8,6 @@
 #include <limits>
 
 namespace boltzmann {
-
-bool is_body(AnyEnsemble const& ensemble) { return ensemble.class_name() == "Panel" && ensemble.find_field("sheet"); }
-
-FlowImpulse flow_impulse(std::span<AnyEnsemble* const> ensembles) {
-  CompensatedSum x, y, circulation;
-  for (auto const* ensemble : ensembles) {
-    bool const body = is_body(*ensemble);
-    Field const* const strength = ensemble->find_field(body ? "sheet" : "vorticity");
-    if (!strength || ensemble->dimension() != 2) continue;
-    int const length = body ? ensemble->field("length").offset : 0;
-    for (std::size_t i = 0; i < ensemble->size(); ++i) {
-      double const* const row = ensemble->row(i);
-      double const gamma = row[strength->offset] * (body ? row[length] : 1);
-      x += gamma * row[1], y += -gamma * row[0], circulation += gamma;
-    }
-  }
-  return {{x.value(), y.value()}, circulation.value()};
-}
 
 BodyForces::BodyForces(std::vector<AnyEnsemble const*> const& available,
                        std::optional<std::array<double, 3>> const& stream, double length)
@@ -77,7 +58,12 @@ std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* befo
 
 void BodyForces::follow(Sample const& sample) {
   if (!last_) return;
-  double const passed = sample.time - last_->shed_until;
+  double const passed = sample.time - last_->followed_until;
+  if (passed == 0) return;
+  // Within a step circulation changes with kutta; at its end vortices may leave.
+  double const now = flow_impulse(sample.ensembles).circulation, gone = sample.taken.circulation - last_->gone;
+  last_->circulation_time += 0.5 * (last_->circulation + now + gone) * passed;
+  last_->circulation = now, last_->gone = sample.taken.circulation;
   std::size_t at = 0;
   for (auto const* ensemble : sample.ensembles) {
     if (!is_body(*ensemble)) continue;
@@ -85,12 +71,16 @@ void BodyForces::follow(Sample const& sample) {
     for (std::size_t i = 0; i < ensemble->size() && at < last_->shed.size(); ++i, ++at)
       last_->shed[at] += ensemble->row(i)[flux] * passed;
   }
-  last_->shed_until = sample.time;
+  last_->followed_until = sample.time;
 }
 
 void BodyForces::measure(Sample const& sample, std::vector<double>& values) {
   follow(sample);
-  Look now{sample.time, flow_impulse(sample.ensembles), {}, sample.time, {}};
+  FlowImpulse const flow = flow_impulse(sample.ensembles);
+  Look now;
+  now.time = now.followed_until = sample.time;
+  now.impulse = {flow.impulse[0] + sample.taken.impulse[0], flow.impulse[1] + sample.taken.impulse[1]};
+  now.circulation = flow.circulation, now.gone = sample.taken.circulation;
   std::vector<AnyEnsemble const*> bodies;
   for (auto const* ensemble : sample.ensembles)
     if (is_body(*ensemble)) {
@@ -102,9 +92,9 @@ void BodyForces::measure(Sample const& sample, std::vector<double>& values) {
   if (!known) {
     values.insert(values.end(), columns().size(), std::numeric_limits<double>::quiet_NaN());
   } else {
-    double const passed = now.time - last_->time, circulation = 0.5 * (now.flow.circulation + last_->flow.circulation);
-    double const fx = -(now.flow.impulse[0] - last_->flow.impulse[0]) / passed + circulation * stream_[1];
-    double const fy = -(now.flow.impulse[1] - last_->flow.impulse[1]) / passed - circulation * stream_[0];
+    double const passed = now.time - last_->time, circulation = last_->circulation_time / passed;
+    double const fx = -(now.impulse[0] - last_->impulse[0]) / passed + circulation * stream_[1];
+    double const fy = -(now.impulse[1] - last_->impulse[1]) / passed - circulation * stream_[0];
     values.push_back(fx), values.push_back(fy);
     if (length_ > 0) {
       double const speed = std::hypot(stream_[0], stream_[1]), unit = 0.5 * speed * speed * length_;
@@ -124,20 +114,24 @@ void BodyForces::measure(Sample const& sample, std::vector<double>& values) {
 
 std::vector<double> BodyForces::state() const {
   if (!last_) return {};
-  std::vector<double> all{last_->time, last_->flow.impulse[0], last_->flow.impulse[1], last_->flow.circulation,
-                          last_->shed_until};
-  all.insert(all.end(), last_->sheet.begin(), last_->sheet.end());
-  all.insert(all.end(), last_->shed.begin(), last_->shed.end());
+  Look const& l = *last_;
+  std::vector<double> all{l.time,        l.impulse[0], l.impulse[1],      l.followed_until,
+                          l.circulation, l.gone,       l.circulation_time};
+  all.insert(all.end(), l.sheet.begin(), l.sheet.end());
+  all.insert(all.end(), l.shed.begin(), l.shed.end());
   return all;
 }
 
 void BodyForces::restore(std::span<double const> state) {
   last_.reset();
   if (state.empty()) return;
-  if (state.size() < 5 || state.size() % 2 == 0)
+  constexpr std::size_t before_panels = 7;
+  if (state.size() < before_panels || (state.size() - before_panels) % 2 != 0)
     throw Error("the checkpoint does not fit this simulation: it has no forces on bodies");
-  auto const half = state.begin() + 5 + static_cast<std::ptrdiff_t>(state.size() / 2 - 2);
-  last_ = Look{state[0], {{state[1], state[2]}, state[3]}, {state.begin() + 5, half}, state[4], {half, state.end()}};
+  auto const panels = state.begin() + before_panels;
+  auto const half = panels + static_cast<std::ptrdiff_t>((state.size() - before_panels) / 2);
+  last_ =
+      Look{state[0], {state[1], state[2]}, state[3], state[4], state[5], state[6], {panels, half}, {half, state.end()}};
 }
 
 }  // namespace boltzmann

@@ -10,21 +10,10 @@
 
 namespace boltzmann {
 
-/// Whether it is of panels, the outline of a body.
-bool is_body(AnyEnsemble const& ensemble);
-
-/// The impulse of a plane flow over its density: sum Gamma (y, -x) over vortices and over the sheets of bodies; and their
-/// circulation.
-struct FlowImpulse {
-  std::array<double, 2> impulse{};
-  double circulation = 0;
-};
-FlowImpulse flow_impulse(std::span<AnyEnsemble* const> ensembles);
-
 /// Forces over the density of the fluid, in the mean since the look before. On all bodies together from the impulse of the
 /// flow I (P. G. Saffman, Vortex Dynamics, section 3.2), F = -dI/dt + Gamma (V, -U) in a stream (U, V), Gamma the
-/// circulation of all there is; so vortices must not be added or taken away but by a body. And on each body by the
-/// pressure that goes around it as dp/ds = -(d(sheet)/dt + flux + d(sheet^2 / 2)/ds); of friction this knows nothing.
+/// circulation of all there is; the impulse of vortices that have left is no force (Sample::taken). And on each body by
+/// the pressure that goes around it as dp/ds = -(d(sheet)/dt + flux + d(sheet^2 / 2)/ds); of friction this knows nothing.
 /// Coefficients are F / (U^2 length / 2). NaN at the first look.
 class BodyForces final : public Diagnosis {
  public:
@@ -43,10 +32,13 @@ class BodyForces final : public Diagnosis {
  private:
   struct Look {
     double time = 0;
-    FlowImpulse flow;
-    std::vector<double> sheet;  // of all panels
-    double shed_until = 0;      // since the look up to here ...
-    std::vector<double> shed;   // ... of each panel, over its length
+    std::array<double, 2> impulse{};  // with that of what was taken away
+    double followed_until = 0;        // since the look up to here ...
+    double circulation = 0;           // ... of all there is now,
+    double gone = 0;                  // of what was taken away, of all times,
+    double circulation_time = 0;      // and summed over the time
+    std::vector<double> sheet;        // of all panels
+    std::vector<double> shed;         // of each panel since the look, over its length
   };
 
   std::vector<std::string> bodies_;

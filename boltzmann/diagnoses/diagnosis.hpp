@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
+#include <boltzmann/diagnoses/flow_impulse.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct Sample {
   std::int64_t step;
   std::span<MeshField const* const> mesh_fields = {};  ///< empty unless the diagnosis needs_mesh()
   int threads = 1;                                     ///< for whoever sums over all pairs
+  FlowImpulse taken = {};                              ///< of vortices that were taken out of a plane flow, so far
 };
 
 class Diagnosis {

@@ -43,8 +43,12 @@ bool mdanalysis_reads(std::string const& element, std::string const& unit) {
   return true;  // it doesn't look at the others
 }
 
-// Chunks of at least 16 kB where many small frames make one, and of at most about 1 MB.
-Extents chunk_for(std::size_t particles, std::size_t columns) {
+// Chunks of at least 16 kB where many small frames make one, and of at most about 1 MB. Ensembles that may grow have wide
+// ones from the start: a frame of 40000 particles would be thousands of the chunks that suit the first 10.
+constexpr std::size_t least_rows_growing = 512;
+
+Extents chunk_for(std::size_t particles, std::size_t columns, bool may_grow) {
+  if (may_grow) particles = std::max(particles, least_rows_growing);
   std::uint64_t const rows =
       particles == 0 ? 64 : std::min<std::uint64_t>(particles, std::uint64_t{131072} / (columns + 1));
   std::uint64_t const frames = std::clamp<std::uint64_t>(16384 / (rows * columns * sizeof(double)), 1, 1024);
@@ -215,7 +219,8 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
   for (char const* each : {"/count/value", "/count/checksum"})
     file->create_growing(group + each, Number::integer, {0}, {1024}, {true});
   for (char const* label : {"id", "species"})
-    file->create_growing(group + "/" + label, Number::integer, {0}, {chunk_for(ensemble.size(), 1)[1]}, {true});
+    file->create_growing(group + "/" + label, Number::integer, {0},
+                         {chunk_for(ensemble.size(), 1, options.sizes_change)[1]}, {true});
   if (is_first)
     lay_out(box, first);
   else
@@ -243,7 +248,7 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, Field const& field,
     }
     file->create_growing(element + "/checksum", Number::integer, {0}, {1024}, {true});
     values += "/value";
-    Extents extents{0, size, columns}, chunk = chunk_for(size, columns);
+    Extents extents{0, size, columns}, chunk = chunk_for(size, columns, options.sizes_change);
     std::vector<bool> growing{true, true, false};
     if (scalar) extents.pop_back(), chunk.pop_back(), growing.pop_back();
     file->create_growing(values, Number::real, extents, chunk, growing);

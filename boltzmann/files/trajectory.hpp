@@ -32,6 +32,7 @@ struct TrajectoryOptions {
   std::function<std::string(Dimension)> unit_name;  ///< empty: no units are written
   std::function<double(Dimension)> factor;   ///< numbers are written times this, to be in that unit; empty: as they are
   std::vector<std::string> constant_fields;  ///< written once (for example mass, charge); never position or velocity
+  bool sizes_change = false;                 ///< ensembles may grow far beyond what they are in the first frame
   bool three_columns = true;  ///< position and velocity get 3 columns in 1D and 2D too, as most readers want
 };
 

@@ -13,12 +13,11 @@
 
 namespace boltzmann {
 
-std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std::string const& first,
-                                                    std::string const& second, bool positive) {
+std::vector<NumberPair> read_pairs(std::string const& path, std::string const& first, std::string const& second) {
   need_regular_file(path);
   std::ifstream file(path);
-  if (!file) throw Error(fmt::format("{}: can't open the table", path));
-  std::vector<std::array<double, 2>> points;
+  if (!file) throw Error(fmt::format("{}: can't open the file", path));
+  std::vector<NumberPair> pairs;
   std::string line;
   for (int number = 1; read_line(file, line, path); ++number) {
     std::string_view text = line;
@@ -42,16 +41,25 @@ std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std
     if (values.size() != 2)
       throw Error(
           fmt::format("{}:{}: {} numbers; a line has two, {} and {}", path, number, values.size(), first, second));
-    auto const name = first.substr(first.find(' ') + 1);  // without its article
+    pairs.push_back({{values[0], values[1]}, number});
+  }
+  if (file.bad()) throw Error(fmt::format("{}: can't read the file", path));
+  return pairs;
+}
+
+std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std::string const& first,
+                                                    std::string const& second, bool positive) {
+  std::vector<std::array<double, 2>> points;
+  auto const name = first.substr(first.find(' ') + 1);  // without its article
+  for (auto const& [values, number] : read_pairs(path, first, second)) {
     if (positive && values[0] <= 0)
       throw Error(fmt::format("{}:{}: the {} {:.6g} must be positive", path, number, name, values[0]));
     if (values[0] < 0) throw Error(fmt::format("{}:{}: the {} {:.6g} is negative", path, number, name, values[0]));
     if (!points.empty() && values[0] <= points.back()[0])
       throw Error(fmt::format("{}:{}: the {} {:.6g} must be above {:.6g}, the one before", path, number, name,
                               values[0], points.back()[0]));
-    points.push_back({values[0], values[1]});
+    points.push_back(values);
   }
-  if (file.bad()) throw Error(fmt::format("{}: can't read the table", path));
   if (points.size() < 2) throw Error(fmt::format("{}: {} points; a table needs at least 2", path, points.size()));
   return points;
 }

@@ -1,4 +1,4 @@
-// Two columns of numbers in a text file: a table by points.
+// Two columns of numbers in a text file: a table by points, or corners of an outline.
 #pragma once
 
 #include <array>
@@ -7,10 +7,18 @@
 
 namespace boltzmann {
 
+/// Two numbers of one line of a file.
+struct NumberPair {
+  std::array<double, 2> numbers;
+  int line;
+};
+
 /// The pairs of numbers of a file: one a line, separated by blanks or commas, behind # anything. Error naming file and
-/// line if a line has other than two finite numbers, the first of them is negative (or zero, if `positive`) or not
-/// above the one before, or there are fewer than two lines. `first` and `second` are what they are, with an article ("a
-/// density").
+/// line if a line has other than two finite numbers. `first` and `second` are what they are, with an article ("a density").
+std::vector<NumberPair> read_pairs(std::string const& path, std::string const& first, std::string const& second);
+
+/// The same where the first numbers grow: Error, too, if one is negative (or zero, if `positive`) or not above the one
+/// before, or there are fewer than two lines.
 std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std::string const& first,
                                                     std::string const& second, bool positive);
 

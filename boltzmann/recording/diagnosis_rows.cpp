@@ -75,6 +75,8 @@ void DiagnosisRows::go_on(std::string const& path, Checkpoint const& saved) {
 }
 
 Sample DiagnosisRows::sample(std::span<AnyEnsemble* const> ensembles) const {
+  FlowImpulse taken;
+  for (auto const* adaptation : simulation_.adaptations()) taken += adaptation->taken();
   return {ensembles,
           simulation_.schemes().front()->box(),
           nullptr,
@@ -82,7 +84,8 @@ Sample DiagnosisRows::sample(std::span<AnyEnsemble* const> ensembles) const {
           simulation_.time(),
           simulation_.step(),
           {},
-          simulation_.schemes().front()->threads()};
+          simulation_.schemes().front()->threads(),
+          taken};
 }
 
 void DiagnosisRows::follow() {

@@ -2,6 +2,7 @@
 #include <boltzmann/recording/run_frames.hpp>
 #include <boltzmann/recording/saved_state.hpp>
 #include <boltzmann/recording/version.hpp>
+#include <boltzmann/simulation/keeps_numbers.hpp>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@ namespace boltzmann {
 TrajectoryOptions RunFrames::options() const {
   TrajectoryOptions options;
   options.version = program_version;
+  options.sizes_change = numbers_change(simulation_.adaptations());
   if (!units_.is_reduced()) {
     options.unit_name = [units = units_](Dimension d) { return units.display(d).unit; };
     options.factor = [units = units_](Dimension d) { return units.display(d).factor; };

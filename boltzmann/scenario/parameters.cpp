@@ -177,7 +177,8 @@ ScenarioOutline outline_scenario(std::string const& text, std::string const& fil
   if (Item const* bodies = value_in(document, "bodies"); bodies && bodies->is(Item::Kind::array))
     for (auto const& body : bodies->elements) {
       Item const* panels = value_in(body, "panels");
-      if (text_in(body, "shape") == "polygon" || (panels && !(panels->number > 0 && panels->number < 1e6)))
+      auto const shape = text_in(body, "shape");
+      if (shape == "polygon" || shape == "file" || (panels && !(panels->number > 0 && panels->number < 1e6)))
         return outline;  // its corners have panels, too
       count += panels ? panels->number : BodyOptions{}.panels;
     }

@@ -1,6 +1,7 @@
-// Reads [[remesh]] and [[split_cores]]: what changes vortices between steps.
+// Reads [[remesh]], [[split_cores]] and [[outflow]]: what changes vortices between steps.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/simulation/outflow.hpp>
 #include <boltzmann/simulation/remesher.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
 
@@ -40,6 +41,39 @@ std::vector<AnyEnsemble*> read_on(Section& section, std::string_view key, Fits c
   return ensembles;
 }
 
+/// What the options need besides their keys; false after a mistake.
+bool complete(RemeshOptions& options, Item const& /*table*/, Reading& reading) {
+  if (auto const* bodies = reading.result->scheme<PanelScheme>())
+    options.how.allowed = [bodies, depth = 2.01 * options.how.spacing](std::array<double, 3> const& place) {
+      return !bodies->sheet().deep_inside({place[0], place[1]}, depth);
+    };
+  return true;
+}
+bool complete(CoreSplittingOptions& /*options*/, Item const& /*table*/, Reading& /*reading*/) { return true; }
+bool complete(OutflowOptions& options, Item const& table, Reading& reading) {
+  auto const* bodies = reading.result->scheme<PanelScheme>();
+  OutflowPlane const& plane = options.how;
+  if (!bodies || !plane.from || !plane.direction) return true;
+  for (auto const* body : bodies->bodies())
+    for (std::size_t i = 0; i < body->size(); ++i)
+      if (plane.beyond(body->row(i), 2)) {
+        reading.mistake(table.place, fmt::format("outflow: the body '{}' is beyond it, where nobody stays; it belongs "
+                                                 "downstream of all bodies",
+                                                 body->name()));
+        return false;
+      }
+  return true;
+}
+
+template <class Adapter, class Options>
+std::shared_ptr<Adapter> adapter_of(AnyEnsemble& ensemble, Options const& options, Reading& reading) {
+  if constexpr (std::is_same_v<Adapter, Outflow>)
+    return std::make_shared<Outflow>(ensemble, reading.result->box(), options.how,
+                                     reading.result->scheme<PanelScheme>());
+  else
+    return std::make_shared<Adapter>(ensemble, reading.result->box(), options.how);
+}
+
 /// One table: its options, and one Adapter of each ensemble.
 template <class Adapter, class Options, class Fits>
 void read_one(Item const& table, std::string const& key, OptionTable const& known, Fits const& fits, Reading& reading) {
@@ -49,15 +83,11 @@ void read_one(Item const& table, std::string const& key, OptionTable const& know
   read_options(section, known, &options, {.dimension = reading.dimension});
   auto const ensembles = read_on(section, key, fits, reading);
   section.finish();
-  if constexpr (std::is_same_v<Options, RemeshOptions>)
-    if (auto const* bodies = reading.result->scheme<PanelScheme>())
-      options.how.allowed = [bodies, depth = 2.01 * options.how.spacing](std::array<double, 3> const& place) {
-        return !bodies->sheet().deep_inside({place[0], place[1]}, depth);
-      };
   if (reading.context.mistakes.count() != before || !reading.box) return;
+  if (!complete(options, table, reading)) return;
   for (auto* ensemble : ensembles)
     catch_errors(reading, table.place, [&] {
-      auto adapter = std::make_shared<Adapter>(*ensemble, reading.result->box(), options.how);
+      auto adapter = adapter_of<Adapter>(*ensemble, options, reading);
       reading.adaptations.push_back([adapter, every = static_cast<std::uint64_t>(options.every)](
                                         Simulation& simulation) { simulation.adapt(every, *adapter); });
     });
@@ -83,6 +113,15 @@ void read_adaptations(Section& document, Reading& reading) {
     read_one<CoreSplitter, CoreSplittingOptions>(
         table, "split_cores", core_splitting_options(),
         [](AnyEnsemble const& of) { return of.class_name() == "Spreading"; }, reading);
+  });
+  each_table(document, "outflow", [&](Item const& table) {
+    read_one<Outflow, OutflowOptions>(
+        table, "outflow", outflow_options(),
+        [](AnyEnsemble const& of) {
+          return of.class_name() != "Panel" && !of.find_field("velocity") && !of.find_field("mass") &&
+                 of.influence_size() > 0;
+        },
+        reading);
   });
 }
 

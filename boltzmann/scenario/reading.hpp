@@ -205,7 +205,7 @@ bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLa
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);
 void add_rezoners(Reading const& reading);
-/// Reads [[remesh]] and [[split_cores]] into reading.adaptations.
+/// Reads [[remesh]], [[split_cores]] and [[outflow]] into reading.adaptations.
 void read_adaptations(Section& document, Reading& reading);
 /// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
 /// calculated, with one mistake for all that ask.

@@ -264,6 +264,7 @@ std::string scenario_schema() {
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"remesh", one_or_tables(closed("remesh"))},
       {"split_cores", one_or_tables(closed("split_cores"))},
+      {"outflow", one_or_tables(closed("outflow"))},
       {"output", closed("output", {{"pictures", of_pictures(properties_of(picture_options().only({{"file"}})))}})},
       {"views", of_pictures({{"name", object({{"type", quoted_text("string")}})}})},
       {"sweep", closed("sweep", {{"pictures", tables(closed("sweep.pictures"))}})}};

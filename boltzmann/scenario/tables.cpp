@@ -8,6 +8,7 @@
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/panels/body_options.hpp>
 #include <boltzmann/simulation/dye.hpp>
+#include <boltzmann/simulation/outflow.hpp>
 #include <boltzmann/simulation/remesh.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
 #include <boltzmann/simulation/vortex_relaxation.hpp>
@@ -345,6 +346,7 @@ std::vector<ScenarioTable> make_tables() {
   static RelaxationOptions relaxation;
   static RemeshOptions remesh;
   static CoreSplittingOptions split;
+  static OutflowOptions outflow;
   static DyeOptions dye;
   static BodyOptions body;
   static OptionTable const units = make_units_options();
@@ -371,6 +373,8 @@ std::vector<ScenarioTable> make_tables() {
         &remesh_options(), &remesh},
        {"split_cores", "[[split_cores]]", "vortices whose cores have grown wide are split while the run goes on",
         &core_splitting_options(), &split},
+       {"outflow", "[[outflow]]", "where vortices and tracers leave that the flow has carried away", &outflow_options(),
+        &outflow},
        {"dye", "[[dye]]", "where tracers are released while the run goes on", &dye_options(), &dye},
        {"output", "[output]", "what is written, and how often", &output_options(), &output},
        {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},

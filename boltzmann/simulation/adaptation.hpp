@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/diagnoses/flow_impulse.hpp>
 
 #include <span>
 #include <string>
@@ -18,6 +19,8 @@ class Adaptation {
   virtual void change() = 0;
   /// One line about what was done so far, for the end of a run; empty: nothing to say.
   virtual std::string report(UnitSystem const&) const { return ""; }
+  /// Circulation and impulse of a plane flow that have gone with the vortices which it took away, so far.
+  virtual FlowImpulse taken() const { return {}; }
   /// What it remembers, for checkpoints. restore() takes it back; Error if it does not fit.
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(std::span<double const>) {}

@@ -122,7 +122,7 @@ OptionTable const& relaxation_options() {
     all.add_of<R>(
         "corrected", [](R& r) -> OptionPlace { return &r.relaxing.corrected; }, flag(),
         "each vorticity keeps its length; else it becomes shorter where it turns");
-    all.at("every").needed = "5";
+    all.at("every").needed = std::string("5");
     return all;
   }();
   return table;

@@ -368,6 +368,16 @@ TEST(Examples, MergerMakesOneVortexOfTwo) {
   EXPECT_LT(apart[1], 0.4);
 }
 
+// P. Koumoutsakos and A. Leonard, J. Fluid Mech. 296, 1 (1995): the drag at T = t U / R = 1.75, in the mean over 0.1 radii.
+TEST(Examples, CylinderWakeDragsAsPublished) {
+  Example const example("cylinder_wake");
+  ASSERT_TRUE(example.good());
+  auto const table = example.diagnoses();
+  EXPECT_NEAR(table["time"].back(), 0.9, 1e-9);
+  EXPECT_NEAR(table["drag coefficient"].back() / 1.01, 1, 0.04);
+  EXPECT_NEAR(table["lift coefficient"].back(), 0, 1e-3);
+}
+
 // Circle theorem: w(z) = sum of Gamma/(2 pi i) ln of z less each line; the stream function is constant on every track.
 TEST(Examples, CylinderHasSymmetricalTracksThatDoNotEnterIt) {
   Example const example("cylinder");

@@ -178,6 +178,42 @@ TEST(Trajectory, FollowsTheH5mdSpecification) {
   EXPECT_EQ(reader.ensembles()[0].fields[2].unit, "angstrom/ps");
 }
 
+// An ensemble that begins with 4 particles and has 30000 after 50 frames, as wakes do: the file is hardly larger than what
+// is in it, and reads back.
+TEST(Trajectory, OfAnEnsembleThatGrowsIsAsLargeAsItsNumbers) {
+  TemporaryFolder const folder;
+  Ensemble<Vortex<2>> wake("wake", 4);
+  AnyEnsemble const* const list[] = {&wake};
+  TrajectoryOptions options;
+  options.sizes_change = true;
+  options.three_columns = false;
+  int const frames = 50;
+  std::size_t most = 0;
+  {
+    Trajectory file(folder / "t.h5", options);
+    for (int frame = 0; frame < frames; ++frame) {
+      wake.resize(4 + 600 * static_cast<std::size_t>(frame));
+      for (std::size_t i = 0; i < wake.size(); ++i)
+        wake[i].position = {static_cast<double>(frame), static_cast<double>(i)};
+      file.write(frame, 0.1 * frame, list, moving_box(2, frame));
+    }
+  }
+  std::size_t numbers = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    most = 4 + 600 * static_cast<std::size_t>(frame);
+    for (auto const& field : wake.fields()) numbers += most * static_cast<std::size_t>(field.components);
+  }
+  EXPECT_LT(static_cast<double>(read_text(folder / "t.h5").size()), 1.2 * 8 * static_cast<double>(numbers) + 1e6);
+  TrajectoryReader const reader(folder / "t.h5");
+  ASSERT_EQ(reader.frames(), static_cast<std::size_t>(frames));
+  for (std::size_t const frame : {0, 1, 25, 49}) {
+    auto const places = reader.read(frame, "wake", "position");
+    ASSERT_EQ(places.size(), 2 * (4 + 600 * frame));
+    EXPECT_EQ(places[places.size() - 2], static_cast<double>(frame));
+    EXPECT_EQ(places.back(), static_cast<double>(places.size() / 2 - 1));
+  }
+}
+
 TEST(Trajectory, UnitsThatMdanalysisRefusesAreKeptAside) {
   TemporaryFolder const folder;
   Ensemble<Newton<3>> ions("ions", 1);

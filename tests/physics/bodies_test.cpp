@@ -4,6 +4,7 @@
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <tests/scenario/mistakes.hpp>
+#include <tests/vortex_beside_cylinder.hpp>
 
 #include <gtest/gtest.h>
 
@@ -35,24 +36,14 @@ struct Forces {
 // cylinder is Omega I, away from the vortex or towards it; pressure knows nothing of impulse and gives the same.
 TEST(BodyForces, OfAVortexBesideACylinderIsThatOfTheImageByImpulseAndByPressure) {
   double const r = 1.6, gamma = 2;
-  Ensemble<Vortex<2>> vortex("vortex", 1);
-  vortex[0].position = {r, 0};
-  vortex[0].vorticity[0] = gamma;
-  Ensemble<Panel<2>> cylinder("cylinder");
-  Box const box({-4, -4}, {4, 4});
-  PairScheme pairs(box);
-  pairs.between(cylinder, vortex, one_way(BiotSavart{}));
-  PanelScheme bodies(box);
-  bodies.add_body(cylinder, circle_outline({0, 0}, 1, 200));
-  bodies.add(vortex);
-  Simulation simulation(pairs, 0.01);
-  simulation.add(bodies);
+  test::VortexBesideCylinder flow(r, gamma);
+  Simulation simulation(flow.pairs, 0.01);
+  simulation.add(flow.bodies);
   Forces const forces(simulation);
   simulation.run(40);
-  double const turning = -gamma / (2 * pi * r * r * (r * r - 1));
-  double const force = gamma * (r - 1 / r) * turning;
+  double const force = gamma * (r - 1 / r) * flow.angular_velocity;
   for (std::size_t step = 1; step < forces.rows.size(); step += 7) {
-    double const angle = turning * 0.01 * (static_cast<double>(step) - 0.5);
+    double const angle = flow.angular_velocity * 0.01 * (static_cast<double>(step) - 0.5);
     auto const& row = forces.rows[step];
     EXPECT_NEAR(row[0], -force * std::cos(angle), 5e-3 * std::abs(force)) << step;
     EXPECT_NEAR(row[1], -force * std::sin(angle), 5e-3 * std::abs(force)) << step;
@@ -285,6 +276,37 @@ TEST(CylinderWake, HasTheSameBitsForAnyThreadsAndAfterAResume) {
   again->simulation->run(6);
   same(*whole, *begun);
   same(*whole, *again);
+}
+
+/// A wake of so many panels and particles of so wide a spacing, carried by pairs or by multipoles.
+std::string coarse_wake(bool by_pairs) {
+  return "[units]\nbase = \"reduced\"\n[box]\nlow = [-1, -1]\nhigh = [2, 1]\n[run]\nstep = 0.05\nsteps = 20\n"
+         "[[bodies]]\nname = \"cylinder\"\nshape = \"circle\"\nradius = 0.5\npanels = 40\nno_slip = \"wake\"\n"
+         "[[ensembles]]\nname = \"wake\"\nclass = \"Diffusive\"\nintegrator = \"rk2\"\nload = { kind = \"fill\", "
+         "spacing = "
+         "0.08, where = \"r > 0.5 && r < 0.62\" }\ncore = 0.08\nvolume = 0.0064\nviscosity = 0.02\n"
+         "[[influences]]\nlaw = \"vorticity-exchange\"\non = \"wake\"\ncutoff = 0.4\n"
+         "[[influences]]\nlaw = \"uniform-flow\"\non = \"wake\"\nvelocity = [1, 0]\n"
+         "[[remesh]]\nevery = 1\nspacing = 0.08\ncore = 0.08\nmargin = 2\nthreshold = 1e-3\n" +
+         std::string(by_pairs ? "[[influences]]\nlaw = \"biot-savart-gaussian\"\non = \"wake\"\n"
+                              : "[multipole]\nlaw = \"biot-savart-gaussian\"\ntolerance = 1e-8\n") +
+         "[[diagnoses]]\nkind = \"body-forces\"\nstream = [1, 0]\nlength = 1\n";
+}
+
+// Walls shed vortices into what multipoles carry as into what pairs carry: 20 steps give the same flow, impulse and drag.
+TEST(CylinderWake, IsThatOfAllPairsByMultipoles) {
+  auto const pairs = parse_scenario(coarse_wake(true), "test.toml"),
+             multipoles = parse_scenario(coarse_wake(false), "test.toml");
+  auto const by_pairs = forces_after(*pairs, 19), by_multipoles = forces_after(*multipoles, 19);
+  EXPECT_GT(test::ensemble(*pairs, "wake").size(), 500U);
+  EXPECT_EQ(test::ensemble(*pairs, "wake").size(), test::ensemble(*multipoles, "wake").size());
+  EXPECT_GT(by_pairs[2], 1);
+  for (std::size_t k = 0; k < by_pairs.size(); ++k) EXPECT_NEAR(by_pairs[k], by_multipoles[k], 1e-6) << k;
+  FlowImpulse const one = flow_impulse(pairs->simulation->ensembles()),
+                    other = flow_impulse(multipoles->simulation->ensembles());
+  EXPECT_NEAR(one.circulation, other.circulation, 1e-8);
+  EXPECT_NEAR(one.impulse[0], other.impulse[0], 1e-7);
+  EXPECT_NEAR(one.impulse[1], other.impulse[1], 1e-7);
 }
 
 class MistakesOfBodies : public testing::TestWithParam<test::Mistake> {};

@@ -85,6 +85,12 @@ TEST(FlowsOfVortices, SayWhatIsWrong) {
   expect(periodic + "[multipole]\nlaw = \"biot-savart\"\ntolerance = 1e-3\n" + pair +
              "[[diagnoses]]\nkind = \"vortex-energy\"\n",
          "axis x is periodic");
+  // Nor, so far, beside a wall.
+  std::string wall = flat;
+  wall.replace(
+      wall.find("high = [2, 2]"), 13,
+      "high = [2, 2]\nboundary = [\"mirror\", \"open\"]\n[[box.walls]]\naxis = \"x\"\nend = \"high\"\nopen = true");
+  expect(wall + pair + law + "[[diagnoses]]\nkind = \"vortex-energy\"\n", "axis x is a mirror");
 }
 
 }  // namespace

@@ -93,11 +93,13 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
        {start + atoms + "[[bodies]]\nshape = \"circle\"\nname = \"b\"\nradius = 1\n" + wrong,
         start + atoms + "[[bodies]]\nshape = \"ellipse\"\nname = \"b\"\nsemi_axes = [2, 1]\n" + wrong,
         start + atoms + "[[bodies]]\nshape = \"naca\"\nname = \"b\"\nnaca = \"0012\"\nchord = 1\n" + wrong,
-        start + atoms + "[[bodies]]\nshape = \"polygon\"\nname = \"b\"\npoints = [[0, 0], [1, 0], [0, 1]]\n" + wrong}},
+        start + atoms + "[[bodies]]\nshape = \"polygon\"\nname = \"b\"\npoints = [[0, 0], [1, 0], [0, 1]]\n" + wrong,
+        start + atoms + "[[bodies]]\nshape = \"file\"\nname = \"b\"\npath = \"none.txt\"\n" + wrong}},
       {"influences",
        {start + atoms + "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1\n" + wrong,
         start + atoms + "[[influences]]\nlaw = \"drag\"\non = \"a\"\nfriction = 1\n" + wrong}},
       {"remesh", {start + ensemble("Vortex") + "[[remesh]]\nevery = 1\nspacing = 1\n" + wrong}},
+      {"outflow", {start + ensemble("Vortex") + "[[outflow]]\nfrom = [1, 0]\ndirection = [1, 0]\n" + wrong}},
       {"split_cores", {start + ensemble("Spreading") + "[[split_cores]]\nevery = 1\nabove = 1\n" + wrong}},
       {"output", {start + "[output]\n" + wrong + atoms}}};
   // Beside the keys: fields of the classes, parameters of the laws.

@@ -1,4 +1,4 @@
-// [[remesh]] and [[split_cores]] of scenarios: who is meant, restarts, and what is refused.
+// [[remesh]], [[split_cores]] and [[outflow]] of scenarios: who is meant, restarts, and what is refused.
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/remesher.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
@@ -26,7 +26,8 @@ std::string const start =
 std::string const flow =
     start +
     "[[remesh]]\nevery = 3\non = \"gas\"\nspacing = 0.1\nkernel = \"m6\"\nthreshold = 1e-3\nmargin = 1\n"
-    "[[split_cores]]\nevery = 4\nabove = 0.25\nratio = 0.9\nmerge_within = 0.4\n" +
+    "[[split_cores]]\nevery = 4\nabove = 0.25\nratio = 0.9\nmerge_within = 0.4\n"
+    "[[outflow]]\nevery = 2\non = \"air\"\nfrom = [0.45, 0]\ndirection = [1, 1]\n" +
     ensemble("gas", "Diffusive", "viscosity = 0.01\nvolume = 0.04\n") +
     ensemble("air", "Spreading", "viscosity = 0.1\n") +
     "[[influences]]\nlaw = \"biot-savart-gaussian\"\non = \"gas\"\n"
@@ -49,7 +50,7 @@ std::string reports(Simulation const& simulation) {
 
 TEST(VortexAdaptations, GoOnFromACheckpointToTheBit) {
   auto const whole = read(flow), first = read(flow), second = read(first->resolved);
-  ASSERT_EQ(whole->simulation->adaptations().size(), 2U);
+  ASSERT_EQ(whole->simulation->adaptations().size(), 3U);
   whole->simulation->threads(3);
   whole->simulation->run(12);
   first->simulation->run(7);
@@ -72,6 +73,7 @@ TEST(VortexAdaptations, GoOnFromACheckpointToTheBit) {
   EXPECT_NE(told.find("'gas': remeshed 4 times, "), std::string::npos) << told;
   EXPECT_NE(told.find("'air': "), std::string::npos) << told;
   EXPECT_NE(told.find(" splits, "), std::string::npos) << told;
+  EXPECT_NE(told.find(" have left with the flow, "), std::string::npos) << told;
 }
 
 TEST(VortexAdaptations, MeanAllThatFitAndOneTableIsEnough) {
@@ -85,6 +87,15 @@ TEST(VortexAdaptations, MeanAllThatFitAndOneTableIsEnough) {
   auto const split = read(start + "[split_cores]\nevery = 1\nabove = 1\n" + ensemble("gas", "Vortex") +
                           ensemble("air", "Spreading", "viscosity = 1\n"));
   EXPECT_EQ(split->simulation->adaptations().size(), 1U);
+  auto const leave =
+      read(start + "[outflow]\nfrom = [0.3, 0]\ndirection = [1, 0]\n" + ensemble("gas", "Vortex") +
+           "[[ensembles]]\nname = \"dust\"\nclass = \"Tracer\"\nload = { kind = \"fill\", spacing = 0.2 }\n"
+           "[[ensembles]]\nname = \"balls\"\nclass = \"Newton\"\nmass = 1\nload = { kind = \"fill\", spacing = 1 }\n");
+  ASSERT_EQ(leave->simulation->adaptations().size(), 2U);
+  leave->simulation->run(1);
+  EXPECT_LT(leave->ensembles[0]->size(), 24U);
+  EXPECT_EQ(leave->ensembles[1]->size(), 70U);
+  EXPECT_EQ(leave->ensembles[2]->size(), 4U);
 }
 
 struct Mistake {
@@ -103,6 +114,10 @@ TEST(VortexAdaptations, MistakesAreNamed) {
            {"high = [1, 1]", "high = [1, 1]\nboundary = [\"open\", \"reflecting\"]",
             "split_cores: axis y is reflecting"},
            {"ratio = 0.9", "ratio = 0.99", "ratio: 0.99 is out of range"},
+           {"from = [0.45, 0]\n", "", "outflow has no 'from'; add e.g. from = [10, 0]"},
+           {"direction = [1, 1]\n", "", "outflow has no 'direction'; add e.g. direction = [1, 0]"},
+           {"direction = [1, 1]", "direction = [0, 0]", "outflow: the direction is that of nothing"},
+           {"direction = [1, 1]", "direction = [1, 1]\nat = 3", "'at'"},
            {"above = 0.25\n", "", "split_cores has no 'above'; add e.g. above = 0.1"},
            {"class = \"Spreading\"", "class = \"Viscous\"",
             "split_cores: there is no ensemble whose vortices could be meant"},

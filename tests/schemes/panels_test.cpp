@@ -2,9 +2,15 @@
 #include <boltzmann/boltzmann.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/files/temporary_folder.hpp>
+#include <tests/message.hpp>
+#include <tests/vortex_beside_cylinder.hpp>
 
 #include <cmath>
 #include <complex>
+#include <fstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann::panels_test {
@@ -174,25 +180,71 @@ TEST(Panels, WrongOutlinesAreRefused) {
   EXPECT_LT(sheet.nearest({0.5, 0}).distance, -0.4);
 }
 
-// Omega = -Gamma R^2 / (2 pi r^2 (r^2 - R^2)), for a body without circulation (its image and one at the centre).
+/// An outline of a file with this text.
+Outline outline_of_text(std::string const& text, OutlinePlace const& place = {}, bool sharp = false) {
+  TemporaryFolder const folder;
+  std::string const path = folder / "shape.txt";
+  std::ofstream(path) << text;
+  try {
+    return outline_from_file(path, 40, place, sharp);
+  } catch (Error const& error) {  // without the folder's name
+    throw Error(std::string(error.what()).substr(path.size() - 9));
+  }
+}
+
+// Either way around, closed or not, with whatever stands between numbers; placed by length, angle and centre.
+TEST(Outlines, OfAFileAreItsPolygon) {
+  std::vector<Vector<2>> const corners{{1, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.25}};
+  auto const expected = polygon_outline(corners, 40, true);
+  for (char const* text :
+       {"# a kite\n1 0\n0 0.5\n\n-0.5, 0 # left\n+0\t-0.25\n", "1 0\n0 -0.25\n-0.5 0\n0 0.5\n1 0\n"}) {
+    auto const outline = outline_of_text(text, {}, true);
+    ASSERT_EQ(outline.corners.size(), expected.corners.size()) << text;
+    for (std::size_t i = 0; i < outline.corners.size(); ++i)
+      EXPECT_LT(magnitude(outline.corners[i] - expected.corners[i]), 1e-15) << text << i;
+    EXPECT_TRUE(outline.sharp);
+  }
+  auto const placed = outline_of_text("1 0\n0 0.5\n-0.5 0\n0 -0.25", {2, pi / 2, {10, 20}});
+  EXPECT_FALSE(placed.sharp);
+  for (std::size_t i = 0; i < placed.corners.size(); ++i) {
+    auto const& from = expected.corners[i];
+    EXPECT_LT(magnitude(placed.corners[i] - Vector<2>{10 - 2 * from[1], 20 + 2 * from[0]}), 1e-14) << i;
+  }
+}
+
+// An aerofoil of points is that of its formula: the same lift.
+TEST(Outlines, OfAnAerofoilInAFileLiftAsItsFormula) {
+  std::string text;
+  for (auto const& corner : naca_outline("2412", {0, 0}, 1, 0, 200).corners)
+    text += std::to_string(corner[0]) + " " + std::to_string(corner[1]) + "\n";
+  auto const circulation = [](Outline const& outline) {
+    return sheet_in_stream(outline, {1, 0}, 0, true).circulation(0);
+  };
+  double const of_formula = circulation(naca_outline("2412", {0, 0}, 1, 0.1, 200));
+  EXPECT_NEAR(circulation(outline_of_text(text, {1, -0.1, {0, 0}}, true)) / of_formula, 1, 1e-3);
+}
+
+TEST(Outlines, OfAFileAreRefusedAtTheirLine) {
+  for (auto const& [text, line] : std::vector<std::pair<std::string, std::string>>{
+           {"NACA 2412\n0 0\n", "shape.txt:1: 'NACA' is not a finite number"},
+           {"0 0\n1 0 0\n0 1\n", "shape.txt:2: 3 numbers; a line has two, x and y"},
+           {"0 0\n1 0\n0 0\n", "shape.txt: 2 points; an outline needs 3 or more"},
+           {"0 0\n1 0\n\n1 0\n0 1\n", "shape.txt:4: the point is that of line 2 again"},
+           {"0 0\n1 1\n# then\n1 0\n0 1\n", "shape.txt:4: the side from here to the next point meets that from line 1"},
+           {"0 0\n2 0\n1 0\n1 1\n", "shape.txt:2: the side from here to the next point meets that from line 1"}})
+    EXPECT_EQ(message([&text = text] { outline_of_text(text); }), line) << text;
+  EXPECT_NE(message([] { outline_from_file("/no/such.txt", 40); }).find("/no/such.txt"), std::string::npos);
+}
+
 TEST(Panels, VortexCirclesACylinder) {
-  double const r = 1.5, gamma = 2;
-  Ensemble<Vortex<2>> vortex("vortex", 1);
-  vortex[0].position = {r, 0};
-  vortex[0].vorticity[0] = gamma;
-  Ensemble<Panel<2>> cylinder("cylinder");
-  Box const box({-4, -4}, {4, 4});
-  PairScheme pairs(box);
-  pairs.between(cylinder, vortex, one_way(BiotSavart{}));
-  PanelScheme bodies(box);
-  bodies.add_body(cylinder, circle_outline({0, 0}, 1, 200));
-  bodies.add(vortex);
-  Simulation simulation(bodies, 0.05);
-  simulation.add(pairs);
+  test::VortexBesideCylinder flow(1.5, 2);
+  Simulation simulation(flow.bodies, 0.05);
+  simulation.add(flow.pairs);
   simulation.run(100);
-  double const exact = -gamma / (2 * pi * r * r * (r * r - 1)) * simulation.time();
-  EXPECT_NEAR(magnitude(vortex[0].position), r, 1e-4);
-  EXPECT_NEAR(std::atan2(vortex[0].position[1], vortex[0].position[0]), exact, 2e-3 * std::abs(exact));
+  double const exact = flow.angular_velocity * simulation.time();
+  auto const& place = flow.vortex[0].position;
+  EXPECT_NEAR(magnitude(place), 1.5, 1e-4);
+  EXPECT_NEAR(std::atan2(place[1], place[0]), exact, 2e-3 * std::abs(exact));
 }
 
 }  // namespace

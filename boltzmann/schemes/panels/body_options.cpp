@@ -10,7 +10,8 @@ Words<BodyShape> const& body_shape_words() {
                                     {{BodyShape::circle, "circle", "`radius` around `centre`"},
                                      {BodyShape::ellipse, "ellipse", "`semi_axes` around `centre`, turned by `angle`"},
                                      {BodyShape::naca, "naca", "an aerofoil of four digits"},
-                                     {BodyShape::polygon, "polygon", "through `points`"}}};
+                                     {BodyShape::polygon, "polygon", "through `points`"},
+                                     {BodyShape::file, "file", "a polygon through the points of a file"}}};
   return all;
 }
 
@@ -25,9 +26,10 @@ OptionTable const& body_options() {
     all.add_of<B>(
         "shape", [](B& b) -> OptionPlace { return named_value(&b.shape, body_shape_words()); },
         word(body_shape_words().names()),
-        "a circle, an ellipse, an aerofoil of NACA's four digits with a closed trailing edge, a polygon");
+        "a circle, an ellipse, an aerofoil of NACA's four digits with a closed trailing edge, a polygon, also from a "
+        "file");
     all.add("centre", &B::centre, vector(dimensions::length),
-            "of a circle or ellipse; of an aerofoil the quarter of its chord", "the origin");
+            "of a circle or ellipse; of an aerofoil the quarter of its chord; of a file its origin", "the origin");
     all.add("radius", &B::radius, number(dimensions::length, positive), "of a circle");
     all.add("semi_axes", &B::semi_axes, vector(dimensions::length), "of an ellipse, along x and y before it is turned");
     all.add("naca", &B::naca, text(),
@@ -35,8 +37,11 @@ OptionTable const& body_options() {
             "cent");
     all.add("chord", &B::chord, number(dimensions::length, positive), "of an aerofoil");
     all.add("angle", &B::angle, degrees(),
-            "of an ellipse counterclockwise; of an aerofoil that of attack, which lifts its nose");
+            "of an ellipse or a file's shape counterclockwise; of an aerofoil that of attack, which lifts its nose");
     all.add("points", &B::points, numbers(dimensions::length), "corners of a polygon, pairs, either way around");
+    all.add_said("path", "a text",
+                 "of a file, from the scenario's folder: x and y of one corner a line, either way around");
+    all.add("length", &B::length, number(dimensions::length, positive), "the file's unit of length", "the base's");
     all.add("panels", &B::panels, whole(3, 2000),
             "how many pieces the outline is cut into; 2000 of all bodies at most");
     all.add_of<B>(
@@ -44,7 +49,8 @@ OptionTable const& body_options() {
         "of the body's vortex sheet, counterclockwise");
     all.add_of<B>(
         "kutta", [](B& b) -> OptionPlace { return &b.sheet.kutta; }, flag(),
-        "the flow leaves the trailing edge smoothly, which gives the circulation; of a polygon its first point is that "
+        "the flow leaves the trailing edge smoothly, which gives the circulation; of a polygon, also from a file, its "
+        "first point is that "
         "edge");
     all.add(
         "no_slip", &B::no_slip, text(),
@@ -63,6 +69,7 @@ OptionTable const& body_options() {
     all.at("semi_axes").needed = "[2, 1]";
     all.at("naca").needed = "\"0012\"";
     all.at("chord").needed = "1";
+    all.at("path").needed = "\"wing.txt\"";
     all.at("points").needed = "[[0, 0], [1, 0], [0, 1]]";
     return all;
   }();
@@ -85,6 +92,10 @@ Outline outline_of(BodyOptions const& options) {
     }
     case BodyShape::naca:
       return naca_outline(options.naca, place(options.centre), options.chord, angle, panels);
+    case BodyShape::file:
+      return outline_from_file(options.path, panels,
+                               {options.length > 0 ? options.length : 1, angle, place(options.centre)},
+                               options.sheet.kutta);
     case BodyShape::polygon:
       break;
   }
@@ -99,10 +110,12 @@ OptionTable body_options(BodyShape shape) {
   if (shape == BodyShape::circle) keys.push_back({"radius"});
   if (shape == BodyShape::ellipse) keys.push_back({"semi_axes"});
   if (shape == BodyShape::naca) keys.push_back({"naca"}), keys.push_back({"chord"});
-  if (shape == BodyShape::ellipse || shape == BodyShape::naca) keys.push_back({"angle"});
+  bool const turns = shape == BodyShape::ellipse || shape == BodyShape::naca || shape == BodyShape::file;
+  if (shape == BodyShape::file) keys.push_back({"path"}), keys.push_back({"length"});
+  if (turns) keys.push_back({"angle"});
   if (shape == BodyShape::polygon) keys.push_back({"points"});
   for (char const* key : {"panels", "circulation"}) keys.push_back({key});
-  if (shape == BodyShape::naca || shape == BodyShape::polygon) keys.push_back({"kutta"});
+  if (shape != BodyShape::circle && shape != BodyShape::ellipse) keys.push_back({"kutta"});
   for (char const* key : {"no_slip", "colour", "diameter"}) keys.push_back({key});
   return body_options().only(keys);
 }

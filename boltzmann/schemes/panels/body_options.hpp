@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-enum class BodyShape { circle, ellipse, naca, polygon };
+enum class BodyShape { circle, ellipse, naca, polygon, file };
 Words<BodyShape> const& body_shape_words();
 
 struct BodyOptions {
@@ -24,6 +24,8 @@ struct BodyOptions {
   std::optional<std::array<double, 3>> semi_axes;
   std::string naca;
   std::vector<std::array<double, 2>> points;
+  std::string path;   ///< of the file
+  double length = 0;  ///< of the file's unit; 0: that of the simulation
   int panels = 200;
   BodySheet sheet;
   std::string no_slip;

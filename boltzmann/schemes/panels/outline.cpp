@@ -1,15 +1,21 @@
 // Corners of shapes.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number.hpp>
+#include <boltzmann/laws/two_columns.hpp>
 #include <boltzmann/schemes/panels/outline.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace boltzmann {
 namespace {
+
+constexpr std::size_t max_corners = 4000;
 
 double area(std::vector<Vector<2>> const& corners) {
   double twice = 0;
@@ -24,16 +30,20 @@ double turn(Vector<2> const& a, Vector<2> const& b, Vector<2> const& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Whether the sides of a polygon that have no common corner meet.
-bool sides_cross(std::vector<Vector<2>> const& points) {
+/// Two sides of a polygon that meet other than at their common corner, by the numbers of the corners where they begin.
+std::optional<std::array<std::size_t, 2>> crossing_sides(std::vector<Vector<2>> const& points) {
   std::size_t const count = points.size();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t const next = (i + 1) % count;
+    auto const &a = points[i], &b = points[next], &beyond = points[(i + 2) % count];
+    if (turn(a, b, beyond) == 0 && dot(b - a, beyond - b) < 0) return std::array{i, next};  // it goes back
     for (std::size_t j = i + 2; j < count; ++j) {
       if (i == 0 && j + 1 == count) continue;
-      auto const &a = points[i], &b = points[i + 1], &c = points[j], &d = points[(j + 1) % count];
-      if (turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0) return true;
+      auto const &c = points[j], &d = points[(j + 1) % count];
+      if (turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0) return std::array{i, j};
     }
-  return false;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -41,8 +51,8 @@ bool sides_cross(std::vector<Vector<2>> const& points) {
 void check(Outline const& outline) {
   auto const& corners = outline.corners;
   if (corners.size() < 3) throw Error(fmt::format("an outline needs 3 or more panels, not {}", corners.size()));
-  if (corners.size() > 4000)
-    throw Error(fmt::format("an outline of {} panels: at most 4000 can be solved for", corners.size()));
+  if (corners.size() > max_corners)
+    throw Error(fmt::format("an outline of {} panels: at most {} can be solved for", corners.size(), max_corners));
   for (std::size_t i = 0; i < corners.size(); ++i) {
     auto const& next = corners[(i + 1) % corners.size()];
     if (!std::isfinite(corners[i][0]) || !std::isfinite(corners[i][1]))
@@ -106,7 +116,7 @@ Outline naca_outline(std::string const& digits, Vector<2> const& centre, double 
 Outline polygon_outline(std::vector<Vector<2>> points, std::size_t panels, bool sharp) {
   if (points.size() < 3) throw Error(fmt::format("a polygon needs 3 or more points, not {}", points.size()));
   if (area(points) < 0) std::reverse(points.begin() + 1, points.end());
-  if (sides_cross(points)) throw Error("the sides of the polygon cross each other");
+  if (crossing_sides(points)) throw Error("the sides of the polygon cross each other");
   double around = 0;
   for (std::size_t i = 0; i < points.size(); ++i) around += magnitude(points[(i + 1) % points.size()] - points[i]);
   Outline outline;
@@ -120,6 +130,28 @@ Outline polygon_outline(std::vector<Vector<2>> points, std::size_t panels, bool 
   }
   check(outline);
   return outline;
+}
+
+Outline outline_from_file(std::string const& path, std::size_t panels, OutlinePlace const& place, bool sharp) {
+  auto lines = read_pairs(path, "x", "y");
+  if (lines.size() > 1 && lines.front().numbers == lines.back().numbers) lines.pop_back();  // it is closed
+  if (lines.size() < 3) throw Error(fmt::format("{}: {} points; an outline needs 3 or more", path, lines.size()));
+  if (lines.size() > max_corners)
+    throw Error(fmt::format("{}: {} points; an outline has at most {}", path, lines.size(), max_corners));
+  double const c = std::cos(place.angle), s = std::sin(place.angle);
+  std::vector<Vector<2>> points;
+  for (auto const& [numbers, line] : lines) {
+    double const x = place.length * numbers[0], y = place.length * numbers[1];
+    points.push_back({place.centre[0] + c * x - s * y, place.centre[1] + s * x + c * y});
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i] == points[(i + 1) % points.size()])
+      throw Error(fmt::format("{}:{}: the point is that of line {} again", path, lines[(i + 1) % points.size()].line,
+                              lines[i].line));
+  if (auto const sides = crossing_sides(points))
+    throw Error(fmt::format("{}:{}: the side from here to the next point meets that from line {}", path,
+                            lines[(*sides)[1]].line, lines[(*sides)[0]].line));
+  return polygon_outline(std::move(points), panels, sharp);
 }
 
 }  // namespace boltzmann

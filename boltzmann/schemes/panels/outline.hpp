@@ -28,6 +28,18 @@ Outline naca_outline(std::string const& digits, Vector<2> const& centre, double 
 /// sides cross or nothing is inside.
 Outline polygon_outline(std::vector<Vector<2>> points, std::size_t panels, bool sharp = false);
 
+/// Where a shape of a file is put: its numbers times `length`, turned counterclockwise by `angle` (radians) about its
+/// origin, which is at `centre`.
+struct OutlinePlace {
+  double length = 1, angle = 0;
+  Vector<2> centre{};
+};
+/// The polygon through the points of a file, x and y on a line of its own (laws/two_columns.hpp), either way around; the
+/// first may stand at the end again. With a `sharp` edge it is the first. Error with file and line if it can't be read, if
+/// two neighbours are at one place or sides meet.
+Outline outline_from_file(std::string const& path, std::size_t panels, OutlinePlace const& place = {},
+                          bool sharp = false);
+
 /// Error, in one line, if it is no outline: fewer than 3 corners, two at one place, clockwise.
 void check(Outline const& outline);
 

@@ -127,8 +127,8 @@ void PanelSheet::factorise() {
   numbers_.assign(count, 0.0);
 }
 
-void PanelSheet::solve(std::span<double const> normal_velocity) {
-  if (equations_.size() == 0) factorise();
+void PanelSheet::state_equations(std::span<double const> normal_velocity, bool prescribed,
+                                 std::vector<double>& numbers) const {
   std::size_t row = 0;
   for (auto const& body : bodies_) {
     double flux = 0, around = 0;
@@ -137,12 +137,31 @@ void PanelSheet::solve(std::span<double const> normal_velocity) {
     double stream =
         0;  // of what comes from outside; nothing flows out of a body, but for errors of the mean velocities
     for (std::size_t k = body.first_panel; k < body.first_panel + body.panels; ++k) {
-      numbers_[row++] = -stream;
+      numbers[row++] = -stream;
       stream += (normal_velocity[k] - flux / around) * panels_[k].length;
     }
-    numbers_[row++] = body.kutta ? 0 : body.circulation;
-    if (body.kutta) numbers_[row++] = 0;
+    numbers[row++] = body.kutta || !prescribed ? 0 : body.circulation;
+    if (body.kutta) numbers[row++] = 0;
   }
+}
+
+Vector<2> PanelSheet::added_impulse(std::span<double const> normal_velocity) const {
+  Vector<2> impulse{0, 0};
+  if (equations_.size() == 0) return impulse;
+  std::vector<double> numbers(numbers_.size());
+  state_equations(normal_velocity, false, numbers);
+  equations_.solve(numbers);
+  for (auto const& panel : panels_) {
+    auto const middle = panel.middle();
+    double const circulation = 0.5 * (numbers[panel.first] + numbers[panel.second]) * panel.length;
+    impulse += Vector<2>{middle[1], -middle[0]} * circulation;
+  }
+  return impulse;
+}
+
+void PanelSheet::solve(std::span<double const> normal_velocity) {
+  if (equations_.size() == 0) factorise();
+  state_equations(normal_velocity, true, numbers_);
   equations_.solve(numbers_);
   std::copy_n(numbers_.begin(), strengths_.size(), strengths_.begin());
   place_points();

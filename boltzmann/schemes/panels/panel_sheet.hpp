@@ -55,6 +55,10 @@ class PanelSheet {
   /// factorises the equations. Error if they are singular.
   void solve(std::span<double const> normal_velocity);
 
+  /// The impulse, sum of strength times (y, -x), that a flow of these velocities adds to the sheet: as `solve`, but what the
+  /// sheet has without it is left out. Nothing before the first call of `solve`.
+  Vector<2> added_impulse(std::span<double const> normal_velocity) const;
+
   /// Of the sheet, at any place, by the integrals over all panels.
   Vector<2> velocity(Vector<2> const& place) const;
   double stream_function(Vector<2> const& place) const;
@@ -86,6 +90,8 @@ class PanelSheet {
   };
 
   void factorise();
+  /// The right-hand side of the equations, of the flow and, if told, of what circulations are prescribed.
+  void state_equations(std::span<double const> normal_velocity, bool prescribed, std::vector<double>& numbers) const;
   void find_near_cells();
   void place_points();
   Vector<2> velocity(SheetPanel const& panel, Vector<2> const& place) const;

@@ -1,0 +1,138 @@
+// Those beyond a plane, and what went with them.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/number.hpp>
+#include <boltzmann/simulation/outflow.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boltzmann {
+
+void OutflowPlane::check(int dimension) const {
+  if (!from) throw Error("outflow: it has no place; add e.g. from = [10, 0]");
+  if (!direction) throw Error("outflow: it has no direction; add e.g. direction = [1, 0]");
+  double length = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    if (!std::isfinite((*from)[a]) || !std::isfinite((*direction)[a]))
+      throw Error("outflow: a place or a direction is not finite");
+    length = std::hypot(length, (*direction)[a]);
+  }
+  if (!(length > 0)) throw Error("outflow: the direction is that of nothing, all its numbers are 0");
+}
+
+bool OutflowPlane::beyond(double const* place, int dimension) const {
+  double along = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    along += (place[a] - (*from)[a]) * (*direction)[a];
+  return along > 0;
+}
+
+Outflow::Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plane, PanelScheme const* bodies)
+    : ensemble_(&ensemble), plane_(plane), bodies_(bodies) {
+  if (ensemble.find_field("velocity") || ensemble.find_field("mass") || ensemble.influence_size() == 0)
+    throw Error(
+        fmt::format("outflow: '{}' is of class {}, which no flow carries; tracers and vortices leave with a flow",
+                    ensemble.name(), ensemble.class_name()));
+  plane_.check(box.dimension());
+}
+
+/// Counts what goes with one.
+void Outflow::leave(double const* row) {
+  Field const* const vorticity = ensemble_->find_field("vorticity");
+  if (!vorticity) return;
+  int const dimension = ensemble_->dimension();
+  Vector<3> place{}, strength{};
+  for (int a = 0; a < dimension; ++a) place[a] = row[a];
+  for (int k = 0; k < vorticity->components; ++k)
+    strength[vorticity->components == 1 ? 2 : k] = row[vorticity->offset + k];
+  vorticity_ += strength;
+  impulse_ += cross(place, strength) * (dimension == 2 ? 1 : 0.5);
+  if (!bodies_ || dimension != 2) return;
+  auto const& panels = bodies_->sheet().panels();
+  normal_velocity_.resize(panels.size());
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    auto const middle = panels[k].middle(), normal = panels[k].normal();
+    double const x = middle[0] - place[0], y = middle[1] - place[1];
+    normal_velocity_[k] += strength[2] / (2 * pi * (x * x + y * y)) * (x * normal[1] - y * normal[0]);
+  }
+}
+
+void Outflow::change() {
+  int const dimension = ensemble_->dimension();
+  std::size_t const count = ensemble_->size(), doubles = ensemble_->doubles();
+  std::size_t stay = 0;
+  std::fill(normal_velocity_.begin(), normal_velocity_.end(), 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    double const* const row = ensemble_->row(i);
+    if (plane_.beyond(row, dimension)) {
+      leave(row);
+      continue;
+    }
+    if (stay != i) std::copy_n(row, doubles, ensemble_->row(stay));
+    ++stay;
+  }
+  if (stay == count) return;
+  left_ += count - stay;
+  if (!normal_velocity_.empty()) sheet_impulse_ += bodies_->sheet().added_impulse(normal_velocity_);
+  ensemble_->resize(stay);
+  ensemble_->clear_influence();
+}
+
+std::string Outflow::report(UnitSystem const& units) const {
+  if (left_ == 0) return "";
+  std::string line = fmt::format("'{}': {} {} left with the flow, {} stay", ensemble_->name(), left_,
+                                 left_ == 1 ? "has" : "have", ensemble_->size());
+  if (!ensemble_->find_field("vorticity")) return line;
+  using namespace dimensions;
+  bool const plane = ensemble_->dimension() == 2;
+  Dimension const strength = plane ? circulation : circulation * length;
+  line += fmt::format("; {} {}, impulse {}, {}", plane ? "circulation" : "vorticity",
+                      units.text(plane ? vorticity_[2] : magnitude(vorticity_), strength),
+                      units.text(impulse_[0], strength * length), units.text(impulse_[1], strength * length));
+  return plane ? line : line + ", " + units.text(impulse_[2], strength * length);
+}
+
+FlowImpulse Outflow::taken() const {
+  if (ensemble_->dimension() != 2) return {};
+  return {{impulse_[0] + sheet_impulse_[0], impulse_[1] + sheet_impulse_[1]}, vorticity_[2]};
+}
+
+std::vector<double> Outflow::state() const {
+  return {
+      static_cast<double>(left_), vorticity_[0],    vorticity_[1], vorticity_[2], impulse_[0], impulse_[1], impulse_[2],
+      sheet_impulse_[0],          sheet_impulse_[1]};
+}
+
+void Outflow::restore(std::span<double const> state) {
+  if (state.size() != 9) throw Error("the checkpoint does not fit this simulation: it has no outflow");
+  left_ = static_cast<std::size_t>(state[0]);
+  vorticity_ = {state[1], state[2], state[3]};
+  impulse_ = {state[4], state[5], state[6]};
+  sheet_impulse_ = {state[7], state[8]};
+}
+
+OptionTable const& outflow_options() {
+  using namespace option;
+  static OptionTable const all = [] {
+    using O = OutflowOptions;
+    OptionTable table;
+    table.add("every", &O::every, whole(1, std::numeric_limits<double>::infinity()),
+              "so many steps from one look to the next");
+    table.add_said("on", "the name of an ensemble, or a list", "who leaves", "all tracers and vortices");
+    table.add_of<O>(
+        "from", [](O& o) -> OptionPlace { return &o.how.from; }, vector(dimensions::length),
+        "a point of the plane beyond which nobody stays");
+    table.add_of<O>(
+        "direction", [](O& o) -> OptionPlace { return &o.how.direction; }, vector(dimensions::none),
+        "across that plane, downstream, of any length");
+    table.at("from").needed = "[10, 0]";
+    table.at("direction").needed = "[1, 0]";
+    return table;
+  }();
+  return all;
+}
+
+}  // namespace boltzmann
