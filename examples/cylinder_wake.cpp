@@ -30,7 +30,7 @@ void cylinder_wake(Program& program) {
   simulation.integrate(wake, Method::rk2);
   simulation.adapt(1, NoSlip(bodies, wake, {0}, step));
   simulation.adapt(1, Remesher(wake, box, {.spacing = spacing, .core = spacing, .threshold = 1e-3, .margin = 2}));
-  simulation.adapt(1, Outflow(wake, box, {.from = {{3, 0}}, .direction = {{1, 0}}}, &bodies));
+  simulation.adapt(1, Outflow(wake, box, {.from = {{3, 0, 0}}, .direction = {{1, 0, 0}}}, {.bodies = &bodies}));
   simulation.adapt(1, OutsideBodies(bodies));
 
   Recording recording = program.recording(simulation);

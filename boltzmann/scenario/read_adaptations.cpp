@@ -65,11 +65,27 @@ bool complete(OutflowOptions& options, Item const& table, Reading& reading) {
   return true;
 }
 
+/// Where they go to; those who are there already stay.
+void read_into(Section& section, OutflowOptions& options, std::vector<AnyEnsemble*>& ensembles, Reading& reading) {
+  Item const* const into = section.find("into");
+  if (!into) return;
+  ReadEnsemble* const found = reading.ensemble(*into, "into");
+  if (!found || !found->particles) return;
+  if (found->integrator && !found->integrator->same_for_all())
+    reading.mistake(into->place,
+                    fmt::format("outflow: some particles of '{}' are frozen, by their numbers, and more are "
+                                "added; make an ensemble of those",
+                                found->name));
+  options.into = found->particles;
+  if (!section.has("on"))
+    std::erase_if(ensembles, [&](AnyEnsemble* one) { return one == options.into || !one->find_field("vorticity"); });
+}
+
 template <class Adapter, class Options>
 std::shared_ptr<Adapter> adapter_of(AnyEnsemble& ensemble, Options const& options, Reading& reading) {
   if constexpr (std::is_same_v<Adapter, Outflow>)
     return std::make_shared<Outflow>(ensemble, reading.result->box(), options.how,
-                                     reading.result->scheme<PanelScheme>());
+                                     OutflowInto{options.into, reading.result->scheme<PanelScheme>()});
   else
     return std::make_shared<Adapter>(ensemble, reading.result->box(), options.how);
 }
@@ -81,7 +97,8 @@ void read_one(Item const& table, std::string const& key, OptionTable const& know
   Section section(table, key, reading.context);
   Options options;
   read_options(section, known, &options, {.dimension = reading.dimension});
-  auto const ensembles = read_on(section, key, fits, reading);
+  auto ensembles = read_on(section, key, fits, reading);
+  if constexpr (std::is_same_v<Options, OutflowOptions>) read_into(section, options, ensembles, reading);
   section.finish();
   if (reading.context.mistakes.count() != before || !reading.box) return;
   if (!complete(options, table, reading)) return;

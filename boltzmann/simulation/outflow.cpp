@@ -30,13 +30,21 @@ bool OutflowPlane::beyond(double const* place, int dimension) const {
   return along > 0;
 }
 
-Outflow::Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plane, PanelScheme const* bodies)
-    : ensemble_(&ensemble), plane_(plane), bodies_(bodies) {
+Outflow::Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plane, OutflowInto const& to)
+    : ensemble_(&ensemble), plane_(plane), to_(to) {
   if (ensemble.find_field("velocity") || ensemble.find_field("mass") || ensemble.influence_size() == 0)
     throw Error(
         fmt::format("outflow: '{}' is of class {}, which no flow carries; tracers and vortices leave with a flow",
                     ensemble.name(), ensemble.class_name()));
   plane_.check(box.dimension());
+  if (!to.into) return;
+  if (to.into == &ensemble) throw Error(fmt::format("outflow: '{}' can't leave into itself", ensemble.name()));
+  for (AnyEnsemble const* one : {static_cast<AnyEnsemble const*>(&ensemble), static_cast<AnyEnsemble const*>(to.into)})
+    if (!one->find_field("vorticity"))
+      throw Error(fmt::format("outflow: '{}' is of class {}; only vortices become part of another ensemble of vortices",
+                              one->name(), one->class_name()));
+  if (to.into->size() == 0)
+    throw Error(fmt::format("outflow: '{}' needs a particle as an example of those that enter it", to.into->name()));
 }
 
 /// Counts what goes with one.
@@ -50,14 +58,25 @@ void Outflow::leave(double const* row) {
     strength[vorticity->components == 1 ? 2 : k] = row[vorticity->offset + k];
   vorticity_ += strength;
   impulse_ += cross(place, strength) * (dimension == 2 ? 1 : 0.5);
-  if (!bodies_ || dimension != 2) return;
-  auto const& panels = bodies_->sheet().panels();
+  if (!to_.bodies || dimension != 2) return;
+  auto const& panels = to_.bodies->sheet().panels();
   normal_velocity_.resize(panels.size());
   for (std::size_t k = 0; k < panels.size(); ++k) {
     auto const middle = panels[k].middle(), normal = panels[k].normal();
     double const x = middle[0] - place[0], y = middle[1] - place[1];
     normal_velocity_[k] += strength[2] / (2 * pi * (x * x + y * y)) * (x * normal[1] - y * normal[0]);
   }
+}
+
+/// Makes one a particle of the other ensemble.
+void Outflow::enter(double const* row) {
+  AnyEnsemble& into = *to_.into;
+  std::size_t const at = into.size();
+  into.resize(at + 1);
+  if (at > 0) std::copy_n(into.row(0), into.doubles(), into.row(at));
+  for (auto const& field : into.fields())
+    if (Field const* const same = ensemble_->find_field(field.name); same && same->components == field.components)
+      std::copy_n(row + same->offset, field.components, into.row(at) + field.offset);
 }
 
 void Outflow::change() {
@@ -68,7 +87,10 @@ void Outflow::change() {
   for (std::size_t i = 0; i < count; ++i) {
     double const* const row = ensemble_->row(i);
     if (plane_.beyond(row, dimension)) {
-      leave(row);
+      if (to_.into)
+        enter(row);
+      else
+        leave(row);
       continue;
     }
     if (stay != i) std::copy_n(row, doubles, ensemble_->row(stay));
@@ -76,13 +98,17 @@ void Outflow::change() {
   }
   if (stay == count) return;
   left_ += count - stay;
-  if (!normal_velocity_.empty()) sheet_impulse_ += bodies_->sheet().added_impulse(normal_velocity_);
+  if (!normal_velocity_.empty()) sheet_impulse_ += to_.bodies->sheet().added_impulse(normal_velocity_);
   ensemble_->resize(stay);
   ensemble_->clear_influence();
+  if (to_.into) to_.into->clear_influence();
 }
 
 std::string Outflow::report(UnitSystem const& units) const {
   if (left_ == 0) return "";
+  if (to_.into)
+    return fmt::format("'{}': {} {} gone over to '{}', {} stay", ensemble_->name(), left_, left_ == 1 ? "has" : "have",
+                       to_.into->name(), ensemble_->size());
   std::string line = fmt::format("'{}': {} {} left with the flow, {} stay", ensemble_->name(), left_,
                                  left_ == 1 ? "has" : "have", ensemble_->size());
   if (!ensemble_->find_field("vorticity")) return line;
@@ -128,6 +154,9 @@ OptionTable const& outflow_options() {
     table.add_of<O>(
         "direction", [](O& o) -> OptionPlace { return &o.how.direction; }, vector(dimensions::none),
         "across that plane, downstream, of any length");
+    table.add_said("into", "the name of an ensemble",
+                   "of vortices, which takes up those who leave: a wake that is remeshed on a wider lattice",
+                   "they are gone");
     table.at("from").needed = "[10, 0]";
     table.at("direction").needed = "[1, 0]";
     return table;

@@ -1,6 +1,7 @@
-// Outflow: vortices and tracers that the flow has carried far enough leave the simulation.
+// Outflow: vortices and tracers that the flow has carried far enough leave the simulation, or become part of a coarser
+// wake.
 //
-//   simulation.adapt(1, Outflow(wake, {.from = {{10, 0}}, .direction = {{1, 0}}}));
+//   simulation.adapt(1, Outflow(wake, box, {.from = {{10, 0, 0}}, .direction = {{1, 0, 0}}}, &bodies));
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -29,15 +30,23 @@ struct OutflowPlane {
   bool beyond(double const* place, int dimension) const;
 };
 
+/// Where what leaves goes to, and what else it concerns; both may be null, and outlive the outflow.
+struct OutflowInto {
+  AnyEnsemble* into = nullptr;          ///< an ensemble of vortices, of any class, that takes up those who leave
+  PanelScheme const* bodies = nullptr;  ///< whose sheets lose a part with those who leave for good
+};
+
 /// Removes what is beyond the plane; those who stay keep their order. What has left carries nobody any more: in 2D a
 /// vortex Gamma at a distance d has moved the fluid at Gamma / (2 pi d). Circulation and impulse that went are told. Forces
 /// on bodies count them, and what the bodies' sheets lose with them (Adaptation::taken): they are those of the flow
-/// without the ones that left, and have no jumps.
+/// without the ones that left, and have no jumps. With an ensemble to go into nothing is lost: each becomes a particle of
+/// that one, with the fields that both classes have; others are those of its first particle. Remeshed on a wider lattice
+/// it is a far wake that costs little.
 class Outflow final : public Adaptation {
  public:
-  /// Ensemble and bodies, if there are any, must outlive it. Error if no flow carries the ensemble, or there is no such
-  /// plane.
-  Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plane, PanelScheme const* bodies = nullptr);
+  /// The ensemble must outlive it. Error if no flow carries the ensemble, there is no such plane, or an ensemble to go into
+  /// is not one of vortices, the same, or empty.
+  Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plane, OutflowInto const& to = {});
 
   void change() override;
   std::string report(UnitSystem const& units) const override;
@@ -52,10 +61,11 @@ class Outflow final : public Adaptation {
 
  private:
   void leave(double const* row);
+  void enter(double const* row);
 
   AnyEnsemble* ensemble_;
   OutflowPlane plane_;
-  PanelScheme const* bodies_;
+  OutflowInto to_;
   std::size_t left_ = 0;
   Vector<3> vorticity_{}, impulse_{};
   Vector<2> sheet_impulse_{};
@@ -66,6 +76,7 @@ class Outflow final : public Adaptation {
 struct OutflowOptions {
   std::int64_t every = 1;
   OutflowPlane how;
+  AnyEnsemble* into = nullptr;  ///< read by code
 };
 OptionTable const& outflow_options();
 
