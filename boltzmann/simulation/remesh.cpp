@@ -322,9 +322,14 @@ class Mesh {
       }
       done.magnitudes_lost += one.magnitude;
       ++done.removed;
+      Vector<3> strength{}, at{};
       for (int k = 0; k < components_; ++k)
-        done.vorticity_lost[components_ == 1 ? 2 : k] +=
+        strength[components_ == 1 ? 2 : k] =
             strength_[one.number * static_cast<std::size_t>(components_) + static_cast<std::size_t>(k)];
+      auto const x = place(one.number);
+      for (int a = 0; a < dimension_; ++a) at[a] = x[static_cast<std::size_t>(a)];
+      done.vorticity_lost += strength;
+      done.impulse_lost += cross(at, strength) * (dimension_ == 2 ? 1 : 0.5);
     }
     return done;
   }

@@ -44,6 +44,7 @@ struct Remeshed {
   std::size_t removed = 0;           ///< nodes that were left out although they had vorticity
   Vector<3> vorticity_lost{};        ///< the sum of that; in 2D the third number
   double magnitudes_lost = 0;        ///< and of its magnitudes
+  Vector<3> impulse_lost{};          ///< sum Gamma (y, -x) of that; 1/2 sum x x alpha
   std::size_t left_as_they_are = 0;  ///< vortices in corners with no place for nodes
 };
 

@@ -18,6 +18,7 @@ void Remesher::change() {
   done_.removed += now.removed;
   done_.vorticity_lost += now.vorticity_lost;
   done_.magnitudes_lost += now.magnitudes_lost;
+  done_.impulse_lost += now.impulse_lost;
   done_.left_as_they_are += now.left_as_they_are;
 }
 
@@ -36,17 +37,25 @@ std::string Remesher::report(UnitSystem const& units) const {
   return line;
 }
 
+FlowImpulse Remesher::taken() const {
+  if (ensemble_->dimension() != 2) return {};
+  return {{done_.impulse_lost[0], done_.impulse_lost[1]}, done_.vorticity_lost[2]};
+}
+
 std::vector<double> Remesher::state() const {
-  auto const& lost = done_.vorticity_lost;
-  return {static_cast<double>(times_), static_cast<double>(done_.removed),         lost[0], lost[1], lost[2],
-          done_.magnitudes_lost,       static_cast<double>(done_.left_as_they_are)};
+  auto const &lost = done_.vorticity_lost, &impulse = done_.impulse_lost;
+  return {static_cast<double>(times_), static_cast<double>(done_.removed),          lost[0],    lost[1],    lost[2],
+          done_.magnitudes_lost,       static_cast<double>(done_.left_as_they_are), impulse[0], impulse[1], impulse[2]};
 }
 
 void Remesher::restore(std::span<double const> state) {
-  if (state.size() != 7) throw Error("the checkpoint does not fit this simulation: it has no remeshing");
+  if (state.size() != 10) throw Error("the checkpoint does not fit this simulation: it has no remeshing");
   times_ = static_cast<std::size_t>(state[0]);
-  done_ = {
-      static_cast<std::size_t>(state[1]), {state[2], state[3], state[4]}, state[5], static_cast<std::size_t>(state[6])};
+  done_ = {static_cast<std::size_t>(state[1]),
+           {state[2], state[3], state[4]},
+           state[5],
+           {state[7], state[8], state[9]},
+           static_cast<std::size_t>(state[6])};
 }
 
 }  // namespace boltzmann

@@ -15,6 +15,8 @@ class Remesher final : public Adaptation {
 
   void change() override;
   std::string report(UnitSystem const& units) const override;
+  /// What went with weak nodes that were left out.
+  FlowImpulse taken() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
