@@ -309,15 +309,9 @@ TEST(CylinderWake, IsThatOfAllPairsByMultipoles) {
   EXPECT_NEAR(one.impulse[1], other.impulse[1], 1e-7);
 }
 
-<<<<<<< HEAD
-// Strouhal's number at a Reynolds number of 100, 0.164 (C. H. K. Williamson, J. Fluid Mech. 206, 579, 1989): the scenario's
-// resolution gives 0.167 and a drag coefficient of 1.34. This is two and a half times as coarse, which gives 0.173 and 1.18:
-// slip at the wall goes with the core.
-=======
 // Strouhal's number at a Reynolds number of 100, 0.164 (C. H. K. Williamson, J. Fluid Mech. 206, 579, 1989): the scenario
 // gives 0.167 and a drag coefficient of 1.30. This is 1.6 times as coarse, which gives 0.173 and 1.18: slip at the wall goes
 // with the core.
->>>>>>> 149edbed4b4a127fc7abae758d50cfea1d35a957
 TEST(KarmanStreet, IsShedAsOftenAsMeasured) {
   Overrides overrides;
   overrides.set = {"run.step=0.1",
