@@ -14,7 +14,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t grain = 2048;
+constexpr std::size_t field_grain = 2048;
 
 /// The driven fields of all particles as numbers that Gauss-Radau advances.
 class FieldEquations final : public EquationsOfMotion {
@@ -166,7 +166,7 @@ class WithDrivenFields final : public Integrator {
   template <class F>
   void over_particles(F const& f) {
     std::size_t const size = ensemble_.size();
-    for_ranges(size, grain, threads_for(size, 1, threads_), [&](std::size_t begin, std::size_t end) { f(begin, end); });
+    for_ranges(size, field_grain, threads_for(size, 1, threads_), [&](std::size_t begin, std::size_t end) { f(begin, end); });
   }
 
   /// A random step of variance 2 D dt; the coefficients stand behind the rates.
@@ -205,7 +205,7 @@ class WithDrivenFields final : public Integrator {
 
   /// The first particle that has a field which is not finite.
   void find_not_finite() {
-    std::vector<std::size_t> first((ensemble_.size() + grain - 1) / grain, LargestMove::nobody);
+    std::vector<std::size_t> first((ensemble_.size() + field_grain - 1) / field_grain, LargestMove::nobody);
     over_particles([&](std::size_t begin, std::size_t end) {
       for (auto const& field : ensemble_.driven())
         for (int c = 0; c < field.components; ++c) {
@@ -213,7 +213,7 @@ class WithDrivenFields final : public Integrator {
           for (std::size_t i = begin; i < end; ++i) zero += 0 * ensemble_.row(i)[field.offset + c];
           for (std::size_t i = begin; i < end && zero != 0; ++i)
             if (!std::isfinite(ensemble_.row(i)[field.offset + c])) {
-              first[begin / grain] = std::min(first[begin / grain], i);
+              first[begin / field_grain] = std::min(first[begin / field_grain], i);
               break;
             }
         }
