@@ -1,7 +1,7 @@
 // Outflow: vortices and tracers that the flow has carried far enough leave the simulation, or become part of a coarser
 // wake.
 //
-//   simulation.adapt(1, Outflow(wake, box, {.from = {{10, 0, 0}}, .direction = {{1, 0, 0}}}, &bodies));
+//   simulation.adapt(1, Outflow(wake, box, {.from = {{10, 0, 0}}, .direction = {{1, 0, 0}}}, {.bodies = &bodies}));
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>

@@ -356,7 +356,7 @@ TEST(PressureTables, ComeFromFiles) {
   EXPECT_EQ(says("0 2\n1 3\n"), ":1: the density 0 must be positive");
   EXPECT_EQ(says("1 2\n"), ": 1 points; a table needs at least 2");
   std::filesystem::remove(path);
-  EXPECT_EQ(message([&] { PressureTable::from_file(path); }), path + ": can't open the table");
+  EXPECT_EQ(message([&] { PressureTable::from_file(path); }), path + ": can't open the file");
   std::vector<PressurePoint> const wrong{{1, 2}, {1, 3}}, nan{{1, std::nan("")}, {2, 3}};
   EXPECT_EQ(message([&] { PressureTable const t(wrong); }),
             "pressure table: the density 1 of point 1 must be above 1, the one before");

@@ -247,7 +247,7 @@ TEST_F(TableFile, IsRead) {
 }
 
 TEST_F(TableFile, EveryMistakeIsOneLine) {
-  EXPECT_EQ(complaint(), ": can't open the table");
+  EXPECT_EQ(complaint(), ": can't open the file");
   write("1 2\n1.5 two\n");
   EXPECT_EQ(complaint(), ":2: 'two' is not a finite number");
   write("1 2\n1.5 nan\n");
