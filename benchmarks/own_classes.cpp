@@ -3,6 +3,8 @@
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -44,7 +46,8 @@ struct Grain : Newton<D, Real> {
 };
 
 std::string scenario(bool liquid) {
-  std::string const edge = std::to_string(20 * spacing_for_density(Lattice::fcc, 3, 0.8442));
+  LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {20, 20, 20}};
+  std::string const edge = fmt::format("{}", repeat_lengths(block, 3)[0]);
   return "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0, 0]\nhigh = [" + edge + ", " + edge + ", " + edge +
          "]\nboundary = \"periodic\"\n[run]\nstep = 0.002\nsteps = 1\ncutoff = 2.5\nskin = 0.3\nthreads = 1\n"
          "[[classes]]\nname = \"Grain\"\nbase = \"Newton\"\nfields = [{ name = \"charge\" }, { name = \"heat\" }, { "
@@ -54,7 +57,7 @@ std::string scenario(bool liquid) {
          "1\nintegrator = \"" +
          (liquid ? "leap-frog" : "rk4") +
          "\"\nload = { kind = \"block\", lattice = \"fcc\", counts = [20, 20, 20], spacing = " +
-         std::to_string(spacing_for_density(Lattice::fcc, 3, 0.8442)) + " }\ntemperature = 1.44\n" +
+         fmt::format("{}", block.spacing) + " }\ntemperature = 1.44\n" +
          (liquid ? "[[influences]]\nlaw = \"lennard-jones\"\ndepth = 1\nr0 = 1.122462048309373\non = \"atoms\"\n" : "");
 }
 

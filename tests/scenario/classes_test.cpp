@@ -222,7 +222,7 @@ std::string argon(std::string const& derived, std::string const& name) {
          "= "
          "0.004\nsteps = 20\ncutoff = 2.5\n" +
          derived + "[[ensembles]]\nname = \"a\"\nclass = \"" + name +
-         "\"\nload = { kind = \"block\", lattice = \"fcc\", spacing = 1.6, counts = [5, 5, 5] }\ntemperature = "
+         "\"\nload = { kind = \"block\", lattice = \"fcc\", spacing = 1.13, counts = [5, 5, 5] }\ntemperature = "
          "1\n[[influences]]\nlaw = "
          "\"lennard-jones\"\ndepth = 1\nr0 = 1.1\non = \"a\"\n";
 }
