@@ -50,7 +50,7 @@ struct ReadyPairs {
     traits.velocity_dependent = program.velocity_dependent;
     traits.one_way = !program.antisymmetric;
     traits.changes = field_changed(of, target);
-    traits.typed = program.numbers;
+    if (traits.moves()) traits.typed = program.numbers;  // rates may end at once, as those of neighbours do
     law = ready(std::move(program), target.dimension());
   }
 };
