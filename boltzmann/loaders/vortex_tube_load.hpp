@@ -35,7 +35,7 @@ struct VortexRing {
   double radius = std::numeric_limits<double>::quiet_NaN();  ///< needed
   std::array<double, 3> centre{0, 0, 0};
   std::array<double, 3> normal{0, 0, 1};  ///< of any length: where the ring goes to, if its circulation is positive
-  VortexTube tube;
+  VortexTube tube{};
 };
 void vortex_ring_load(AnyEnsemble& ensemble, VortexRing const& ring);
 
