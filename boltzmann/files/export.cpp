@@ -4,6 +4,7 @@
 #include <boltzmann/files/export.hpp>
 #include <boltzmann/files/spatial.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/particles/component_words.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
 
@@ -204,19 +205,6 @@ std::vector<std::string> dump_columns(ExportField const& field, int dimension) {
 }
 
 }  // namespace
-
-std::vector<std::string> component_words(int components, int dimension, int first_number) {
-  std::vector<std::string> words;
-  for (int c = 0; c < components; ++c) {
-    if (components == dimension)
-      words.emplace_back(1, "xyz"[c]);
-    else if (components == dimension * dimension)
-      words.push_back({"xyz"[c / dimension], "xyz"[c % dimension]});
-    else
-      words.push_back(std::to_string(c + first_number));
-  }
-  return words;
-}
 
 ExportParticles export_particles(AnyEnsemble const& ensemble) {
   ExportParticles particles{ensemble.name(), ensemble.dimension(), ensemble.size(), 1, {}};

@@ -27,9 +27,6 @@ struct ExportField {
   std::string unit = {};  ///< what the numbers are in then; empty: not told
 };
 
-/// The components of a field as words: x, y, z for a vector, xx, xy, ... for a tensor, else numbers.
-std::vector<std::string> component_words(int components, int dimension, int first_number = 0);
-
 /// The particles of an ensemble as other programs get them.
 struct ExportParticles {
   std::string name;

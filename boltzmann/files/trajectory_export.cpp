@@ -6,6 +6,7 @@
 #include <boltzmann/files/export.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory_export.hpp>
+#include <boltzmann/particles/component_words.hpp>
 
 #include <fmt/format.h>
 

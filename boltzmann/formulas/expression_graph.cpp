@@ -74,6 +74,30 @@ double value_of(Operation operation, double a, double b, double c) {
   return 0;
 }
 
+double power_of(double base, double exponent) {
+  if (exponent == 1) return base;
+  if (exponent == 0.5) return std::sqrt(base);
+  return std::pow(base, exponent);
+}
+
+/// A sum or a product of terms whose nodes have these values.
+template <class ValueOf>
+double value_of(Kind kind, double constant, std::vector<Term> const& terms, ValueOf const& value) {
+  double result = constant;
+  bool first = constant == (kind == Kind::sum ? 0 : 1);
+  for (auto const& [node, factor] : terms) {
+    double const x = value(node);
+    if (kind == Kind::sum)
+      result = first ? factor * x : result + factor * x;
+    else if (factor == -1)
+      result = (first ? 1 : result) / x;
+    else
+      result = first ? power_of(x, factor) : result * power_of(x, factor);
+    first = false;
+  }
+  return result;
+}
+
 /// Sorted by node, equal ones merged, those with nothing dropped.
 std::vector<Term> merged(std::vector<Term> terms) {
   std::stable_sort(terms.begin(), terms.end(), [](Term const& a, Term const& b) { return a.node < b.node; });
@@ -149,7 +173,20 @@ Expression ExpressionGraph::input(std::uint32_t which, bool never_negative) {
   return keep(std::move(node));
 }
 
+/// A sum or a product as it was written, but of numbers alone their value.
+Expression ExpressionGraph::written(Kind kind, double constant, std::vector<Term> const& terms) {
+  if (terms.size() == 1 && terms[0].factor == 1 && constant == (kind == Kind::sum ? 0 : 1)) return terms[0].node;
+  if (std::all_of(terms.begin(), terms.end(), [&](Term const& term) { return is_number(term.node); }))
+    return number(value_of(kind, constant, terms, [&](Expression e) { return nodes_[e].number; }));
+  Node result;
+  result.kind = kind;
+  result.number = constant;
+  result.terms = terms;
+  return keep(std::move(result));
+}
+
 Expression ExpressionGraph::sum(double constant, std::vector<Term> const& terms) {
+  if (form_ == Form::as_written) return written(Kind::sum, constant, terms);
   std::vector<Term> flat;
   for (auto const& [node, factor] : terms) {
     if (factor == 0) continue;
@@ -174,6 +211,7 @@ Expression ExpressionGraph::sum(double constant, std::vector<Term> const& terms)
 }
 
 Expression ExpressionGraph::product(std::vector<Term> const& factors) {
+  if (form_ == Form::as_written) return written(Kind::product, 1, factors);
   double coefficient = 1;
   std::vector<Term> flat;
   std::function<void(Expression, double)> const take = [&](Expression base, double exponent) {
@@ -341,6 +379,34 @@ Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
   return result;
 }
 
+Expression ExpressionGraph::replaced(Expression of, std::unordered_map<std::uint32_t, Expression> const& inputs) {
+  std::unordered_map<Expression, Expression> known;
+  return replace(of, inputs, known);
+}
+
+Expression ExpressionGraph::replace(Expression of, std::unordered_map<std::uint32_t, Expression> const& inputs,
+                                    std::unordered_map<Expression, Expression>& known) {
+  if (auto const found = known.find(of); found != known.end()) return found->second;
+  Node node = nodes_[of];
+  Expression result = of;
+  for (auto& term : node.terms) term.node = replace(term.node, inputs, known);
+  if (node.kind == Kind::input) {
+    if (auto const other = inputs.find(node.input); other != inputs.end()) result = other->second;
+  } else if (node.kind == Kind::sum) {
+    result = sum(node.number, node.terms);
+  } else if (node.kind == Kind::product) {
+    result = product(node.terms);
+  } else if (node.kind == Kind::operation) {
+    for (int k = 0; k < arguments_of(node.operation); ++k) {
+      auto& argument = node.arguments[static_cast<std::size_t>(k)];
+      argument = replace(argument, inputs, known);
+    }
+    result = apply(node.operation, node.arguments[0], node.arguments[1], node.arguments[2]);
+  }
+  known.emplace(of, result);
+  return result;
+}
+
 Expression ExpressionGraph::with_common_powers(Expression of) {
   std::unordered_map<Expression, Expression> known;
   return share_powers(of, known);
@@ -380,7 +446,8 @@ Expression ExpressionGraph::share_powers(Expression of, std::unordered_map<Expre
       for (auto& term : terms) term.node = share_powers(term.node, known);
       result = sum(node.number, terms);
     } else {
-      auto const [base, negative] = best->first;
+      Expression const base = best->first.first;
+      bool const negative = best->first.second;
       double const out = negative ? -best->second.second : best->second.second;
       std::vector<Term> inside, rest;
       for (std::size_t k = 0; k < factors.size(); ++k) {
@@ -404,54 +471,77 @@ Expression ExpressionGraph::share_powers(Expression of, std::unordered_map<Expre
 }
 
 double ExpressionGraph::value(Expression of, std::vector<double> const& inputs) const {
-  std::unordered_map<Expression, double> known;
-  std::function<double(Expression)> const find = [&](Expression e) -> double {
-    if (auto const found = known.find(e); found != known.end()) return found->second;
-    Node const& node = nodes_[e];
-    double result = node.number;
-    switch (node.kind) {
-      case Kind::number:
-        break;
-      case Kind::input:
-        result = inputs.at(node.input);
-        break;
-      case Kind::sum:
-        for (auto const& term : node.terms) result += term.factor * find(term.node);
-        break;
-      case Kind::product:
-        result = 1;
-        for (auto const& term : node.terms) result *= std::pow(find(term.node), term.factor);
-        break;
-      case Kind::operation: {
-        int const count = arguments_of(node.operation);
-        double const a = find(node.arguments[0]), b = count > 1 ? find(node.arguments[1]) : 0,
-                     c = count > 2 ? find(node.arguments[2]) : 0;
-        result = value_of(node.operation, a, b, c);
-        break;
-      }
-    }
-    known.emplace(e, result);
-    return result;
-  };
-  return find(of);
+  Calculation calculation(*this, {&of, 1});
+  calculation.run(inputs);
+  return calculation[0];
 }
 
-std::vector<std::uint32_t> ExpressionGraph::inputs_of(Expression e) const {
-  std::vector<bool> seen(nodes_.size());
-  std::vector<std::uint32_t> inputs;
-  std::function<void(Expression)> const look = [&](Expression at) {
-    if (seen[at]) return;
-    seen[at] = true;
-    Node const& node = nodes_[at];
-    if (node.kind == Kind::input) inputs.push_back(node.input);
-    for (auto const& term : node.terms) look(term.node);
+/// Which nodes these need: operands have smaller numbers than what is made of them.
+std::vector<bool> ExpressionGraph::needed_by(std::span<Expression const> results) const {
+  std::vector<bool> needed(nodes_.size());
+  for (auto const e : results) needed[e] = true;
+  for (std::size_t k = nodes_.size(); k-- > 0;) {
+    if (!needed[k]) continue;
+    Node const& node = nodes_[k];
+    for (auto const& term : node.terms) needed[term.node] = true;
     if (node.kind == Kind::operation)
-      for (int k = 0; k < arguments_of(node.operation); ++k) look(node.arguments[static_cast<std::size_t>(k)]);
-  };
-  look(e);
+      for (int a = 0; a < arguments_of(node.operation); ++a) needed[node.arguments[static_cast<std::size_t>(a)]] = true;
+  }
+  return needed;
+}
+
+std::vector<std::uint32_t> ExpressionGraph::inputs_of(std::span<Expression const> results) const {
+  auto const needed = needed_by(results);
+  std::vector<std::uint32_t> inputs;
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (needed[k] && nodes_[k].kind == Kind::input) inputs.push_back(nodes_[k].input);
   std::sort(inputs.begin(), inputs.end());
   inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
   return inputs;
+}
+
+Calculation::Calculation(ExpressionGraph const& graph, std::span<Expression const> results) {
+  auto const needed = graph.needed_by(results);
+  std::vector<Expression> place(graph.size());
+  for (std::size_t k = 0; k < graph.size(); ++k) {
+    if (!needed[k]) continue;
+    auto node = graph.node(static_cast<Expression>(k));
+    for (auto& term : node.terms) term.node = place[term.node];
+    if (node.kind == Kind::operation)
+      for (int a = 0; a < arguments_of(node.operation); ++a) {
+        auto& argument = node.arguments[static_cast<std::size_t>(a)];
+        argument = place[argument];
+      }
+    place[k] = static_cast<Expression>(nodes_.size());
+    nodes_.push_back(std::move(node));
+  }
+  values_.resize(nodes_.size());
+  for (auto const e : results) results_.push_back(place[e]);
+}
+
+void Calculation::run(std::span<double const> inputs) {
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    auto const& node = nodes_[k];
+    switch (node.kind) {
+      case Kind::number:
+        values_[k] = node.number;
+        break;
+      case Kind::input:
+        values_[k] = inputs[node.input];
+        break;
+      case Kind::sum:
+        values_[k] = value_of(Kind::sum, node.number, node.terms, [&](Expression e) { return values_[e]; });
+        break;
+      case Kind::product:
+        values_[k] = value_of(Kind::product, 1, node.terms, [&](Expression e) { return values_[e]; });
+        break;
+      case Kind::operation: {
+        auto const [a, b, c] = node.arguments;
+        values_[k] = value_of(node.operation, values_[a], values_[b], values_[c]);
+        break;
+      }
+    }
+  }
 }
 
 }  // namespace boltzmann

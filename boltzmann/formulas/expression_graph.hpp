@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -43,11 +44,17 @@ enum class Operation : std::uint8_t {
 /// How many arguments an operation has.
 int arguments_of(Operation operation);
 
+/// How expressions are kept. Normal: equal terms and powers merged, for derivatives and fast programs. As written: in the
+/// order of the text, so that values are those of the same expression in C++, to the last bit.
+enum class Form : std::uint8_t { normal, as_written };
+
 /// Expressions in normal form: a sum is c + sum c_i x_i, a product is x_1^e_1 x_2^e_2 ... with exponents in halves, and
 /// two expressions of the same form are one. Numbers are folded, equal terms and powers merged; products are not
-/// multiplied out. Error beyond 10,000 expressions.
+/// multiplied out. Error beyond 10,000 expressions. Or, Form::as_written, just as they were made.
 class ExpressionGraph {
  public:
+  explicit ExpressionGraph(Form form = Form::normal) : form_(form) {}
+
   /// `node`, times a coefficient in a sum, to an exponent in a product.
   struct Term {
     Expression node;
@@ -84,6 +91,8 @@ class ExpressionGraph {
 
   /// By an input. What jumps (floor, comparisons) has the derivative of its pieces, 0.
   Expression derivative(Expression of, std::uint32_t input);
+  /// With other expressions for some inputs.
+  Expression replaced(Expression of, std::unordered_map<std::uint32_t, Expression> const& inputs);
   /// Sums with the powers that their terms share taken out: fewer multiplications, the same value but for rounding.
   Expression with_common_powers(Expression of);
 
@@ -92,20 +101,43 @@ class ExpressionGraph {
   bool is_number(Expression e, double value) const { return is_number(e) && nodes_[e].number == value; }
   /// Its value for these inputs.
   double value(Expression of, std::vector<double> const& inputs) const;
-  /// Which inputs it depends on, sorted.
-  std::vector<std::uint32_t> inputs_of(Expression e) const;
+  /// Which inputs they depend on, sorted.
+  std::vector<std::uint32_t> inputs_of(std::span<Expression const> results) const;
+  std::vector<std::uint32_t> inputs_of(Expression e) const { return inputs_of(std::span(&e, 1)); }
   std::size_t size() const { return nodes_.size(); }
 
  private:
+  friend class Calculation;
   Expression keep(Node node);
+  Expression written(Kind kind, double constant, std::vector<Term> const& terms);
+  std::vector<bool> needed_by(std::span<Expression const> results) const;
   Expression derive(Expression of, std::uint32_t input, std::unordered_map<Expression, Expression>& known);
   Expression derive_operation(Expression of, Expression da, Expression db, Expression dc);
   Expression slope_of(Expression of);
+  Expression replace(Expression of, std::unordered_map<std::uint32_t, Expression> const& inputs,
+                     std::unordered_map<Expression, Expression>& known);
   Expression share_powers(Expression of, std::unordered_map<Expression, Expression>& known);
   bool never_negative(Node const& node) const;
 
+  Form form_;
   std::vector<Node> nodes_;
   std::unordered_map<std::string, Expression> known_;
+};
+
+/// Values of some expressions: each node once, in double, by the functions of the C library. Of a choice both branches are
+/// calculated, and only the chosen one counts.
+class Calculation {
+ public:
+  Calculation(ExpressionGraph const& graph, std::span<Expression const> results);
+  /// For these inputs of the graph.
+  void run(std::span<double const> inputs);
+  /// Of result k, after run().
+  double operator[](std::size_t k) const { return values_[results_[k]]; }
+
+ private:
+  std::vector<ExpressionGraph::Node> nodes_;  // operands before what is made of them
+  std::vector<double> values_;
+  std::vector<std::size_t> results_;
 };
 
 }  // namespace boltzmann

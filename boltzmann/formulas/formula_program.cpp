@@ -51,6 +51,10 @@ class Writer {
 
  private:
   Value constant(double number) {
+    if (std::isnan(number)) {  // no key of a map
+      constants_.push_back(number);
+      return {Value::Place::constant, static_cast<std::uint32_t>(constants_.size() - 1)};
+    }
     auto const [place, is_new] = constants_known_.try_emplace(number, constants_.size());
     if (is_new) constants_.push_back(number);
     return {Value::Place::constant, static_cast<std::uint32_t>(place->second)};

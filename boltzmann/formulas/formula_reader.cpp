@@ -20,10 +20,10 @@ struct NamedFunction {
   int arguments;
 };
 constexpr NamedFunction functions[] = {
-    {"abs", 1},   {"acos", 1}, {"asin", 1}, {"atan", 1}, {"atan2", 2}, {"cos", 1},    {"cosh", 1},
-    {"cross", 2}, {"dot", 2},  {"erf", 1},  {"erfc", 1}, {"exp", 1},   {"floor", 1},  {"if", 3},
-    {"log", 1},   {"max", 2},  {"min", 2},  {"norm", 1}, {"pow", 2},   {"select", 3}, {"sin", 1},
-    {"sinh", 1},  {"sqrt", 1}, {"step", 1}, {"tan", 1},  {"tanh", 1},
+    {"abs", 1},    {"acos", 1},  {"asin", 1}, {"atan", 1}, {"atan2", 2}, {"ceil", 1}, {"cos", 1},
+    {"cosh", 1},   {"cross", 2}, {"dot", 2},  {"erf", 1},  {"erfc", 1},  {"exp", 1},  {"floor", 1},
+    {"if", 3},     {"log", 1},   {"max", 2},  {"min", 2},  {"mod", 2},   {"norm", 1}, {"pow", 2},
+    {"select", 3}, {"sin", 1},   {"sinh", 1}, {"sqrt", 1}, {"step", 1},  {"tan", 1},  {"tanh", 1},
 };
 constexpr std::pair<std::string_view, Operation> pure_functions[] = {
     {"acos", Operation::acos}, {"asin", Operation::asin}, {"atan", Operation::atan}, {"cos", Operation::cos},
@@ -33,6 +33,21 @@ constexpr std::pair<std::string_view, Operation> pure_functions[] = {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_joint(char c) { return c == ' ' || c == '-' || c == '_'; }
+bool is_unit_letter(char c) { return is_letter(c) || static_cast<unsigned char>(c) >= 0x80; }
+
+/// Over many particles.
+constexpr std::pair<std::string_view, ParticleSum::Kind> sums[] = {{"mean", ParticleSum::Kind::mean},
+                                                                   {"sum", ParticleSum::Kind::sum},
+                                                                   {"min", ParticleSum::Kind::min},
+                                                                   {"max", ParticleSum::Kind::max}};
+constexpr NamedFunction sums_only[] = {{"mean", 1}, {"sum", 1}};
+
+NamedFunction const* function_named(std::string_view name) {
+  auto const* const at = std::find_if(std::begin(functions), std::end(functions),
+                                      [&](NamedFunction const& function) { return function.name == name; });
+  return at == std::end(functions) ? nullptr : at;
+}
 
 class Reader {
  public:
@@ -76,7 +91,7 @@ class Reader {
       std::size_t const place = at_;
       FormulaValue const right = both();
       need_number(right, place);
-      left = pure(graph_.apply(Operation::max, truth(left), truth(right)));
+      left = said(graph_.apply(Operation::max, truth(left), truth(right)));
     }
     return left;
   }
@@ -88,7 +103,7 @@ class Reader {
       std::size_t const place = at_;
       FormulaValue const right = comparison();
       need_number(right, place);
-      left = pure(graph_.multiply(truth(left), truth(right)));
+      left = said(graph_.multiply(truth(left), truth(right)));
     }
     return left;
   }
@@ -112,7 +127,7 @@ class Reader {
       std::size_t const after = at_;
       for (std::string_view const again : {"<=", ">=", "==", "!=", "<", ">"})
         if (take(again)) throw FormulaError(after, "comparisons don't follow each other; write e.g. 0 < x && x < 1");
-      return pure(result);
+      return said(result);
     }
     return left;
   }
@@ -132,6 +147,7 @@ class Reader {
                                     : graph_.subtract(left.components[c], right.components[c]);
       result.dimension = dimension;
       result.plain = left.plain && right.plain;
+      result.is_truth = false;
       left = std::move(result);
     }
   }
@@ -143,16 +159,18 @@ class Reader {
       bool const times = take("*");
       if (!times && !take("/")) return left;
       FormulaValue const right = sign();
-      if (!times && right.is_vector)
+      if (!times && needs_number(right))
         throw FormulaError(place, "nothing can be divided by a vector; norm(...) is its length");
-      if (times && left.is_vector && right.is_vector)
+      bool const both = left.is_vector && right.is_vector;
+      if (times && both && dimension_ > 1)
         throw FormulaError(place, "the product of two vectors is dot(a, b) or cross(a, b)");
       FormulaValue result = left.is_vector ? left : right;
       for (std::size_t c = 0; c < result.components.size(); ++c) {
         Expression const a = left.components[left.is_vector ? c : 0], b = right.components[right.is_vector ? c : 0];
         result.components[c] = times ? graph_.multiply(a, b) : graph_.divide(a, b);
       }
-      result.is_vector = left.is_vector || right.is_vector;
+      result.is_vector = (left.is_vector || right.is_vector) && !both;
+      result.is_truth = false;
       result.dimension = times ? left.dimension * right.dimension : left.dimension / right.dimension;
       result.plain = left.plain && right.plain;
       left = std::move(result);
@@ -163,6 +181,7 @@ class Reader {
     if (take("-")) {
       FormulaValue inside = sign();
       for (auto& component : inside.components) component = graph_.scale(-1, component);
+      inside.is_truth = false;
       return inside;
     }
     if (take("+")) return sign();
@@ -170,7 +189,7 @@ class Reader {
       std::size_t const begin = at_;
       FormulaValue const inside = sign();
       need_number(inside, begin);
-      return pure(graph_.apply(Operation::equal, inside.components[0], graph_.number(0)));
+      return said(graph_.apply(Operation::equal, inside.components[0], graph_.number(0)));
     }
     std::size_t const begin = at_;
     FormulaValue const base = primary();
@@ -245,24 +264,27 @@ class Reader {
     std::size_t const begin = at_;
     at_ = static_cast<std::size_t>(end - text_.data());
     if (!at_end() && text_[at_] == '.')
-      throw FormulaError(begin, fmt::format("'{}.' is no number", text_.substr(begin, at_ - begin)));
+      throw FormulaError(begin, fmt::format("'{}{}' is no number", text_.substr(begin, at_ - begin), quoted(word())));
     skip();
     FormulaValue result = pure(graph_.number(value));
     result.plain = true;
-    if (!at_end() && (is_letter(text_[at_]) || static_cast<unsigned char>(text_[at_]) >= 0x80))
-      with_unit(result, value);
+    if (!at_end() && is_unit_letter(text_[at_])) with_unit(result, value);
     return result;
   }
   /// The unit that stands behind a number: as many factors as are units and no names of ours.
   void with_unit(FormulaValue& result, double value) {
     std::size_t const begin = at_;
-    if (names_.values.contains(std::string(word())))
+    if (stands_name(begin) || is_called(begin))
       throw error(fmt::format("an operator is missing before '{}': write e.g. 2*x, not 2 x", quoted(word())));
+    if (names_.units.is_reduced())
+      throw FormulaError(begin, fmt::format("'{}': the scenario has pure numbers, without units; products need a '*'",
+                                            quoted(text_.substr(begin, unit_factor(begin) - begin))));
     std::optional<TextQuantity> unit;
     std::size_t end = begin;
     for (std::size_t next = begin; next < text_.size();) {
-      std::size_t const to = unit_factor(next);
-      if (to == next || names_.values.contains(std::string(text_.substr(next, to - next)))) break;
+      bool const in_parentheses = text_[next] == '(' && unit;
+      std::size_t const to = in_parentheses ? text_.find(')', next) + 1 : unit_factor(next);
+      if (to == 0 || to == next || stands_name(next) || is_called(next)) break;
       try {
         unit = parse_quantity(fmt::format("1 {}", text_.substr(begin, to - begin)));
       } catch (Error const& wrong) {
@@ -274,9 +296,7 @@ class Reader {
       if (next < text_.size() && (text_[next] == '/' || text_[next] == '*')) ++next;
       while (next < text_.size() && text_[next] == ' ') ++next;
     }
-    if (names_.units.is_reduced())
-      throw FormulaError(begin, fmt::format("'{}': the scenario has pure numbers, without units",
-                                            quoted(text_.substr(begin, end - begin))));
+    if (!unit) throw error(fmt::format("'{}' is no unit", quoted(word())));
     at_ = end;
     skip();
     result = pure(graph_.number(names_.units.from_si(value * unit->si, unit->dimension)));
@@ -284,39 +304,107 @@ class Reader {
   }
   /// The end of a unit and its exponent.
   std::size_t unit_factor(std::size_t at) const {
-    while (at < text_.size() && (is_letter(text_[at]) || static_cast<unsigned char>(text_[at]) >= 0x80)) ++at;
-    if (at < text_.size() && text_[at] == '^') {
-      std::size_t digits = at + 1;
-      if (digits < text_.size() && text_[digits] == '-') ++digits;
-      std::size_t end = digits;
-      while (end < text_.size() && is_digit(text_[end])) ++end;
-      if (end > digits) return end;
+    while (at < text_.size() && is_unit_letter(text_[at])) ++at;
+    std::size_t digits = at;
+    if (text_.substr(at).starts_with("^"))
+      digits = at + 1;
+    else if (text_.substr(at).starts_with("**"))
+      digits = at + 2;
+    if (digits == at) return at;
+    if (digits < text_.size() && text_[digits] == '-') ++digits;
+    std::size_t end = digits;
+    while (end < text_.size() && is_digit(text_[end])) ++end;
+    return end > digits ? end : at;
+  }
+  /// Whether one of our names stands there, and no unit.
+  bool stands_name(std::size_t at) const {
+    if (names_.with_blanks && spoken_name(at).size > 0) return true;
+    std::size_t end = at;
+    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '.')) ++end;
+    return names_.values.contains(text_.substr(at, end - at));
+  }
+  /// Whether a function with its parenthesis stands there.
+  bool is_called(std::size_t at) const {
+    std::size_t end = at;
+    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;
+    std::size_t open = end;
+    while (open < text_.size() && text_[open] == ' ') ++open;
+    return open < text_.size() && text_[open] == '(' && function_of(text_.substr(at, end - at));
+  }
+
+  struct SpokenName {
+    std::size_t size = 0;  // 0: none stands there
+    FormulaValue const* value = nullptr;
+  };
+  /// The longest of the names that stands at a place, whatever joins its words.
+  SpokenName spoken_name(std::size_t at) const {
+    SpokenName found;
+    for (auto const& [name, value] : names_.values) {
+      std::size_t const end = at + name.size();
+      if (name.size() <= found.size || end > text_.size()) continue;
+      bool const same = std::equal(name.begin(), name.end(), text_.begin() + static_cast<std::ptrdiff_t>(at),
+                                   [](char a, char b) { return a == b || (is_joint(a) && is_joint(b)); });
+      bool const whole = end == text_.size() || !(is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '.');
+      if (same && whole) found = {name.size(), &value};
     }
-    return at;
+    return found;
+  }
+  /// What somebody may have meant by a name: words that a blank or a '-' joins.
+  std::string phrase() const {
+    std::size_t end = at_ + word().size();
+    while (end + 1 < text_.size() && is_joint(text_[end]) && is_letter(text_[end + 1])) {
+      ++end;
+      while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '.')) ++end;
+    }
+    return std::string(text_.substr(at_, end - at_));
   }
 
   FormulaValue name() {
     std::size_t const begin = at_;
-    std::string const found = word();
+    if (names_.with_blanks && !is_called(at_))
+      if (auto const name = spoken_name(at_); name.size > 0) {
+        at_ += name.size;
+        skip();
+        return *name.value;
+      }
+    std::string const found = word(), wider = names_.with_blanks ? phrase() : found;
     at_ += found.size();
     skip();
+    NamedFunction const* const function = function_of(found);
     if (!at_end() && text_[at_] == '(') {
-      auto const* const function =
-          std::find_if(std::begin(functions), std::end(functions), [&](auto const& f) { return f.name == found; });
-      if (function != std::end(functions)) return call(begin, *function);
-      auto const known = formula_functions();
+      if (function) return call(begin, *function);
+      auto known = formula_functions();
+      if (names_.sums)
+        for (auto const& one : sums_only) known.emplace_back(one.name);
       throw FormulaError(begin, value_of(found) ? fmt::format("'{}' is no function; products need a '*'", quoted(found))
                                                 : fmt::format("unknown function '{}'; there are {}{}", quoted(found),
                                                               join(known), did_you_mean(found, known)));
     }
     if (auto const value = value_of(found)) return *value;
-    std::vector<std::string> known{"pi"};
-    for (auto const& [known_name, value] : names_.values) known.push_back(known_name);
-    for (auto const& function : functions)
-      if (function.name == found)
-        throw FormulaError(begin, fmt::format("the function '{}' needs parentheses: {}(...)", found, found));
-    throw FormulaError(begin, fmt::format("unknown name '{}'; there are {}{}", quoted(found), join(known),
-                                          did_you_mean(found, known)));
+    if (function) throw FormulaError(begin, fmt::format("the function '{}' needs parentheses: {}(...)", found, found));
+    throw unknown_name(begin, found, wider);
+  }
+  NamedFunction const* function_of(std::string_view name) const {
+    if (names_.sums)
+      for (auto const& one : sums_only)
+        if (one.name == name) return &one;
+    return function_named(name);
+  }
+  FormulaError unknown_name(std::size_t begin, std::string const& found, std::string const& wider) const {
+    std::vector<std::string> known, also;
+    for (auto const& [name, value] : names_.values) {
+      known.push_back(name);
+      if (value.is_vector && dimension_ > 1)
+        for (std::size_t c = 0; c < value.components.size(); ++c) also.push_back(name + "." + "xyz"[c]);
+    }
+    known.emplace_back("pi");
+    auto words = known;
+    words.insert(words.end(), also.begin(), also.end());
+    std::string spaced = wider;
+    if (names_.with_blanks) std::replace_if(spaced.begin(), spaced.end(), is_joint, ' ');
+    std::string const nearest = did_you_mean(spaced, words);
+    return {begin, fmt::format("unknown name '{}'; there are {}{}", quoted(nearest.empty() ? found : wider),
+                               some_of(known), nearest.empty() ? did_you_mean(found, words) : nearest)};
   }
   std::optional<FormulaValue> value_of(std::string const& name) {
     if (auto const at = names_.values.find(name); at != names_.values.end()) return at->second;
@@ -349,23 +437,43 @@ class Reader {
       } while (take(","));
       if (!take(")")) throw unclosed(open, ')');
     }
-    auto const count = static_cast<std::size_t>(function.arguments);
+    bool const of_particles = names_.sums && all.values.size() == 1 && sum_of(function.name);
+    auto const count = of_particles ? 1 : static_cast<std::size_t>(function.arguments);
     if (all.values.size() != count)
       throw FormulaError(begin, fmt::format("{} takes {} value{}, not {}", function.name, count, count == 1 ? "" : "s",
                                             all.values.size()));
     bool const of_vectors = function.name == "dot" || function.name == "cross" || function.name == "norm";
     bool const chooses = function.name == "if" || function.name == "select";
     for (std::size_t k = 0; k < count; ++k) {
-      if (of_vectors && !all.values[k].is_vector)
+      if (of_vectors && !all.values[k].is_vector && dimension_ > 1)
         throw FormulaError(all.places[k], fmt::format("{} takes vectors; this is a number", function.name));
-      if (!of_vectors && !(chooses && k > 0)) need_number(all.values[k], all.places[k]);
+      bool const any = (chooses && k > 0) || function.name == "mean" || function.name == "sum";
+      if (!of_vectors && !any) need_number(all.values[k], all.places[k]);
     }
     return all;
+  }
+
+  static std::pair<std::string_view, ParticleSum::Kind> const* sum_of(std::string_view name) {
+    for (auto const& one : sums)
+      if (one.first == name) return &one;
+    return nullptr;
+  }
+  /// Each component is a sum of its own.
+  FormulaValue over_particles(FormulaValue value, ParticleSum::Kind kind) {
+    for (auto& component : value.components) {
+      std::uint32_t const input = names_.sums->next_input++;
+      names_.sums->all.push_back({kind, component, input});
+      component = graph_.input(input);
+    }
+    value.is_truth = false;
+    return value;
   }
 
   FormulaValue call(std::size_t begin, NamedFunction const& function) {
     Arguments const of = read_arguments(begin, function);
     std::string_view const name = function.name;
+    if (auto const* sum = sum_of(name); names_.sums && sum && of.values.size() == 1)
+      return over_particles(of.values[0], sum->second);
     for (auto const& [pure_name, operation] : pure_functions) {
       if (pure_name != name) continue;
       need_pure(of.values[0], of.places[0], fmt::format("{} is taken of pure numbers; this", name));
@@ -381,11 +489,17 @@ class Reader {
     if (name == "cross") return cross(of.values[0], of.values[1], begin);
     FormulaValue result = of.values[0];
     result.plain = of.plain;
+    result.is_vector = result.is_truth = false;
     if (name == "abs") {
       result.components[0] = graph_.apply(Operation::abs, of[0]);
-    } else if (name == "floor") {
-      need_pure(of.values[0], of.places[0], "floor is taken of pure numbers; this");
-      result.components[0] = graph_.apply(Operation::floor, of[0]);
+    } else if (name == "floor" || name == "ceil") {
+      need_pure(of.values[0], of.places[0], fmt::format("{} is taken of pure numbers; this", name));
+      double const sign = name == "floor" ? 1 : -1;
+      result.components[0] = graph_.scale(sign, graph_.apply(Operation::floor, graph_.scale(sign, of[0])));
+    } else if (name == "mod") {  // a - b floor(a/b)
+      result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
+      Expression const times = graph_.apply(Operation::floor, graph_.divide(of[0], of[1]));
+      result.components[0] = graph_.subtract(of[0], graph_.multiply(of[1], times));
     } else {  // min, max, atan2
       result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
       result.components[0] = graph_.apply(name == "min"   ? Operation::min
@@ -432,23 +546,22 @@ class Reader {
           graph_.apply(Operation::select, condition.components[0], yes.components[c], no.components[c]);
     result.dimension = dimension;
     result.plain = yes.plain && no.plain;
+    result.is_truth = yes.is_truth && no.is_truth;
     return result;
   }
 
   // ---- What values may be ----
 
   static FormulaValue pure(Expression e) { return {{e}, {}, false, false}; }
+  static FormulaValue said(Expression truth) { return {{truth}, {}, false, false, true}; }
   /// 1 unless it is 0.
   Expression truth(FormulaValue const& value) {
-    auto const& node = graph_.node(value.components[0]);
-    bool const is_truth = node.kind == ExpressionGraph::Kind::operation &&
-                          (node.operation == Operation::less || node.operation == Operation::less_equal ||
-                           node.operation == Operation::equal);
-    if (is_truth) return value.components[0];
+    if (value.is_truth) return value.components[0];
     return graph_.sum(1, {{graph_.apply(Operation::equal, value.components[0], graph_.number(0)), -1}});
   }
+  bool needs_number(FormulaValue const& value) const { return value.is_vector && dimension_ > 1; }
   void need_number(FormulaValue const& value, std::size_t place) const {
-    if (value.is_vector) throw FormulaError(place, "a number is needed here, not a vector");
+    if (needs_number(value)) throw FormulaError(place, "a number is needed here, not a vector");
   }
   void need_pure(FormulaValue const& value, std::size_t place, std::string const& what) const {
     if (names_.checked && !(value.dimension == Dimension{}))
@@ -511,6 +624,17 @@ class Reader {
 };
 
 }  // namespace
+
+ValuesByName::iterator ValuesByName::find(std::string_view name) {
+  return std::find_if(begin(), end(), [&](Entry const& entry) { return entry.first == name; });
+}
+ValuesByName::const_iterator ValuesByName::find(std::string_view name) const {
+  return std::find_if(begin(), end(), [&](Entry const& entry) { return entry.first == name; });
+}
+FormulaValue& ValuesByName::operator[](std::string const& name) {
+  if (auto const at = find(name); at != end()) return at->second;
+  return entries_.emplace_back(name, FormulaValue{}).second;
+}
 
 std::vector<std::string> formula_functions() {
   std::vector<std::string> names;

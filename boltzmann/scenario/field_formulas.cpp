@@ -1,5 +1,5 @@
 // Reads formulas of fields, and evaluates them.
-#include <boltzmann/files/export.hpp>
+#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
@@ -10,45 +10,12 @@
 
 namespace boltzmann {
 
-FormulaNames::FormulaNames(int dimension) : dimension_(dimension) {
-  for (int a = 0; a < dimension; ++a) {
-    names_.emplace_back(1, "xyz"[a]);
-    offsets_.push_back(a);
-  }
-  names_.emplace_back("r");
-  offsets_.push_back(-1);
-  fields_.resize(names_.size());
-  values_.resize(names_.size());
+ParticleNames formula_names(std::vector<Field> const& fields, int dimension, Reading const& reading) {
+  ParticleNames names(fields, dimension, reading.context.units);
+  if (!reading.base_known) names.inputs.check_dimensions(false);
+  return names;
 }
-
-FormulaNames::FormulaNames(std::vector<Field> const& fields, int dimension) : FormulaNames(dimension) {
-  auto const add = [&](Field const& field, std::string const& name, int component) {
-    if (std::find(names_.begin(), names_.end(), name) != names_.end()) return;
-    names_.push_back(name);
-    fields_.push_back(field.name);
-    offsets_.push_back(field.offset + component);
-  };
-  for (auto const& field : fields) {
-    if (field.components == 1) add(field, field.name, 0);
-    if (field.components == 1 && field.name != "position" && field.name != "velocity") continue;
-    auto const words = component_words(field.components, dimension);
-    for (std::size_t c = 0; c < words.size(); ++c) add(field, field.name + "." + words[c], static_cast<int>(c));
-  }
-  values_.resize(names_.size());
-}
-
-double FormulaNames::evaluate(Formula const& formula, double const* row) {
-  for (std::size_t const name : formula.used()) {
-    if (offsets_[name] >= 0) {
-      values_[name] = row[offsets_[name]];
-      continue;
-    }
-    double r2 = 0;
-    for (int a = 0; a < dimension_; ++a) r2 += row[a] * row[a];
-    values_[name] = std::sqrt(r2);
-  }
-  return formula(values_);
-}
+ParticleNames formula_names(int dimension, Reading const& reading) { return formula_names({}, dimension, reading); }
 
 void formula_mistake(Item const& item, std::string_view key, FormulaError const& error, Reading& reading) {
   Place place = item.place;
@@ -62,23 +29,101 @@ void formula_mistake(Item const& item, std::string_view key, FormulaError const&
                                      in_file ? "" : fmt::format(" (at '{}')", item.text.substr(error.offset))));
 }
 
-std::optional<Formula> read_formula(Item const& item, std::string_view key, FormulaNames const& names,
-                                    std::vector<std::string> const& unknown, Reading& reading) {
+bool part_mistake(Section& section, FormulaLawError const& error, Reading& reading) {
+  for (char const* key : {"where", "parameters"}) {
+    Item const* table = section.item(key);
+    Entry const* entry = table && !error.part.empty() ? table->find(error.part) : nullptr;
+    if (!entry) continue;
+    if (entry->item.is(Item::Kind::text))
+      formula_mistake(entry->item, fmt::format("{}.{}", key, error.part), error, reading);
+    else
+      reading.mistake(entry->place, fmt::format("{}.{}: {}", key, error.part, error.what()));
+    return true;
+  }
+  return false;
+}
+
+namespace {
+
+bool is_formula_name(std::string_view key) {
+  auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !key.empty() && letter(key[0]) &&
+         std::all_of(key.begin(), key.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+/// The entries of a table, those whose keys can stand in formulas.
+std::vector<Entry const*> named_entries(Section& section, char const* key, char const* example, Reading& reading) {
+  std::vector<Entry const*> entries;
+  Item const* table = section.find(key);
+  if (!table) return entries;
+  if (!table->is(Item::Kind::table)) {
+    reading.mistake(table->place, fmt::format("{}: {}, not {}", key, example, describe(*table)));
+    return entries;
+  }
+  for (auto const& entry : table->entries) {
+    if (is_formula_name(entry.key))
+      entries.push_back(&entry);
+    else
+      reading.mistake(entry.place, fmt::format("{}: '{}' is no name for a formula; letters, digits and _ are", key,
+                                               quoted(entry.key)));
+  }
+  return entries;
+}
+
+}  // namespace
+
+std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading) {
+  std::vector<FormulaParameter> parameters;
+  for (Entry const* entry :
+       named_entries(section, "parameters", "a table is needed, { depth = \"0.1 eV\" }", reading)) {
+    Item const& item = entry->item;
+    FormulaParameter parameter{entry->key, 0, {}};
+    if (item.is_number()) {
+      parameter.value = item.number;
+      if (reading.context.recorder) reading.context.recorder->plain(item, "number");
+    } else if (item.is(Item::Kind::text)) {
+      bool const good = catch_errors(reading, item.place, [&] {
+        parameter.dimension = parse_quantity(item.text).dimension;
+        parameter.value = in_units(item.text, parameter.dimension, reading.context.units);
+      });
+      if (!good) continue;
+      if (reading.context.recorder) reading.context.recorder->plain(item, "text");
+    } else {
+      reading.mistake(item.place, fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", entry->key,
+                                              describe(item)));
+      continue;
+    }
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
+}
+
+std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading) {
+  std::vector<FormulaPart> parts;
+  for (Entry const* entry :
+       named_entries(section, "where", "a table of formulas is needed, { s = \"(sigma/r)^6\" }", reading))
+    if (auto const text = read_text(entry->item, fmt::format("where.{}", entry->key), reading.context))
+      parts.push_back({entry->key, *text});
+  return parts;
+}
+
+std::optional<ParticleFormula> read_formula(Item const& item, std::string_view key, ParticleNames const& names,
+                                            std::vector<std::string> const& unknown, Reading& reading) {
   if (reading.context.recorder) reading.context.recorder->plain(item, item.is_number() ? "number" : "text");
-  if (item.is_number()) return Formula(fmt::format("({})", item.number), names.names());
+  if (item.is_number()) return ParticleFormula(fmt::format("({})", item.number), names);
   if (!item.is(Item::Kind::text)) {
     reading.mistake(item.place, fmt::format("{}: a formula in quotes is needed, e.g. \"sin(2*pi*x)\", not {}", key,
                                             describe(item)));
     return std::nullopt;
   }
   try {
-    Formula formula(item.text, names.names());
-    for (std::size_t const name : formula.used())
-      if (std::find(unknown.begin(), unknown.end(), names.field(name)) != unknown.end())
+    ParticleFormula formula(item.text, names);
+    for (auto const input : formula.formula().inputs())
+      if (std::find(unknown.begin(), unknown.end(), names.field(input)) != unknown.end())
         throw FormulaError(
-            item.text.find(names.names()[name]),
+            item.text.find(names.field(input)),
             fmt::format("'{}' is not known when particles are loaded; only the fields that the file gives are",
-                        names.names()[name]));
+                        names.name(input)));
     return formula;
   } catch (FormulaError const& error) {
     formula_mistake(item, key, error, reading);
@@ -98,7 +143,7 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
     return formulas;
   }
   Section inner(*table, "formulas", reading.context);
-  FormulaNames const names(fields, std::max(reading.dimension, 1));
+  ParticleNames const names = formula_names(fields, std::max(reading.dimension, 1), reading);
   // In the order of the file: a formula may use what those before it have set.
   for (auto const& field : fields)
     if (field.name != "position" || with_position) inner.allow(field.name);
@@ -116,46 +161,70 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
     };
     auto const check_known = [&](Formula const& formula) {
       if (with_position) return;
-      for (std::size_t const name : formula.used())
+      for (auto const input : formula.inputs())
         for (auto const& other : table->entries)
-          if (other.key == names.field(name) && comes_after(other)) {
+          if (other.key == names.field(input) && comes_after(other)) {
             reading.mistake(item.place, fmt::format("{}: '{}' is not known yet: only fields whose formulas stand "
                                                     "further left are, and those with values",
-                                                    field->name, names.names()[name]));
+                                                    field->name, names.name(input)));
             return;
           }
     };
-    std::vector<Item const*> components;
-    if (field->components == 1 && !item.is(Item::Kind::array))
-      components.push_back(&item);
-    else if (item.is(Item::Kind::array) && item.elements.size() == static_cast<std::size_t>(field->components))
-      for (auto const& element : item.elements) components.push_back(&element);
-    else
+    auto const count = static_cast<std::size_t>(field->components);
+    auto const too_few = [&] {
       reading.mistake(
           item.place,
-          fmt::format("{}: {} formulas are needed, one for each component, not {}{}", field->name, field->components,
-                      describe(item), item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
+          fmt::format("{}: {} formulas are needed, one for each component{}, not {}{}", field->name, field->components,
+                      field->components == reading.dimension ? ", or one that is a vector" : "", describe(item),
+                      item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
+    };
+    std::vector<Item const*> components;
+    if (!item.is(Item::Kind::array))
+      components.push_back(&item);
+    else if (item.elements.size() == count)
+      for (auto const& element : item.elements) components.push_back(&element);
+    else
+      too_few();
+    std::size_t values = 0;
     for (Item const* component : components)
       if (auto formula = read_formula(*component, field->name, names, unknown, reading)) {
-        check_known(*formula);
+        if (!formula->formula().fits(field->dimension)) {
+          reading.mistake(component->place, fmt::format("{}: {} is needed, and the formula gives {}", field->name,
+                                                        dimension_text(field->dimension),
+                                                        dimension_text(formula->formula().dimension())));
+          continue;
+        }
+        if (components.size() > 1 && formula->components() > 1) {
+          reading.mistake(component->place,
+                          fmt::format("{}: a number is needed for each component, not a vector", field->name));
+          continue;
+        }
+        check_known(formula->formula());
+        values += formula->components();
         result.components.push_back(std::move(*formula));
       }
-    if (result.components.size() == static_cast<std::size_t>(field->components)) formulas.push_back(std::move(result));
+    if (values == count)
+      formulas.push_back(std::move(result));
+    else if (values > 0 && result.components.size() == components.size())
+      too_few();
   }
   return formulas;
 }
 
 bool apply(FieldFormula const& formula, AnyEnsemble& particles, std::vector<std::uint32_t> const& which,
            Reading& reading) {
-  FormulaNames names(particles.fields(), particles.dimension());
+  auto components = formula.components;
   bool const must_be_positive =
       formula.field.name == "mass" || formula.field.name == "density" || formula.field.name == "range";
-  std::vector<double> values(formula.components.size());
+  std::vector<double> values;
   for (auto const i : which) {
     double* row = particles.row(i);
-    for (std::size_t c = 0; c < values.size(); ++c) {
-      double const value = names.evaluate(formula.components[c], row);
-      values[c] = value;
+    values.clear();
+    for (auto& component : components) {
+      component(row);
+      for (std::size_t c = 0; c < component.components(); ++c) values.push_back(component.component(c));
+    }
+    for (double const value : values) {
       if (std::isfinite(value) && (!must_be_positive || value > 0)) continue;
       std::vector<std::string> at;
       at.reserve(3);

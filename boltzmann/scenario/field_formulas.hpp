@@ -1,9 +1,10 @@
 // Field formulas: formulas of a scenario, with the particles they are evaluated for. Private to this room.
 #pragma once
 
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/particles/particle_formula.hpp>
 #include <boltzmann/scenario/document.hpp>
-#include <boltzmann/scenario/formula.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -16,39 +17,30 @@ namespace boltzmann {
 struct Reading;
 class Section;
 
-/// What may stand in formulas for particles with these fields: x, y, z and r (their distance from the origin), fields
-/// ("mass"; in 1D "velocity"), components ("velocity.x", "stress.xy").
-class FormulaNames {
- public:
-  FormulaNames(std::vector<Field> const& fields, int dimension);
-  /// Of a place in space alone: x, y, z, r.
-  explicit FormulaNames(int dimension);
-
-  std::vector<std::string> const& names() const { return names_; }
-  /// The field behind a name; empty for places.
-  std::string const& field(std::size_t name) const { return fields_[name]; }
-  /// Takes the values of those that the formula uses out of a row.
-  double evaluate(Formula const& formula, double const* row);
-
- private:
-  std::vector<std::string> names_, fields_;
-  std::vector<int> offsets_;  // in the row; -1: r
-  int dimension_;
-  std::vector<double> values_;
-};
+/// What may stand in formulas for particles with these fields, in the scenario's units.
+ParticleNames formula_names(std::vector<Field> const& fields, int dimension, Reading const& reading);
+/// Of a place in space alone.
+ParticleNames formula_names(int dimension, Reading const& reading);
 
 /// A mistake at the column of an item where its formula is wrong.
 void formula_mistake(Item const& item, std::string_view key, FormulaError const& error, Reading& reading);
 
+/// The same for a law or a diagnosis of several texts: at the part that the error is of, if it is of one.
+bool part_mistake(Section& section, FormulaLawError const& error, Reading& reading);
+
+/// parameters = { depth = "0.1 eV" } and where = { s = "(sigma/r)^6" }: numbers and parts with names, for formulas.
+std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading);
+std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading);
+
 /// A formula that stands in an item; a mistake at its column if it is none. `unknown` are fields that have no values
 /// yet.
-std::optional<Formula> read_formula(Item const& item, std::string_view key, FormulaNames const& names,
-                                    std::vector<std::string> const& unknown, Reading& reading);
+std::optional<ParticleFormula> read_formula(Item const& item, std::string_view key, ParticleNames const& names,
+                                            std::vector<std::string> const& unknown, Reading& reading);
 
-/// A field by formulas, one for each component.
+/// A field by formulas, one for each component, or one that is a vector.
 struct FieldFormula {
   Field field;
-  std::vector<Formula> components;
+  std::vector<ParticleFormula> components;
   Place place;
 };
 /// Reads formulas = { specific_energy = "...", velocity = ["...", "..."] }: for these fields.

@@ -75,8 +75,7 @@ class Loader {
   LatticeBlock block_;
   bool centred_ = true;
   std::array<double, 3> low_{}, high_{};
-  std::optional<FormulaNames> names_;
-  std::optional<Formula> where_;
+  std::optional<ParticleFormula> where_;
   std::optional<double> volume_;
   Wave wave_;
   std::vector<double> positions_;

@@ -311,11 +311,11 @@ void Loader::read_corners() {
 
 void Loader::read_where() {
   Item const* where = section_.find("where");
-  names_.emplace(std::max(reading_.dimension, 1));
-  if (where && reading_.dimension > 0) where_ = read_formula(*where, "where", *names_, {}, reading_);
+  if (where && reading_.dimension > 0)
+    where_ = read_formula(*where, "where", formula_names(reading_.dimension, reading_), {}, reading_);
 }
 
-bool Loader::is_wanted(double const* place) { return !where_ || names_->evaluate(*where_, place) != 0; }
+bool Loader::is_wanted(double const* place) { return !where_ || (*where_)(place) != 0; }
 
 double Loader::read_random() {
   read_corners();

@@ -20,12 +20,12 @@ namespace {
 
 std::optional<std::vector<std::uint32_t>> particles_where(Item const& where, AnyEnsemble const& ensemble,
                                                           Reading& reading) {
-  FormulaNames names(ensemble.fields(), ensemble.dimension());
-  auto const formula = read_formula(where, "where", names, {}, reading);
+  auto formula =
+      read_formula(where, "where", formula_names(ensemble.fields(), ensemble.dimension(), reading), {}, reading);
   if (!formula) return std::nullopt;
   std::vector<std::uint32_t> which;
   for (std::size_t i = 0; i < ensemble.size(); ++i)
-    if (names.evaluate(*formula, ensemble.row(i)) != 0) which.push_back(static_cast<std::uint32_t>(i));
+    if ((*formula)(ensemble.row(i)) != 0) which.push_back(static_cast<std::uint32_t>(i));
   return which;
 }
 
@@ -49,12 +49,12 @@ std::optional<std::vector<std::uint32_t>> numbered_particles(Item const& item, A
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
-                                                         Reading& reading) {
+                                                         Reading& reading, bool parts) {
   Item const* margin_item = section.find("margin");
   auto const margin = section.quantity("margin", dimensions::length, not_negative);
   Item const* item = section.find("particles");
-  Item const* where = section.find("where");
-  if (item) section.refuse("where", "'particles' says which, too; leave one out");
+  Item const* where = parts ? nullptr : section.find("where");
+  if (item && !parts) section.refuse("where", "'particles' says which, too; leave one out");
   if (where) return item || !ensemble ? std::nullopt : particles_where(*where, *ensemble, reading);
   if (!item) return std::nullopt;
   bool const edge = item->is(Item::Kind::text) && item->text == "edge";

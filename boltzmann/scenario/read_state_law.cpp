@@ -1,13 +1,12 @@
 // Reads what an internal energy stands for: the heat capacity of mesoparticles, and the temperature of their inside.
 #include <boltzmann/laws/two_columns.hpp>
+#include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/field_values.hpp>
-#include <boltzmann/scenario/formula.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace boltzmann {
 namespace {
@@ -54,17 +53,18 @@ std::optional<StateLaw> read_curve(Section& section, Item const& text, Reading& 
   if (!formula || reading.context.mistakes.count() != before || !from || !to) return std::nullopt;
   std::optional<StateLaw> law;
   try {
-    std::array<std::string, 2> const names{"T", "kB"};
-    Formula const capacity(*formula, names);
+    FormulaInputs inputs(1, reading.context.units);
+    inputs.check_dimensions(reading.base_known && !reading.context.units.is_reduced());
+    inputs.add("T", dimensions::temperature);
+    inputs.define("kB", reading.boltzmann_constant(), dimensions::heat_capacity);
+    Formula capacity = inputs.read(*formula);
+    if (!capacity.fits(dimensions::heat_capacity) || capacity.components() > 1)
+      throw FormulaError(0, fmt::format("a heat capacity is needed; this is {}", dimension_text(capacity.dimension())));
     catch_errors(reading, text.place, [&] {
-      law.emplace(
-          [&capacity, k = reading.boltzmann_constant()](double temperature) {
-            return capacity(std::array<double, 2>{temperature, k});
-          },
-          *from, *to);
+      law.emplace([&capacity](double temperature) { return capacity({&temperature, 1}); }, *from, *to);
     });
   } catch (FormulaError const& error) {
-    reading.mistake(text.place, fmt::format("formula: {} (at '{}')", error.what(), formula->substr(error.offset)));
+    formula_mistake(text, "formula", error, reading);
   }
   return law;
 }
@@ -98,7 +98,7 @@ std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& k
   if ((file == nullptr) == (formula == nullptr)) {
     reading.mistake(formula ? formula->place : item->place,
                     "heat_capacity: a number, or a table with 'file' or 'formula' is needed, e.g. { formula = \"16*kB "
-                    "+ 0.01*kB*T\", from = \"50 K\", to = \"3000 K\" }");
+                    "+ 0.01*kB*T/(1 K)\", from = \"50 K\", to = \"3000 K\" }");
     return std::nullopt;
   }
   return file ? read_file(section, *file, reading) : read_curve(section, *formula, reading);

@@ -152,8 +152,9 @@ Place place_of(std::string const& message, Reading const& reading);
 std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles);
 /// Which particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
 /// `ensemble` may be null: then only the form is checked.
+/// `where` may have another meaning there (`parts`): then it is left alone.
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
-                                                         Reading& reading);
+                                                         Reading& reading, bool parts = false);
 
 /// The parameters of a law or a material, `owner` in messages, that stand in a table. Nothing, and mistakes, if one is
 /// missing or wrong.

@@ -182,14 +182,15 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
   all.add_said("density", "a density", "of smooth particles on a lattice: the masses follow", "none");
   all.add_said("material", "a table, `{ kind = \"tait\", ... }`",
                "of smooth particles: a [material](#material) (`bzm list materials`)", "needed with `[smooth]`");
-  all.add_said("heat_capacity",
-               "a number, `\"16 kB\"`; `{ file = \"cv.csv\" }`; or `{ formula = \"kB*(10 + T/100)\", from = \"50 K\", "
-               "to = \"3000 K\" }`",
-               "of `Meso`: which temperature an internal energy stands for. The file has two columns, temperature and "
-               "heat capacity, numbers of the base or of the units that `temperature = \"1 K\"` and `heat_capacity = "
-               "\"1 kB\"` beside it name; the formula is in T and Boltzmann's constant kB as numbers of the base. "
-               "Outside a table or the two ends the last value stays",
-               "internal energies have no temperature");
+  all.add_said(
+      "heat_capacity",
+      "a number, `\"16 kB\"`; `{ file = \"cv.csv\" }`; or `{ formula = \"kB*(10 + T/(100 K))\", from = \"50 K\", "
+      "to = \"3000 K\" }`",
+      "of `Meso`: which temperature an internal energy stands for. The file has two columns, temperature and "
+      "heat capacity, numbers of the base or of the units that `temperature = \"1 K\"` and `heat_capacity = "
+      "\"1 kB\"` beside it name; the formula is in T and Boltzmann's constant kB. "
+      "Outside a table or the two ends the last value stays",
+      "internal energies have no temperature");
   all.add_said("internal_energy", "an energy as any other field, or `{ temperature = \"300 K\" }`",
                "of `Meso`: each particle draws its own from the equilibrium at that temperature (mean (Cv + k) T for a "
                "constant heat capacity)",
@@ -235,6 +236,12 @@ OptionTable make_influence_options() {
   all.add_said("influence", "a [formula](#laws-that-are-typed)",
                "instead of `law`: a typed law, by the force (or velocity) that p gets");
   all.add_said("parameters", "a table of quantities", "of a typed law: `{ depth = \"0.1 eV\" }`", "none");
+  all.add_said(
+      "at_cutoff", "`\"cut\"`, `\"shift\"` or `\"switch\"`",
+      "of a typed law: as it is up to the cut-off; less its value there (an energy less its slope there, too, so "
+      "that the force ends at zero); or times a smooth step from 1 to 0",
+      "`\"cut\"`");
+  all.add_said("switch_from", "a length, positive", "where that step begins", "nine tenths of the cut-off");
   all.add_said("from_outside", "`true` or `false`", "a typed law that acts from outside", "false");
   all.at("law").needed = "\"lennard-jones\"";
   return all;

@@ -1,5 +1,6 @@
 // One function for each way in.
 #include "targets.hpp"
+#include "formula_target.hpp"
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/nesting.hpp>
@@ -138,6 +139,27 @@ void read_run_file(std::string const& text) {
   } catch (Error const&) {
   }
 }
+/// The formulas of shipped scenarios, and some of laws, conditions and diagnoses.
+std::vector<std::string> formula_seeds() {
+  std::vector<std::string> seeds{"depth*((2.5 angstrom/r)^12 - 2*(2.5 angstrom/r)^6)",
+                                 "0.1 eV*(1 - exp(-(r - 2)))^2 + dot(separation, separation)",
+                                 "kinetic-energy < 0.01 eV && time > 5 ps || step == 30",
+                                 "norm(mean(velocity))/mean(speed)",
+                                 "sum(0.5*mass*dot(velocity - mean(velocity), velocity - mean(velocity)))",
+                                 "sqrt(mean(cos(angle))^2 + mean(sin(angle))^2)"};
+  for (auto const& name : shipped_scenarios()) {
+    auto const text = read_text(find_scenario(name));
+    for (auto from = text.find('"'); from != std::string::npos; from = text.find('"', from + 1)) {
+      auto const to = text.find_first_of("\"\n", from + 1);
+      if (to == std::string::npos) break;
+      auto const inside = text.substr(from + 1, to - from - 1);
+      if (inside.find_first_of("*^<") != std::string::npos) seeds.push_back(inside);
+      from = to;
+    }
+  }
+  return seeds;
+}
+
 std::vector<std::string> run_file_seeds() { return {file_of_run(run_file)}; }
 
 void read_xyz(std::string const& text) {
@@ -283,6 +305,7 @@ std::vector<std::string> const number_words{
 std::vector<Target> const& targets() {
   static std::vector<Target> const all{
       {"scenario", read_scenario_text, scenario_seeds, toml_words},
+      {"formula", read_formula_of_any_text, formula_seeds, formula_words()},
       {"run_file", read_run_file, run_file_seeds, toml_words},
       {"xyz", read_xyz, xyz_seeds, number_words},
       {"table", read_table, table_seeds, number_words},

@@ -2,7 +2,6 @@
 #include "tests/scenario/mistakes.hpp"
 
 #include <boltzmann/core/units.hpp>
-#include <boltzmann/scenario/formula.hpp>
 #include <boltzmann/scenario/stop_condition.hpp>
 
 #include <array>
@@ -82,10 +81,10 @@ TEST(StopCondition, SaysWhatIsWrongAndWhere) {
       {"temprature < 10 K", 0, {"unknown name 'temprature'", "did you mean 'temperature'?"}},
       {"time > 1 && kinetic-enrgy < 3", 12, {"'kinetic-enrgy'", "did you mean 'kinetic energy'?"}},
       {"temperature < 10 Kelvinn", 17, {"unknown unit 'Kelvinn'", "did you mean"}},
-      {"temperature < 10 eV", 12, {"temperature and energy can't be compared"}},
-      {"temperature + energy > 3", 12, {"temperature and energy can't be added"}},
-      {"energy - time > 3", 7, {"energy and time can't be subtracted"}},
-      {"max(energy, time) > 3", 0, {"energy and time can't be compared"}},
+      {"temperature < 10 eV", 12, {"a temperature and an energy can't be compared"}},
+      {"temperature + energy > 3", 12, {"a temperature and an energy can't be added"}},
+      {"energy - time > 3", 7, {"an energy and a time can't be subtracted"}},
+      {"max(energy, time) > 3", 12, {"an energy and a time can't be compared"}},
       {"energy^2 < total energy", 9, {"can't be compared"}},
       {"temperature = 3", 12, {"'=='"}},
       {"temperature < ", 14, {"ends where"}},
@@ -181,7 +180,8 @@ INSTANTIATE_TEST_SUITE_P(
             replaced(gas, "temperature < 10", "temprature < 10"),
             "14:9",
             {"stop: unknown name 'temprature'", "there are step, time, temperature, temperature x", "did you mean"}},
-        Mistake{"dimension", replaced(gas, "10 K", "10 eV"), "14:21", {"temperature and energy can't be compared"}},
+        Mistake{
+            "dimension", replaced(gas, "10 K", "10 eV"), "14:21", {"a temperature and an energy can't be compared"}},
         Mistake{"no condition", replaced(gas, "temperature < 10 K", "temperature"), "14:9", {"a condition is needed"}},
         Mistake{"no diagnoses",
                 replaced(gas, "[[diagnoses]]\nkind = \"temperature\"\n", ""),
