@@ -120,6 +120,7 @@ int check(std::string const& name, Overrides const& overrides) {
       make_recording(*scenario, std::filesystem::temp_directory_path().string(), {.overwrite = true});
   scenario->simulation->check();
   recording->check();
+  print_warnings(*scenario->simulation, {.quiet = true});
   std::size_t particles = 0, bytes = 0;
   for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there
   for (auto const& ensemble : scenario->ensembles) {

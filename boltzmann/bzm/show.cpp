@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <sstream>
 
@@ -193,6 +194,35 @@ void show_options(OptionTable const& options, void* plain = nullptr) {
   }
 }
 
+/// Names in a text that are a word of their own.
+bool reads_name(std::string_view text, std::string_view name) {
+  auto const part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
+  for (auto at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+    std::size_t const end = at + name.size();
+    if ((at == 0 || !part(text[at - 1])) && (end == text.size() || !part(text[end]))) return true;
+  }
+  return false;
+}
+
+/// The law as a table for a scenario, with examples of its parameters.
+void show_typed(LawInfo const& law, int dimension, std::string_view text) {
+  fmt::print("    [[influences]]\n    {} = \"{}\"\n", law.has_energy ? "energy" : "influence", text);
+  std::vector<std::string> parameters;
+  for (auto const& parameter : law.parameters) {
+    if (!reads_name(text, parameter.name)) continue;
+    auto const units = example_units(parameter.dimension.in(dimension));
+    std::string value(parameter.default_text);
+    if (value.empty()) value = "1";
+    if (value.find(' ') == std::string::npos && !units.empty()) value += " " + units.front();
+    bool const plain = value.find(' ') == std::string::npos;
+    parameters.push_back(plain ? fmt::format("{} = {}", parameter.name, value)
+                               : fmt::format("{} = \"{}\"", parameter.name, value));
+  }
+  if (!parameters.empty()) fmt::print("    parameters = {{ {} }}\n", join(parameters));
+  if (law.kind == LawKind::external) fmt::print("    from_outside = true\n");
+  fmt::print("    on = \"...\"\n");
+}
+
 void show_law(LawInfo const& law) {
   fmt::print("law {}: {}\n\n  {}     {}\n", law.name, law.doc, law.has_energy ? "energy   " : "influence", law.formula);
   if (law.kind == LawKind::pair)
@@ -208,6 +238,14 @@ void show_law(LawInfo const& law) {
   if (!law.has_energy) fmt::print("  has no energy: total energies are not defined with it\n");
   fmt::print("\n  parameters\n");
   show_options(options_of(law.parameters));
+  for (int d = 1; d <= 3; ++d) {
+    std::string_view const text = law.typed.in[d - 1];
+    bool const same = d > 1 && text == law.typed.in[d - 2];
+    if (text.empty() || same || d < law.least_dimension) continue;
+    bool const all = law.typed.in[0] == law.typed.in[2];
+    fmt::print("\n  the same as a typed law{}\n", all ? "" : fmt::format(", in {}D", d));
+    show_typed(law, d, text);
+  }
   fmt::print("\n  in C++: #include <{}>, {}\n", law.header, law.type);
 }
 

@@ -17,7 +17,8 @@ struct Drag {
                                 .formula = "force -friction v",
                                 .target = "Newton",
                                 .source = "",
-                                .has_energy = false};
+                                .has_energy = false,
+                                .typed = TypedLawText("-friction*velocity")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Drag::friction, {"friction", dimensions::friction, "force per velocity", not_negative}}};

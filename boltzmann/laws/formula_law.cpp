@@ -1,11 +1,13 @@
 // From the text of a law to programs: names and fields become inputs, energies are differentiated.
 #include <boltzmann/formulas/formula_reader.hpp>
 #include <boltzmann/laws/formula_law.hpp>
+#include <boltzmann/laws/pair_numbers.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace boltzmann {
 namespace {
@@ -27,7 +29,7 @@ class Maker {
                       target.class_name()));
   }
 
-  PairProgram pairs(AnyEnsemble const& source, FormulaLaw::Target part) {
+  PairProgram pairs(AnyEnsemble const& source, FormulaLaw::Target part, double cutoff) {
     bool const is_p = part == FormulaLaw::Target::p;
     std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
     FormulaValue separation;
@@ -58,6 +60,7 @@ class Maker {
       need(value, dimensions::energy, "an energy");
       energy = value.components[0];
       if (&source == &target_) check_symmetry(energy, of_target, of_source);
+      energy = ended(energy, cutoff, true);
       results = forces_of(energy, program.along);
       program.has_energy = true;
       program.antisymmetric = true;
@@ -66,6 +69,7 @@ class Maker {
       need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
       program.along = !value.is_vector;
       results = value.components;
+      for (auto& result : results) result = ended(result, cutoff, false);
       // A positive number pushes p away from q.
       if (program.along) results[0] = graph_.scale(-1, graph_.product({{results[0], 1}, {square_, -0.5}}));
       program.antisymmetric = &source == &target_ && is_antisymmetric(results, program.along, of_target, of_source);
@@ -79,6 +83,8 @@ class Maker {
     program.influence = make_program(graph_, results, columns, rows);
     program.measure = make_program(graph_, measured, columns, rows);
     program.velocity_dependent = reads(target_, program.of_p, "velocity") || reads(source, program.of_q, "velocity");
+    program.numbers = std::make_shared<PairNumbers>(
+        PairNumbers{Calculation(graph_, measured), of_target, of_source, next_, program.along, program.has_energy});
     return program;
   }
 
@@ -124,11 +130,7 @@ class Maker {
   }
 
  private:
-  /// One number of a row, and the input that stands for it.
-  struct RowInput {
-    int offset;
-    std::uint32_t input;
-  };
+  using RowInput = PairNumbers::RowInput;
 
   Dimension dimension_of(Dimension dimension) const { return names_.checked ? dimension : Dimension{}; }
 
@@ -195,6 +197,39 @@ class Maker {
     for (std::uint32_t c = 0; c < D; ++c)
       direct[c] = graph_.sum(0, {{graph_.multiply(factor, graph_.input(c)), 1}, {direct[c], 1}});
     return direct;
+  }
+
+  /// An energy or an influence that ends at the cut-off as the law wishes.
+  Expression ended(Expression value, double cutoff, bool is_energy) {
+    if (law_.at_cutoff == FormulaLaw::AtCutoff::cut) return value;
+    if (!std::isfinite(cutoff))
+      throw FormulaLawError("", 0, "without a cut-off nothing can be shifted or switched off there");
+    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
+    Expression const r = graph_.root(square_);
+    if (law_.at_cutoff == FormulaLaw::AtCutoff::switched) {
+      double const from = law_.switch_from > 0 ? law_.switch_from : 0.9 * cutoff;
+      if (!(from < cutoff))
+        throw FormulaLawError("", 0,
+                              fmt::format("a law that is switched off between {} and the cut-off {} has no room "
+                                          "for it",
+                                          from, cutoff));
+      // 1 - x^3 (10 - 15 x + 6 x^2): value, slope and curvature are smooth at both ends.
+      Expression const x = graph_.apply(Operation::max, graph_.number(0),
+                                        graph_.sum(-from / (cutoff - from), {{r, 1 / (cutoff - from)}}));
+      Expression const inside = graph_.sum(10, {{x, -15}, {graph_.product({{x, 2}}), 6}});
+      return graph_.multiply(value, graph_.sum(1, {{graph_.product({{x, 3}, {inside, 1}}), -1}}));
+    }
+    // The same at the cut-off, in the same direction.
+    std::unordered_map<std::uint32_t, Expression> at_end{{D, graph_.number(cutoff * cutoff)}};
+    for (std::uint32_t c = 0; c < D; ++c)
+      at_end[c] = graph_.scale(cutoff, graph_.multiply(graph_.input(c), graph_.product({{square_, -0.5}})));
+    Expression const there = graph_.replaced(value, at_end);
+    if (!is_energy) return graph_.subtract(value, there);
+    std::vector<ExpressionGraph::Term> slope{{graph_.multiply(graph_.derivative(value, D), r), 2}};
+    for (std::uint32_t c = 0; c < D; ++c)
+      slope.push_back({graph_.multiply(graph_.derivative(value, c), graph_.divide(graph_.input(c), r)), 1});
+    Expression const slope_there = graph_.replaced(graph_.sum(0, slope), at_end);
+    return graph_.sum(0, {{value, 1}, {there, -1}, {graph_.multiply(graph_.sum(-cutoff, {{r, 1}}), slope_there), -1}});
   }
 
   /// Inputs for a pair, and for the same pair seen from the other side.
@@ -285,8 +320,9 @@ class Maker {
 
 }  // namespace
 
-PairProgram FormulaLaw::between(AnyEnsemble const& target, AnyEnsemble const& source, Target part) const {
-  return Maker(*this, target).pairs(source, part);
+PairProgram FormulaLaw::between(AnyEnsemble const& target, AnyEnsemble const& source, Target part,
+                                double cutoff) const {
+  return Maker(*this, target).pairs(source, part, cutoff);
 }
 
 ExternalProgram FormulaLaw::on(AnyEnsemble const& target) const { return Maker(*this, target).external(); }

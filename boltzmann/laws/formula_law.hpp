@@ -38,28 +38,34 @@ struct FormulaLawError : FormulaError {
 /// Dimensions are checked unless units are reduced.
 struct FormulaLaw {
   enum class Gives { energy, influence };
+  /// How it ends at a cut-off: as it is there; less its value there (an energy also less its slope there, so that the
+  /// force ends at zero, too); or times a smooth step from 1 to 0 between `switch_from` and the cut-off.
+  enum class AtCutoff { cut, shift, switched };
 
   Gives gives = Gives::energy;
   std::string text;
   std::vector<FormulaParameter> parameters;
   std::vector<FormulaPart> where;
   UnitSystem units = UnitSystem::reduced();
+  AtCutoff at_cutoff = AtCutoff::cut;
+  double switch_from = 0;  ///< 0: nine tenths of the cut-off
 
   static FormulaLaw energy(std::string text, std::vector<FormulaParameter> parameters = {},
                            std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
-    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), units};
+    return {Gives::energy, std::move(text), std::move(parameters), std::move(where), units, AtCutoff::cut, 0};
   }
   static FormulaLaw influence(std::string text, std::vector<FormulaParameter> parameters = {},
                               std::vector<FormulaPart> where = {}, UnitSystem units = UnitSystem::reduced()) {
-    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), units};
+    return {Gives::influence, std::move(text), std::move(parameters), std::move(where), units, AtCutoff::cut, 0};
   }
 
   /// Which of the formula's particles the target is: in energies between two ensembles p is of the first one, whoever is
   /// asked about; an influence acts on p.
   enum class Target { p, q };
-  /// The influence of `source` on `target`. FormulaLawError if a text is wrong, an energy is none, or the energy of two
+  /// The influence of `source` on `target` up to a cut-off. FormulaLawError if a text is wrong, an energy is none, or the energy of two
   /// particles of one ensemble changes when they change places.
-  PairProgram between(AnyEnsemble const& target, AnyEnsemble const& source, Target part = Target::p) const;
+  PairProgram between(AnyEnsemble const& target, AnyEnsemble const& source, Target part = Target::p,
+                      double cutoff = __builtin_inf()) const;
   /// From outside.
   ExternalProgram on(AnyEnsemble const& target) const;
 };

@@ -63,7 +63,8 @@ struct CoulombLaw {
       .formula = "k q q'/r in 3D, -2 k q q' ln r in 2D, -2 pi k q q' |x| in 1D; r^2 -> r^2 + softening^2",
       .target = "Coulomb",
       .source = "Coulomb",
-      .in_programs = "coulomb"};
+      .in_programs = "coulomb",
+      .typed = {"", "", "k*p.charge*q.charge/sqrt(r^2 + softening^2)"}};
   static constexpr auto parameters() {
     return std::tuple{ParameterOf{&CoulombLaw::k,
                                   {"k", dimensions::energy * dimensions::length / pow(dimensions::charge, 2),
@@ -85,7 +86,8 @@ struct GravityLaw {
       .formula = "-G m m'/r in 3D, 2 G m m' ln r in 2D, 2 pi G m m' |x| in 1D; r^2 -> r^2 + softening^2",
       .target = "Kepler",
       .source = "Kepler",
-      .in_programs = "gravity"};
+      .in_programs = "gravity",
+      .typed = {"", "", "-G*p.mass*q.mass/sqrt(r^2 + softening^2)"}};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&GravityLaw::G,

@@ -3,9 +3,12 @@
 
 #include <boltzmann/formulas/formula_program.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace boltzmann {
+
+struct PairNumbers;
 
 /// A law between p and q as programs. Their columns are the components of q.position - p.position, its square, and then
 /// these fields of q; the values of a row are these fields of p. A result multiplies q.position - p.position, or there is
@@ -17,6 +20,7 @@ struct PairProgram {
   bool has_energy = false;
   bool antisymmetric = false;  ///< known to obey Newton's third law
   bool velocity_dependent = false;
+  std::shared_ptr<PairNumbers const> numbers;  ///< the same law, one pair at a time
 };
 
 /// An influence from outside. Columns are these fields of a particle; the value of a row is the time. There is a result

@@ -17,7 +17,8 @@ struct LennardJones {
                                 .doc = "atoms of a noble gas: repulsion as r^-12, attraction as r^-6",
                                 .formula = "depth [(r0/r)^12 - 2 (r0/r)^6]",
                                 .target = "Newton",
-                                .source = "Particle"};
+                                .source = "Particle",
+                                .typed = TypedLawText("depth*((r0/r)^12 - 2*(r0/r)^6)")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&LennardJones::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},

@@ -20,7 +20,8 @@ struct Morse {
                                 .doc = "a chemical bond that breaks, with a core of finite height",
                                 .formula = "depth [(1 - exp(-a (r - r0)))^2 - 1]",
                                 .target = "Newton",
-                                .source = "Particle"};
+                                .source = "Particle",
+                                .typed = TypedLawText("depth*((1 - exp(-a*(r - r0)))^2 - 1)")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Morse::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},

@@ -12,6 +12,18 @@
 namespace boltzmann {
 
 /// What a shipped law is: `static constexpr LawText text{...}` in its struct.
+/// A law as somebody would type it, in the words of FormulaLaw: an energy if it has one, else an influence; empty: it
+/// can't be typed.
+struct TypedLawText {
+  std::string_view in[3];  ///< by dimension, from 1
+
+  constexpr TypedLawText() = default;
+  /// The same in all dimensions.
+  constexpr explicit TypedLawText(std::string_view text) : in{text, text, text} {}
+  constexpr TypedLawText(std::string_view in_1d, std::string_view in_2d, std::string_view in_3d)
+      : in{in_1d, in_2d, in_3d} {}
+};
+
 struct LawText {
   std::string_view name;     ///< the word in scenarios: "lennard-jones"
   std::string_view doc;      ///< one line
@@ -21,6 +33,7 @@ struct LawText {
   int least_dimension = 1, greatest_dimension = 3;
   bool has_energy = true;
   std::string_view in_programs = {};  ///< what a program writes; empty: the struct's name
+  TypedLawText typed = {};            ///< the same as a typed law
 };
 
 /// What a shipped material is: `static constexpr MaterialText text{...}` in its struct.

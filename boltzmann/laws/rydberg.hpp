@@ -18,11 +18,13 @@ struct Rydberg {
   double a;
   double alpha = 0;  ///< from 0 to below 4/9 there is one minimum and no maximum
 
-  static constexpr LawText text{.name = "rydberg",
-                                .doc = "the universal binding curve of Rose, Ferrante and Smith, for metals",
-                                .formula = "-depth (1 + x + alpha x^3) exp(-x), x = a (r - r0)/r0",
-                                .target = "Newton",
-                                .source = "Particle"};
+  static constexpr LawText text{
+      .name = "rydberg",
+      .doc = "the universal binding curve of Rose, Ferrante and Smith, for metals",
+      .formula = "-depth (1 + x + alpha x^3) exp(-x), x = a (r - r0)/r0",
+      .target = "Newton",
+      .source = "Particle",
+      .typed = TypedLawText("-depth*(1 + a*(r/r0 - 1) + alpha*(a*(r/r0 - 1))^3)*exp(-a*(r/r0 - 1))")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Rydberg::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},

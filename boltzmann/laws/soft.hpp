@@ -19,7 +19,8 @@ struct Soft {
                                 .doc = "lumps of fluid that may lie on top of each other: Groot and Warren's repulsion",
                                 .formula = "repulsion range/2 (1 - r/range)^2 up to the range",
                                 .target = "Newton",
-                                .source = "Particle"};
+                                .source = "Particle",
+                                .typed = TypedLawText("0.5*repulsion*range*max(1 - r/range, 0)^2")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Soft::repulsion,

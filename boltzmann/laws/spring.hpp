@@ -19,7 +19,8 @@ struct Spring {
                                 .doc = "Hooke's law with a rest length; in 1D it keeps the order of its ends",
                                 .formula = "stiffness (r - rest_length)^2 / 2",
                                 .target = "Newton",
-                                .source = "Particle"};
+                                .source = "Particle",
+                                .typed = TypedLawText("0.5*stiffness*(r - rest_length)^2")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&Spring::stiffness, {"stiffness", dimensions::spring_constant, "force constant", not_negative}},

@@ -15,7 +15,8 @@ struct Tether {
       .doc = "a spring from each particle to its own anchor; anchor and stiffness are fields of the particle",
       .formula = "stiffness |x - anchor|^2 / 2",
       .target = "Tethered",
-      .source = ""};
+      .source = "",
+      .typed = TypedLawText("0.5*stiffness*dot(position - anchor, position - anchor)")};
   static constexpr auto parameters() { return std::tuple{}; }
 
   template <class P>

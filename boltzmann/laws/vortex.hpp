@@ -33,7 +33,9 @@ struct PlainCore {
       .source = "Vortex",
       .least_dimension = 2,
       .has_energy = false,
-      .in_programs = "BiotSavart"};
+      .in_programs = "BiotSavart",
+      .typed = {"", "q.vorticity/(2*pi)*[separation.y, -separation.x]/max(r, q.core)^2",
+                "cross(separation, q.vorticity)/(4*pi*(r^2 + q.core^2)^1.5)"}};
 
   template <class Real>
   static Real turning_2d(Real const& square, Real const& core2) {
@@ -63,7 +65,9 @@ struct AlgebraicCore {
       .source = "Vortex",
       .least_dimension = 2,
       .has_energy = false,
-      .in_programs = "AlgebraicBiotSavart"};
+      .in_programs = "AlgebraicBiotSavart",
+      .typed = {"", "q.vorticity/(2*pi)*[separation.y, -separation.x]*(r^2 + 2*q.core^2)/(r^2 + q.core^2)^2",
+                "cross(separation, q.vorticity)*(r^2 + 2.5*q.core^2)/(4*pi*(r^2 + q.core^2)^2.5)"}};
 
   template <class Real>
   static Real turning_2d(Real const& square, Real const& core2) {
@@ -93,7 +97,10 @@ struct GaussianCore {
       .source = "Vortex",
       .least_dimension = 2,
       .has_energy = false,
-      .in_programs = "GaussianBiotSavart"};
+      .in_programs = "GaussianBiotSavart",
+      .typed = {"", "q.vorticity/(2*pi)*[separation.y, -separation.x]*(1 - exp(-r^2/(2*q.core^2)))/r^2",
+                "cross(separation, q.vorticity)*(erf(r/(sqrt(2)*q.core)) - "
+                "sqrt(2/pi)*r/q.core*exp(-r^2/(2*q.core^2)))/(4*pi*r^3)"}};
 
   template <class Real>
   static Real turning_2d(Real const& square, Real const& core2) {

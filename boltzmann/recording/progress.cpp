@@ -2,8 +2,8 @@
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/recording/progress.hpp>
-#include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/recording/run_loop.hpp>
+#include <boltzmann/simulation/keeps_numbers.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -126,6 +126,8 @@ struct Watch {
   }
 };
 
+}  // namespace
+
 void print_warnings(Simulation const& simulation, ProgressOptions const& options) {
   auto const print = [&](std::vector<std::string> const& lines) {
     for (auto const& line : lines)
@@ -134,8 +136,6 @@ void print_warnings(Simulation const& simulation, ProgressOptions const& options
   for (auto* scheme : simulation.schemes()) print(scheme->warnings(simulation.step_size()));
   for (auto* dissipation : simulation.dissipations()) print(dissipation->warnings(simulation.step_size()));
 }
-
-}  // namespace
 
 bool rewrites_lines() {
   char const* terminal = std::getenv("TERM");

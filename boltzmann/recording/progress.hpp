@@ -32,8 +32,11 @@ struct RunReport {
   std::string condition;       ///< of Recording::stop_when, if it has ended the run; else empty
 };
 
-/// Says what schemes and dissipations advise (Scheme::warnings, Dissipation::warnings; if quiet, their warnings only),
-/// and runs with a progress line, both on standard error: on a terminal one that is rewritten five times a second,
+/// Says what schemes and dissipations advise (Scheme::warnings, Dissipation::warnings; if quiet, their warnings only), on
+/// standard error.
+void print_warnings(Simulation const& simulation, ProgressOptions const& options = {});
+
+/// Says that, and runs with a progress line, both on standard error: on a terminal one that is rewritten five times a second,
 /// elsewhere one line for every 10 %. Ctrl-C finishes the step. Throws what Simulation::run throws.
 RunReport run_with_progress(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options = {});
 

@@ -66,7 +66,7 @@ class InfluenceReader {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
     if (section_.has("energy")) typed_item_ = section_.find("energy");
     if (typed_item_) return read_typed();
-    for (char const* key : {"energy", "influence", "parameters", "from_outside"}) {
+    for (char const* key : {"energy", "influence", "parameters", "from_outside", "at_cutoff", "switch_from"}) {
       if (section_.has(key))
         reading_.mistake(section_.place(key),
                          fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
@@ -111,12 +111,15 @@ class InfluenceReader {
     typed_.units = reading_.context.units;
     auto const text = read_text(*typed_item_, by_energy ? "energy" : "influence", reading_.context);
     if (text) typed_.text = *text;
-    read_typed_parameters();
-    read_parts();
+    typed_.parameters = read_formula_parameters(section_, reading_);
+    Item const* where = from_outside_ ? section_.item("where") : nullptr;
+    if (!from_outside_ || (where && where->is(Item::Kind::table)))
+      typed_.where = read_formula_parts(section_, reading_);
     read_ensembles();
+    read_end();
     if (!from_outside_)
       read_pairs();
-    else if (Item const* where = section_.item("where"); !where || !where->is(Item::Kind::table))
+    else if (!where || !where->is(Item::Kind::table))
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
     section_.finish();
     if ((a_ && a_->smooth()) || (b_ && b_->smooth()))
@@ -143,77 +146,33 @@ class InfluenceReader {
       reading_.mistake(law_place_, error.what());
     }
   }
+  /// at_cutoff, switch_from.
+  void read_end() {
+    using AtCutoff = FormulaLaw::AtCutoff;
+    static constexpr std::pair<char const*, AtCutoff> ways[] = {
+        {"cut", AtCutoff::cut}, {"shift", AtCutoff::shift}, {"switch", AtCutoff::switched}};
+    if (Item const* item = section_.find("at_cutoff")) {
+      if (from_outside_ || section_.has("connect"))
+        reading_.mistake(item->place, fmt::format("at_cutoff: {} no cut-off",
+                                                  from_outside_ ? "what comes from outside has" : "connections have"));
+      std::vector<std::string> words;
+      for (auto const& [word, way] : ways) words.emplace_back(word);
+      auto const word = read_word(*item, "at_cutoff", words, reading_.context);
+      if (!word) return section_.allow("switch_from");
+      for (auto const& [name, way] : ways)
+        if (*word == name) typed_.at_cutoff = way;
+    }
+    if (typed_.at_cutoff != AtCutoff::switched)
+      section_.refuse("switch_from", "it belongs to at_cutoff = \"switch\"");
+    else if (auto const from = section_.quantity("switch_from", dimensions::length, positive))
+      typed_.switch_from = *from;
+  }
   /// At the text that the error is of.
   void refuse_text(FormulaLawError const& error) {
-    for (char const* key : {"where", "parameters"}) {
-      Item const* table = section_.item(key);
-      Entry const* entry = table ? table->find(error.part) : nullptr;
-      if (!entry) continue;
-      if (entry->item.is(Item::Kind::text))
-        return formula_mistake(entry->item, fmt::format("{}.{}", key, error.part), error, reading_);
-      return reading_.mistake(entry->place, fmt::format("{}.{}: {}", key, error.part, error.what()));
-    }
-    formula_mistake(*typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence", error, reading_);
+    if (!part_mistake(section_, error, reading_))
+      formula_mistake(*typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence", error,
+                      reading_);
   }
-  void read_typed_parameters() {
-    Item const* table = section_.find("parameters");
-    if (!table) return;
-    if (!table->is(Item::Kind::table))
-      return reading_.mistake(
-          table->place,
-          fmt::format("parameters: a table is needed, {{ depth = \"0.1 eV\" }}, not {}", describe(*table)));
-    for (auto const& [key, place, item] : table->entries) {
-      FormulaParameter parameter{key, 0, {}};
-      if (!is_name(key)) {
-        reading_.mistake(
-            place, fmt::format("parameters: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
-        continue;
-      }
-      if (item.is_number()) {
-        parameter.value = item.number;
-        if (reading_.context.recorder) reading_.context.recorder->plain(item, "number");
-      } else if (item.is(Item::Kind::text)) {
-        bool const good = catch_errors(reading_, item.place, [&] {
-          parameter.dimension = parse_quantity(item.text).dimension;
-          parameter.value = in_units(item.text, parameter.dimension, reading_.context.units);
-        });
-        if (!good) continue;
-        if (reading_.context.recorder) reading_.context.recorder->plain(item, "text");
-      } else {
-        reading_.mistake(item.place,
-                         fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", key, describe(item)));
-        continue;
-      }
-      typed_.parameters.push_back(std::move(parameter));
-    }
-  }
-  void read_parts() {
-    if (from_outside_) {
-      Item const* where = section_.item("where");
-      if (!where || !where->is(Item::Kind::table)) return;
-    }
-    Item const* table = section_.find("where");
-    if (!table) return;
-    if (!table->is(Item::Kind::table))
-      return reading_.mistake(
-          table->place,
-          fmt::format("where: a table of formulas is needed, {{ s = \"(sigma/r)^6\" }}, not {}", describe(*table)));
-    for (auto const& [key, place, item] : table->entries) {
-      if (!is_name(key)) {
-        reading_.mistake(place,
-                         fmt::format("where: '{}' is no name for a formula; letters, digits and _ are", quoted(key)));
-        continue;
-      }
-      if (auto const text = read_text(item, fmt::format("where.{}", key), reading_.context))
-        typed_.where.push_back({key, *text});
-    }
-  }
-  static bool is_name(std::string_view key) {
-    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    return !key.empty() && letter(key[0]) &&
-           std::all_of(key.begin(), key.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-  }
-
   std::string called() const { return typed_item_ ? "the typed law" : fmt::format("law '{}'", law_->name); }
 
   // ---- A shipped law ----

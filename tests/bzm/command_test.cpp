@@ -683,5 +683,36 @@ TEST(Bzm, TellsWhatTolerancesCost) {
   expect_one_line(bzm({"accuracy", "copper"}, folder.string()), 2, {"the scenario has no [multipole]"});
 }
 
+// What `bzm show` prints of a law can be put into a scenario, and a warning is told before a run.
+TEST(Command, ShowsLawsAsTheyAreTyped) {
+  test::Folder folder;
+  std::string const head =
+      "[units]\nbase = \"SI\"\n[box]\nlow = [0, 0, 0]\nhigh = [90, 90, 90]\nboundary = \"periodic\"\n[run]\nstep = 1\n"
+      "steps = 2\ncutoff = CUTOFF\n[[ensembles]]\nname = \"atoms\"\nclass = \"CLASS\"\nnumber = 9\nload = { kind = "
+      "\"random\", minimum_distance = 5 }\nmass = 1\n";
+  for (auto const& law : scenario_laws()) {
+    auto const shown = bzm({"show", std::string(law.name)}, folder.string()).out;
+    bool const typed = !law.typed.in[2].empty();
+    EXPECT_EQ(shown.find("the same as a typed law") != std::string::npos, typed) << shown;
+    if (!typed || (law.target != "Newton" && law.target != "Kepler")) continue;
+    auto const from = shown.rfind("    [[influences]]"), to = shown.find("\n\n", from);
+    std::string text = head + shown.substr(from, to - from) + "\n";
+    for (auto const& [old, now] : {std::pair("CLASS", std::string(law.target)), std::pair("CUTOFF", std::string("45")),
+                                   std::pair("\"...\"", std::string("\"atoms\""))})
+      text.replace(text.find(old), std::string_view(old).size(), now);
+    test::write_text(folder / "typed.toml", text);
+    auto const checked = bzm({"check", "typed.toml"}, folder.string());
+    EXPECT_EQ(checked.status, 0) << text << checked.err;
+  }
+  std::string jumps = head + "[[influences]]\nenergy = \"1 J/(r/(1 m))\"\non = \"atoms\"\n";
+  jumps.replace(jumps.find("CLASS"), 5, "Newton");
+  jumps.replace(jumps.find("CUTOFF"), 6, "30");
+  test::write_text(folder / "jumps.toml", jumps);
+  auto const checked = bzm({"check", "jumps.toml"}, folder.string());
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_NE(checked.err.find("warning: the typed law within 'atoms' jumps at its cut-off 30 m"), std::string::npos)
+      << checked.err;
+}
+
 }  // namespace
 }  // namespace boltzmann::command_test

@@ -39,6 +39,7 @@ struct ReadyPairs {
     kernels.has_energy = program.has_energy;
     traits.velocity_dependent = program.velocity_dependent;
     traits.one_way = !program.antisymmetric;
+    traits.typed = program.numbers;
     law = ready(std::move(program), target.dimension());
   }
 };
@@ -46,7 +47,7 @@ struct ReadyPairs {
 }  // namespace
 
 void PairScheme::one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff) {
-  ReadyPairs const ready(law.between(target, source), target);
+  ReadyPairs const ready(law.between(target, source, FormulaLaw::Target::p, cutoff), target);
   add_pairs(target, source, ready.kernels, ready.law, ready.traits, cutoff);
 }
 
@@ -57,7 +58,7 @@ void PairScheme::internal(AnyEnsemble& ensemble, FormulaLaw const& law, double c
 void PairScheme::between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law, double cutoff) {
   // An energy is one for both; an influence is that of the other one on p, whichever p is.
   auto const part = law.gives == FormulaLaw::Gives::energy ? FormulaLaw::Target::q : FormulaLaw::Target::p;
-  ReadyPairs const on_a(law.between(a, b), a), on_b(law.between(b, a, part), b);
+  ReadyPairs const on_a(law.between(a, b, FormulaLaw::Target::p, cutoff), a), on_b(law.between(b, a, part, cutoff), b);
   add_pairs(a, b, on_a.kernels, on_a.law, on_a.traits, cutoff);
   add_pairs(b, a, on_b.kernels, on_b.law, on_b.traits, cutoff);
 }

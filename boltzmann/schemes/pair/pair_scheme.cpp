@@ -3,6 +3,7 @@
 
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/laws/pair_numbers.hpp>
 #include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/pair/closing_speed.hpp>
 #include <boltzmann/schemes/vortices/vortex_source.hpp>
@@ -19,6 +20,7 @@ constexpr std::size_t particle_grain = 256;     // particles of one range of a l
 constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
 // Below, one thread is faster than the start of two (some us, and some 50 if the others have gone to sleep).
 constexpr double pair_work = 0.125;
+constexpr double most_left_at_cutoff = 0.05;
 constexpr double collision_part = 0.25;  // of a law's length, that particles may come closer in a step
 
 double with_two_digits_below(double x) {
@@ -71,8 +73,29 @@ struct PairScheme::Near {
   std::vector<double> images;  // rows of those beyond walls
 
   bool all_pairs() const { return cutoff == no_cutoff; }
+  /// Of a typed law, for the particles as they are now.
+  LawSample sample(Box const& box) const {
+    if (!traits.typed) return {};
+    double diagonal = 0, volume = 1;
+    for (int a = 0; a < box.dimension(); ++a) {
+      double low = box.low(a), high = box.high(a);
+      if (!std::isfinite(high - low)) {
+        low = no_cutoff, high = -no_cutoff;
+        for (auto const* ensemble : {target, source})
+          for (std::size_t i = 0; i < ensemble->size(); ++i) {
+            low = std::min(low, ensemble->row(i)[a]);
+            high = std::max(high, ensemble->row(i)[a]);
+          }
+      }
+      diagonal += (high - low) * (high - low);
+      volume *= high - low;
+    }
+    double const spacing = std::pow(volume / static_cast<double>(source->size()), 1.0 / box.dimension());
+    return sample_law(*traits.typed, *target, *source, all_pairs() ? std::sqrt(diagonal) : cutoff, spacing);
+  }
+  double length_scale(Box const& box) const { return traits.typed ? sample(box).length_scale : traits.length_scale; }
   double collision_step(Box const& box) const {
-    double const length = traits.length_scale;
+    double const length = length_scale(box);
     double const speed = std::isfinite(length) ? closing_speed(box, *target, *source) : 0;
     return speed > 0 ? collision_part * length / speed : no_cutoff;
   }
@@ -424,7 +447,7 @@ bool PairScheme::translation_invariant() const {
 double PairScheme::length_scale(AnyEnsemble const& ensemble) const {
   double shortest = no_cutoff;
   for (auto const& near : near_)
-    if (near->target == &ensemble) shortest = std::min({shortest, near->traits.length_scale, near->cutoff});
+    if (near->target == &ensemble) shortest = std::min({shortest, near->length_scale(box()), near->cutoff});
   for (auto const& connected : connected_)
     if (connected->ensemble == &ensemble) shortest = std::min(shortest, connected->traits.length_scale);
   for (auto const& external : external_)
@@ -475,9 +498,10 @@ std::vector<std::string> PairScheme::warnings(double step_size) {
     bool const said = std::any_of(near_.begin(), near_.end(), [&](std::unique_ptr<Near> const& other) {
       return &other < &near && other->target == near->source && other->source == near->target;
     });
+    if (near->traits.typed && !said) warn_of_typed(*near, lines);
     double const longest = said ? no_cutoff : near->collision_step(box());  // said: the other way round
     if (!(dt > longest)) continue;
-    double const length = near->traits.length_scale, speed = collision_part * length / longest;
+    double const length = near->length_scale(box()), speed = collision_part * length / longest;
     lines.push_back(fmt::format(
         "warning: particles of '{}'{} meet at speeds up to {} and come {} closer in a step of {}, but the "
         "law between them changes over {}: collisions are not followed; take a step of at most {}",
@@ -486,6 +510,25 @@ std::vector<std::string> PairScheme::warnings(double step_size) {
         told(length, dimensions::length), told(with_two_digits_below(longest), dimensions::time)));
   }
   return lines;
+}
+
+/// A typed law that is no number somewhere, or has a force left at the cut-off.
+void PairScheme::warn_of_typed(Near const& near, std::vector<std::string>& lines) const {
+  auto const length = [&](double number) { return spoken_units().text(number, dimensions::length, 3); };
+  auto const sample = near.sample(box());
+  std::string const whose = near.target == near.source
+                                ? fmt::format("within '{}'", near.target->name())
+                                : fmt::format("of '{}' on '{}'", near.source->name(), near.target->name());
+  if (sample.not_finite_at > 0)
+    lines.push_back(fmt::format("warning: the typed law {} is no finite number at a distance of {}{}", whose,
+                                length(sample.not_finite_at),
+                                near.all_pairs() ? "" : fmt::format(", within its cut-off {}", length(near.cutoff))));
+  else if (!near.all_pairs() && sample.left_at_reach > most_left_at_cutoff)
+    lines.push_back(
+        fmt::format("warning: the typed law {} jumps at its cut-off {}: {:.0f} % of its greatest influence "
+                    "between neighbours is left there; take a longer one, or at_cutoff = \"shift\" or "
+                    "\"switch\"",
+                    whose, length(near.cutoff), 100 * sample.left_at_reach));
 }
 
 std::vector<VortexSource> PairScheme::vortices() const {

@@ -148,7 +148,8 @@ class PairScheme final : public Scheme {
     bool velocity_dependent = false;
     bool one_way = false;  ///< who is influenced does not influence in return
     bool uniform = false;  ///< an external law that acts on equal particles equally, wherever they are
-    std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart that it is
+    std::optional<VortexLaw> vortices = {};         ///< the law of Biot and Savart that it is
+    std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to know its length
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
@@ -182,6 +183,7 @@ class PairScheme final : public Scheme {
 
   void calculate(double time, bool overwrite);
   bool has_reaction(Near const& near) const;
+  void warn_of_typed(Near const& near, std::vector<std::string>& lines) const;
 
   double cutoff_;
   double quantum_ = 0;
