@@ -2,12 +2,16 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/particles/particle_formula.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace boltzmann {
 namespace {
@@ -78,12 +82,77 @@ std::vector<DerivedQuantity> table_of(AnyEnsemble const& ensemble, std::span<dou
   return table;
 }
 
-DerivedQuantity find(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential_energy) {
+/// A formula with what it reads of a particle.
+class QuantityFormula {
+ public:
+  QuantityFormula(AnyEnsemble const& ensemble, std::string_view text, UnitSystem const& units,
+                  std::span<double const> potential_energy) {
+    int const dimension = ensemble.dimension();
+    ParticleNames names(ensemble.fields(), dimension, units);
+    auto const* particles = &ensemble;
+    for (std::size_t k = 0; k < names.size(); ++k)
+      values_.emplace_back([particles, at = names.offset(k)](std::size_t i) { return particles->row(i)[at]; });
+    auto table = table_of(ensemble, potential_energy);
+    for (std::string const vector : {"influence", "velocity"}) {
+      auto const first = std::find_if(table.begin(), table.end(),
+                                      [&](auto const& entry) { return entry.meaning.name == vector + ".x"; });
+      if (first == table.end() || names.inputs.has(vector)) continue;
+      names.inputs.add_vector(vector, first->meaning.dimension);
+      for (int c = 0; c < dimension; ++c) values_.push_back((first + c)->value);
+    }
+    for (auto& entry : table) {
+      std::string name = entry.meaning.name;
+      std::replace(name.begin(), name.end(), '-', '_');
+      if (name.find('.') != std::string::npos || names.inputs.has(name)) continue;
+      names.inputs.add(name, entry.meaning.dimension);
+      values_.push_back(std::move(entry.value));
+    }
+    formula_.emplace(names.inputs.read(text));
+    if (formula_->components() > 1) throw FormulaError(0, "a number is needed, not a vector; norm(...) is its length");
+    inputs_.resize(values_.size());
+  }
+  Dimension dimension() const { return formula_->dimension(); }
+  double operator()(std::size_t i) {
+    for (auto const input : formula_->inputs()) inputs_[input] = values_[input](i);
+    return (*formula_)(inputs_);
+  }
+
+ private:
+  std::vector<std::function<double(std::size_t)>> values_;
+  std::vector<double> inputs_;
+  std::optional<Formula> formula_;
+};
+
+std::shared_ptr<QuantityFormula> read_formula_of(AnyEnsemble const& ensemble, std::string_view text,
+                                                 std::span<double const> potential_energy, UnitSystem const* units) {
+  if (units) return std::make_shared<QuantityFormula>(ensemble, text, *units, potential_energy);
+  try {
+    return std::make_shared<QuantityFormula>(ensemble, text, UnitSystem::si(), potential_energy);
+  } catch (FormulaError const& error) {
+    try {  // in pure numbers there is nothing to check
+      return std::make_shared<QuantityFormula>(ensemble, text, UnitSystem::reduced(), potential_energy);
+    } catch (FormulaError const&) {
+      throw error;
+    }
+  }
+}
+
+DerivedQuantity find(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential_energy,
+                     UnitSystem const* units) {
   auto table = table_of(ensemble, potential_energy);
   std::vector<std::string> names;
   for (auto& entry : table) {
     if (entry.meaning.name == name) return std::move(entry);
     names.push_back(entry.meaning.name);
+  }
+  try {
+    auto const formula = read_formula_of(ensemble, name, potential_energy, units);
+    return {{std::string(name), std::string(name), formula->dimension()},
+            [formula](std::size_t i) { return (*formula)(i); }};
+  } catch (FormulaError const& error) {
+    if (name.find_first_of("+*/^()<>=?[") != std::string_view::npos)
+      throw Error(fmt::format("formula '{}' of particles of '{}': {} (at '{}')", quoted(name), ensemble.name(),
+                              error.what(), quoted(name.substr(std::min(error.offset, name.size())))));
   }
   Field const* vector = ensemble.find_field(name);
   std::string const hint = vector != nullptr ? fmt::format("; did you mean '{}.x'?", name) : did_you_mean(name, names);
@@ -99,13 +168,22 @@ std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble) {
   return meanings;
 }
 
-QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name) {
-  return find(ensemble, name, {}).meaning;
+QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name, UnitSystem const* units) {
+  return find(ensemble, name, {}, units).meaning;
+}
+
+bool has_quantity(AnyEnsemble const& ensemble, std::string_view name, UnitSystem const* units) {
+  try {
+    find(ensemble, name, {}, units);
+    return true;
+  } catch (Error const&) {
+    return false;
+  }
 }
 
 std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
-                             std::span<double const> potential_energy) {
-  DerivedQuantity const entry = find(ensemble, name, potential_energy);
+                             std::span<double const> potential_energy, UnitSystem const* units) {
+  DerivedQuantity const entry = find(ensemble, name, potential_energy, units);
   std::vector<double> values(ensemble.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = entry.value(i);
   return values;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <span>
@@ -24,12 +25,18 @@ struct QuantityMeaning {
 /// "potential-energy". A class without velocity has its influence for "velocity.x".
 std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble);
 
-/// Meaning of one name; Error with all names that are allowed, and the nearest.
-QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name);
+/// Instead of a name there may be a formula of these quantities, "0.5*mass*(velocity.x - 1)^2", with '_' for '-'
+/// ("kinetic_energy + potential_energy"), vectors ("norm(influence)/mass"), x, y, z and r (ParticleNames). Its dimensions
+/// are checked and its numbers may have units if `units` are told and not reduced.
+///
+/// Meaning of one name, or formula; Error with all names that are allowed, and the nearest.
+QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name, UnitSystem const* units = nullptr);
+/// Whether there is such a quantity.
+bool has_quantity(AnyEnsemble const& ensemble, std::string_view name, UnitSystem const* units = nullptr);
 
 /// The quantity of every particle, in order. "potential-energy" comes from the scheme: pass the ensemble's vector of
 /// EnergyAndVirial::per_particle; without it (or with another length) the values are NaN. Error as above.
 std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
-                             std::span<double const> potential_energy = {});
+                             std::span<double const> potential_energy = {}, UnitSystem const* units = nullptr);
 
 }  // namespace boltzmann

@@ -7,6 +7,7 @@
 #include <boltzmann/diagnoses/energy_balance.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
+#include <boltzmann/diagnoses/formula_diagnosis.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/shock.hpp>
@@ -509,12 +510,16 @@ class VelocityDiffusion final : public GroupDiagnosis {
 
 class ExtremesDiagnosis final : public GroupDiagnosis {
  public:
-  explicit ExtremesDiagnosis(DiagnosisParameters const& parameters) : GroupDiagnosis(parameters) {
+  explicit ExtremesDiagnosis(DiagnosisParameters const& parameters)
+      : GroupDiagnosis(parameters), units_(parameters.units) {
     auto const names = parameters.ensembles.empty() ? names_of(parameters.available) : parameters.ensembles;
     for (auto const& name : names)
-      meanings_.push_back(quantity_meaning(ensemble_named(parameters.available, name), parameters.quantity));
+      meanings_.push_back(quantity_meaning(ensemble_named(parameters.available, name), parameters.quantity, &units_));
   }
-  bool needs_energies() const override { return meanings_.front().name == "potential-energy"; }
+  bool needs_energies() const override {
+    std::string const& name = meanings_.front().name;
+    return name == "potential-energy" || name.find("potential_energy") != std::string::npos;
+  }
   std::vector<Column> columns_of_group(std::size_t group) const override {
     auto const& meaning = meanings_[group];
     std::vector<Column> columns;
@@ -524,7 +529,7 @@ class ExtremesDiagnosis final : public GroupDiagnosis {
   }
   void measure_group(std::size_t group, AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& particles,
                      std::span<double const> energies, std::vector<double>& values) override {
-    auto const all = quantity(ensemble, meanings_[group].name, energies);
+    auto const all = quantity(ensemble, meanings_[group].name, energies, &units_);
     std::vector<double> chosen;
     chosen.reserve(particles.size());
     for (std::uint32_t const i : particles) {
@@ -536,6 +541,7 @@ class ExtremesDiagnosis final : public GroupDiagnosis {
   }
 
  private:
+  UnitSystem units_;
   std::vector<QuantityMeaning> meanings_;
 };
 
@@ -709,6 +715,27 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
          }},
         {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", told(group_and_quantity)},
          make<ExtremesDiagnosis>},
+        {{"formula",
+          "what a formula makes of the particles of an ensemble, with mean(...), sum(...), min(...) and max(...) over "
+          "them",
+          told({each,
+                {"label", "of the column", "", "\"order\""},
+                {"formula", "", "", "\"norm(mean(velocity))/mean(speed)\""},
+                {"parameters"},
+                {"where"},
+                {"particles"}})},
+         formula_diagnosis},
+        {{"histogram", "which part of the particles of an ensemble has values of a formula in each of some bins",
+          told({each,
+                {"label", "of the columns", "", "\"speeds\""},
+                {"formula", "of one particle", "", "\"speed\""},
+                {"from", "the lower end of the first bin", "", "0", option::number(option::of_what_is_shown)},
+                {"to", "the upper end of the last bin", "", "10", option::number(option::of_what_is_shown)},
+                {"count", "bins", "`20`"},
+                {"parameters"},
+                {"where"},
+                {"particles"}})},
+         histogram_diagnosis},
         {{"field-energy", "of a mesh: half the integral of density times potential, the energy of its field", {}, true},
          make<FieldEnergy>},
         {{"field-mode",

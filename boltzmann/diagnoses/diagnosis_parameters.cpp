@@ -18,6 +18,10 @@ OptionTable const& diagnosis_options() {
     all.add("subtract_drift", &P::subtract_drift, flag(), "without the mean velocity, over N - 1");
     all.add("about_centre_of_mass", &P::about_centre_of_mass, flag(), "else about the origin");
     all.add("quantity", &P::quantity, name_of_quantity(), "what is looked at");
+    all.add("formula", &P::formula, text(), "a [formula](#formulas)");
+    all.add_said("parameters", "a table of quantities", "numbers of the formula: `{ depth = \"0.1 eV\" }`", "none");
+    all.add_said("where", "a table of [formulas](#formulas)",
+                 "parts of the formula with names of their own: `{ e = \"0.5*mass*speed^2\" }`", "none");
     all.add("mode", &P::mode, wholes(-1e9, 1e9), "periods in the box along each axis");
     all.add("axis", &P::axis, axis_word(), "along which one looks");
     all.add("modes", &P::modes, whole(1, __builtin_inf()), "how many waves are kept",

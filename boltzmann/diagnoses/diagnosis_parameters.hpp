@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/weight.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -34,6 +35,10 @@ struct DiagnosisParameters {
   bool about_centre_of_mass = false;  ///< angular momentum: else about the origin
   std::string quantity = {};  ///< extremes: a name that quantity() knows; of a mesh: one that mesh_quantity() knows;
                               ///< shock: "velocity" (empty) or "density"
+  std::string formula = {};   ///< formula: with sums over particles; histogram: of one
+  std::vector<FormulaParameter> formula_parameters = {};  ///< numbers with names, for formulas
+  std::vector<FormulaPart> formula_parts = {};            ///< parts of formulas, with names
+  UnitSystem units = UnitSystem::reduced();               ///< of numbers in formulas
   std::vector<MeshField const*> mesh_fields =
       {};  ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
   std::vector<VortexSource> vortices = {};  ///< those that act, for kinds that are of_flow

@@ -518,7 +518,8 @@ double ParticleColumn::operator[](std::size_t i) const {
   return std::hypot(v[0], v[1], components > 2 ? v[2] : 0.0);
 }
 
-ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential) {
+ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential,
+                         UnitSystem const* units) {
   if (ensemble.size() > 0) {
     std::size_t const dot = name.find('.');
     auto const dimension = static_cast<std::size_t>(ensemble.dimension());
@@ -542,7 +543,7 @@ ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std
     }
   }
   ParticleColumn column;
-  column.own = quantity(ensemble, name, potential);
+  column.own = quantity(ensemble, name, potential, units);
   column.first = column.own.data();
   return column;
 }

@@ -28,7 +28,8 @@ struct ParticleColumn {
 
 /// The column of a quantity (derived.hpp), valid as long as the ensemble keeps its particles. `potential` as for
 /// quantity(). Error for an unknown name.
-ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential = {});
+ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std::span<double const> potential = {},
+                         UnitSystem const* units = nullptr);
 
 /// What is drawn of one ensemble.
 struct CloudSource {

@@ -23,7 +23,7 @@ void Question::on(char const* key, std::function<void()> const& check) const {
 }
 
 void Question::known(char const* key, std::string const& name) const {
-  if (!name.empty()) on(key, [&] { meaning(ensembles, name); });
+  if (!name.empty()) on(key, [&] { meaning(ensembles, name, sources.units); });
 }
 
 void Question::need_columns() const {
@@ -45,8 +45,7 @@ void Question::need_slice() const {
 
 std::optional<Dimension> Question::dimension(std::string const& name) const {
   for (auto const* ensemble : ensembles)
-    for (auto const& quantity : quantities(*ensemble))
-      if (quantity.name == name) return quantity.dimension;
+    if (has_quantity(*ensemble, name, sources.units)) return quantity_meaning(*ensemble, name, sources.units).dimension;
   return std::nullopt;
 }
 

@@ -99,6 +99,7 @@ void check_tracks(Simulation const& simulation);
 struct PictureSources {
   std::vector<MeshField const*> mesh_fields;
   std::vector<Diagnosis const*> diagnoses;
+  UnitSystem const* units = nullptr;  ///< of numbers in formulas, if they are known
 };
 
 /// Hears what is wrong with an option of a picture.

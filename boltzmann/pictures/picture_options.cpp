@@ -38,7 +38,8 @@ OptionTable make_members() {
   all.add("x", &Picture::x, name_of_quantity(), "what is to the right");
   all.add("y", &Picture::y, name_of_quantity(), "what is upwards, or shown in colours");
   all.add("colour", &Picture::colour, name_of_quantity(),
-          "a quantity of the particles: a field, `\"speed\"`, `\"kinetic-energy\"`, `\"potential-energy\"`",
+          "a quantity of the particles: a field, `\"speed\"`, `\"kinetic-energy\"`, `\"potential-energy\"`, or a "
+          "formula of them",
           "by ensemble");
   all.add("size", &Picture::size, name_of_quantity(),
           "the same for diameters: the largest value gets that of its ensemble", "the ensemble's");

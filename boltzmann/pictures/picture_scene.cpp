@@ -82,9 +82,10 @@ EnergyAndVirial Scene::potential_energies() {
 
 template <class Function>
 void Scene::each_ensemble(std::string const& name, Function function) {
-  meaning(ensembles, name);
+  meaning(ensembles, name, &context.units);
   need(name);
-  EnergyAndVirial const measures = name == "potential-energy" ? potential_energies() : EnergyAndVirial{};
+  bool const of_pairs = name == "potential-energy" || name.find("potential_energy") != std::string::npos;
+  EnergyAndVirial const measures = of_pairs ? potential_energies() : EnergyAndVirial{};
   for (std::size_t e = 0; e < ensembles.size(); ++e)
     function(*ensembles[e], e < measures.per_particle.size() ? std::span<double const>(measures.per_particle[e])
                                                              : std::span<double const>());
@@ -93,7 +94,8 @@ void Scene::each_ensemble(std::string const& name, Function function) {
 std::vector<Values> Scene::values(std::string const& name) {
   std::vector<Values> all;
   each_ensemble(name, [&](AnyEnsemble const& one, std::span<double const> potential) {
-    all.push_back(has_quantity(one, name) ? quantity(one, name, potential) : Values(one.size(), no_value));
+    all.push_back(has_quantity(one, name, &context.units) ? quantity(one, name, potential, &context.units)
+                                                          : Values(one.size(), no_value));
   });
   return all;
 }
@@ -101,17 +103,19 @@ std::vector<Values> Scene::values(std::string const& name) {
 std::vector<ParticleColumn> Scene::columns(std::string const& name) {
   std::vector<ParticleColumn> all;
   each_ensemble(name, [&](AnyEnsemble const& one, std::span<double const> potential) {
-    all.push_back(has_quantity(one, name) ? column_of(one, name, potential) : ParticleColumn{});
+    all.push_back(has_quantity(one, name, &context.units) ? column_of(one, name, potential, &context.units)
+                                                          : ParticleColumn{});
   });
   return all;
 }
 
 // Classes without a velocity have their influence for it, and an integrator leaves that of an intermediate stage.
 void Scene::need(std::string const& name) {
-  bool const motion = name == "speed" || name.starts_with("velocity");
-  bool const needed = name.starts_with("influence") ||
-                      (motion && std::any_of(ensembles.begin(), ensembles.end(),
-                                             [](AnyEnsemble* e) { return !e->find_field("velocity"); }));
+  auto const reads = [&](char const* what) { return name.find(what) != std::string::npos; };
+  bool const motion = reads("speed") || reads("velocity") || reads("kinetic");
+  bool const needed =
+      reads("influence") || (motion && std::any_of(ensembles.begin(), ensembles.end(),
+                                                   [](AnyEnsemble* e) { return !e->find_field("velocity"); }));
   if (!needed || fresh_) return;
   fresh_ = true;
   keep_influences();
@@ -230,16 +234,11 @@ Heading heading(std::string const& text) {
   return {text.substr(0, at), text.substr(at + 2, text.size() - at - 3)};
 }
 
-bool has_quantity(AnyEnsemble const& ensemble, std::string const& name) {
-  auto const all = quantities(ensemble);
-  return std::any_of(all.begin(), all.end(), [&](auto const& q) { return q.name == name; });
-}
-
-QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name) {
+QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name, UnitSystem const* units) {
   for (auto const* ensemble : ensembles)
-    if (has_quantity(*ensemble, name)) return quantity_meaning(*ensemble, name);
+    if (has_quantity(*ensemble, name, units)) return quantity_meaning(*ensemble, name, units);
   if (ensembles.empty()) throw Error("there are no particles to draw");
-  return quantity_meaning(*ensembles.front(), name);  // throws, with the allowed names
+  return quantity_meaning(*ensembles.front(), name, units);  // throws, with the allowed names
 }
 
 Values joined(std::vector<Values> const& parts) {

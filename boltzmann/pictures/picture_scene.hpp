@@ -96,9 +96,9 @@ struct Heading {
 };
 Heading heading(std::string const& text);
 
-bool has_quantity(AnyEnsemble const& ensemble, std::string const& name);
 /// The meaning of a name that at least one of the ensembles knows; Error if none does.
-QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name);
+QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name,
+                        UnitSystem const* units = nullptr);
 Values joined(std::vector<Values> const& parts);
 
 /// What is known before a picture is drawn, and who hears what is wrong with it.

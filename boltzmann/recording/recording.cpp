@@ -84,6 +84,7 @@ struct Recording::State {
   /// What diagnoses are made from.
   DiagnosisParameters parameters(std::string_view kind) const {
     DiagnosisParameters parameters;
+    parameters.units = units;
     auto const all = ensembles();
     parameters.available.assign(all.begin(), all.end());
     for (auto const& known : diagnosis_kinds()) {
@@ -105,7 +106,7 @@ struct Recording::State {
       boltzmann::check(
           picture, ensembles(), columns,
           {picture.drawing == "mesh" ? mesh_fields_of(simulation.schemes()) : std::vector<MeshField const*>{},
-           rows.instruments()});
+           rows.instruments(), &units});
       if (!files.insert(picture.file).second) throw Error("two pictures are called '" + picture.file + "'");
       if (picture.trace) check_tracks(simulation);
       if (picture.trace && frames.every == 0)

@@ -2,6 +2,7 @@
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
+#include <boltzmann/diagnoses/formula_diagnosis.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/profile.hpp>
 #include <boltzmann/diagnoses/shock.hpp>
@@ -59,7 +60,8 @@ void read_group(Section& section, DiagnosisParameters& parameters, Reading& read
     if (parameters.ensembles.empty() ? reading.ensembles.size() == 1
                                      : parameters.ensembles == std::vector<std::string>{ensemble.name})
       one = &ensemble;
-  auto const which = read_particles(section, one ? one->particles : nullptr, reading);
+  bool const parts = section.has("where") && section.has("formula");
+  auto const which = read_particles(section, one ? one->particles : nullptr, reading, parts);
   if (which) parameters.particles = *which;
   if (which && !one)
     reading.mistake(section.place("particles"),
@@ -79,8 +81,25 @@ void read_diagnosis(Item const& table, Reading& reading) {
                                    [&](DiagnosisKind const& k) { return k.name == *name; });
   section.explain_word("kind", kind.doc);
   DiagnosisParameters parameters;
+  parameters.units = reading.context.units;
+  bool const typed = kind.options.find("formula") != nullptr;
+  if (typed) {
+    parameters.formula_parameters = read_formula_parameters(section, reading);
+    parameters.formula_parts = read_formula_parts(section, reading);
+  }
+  // Of a histogram, once everything else has been read.
+  auto const shown = [&]() -> std::optional<Dimension> {
+    if (!all_loaded(reading) || !typed) return std::nullopt;
+    auto known = parameters;
+    for (auto const& ensemble : reading.ensembles) known.available.push_back(ensemble.particles);
+    try {
+      return dimension_of_formula(known);
+    } catch (FormulaError const&) {
+      return std::nullopt;  // of which the diagnosis will tell
+    }
+  };
   read_options(section, kind.options, &parameters,
-               {reading.dimension, {}, [&](Option const& option, OptionPlace const& place) {
+               {reading.dimension, shown, [&](Option const& option, OptionPlace const& place) {
                   if (option.kind.form == OptionKind::Form::ensembles)
                     read_ensemble_names(section, option.key, *std::get<std::vector<std::string>*>(place), reading);
                   else
@@ -88,7 +107,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
                 }});
   if (section.has("range") && reading.box) check_range_of_weight(section, parameters.range, *reading.box);
   section.finish();
-  if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
+  if (reading.context.mistakes.count() != before || !all_loaded(reading) || (typed && !reading.base_known)) return;
   for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
   Place place = section.has("quantity") ? section.place("quantity") : word->place;
   if (kind.of_mesh) {
@@ -102,7 +121,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
       return;
     place = section.has("mode") ? section.place("mode") : section.has("axis") ? section.place("axis") : word->place;
   }
-  catch_errors(reading, place, [&] {
+  auto const make = [&] {
     if (kind.of_flow) {
       std::vector<Scheme*> schemes;
       for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
@@ -122,6 +141,16 @@ void read_diagnosis(Item const& table, Reading& reading) {
                                 column.name, kind.options.find("label") ? " (give a label)" : ""));
     reading.result->diagnoses.push_back(std::move(diagnosis));
     reading.diagnosis_places.push_back(table.place);
+  };
+  catch_errors(reading, place, [&] {
+    try {
+      make();
+    } catch (FormulaError const& error) {
+      reading.diagnoses_known = false;
+      auto const* of_part = dynamic_cast<FormulaLawError const*>(&error);
+      if (!of_part || !part_mistake(section, *of_part, reading))
+        formula_mistake(*section.item("formula"), "formula", error, reading);
+    }
   });
 }
 

@@ -25,6 +25,7 @@ bool mesh_known(Section const& section, PicturePlan const& plan, Reading& readin
 
 PictureSources sources_of(PicturePlan const& plan, Reading const& reading) {
   PictureSources sources;
+  if (reading.base_known) sources.units = &reading.context.units;
   if (plan.drawing == "mesh") sources.mesh_fields = reading.mesh.fields;
   for (auto const& diagnosis : reading.result->diagnoses) sources.diagnoses.push_back(diagnosis.get());
   return sources;

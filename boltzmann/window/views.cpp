@@ -107,7 +107,7 @@ void Views::add(std::string name, Picture picture, Unfit unfit) {
 }
 
 PictureSources Views::sources(Picture const& picture) const {
-  PictureSources all{{}, instruments_};
+  PictureSources all{{}, instruments_, &units_};
   if (picture.drawing == "mesh") all.mesh_fields = mesh_fields_of(simulation_.schemes());
   return all;
 }
