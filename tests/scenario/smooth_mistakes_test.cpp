@@ -270,7 +270,7 @@ std::vector<Mistake> const rows{
      {"jitter", "between 0 and 1"}},
     {"jitter at random", load("{ kind = \"random\", jitter = 0.1 }\nnumber = 9"), "22:27", {"unknown key 'jitter'"}},
     // Formulas.
-    {"unknown name", formula("1 + 0.1*sin(pi*X)"), "24:48", {"unknown name 'X'", "velocity.x", "did you mean 'x'?"}},
+    {"unknown name", formula("1 + 0.1*sin(pi*X)"), "24:48", {"unknown name 'X'", "velocity", "did you mean 'x'?"}},
     {"unknown function",
      formula("1 + sine(x)"),
      "24:37",
