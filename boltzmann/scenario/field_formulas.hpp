@@ -25,13 +25,6 @@ ParticleNames formula_names(int dimension, Reading const& reading);
 /// A mistake at the column of an item where its formula is wrong.
 void formula_mistake(Item const& item, std::string_view key, FormulaError const& error, Reading& reading);
 
-/// The same for a law or a diagnosis of several texts: at the part that the error is of, if it is of one.
-bool part_mistake(Section& section, FormulaLawError const& error, Reading& reading);
-
-/// parameters = { depth = "0.1 eV" } and where = { s = "(sigma/r)^6" }: numbers and parts with names, for formulas.
-std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading);
-std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading);
-
 /// A formula that stands in an item; a mistake at its column if it is none. `unknown` are fields that have no values
 /// yet.
 std::optional<ParticleFormula> read_formula(Item const& item, std::string_view key, ParticleNames const& names,
