@@ -1,7 +1,10 @@
 // A class of three fields that a scenario derives beside the same class compiled, in turns: whole steps of a liquid of
 // 32,000 atoms by leap-frog, and of the fields alone by rk4. CPU time of one thread, medians.
-#include <boltzmann/boltzmann.hpp>
+#include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/particles/newton.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
 
 #include <fmt/format.h>
 

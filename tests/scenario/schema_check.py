@@ -40,7 +40,12 @@ for path in sys.argv[2:]:
     ):
         with open(path, "rb") as file:
             document = tomllib.load(file)
+        # Classes of a scenario's own have names and fields that no schema knows.
+        own = [e for e in document["ensembles"] if "classes" in document]
+        known = {e["class"] for e in document["ensembles"]} | {k for e in own for k in e}
         spoil(document)
+        if own and ({e["class"] for e in document["ensembles"]} | {k for e in document["ensembles"] for k in e}) - known:
+            continue
         if len(mistakes(document)) <= len(found):
             print(f"{path}: what is wrong was not found")
             failures += 1
