@@ -689,7 +689,7 @@ TEST(Bzm, TellsWhatTolerancesCost) {
 TEST(Command, ShowsLawsAsTheyAreTyped) {
   test::Folder folder;
   std::string const head =
-      "[units]\nbase = \"SI\"\n[box]\nlow = [0, 0, 0]\nhigh = [90, 90, 90]\nboundary = \"periodic\"\n[run]\nstep = 1\n"
+      "[units]\nbase = \"si\"\n[box]\nlow = [0, 0, 0]\nhigh = [90, 90, 90]\nboundary = \"periodic\"\n[run]\nstep = 1\n"
       "steps = 2\ncutoff = CUTOFF\n[[ensembles]]\nname = \"atoms\"\nclass = \"CLASS\"\nnumber = 9\nload = { kind = "
       "\"random\", minimum_distance = 5 }\nmass = 1\n";
   for (auto const& law : scenario_laws()) {

@@ -7,8 +7,8 @@
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/laplace.hpp>
-#include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/particles/panel.hpp>
+#include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <tests/message.hpp>
@@ -178,12 +178,21 @@ TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
   EXPECT_EQ(dimension_of("extremes", 2, "mass"), to_string(dimensions::mass));
 }
 
+/// What those two need.
+void say_formula(std::string_view kind, DiagnosisParameters& with) {
+  if (kind != "formula" && kind != "histogram") return;
+  with.label = "one";
+  with.formula = kind == "formula" ? "mean(mass)" : "mass";
+  with.from = 0, with.to = 2;
+}
+
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   EXPECT_EQ(
       message([&] { make_diagnosis("energy", parameters()); }),
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, "
       "vortex-energy, body-forces, temperature, pressure, number, entropy, heat-flux, slab, shock, mean-velocity, "
-      "velocity-diffusion, diffusion, extremes, field-energy, field-mode, wave-spectrum, energy-balance; "
+      "velocity-diffusion, diffusion, extremes, formula, histogram, field-energy, field-mode, wave-spectrum, "
+      "energy-balance; "
       "did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
@@ -214,7 +223,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 21U);
+  EXPECT_EQ(diagnosis_kinds().size(), 23U);
   Ensemble<Smooth<2>> gas("gas");
   Ensemble<Vortex<2>> vortices("vortices");
   Ensemble<Panel<2>> body("body");
@@ -229,6 +238,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
       continue;
     }
     if (kind.name == "extremes") any.quantity = "speed";
+    say_formula(kind.name, any);
     if (kind.name == "entropy" || kind.name == "heat-flux") any.available = {&gas};
     if (kind.name == "heat-flux") any.conductivity = 1;
     if (kind.name == "body-forces") {
@@ -276,6 +286,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     std::vector<AnyEnsemble*> const ensembles{of};
     DiagnosisParameters with{.available = {of}};
     if (kind.name == "extremes") with.quantity = "speed";
+    say_formula(kind.name, with);
     if (kind.of_flow) with.vortices = {{&vortices, BiotSavart{}}};
     auto const diagnosis = make_diagnosis(kind.name, with);
     std::vector<double> values;
@@ -283,7 +294,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     EXPECT_EQ(values.size(), diagnosis->columns().size());
     bool const is_mean = kind.name == "temperature" || kind.name == "mean-velocity" ||
                          kind.name == "velocity-diffusion" || kind.name == "diffusion" || kind.name == "extremes" ||
-                         kind.name == "entropy";
+                         kind.name == "entropy" || kind.name == "formula" || kind.name == "histogram";
     for (double const value : values) EXPECT_EQ(std::isnan(value), is_mean) << kind.name;
   }
 }
