@@ -182,8 +182,8 @@ TEST_F(Diagnoses, DimensionsAreThoseOfTheQuantities) {
 void say_formula(std::string_view kind, DiagnosisParameters& with) {
   if (kind != "formula" && kind != "histogram") return;
   with.label = "one";
-  with.formula = kind == "formula" ? "mean(mass)" : "mass";
-  with.from = 0, with.to = 2;
+  with.formula = kind == "formula" ? "mean(x)" : "x";
+  if (kind == "histogram") with.from = 0, with.to = 2;
 }
 
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {

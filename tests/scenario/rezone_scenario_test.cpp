@@ -24,7 +24,8 @@ std::string const jet =
     "[[smooth.rezone]]\nevery = 20\nby = \"volume\"\nsplit_above = \"20 cm^2\"\nlow = [\"20 cm\", 0]\nhigh = [0.6, 1]\n"
     "[[ensembles]]\nname = \"gas\"\nclass = \"Smooth\"\nrange = 0.13\nintegrator = \"leap-frog\"\n"
     "load = { kind = \"fill\", spacing = 0.05 }\n"
-    "formulas = { density = \"1 + 0.4*sin(2*pi*x/(1 m))\", specific_energy = \"1\", velocity = [\"0.4*sin(pi*y/(1 m))\", \"0\"] }\n"
+    "formulas = { density = \"(1 + 0.4*sin(2*pi*x/(1 m)))*(1 kg/m^2)\", specific_energy = \"1\", velocity = [\"(0.4 "
+    "m/s)*sin(pi*y/(1 m))\", \"0\"] }\n"
     "material = { kind = \"ideal-gas\", gamma = 1.4, specific_heat = 1 }\n"
     "[[diagnoses]]\nkind = \"energies\"\n";
 

@@ -44,7 +44,8 @@ TEST_P(Twins, HaveTheSameInfluencesAndEnergies) {
   LawInfo const* const law = GetParam().law;
   int const d = GetParam().dimension;
   auto const& target_class = *find_class(law->target)->in(d);
-  bool const one_way = law->symmetry == Symmetry::one_way || (law->source != "Particle" && law->source != law->target);
+  bool const one_way = law->kind != LawKind::external && (law->symmetry == Symmetry::one_way ||
+                                                          (law->source != "Particle" && law->source != law->target));
   auto const& source_class = one_way ? *find_class(law->source)->in(d) : target_class;
   ParameterValues values;
   FormulaLaw formula;
