@@ -14,8 +14,7 @@ struct VortexBesideCylinder {
   /// Exactly -Gamma R^2 / (2 pi r^2 (r^2 - R^2)), for a body without circulation.
   double angular_velocity;
 
-  VortexBesideCylinder(double r, double circulation)
-      : angular_velocity(-circulation / (2 * pi * r * r * (r * r - 1))) {
+  VortexBesideCylinder(double r, double circulation) : angular_velocity(-circulation / (2 * pi * r * r * (r * r - 1))) {
     vortex[0].position = {r, 0};
     vortex[0].vorticity[0] = circulation;
     pairs.between(cylinder, vortex, one_way(BiotSavart{}));

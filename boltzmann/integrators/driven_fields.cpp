@@ -166,7 +166,8 @@ class WithDrivenFields final : public Integrator {
   template <class F>
   void over_particles(F const& f) {
     std::size_t const size = ensemble_.size();
-    for_ranges(size, field_grain, threads_for(size, 1, threads_), [&](std::size_t begin, std::size_t end) { f(begin, end); });
+    for_ranges(size, field_grain, threads_for(size, 1, threads_),
+               [&](std::size_t begin, std::size_t end) { f(begin, end); });
   }
 
   /// A random step of variance 2 D dt; the coefficients stand behind the rates.
