@@ -178,10 +178,11 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     if (has_list) list(program, *gathered);
     number_packs();
     setProtectModeRE();
+    auto* const code = const_cast<std::uint8_t*>(getCode());  // a function's pointer points to nothing that is const
     for (std::size_t k = 0; k < pieces_.size(); ++k)
-      if (begins[k] != never) pieces_[k].function = reinterpret_cast<Block>(getCode() + begins[k]);
-    if (has_row) row_ = reinterpret_cast<Row>(getCode() + row_begin);
-    if (has_list) list_ = reinterpret_cast<List>(getCode() + list_begin);
+      if (begins[k] != never) pieces_[k].function = reinterpret_cast<Block>(code + begins[k]);
+    if (has_row) row_ = reinterpret_cast<Row>(code + row_begin);
+    if (has_list) list_ = reinterpret_cast<List>(code + list_begin);
   }
 
  private:
