@@ -4,6 +4,8 @@
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
+#include "timing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -44,11 +46,6 @@ double seconds(clockid_t clock, std::function<void()> const& work) {
   double const since = now();
   work();
   return now() - since;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 template <class P>

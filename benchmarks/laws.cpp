@@ -2,10 +2,11 @@
 // the first row block, of a mixture. Each is timed in turns with Lennard-Jones on the same melt.
 #include <boltzmann/boltzmann.hpp>
 
+#include "timing.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,12 +15,6 @@
 namespace {
 
 using namespace boltzmann;
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The melt of benchmarks/lennard_jones.cpp, shaken, with one law.
 template <class P>

@@ -6,25 +6,19 @@
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 
+#include "timing.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 
 namespace {
 
 using namespace boltzmann;
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 template <int D, class Real = double>
 struct Grain : Newton<D, Real> {

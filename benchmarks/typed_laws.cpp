@@ -2,22 +2,16 @@
 // its Lennard-Jones run. CPU time of one thread, medians.
 #include <boltzmann/boltzmann.hpp>
 
+#include "timing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 
 namespace {
 
 using namespace boltzmann;
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// A liquid of charged atoms and its scheme.
 struct Liquid {

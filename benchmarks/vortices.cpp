@@ -8,13 +8,13 @@
 #include <boltzmann/schemes/pair/single_precision.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
+#include "timing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
-#include <functional>
 #include <random>
 #include <vector>
 
@@ -29,22 +29,6 @@ using namespace boltzmann;
 
 constexpr double core = 0.01;
 constexpr int rounds = 5;
-
-double cpu_seconds(std::function<void()> const& work) {
-  auto const now = [] {
-    timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  double const since = now();
-  work();
-  return now() - since;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 void scatter(Ensemble<Vortex<2>>& vortices) {
   std::mt19937_64 random(1);

@@ -7,6 +7,8 @@
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/window/window.hpp>
 
+#include "timing.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -25,11 +27,6 @@ namespace {
 using namespace boltzmann;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // A browser that reads as fast as it can, or takes nothing after its first word.
 class Browser {
