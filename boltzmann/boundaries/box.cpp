@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -148,7 +149,13 @@ void Box::open_end(int axis, End end) {
   find_moving_walls();
 }
 
+std::uint64_t Box::new_revision() {
+  static std::atomic<std::uint64_t> last = 0;
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 void Box::find_moving_walls() {
+  revision_ = new_revision();
   walls_move_ = false;
   for (int a = 0; a < dimension_; ++a)
     for (End const end : both_ends)
@@ -168,8 +175,10 @@ void Box::move_walls(double time) {
   }
   low_ = low;
   high_ = high;
-  if (time != time_) backwards_ = time < time_;
+  if (time == time_) return;
+  backwards_ = time < time_;
   time_ = time;
+  revision_ = new_revision();
 }
 
 void Box::check_dimension(int of_region) const {
@@ -183,6 +192,7 @@ void Box::install(Region const& region) {
       throw Error(fmt::format("region: on axis {} the low edge {} is not below the high edge {}", "xyz"[a],
                               region.low[a], region.high[a]));
   regions_.push_back(region);
+  revision_ = new_revision();
 }
 
 void Box::check(AnyEnsemble const& particles) const {
@@ -383,6 +393,7 @@ void Box::on_grid(double quantum) {
     throw Error(
         "walls that move are not on the grid of positions of the reversible leap-frog; use leap-frog, or let them "
         "rest");
+  revision_ = new_revision();
   auto const rounded = [&](double x) { return quantum * std::nearbyint(x / quantum); };
   for (int a = 0; a < dimension_; ++a) {
     for (double* edge : {&low_[a], &high_[a], &first_low_[a], &first_high_[a]}) *edge = rounded(*edge);

@@ -7,6 +7,7 @@
 #include <boltzmann/core/words.hpp>
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -104,7 +105,12 @@ class Box {
   /// axis.
   void move_walls(double time);
   /// While held, walls stand still where they are, and reflect so (a body is brought to a temperature before its run).
-  void hold_walls(bool held) { held_ = held; }
+  void hold_walls(bool held) {
+    held_ = held;
+    revision_ = new_revision();
+  }
+  /// Of what the box is now: another number after each change, and in each other box that is no copy.
+  std::uint64_t revision() const { return revision_; }
 
   /// A component of the wall's velocity: 0 while walls are held.
   double wall_velocity(int axis, End end, int component) const {
@@ -168,6 +174,7 @@ class Box {
   void check_dimension(int of_region) const;
   void check_has_walls(int axis) const;
   void find_moving_walls();
+  static std::uint64_t new_revision();
 
   int dimension_;
   std::array<double, 3> low_, high_;
@@ -179,6 +186,7 @@ class Box {
   std::array<std::array<bool, 2>, 3> walled_{};  // at the low and at the high end
   std::array<std::array<Wall, 2>, 3> walls_{};
   std::vector<Region> regions_;
+  std::uint64_t revision_ = new_revision();
 };
 
 }  // namespace boltzmann

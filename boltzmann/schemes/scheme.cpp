@@ -8,6 +8,13 @@
 
 namespace boltzmann {
 
+std::uint64_t Scheme::revision_with(std::initializer_list<std::uint64_t> others) const {
+  constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U;
+  std::uint64_t revision = changes_ * odd + box_.revision();
+  for (auto const other : others) revision = revision * odd + other;
+  return revision;
+}
+
 void Scheme::add(AnyEnsemble& ensemble) {
   if (std::find(ensembles_.begin(), ensembles_.end(), &ensemble) != ensembles_.end()) return;
   for (auto const* other : ensembles_)
@@ -15,6 +22,7 @@ void Scheme::add(AnyEnsemble& ensemble) {
       throw Error("two ensembles are called '" + ensemble.name() + "'; each needs a name of its own");
   box_.check(ensemble);
   ensembles_.push_back(&ensemble);
+  changed();
 }
 
 bool Scheme::supervises(AnyEnsemble const& ensemble) const {

@@ -10,7 +10,10 @@
 #include <boltzmann/schemes/rotation.hpp>
 
 #include <array>
+#include <cstdint>
+#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -75,6 +78,9 @@ class Scheme {
   /// numbers in the simulation's units, a force for Newton classes, a velocity for tracers and vortices. Somebody has
   /// cleared them, and other schemes may have added theirs. PhysicsFailure as above.
   virtual void add_influences(double time) = 0;
+  /// How often something else than particles has been changed that influences depend on: laws, the box, numbers of the
+  /// scheme. Where it is the same, and particles are, influences are. Nothing: the scheme can't tell.
+  virtual std::optional<std::uint64_t> revision() const { return std::nullopt; }
   /// One call that does all of calculate(), for systems so small that the way there costs as much as the work. It holds
   /// until an ensemble, a law or the box changes; `call` is null if there is none.
   struct SmallSystem {
@@ -149,6 +155,10 @@ class Scheme {
   UnitSystem const& spoken_units() const { return box_.spoken_units(); }
 
  protected:
+  /// What influences depend on has been changed, or may be from now on.
+  void changed() { ++changes_; }
+  /// A revision() of the scheme as far as this class and changed() know, and of others that belong to it.
+  std::uint64_t revision_with(std::initializer_list<std::uint64_t> others) const;
   /// Who else is where particle i is, as a sentence; empty if nobody is.
   std::string at_one_place(AnyEnsemble const& ensemble, std::size_t i) const;
 
@@ -156,6 +166,7 @@ class Scheme {
   Box box_;
   std::vector<AnyEnsemble*> ensembles_;
   int threads_ = default_threads();
+  std::uint64_t changes_ = 0;
 };
 
 /// The ensembles of all schemes, each once, in the order of the schemes.

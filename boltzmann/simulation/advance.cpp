@@ -181,6 +181,18 @@ void Simulation::restore_rows() {
   influences_.calculated();
 }
 
+/// Those of the last run, if they can go on from here.
+FusedSteps* Simulation::whole_steps(double dt, Dependence const& now) {
+  bool const can_go_on = whole_.steps && whole_.dt == dt && now.schemes && whole_.are_for.schemes == now.schemes &&
+                         whole_.are_for.rows == now.rows;
+  if (!can_go_on) {
+    whole_ = {};
+    whole_ = {fused_steps(dt), dt, {}};
+  }
+  whole_.are_for.schemes.reset();  // until they have been stored again
+  return whole_.steps.get();
+}
+
 std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
   if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty() || substeps_) return nullptr;
   std::vector<Mover> movers;

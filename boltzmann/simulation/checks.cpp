@@ -14,6 +14,7 @@ namespace boltzmann {
 void Simulation::check() {
   if (checked_) return;
   small_system_ = {};
+  whole_ = {};
   move_walls(time());
   accept_particles();
   ensembles_ = supervised_by(schemes_);

@@ -17,7 +17,8 @@ OptionTable const& dye_options() {
     all.add_said("from", "a length along each axis", "where it is released, or one end of a line of places");
     all.add_said("to", "a length along each axis", "the other end of the line", "one place");
     all.add("places", &DyeOptions::places, whole(1, 1e6), "on the line, both ends included");
-    all.add("every", &DyeOptions::every, whole(1, std::numeric_limits<double>::infinity()), "steps from one release to the next");
+    all.add("every", &DyeOptions::every, whole(1, std::numeric_limits<double>::infinity()),
+            "steps from one release to the next");
     all.add("limit", &DyeOptions::limit, whole(1, 1e8),
             "of particles in the ensemble, after which no more are released");
     all.at("on").needed = "\"dye\"";

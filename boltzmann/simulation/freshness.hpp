@@ -9,12 +9,19 @@
 
 namespace boltzmann {
 
-/// Of all rows, whatever their meaning.
-std::uint64_t rows_checksum(std::span<AnyEnsemble* const> ensembles, bool with_influences = false);
+/// Of all rows and influences, whatever their meaning.
+std::uint64_t rows_checksum(std::span<AnyEnsemble* const> ensembles);
+
+/// What influences depend on: particles, and the schemes' revision (nothing: they can't tell whether they are the same).
+struct Dependence {
+  std::uint64_t rows;
+  std::optional<std::uint64_t> schemes;
+};
 
 /// While a run goes on nobody else changes particles: influences hold from their calculation until particles move.
-/// Between two runs anybody may change them: influences are then found anew, except those of velocities inside the
-/// step, which can't be had again from its end; they are kept, and hold for rows of the same checksum.
+/// Between two runs anybody may change what they depend on: where it is the same, they hold, else they are found anew.
+/// Influences of velocities inside the step can't be had again from its end: they hold for the same particles, whatever
+/// schemes say.
 class Freshness {
  public:
   /// While it lives, a run goes on.
@@ -37,34 +44,30 @@ class Freshness {
   /// Whether some influences are of velocities inside the step.
   bool inside_step() const { return inside_step_; }
   void inside_step(bool some) { inside_step_ = some; }
-  /// A run begins with these particles, which may have been changed since the last one.
-  [[nodiscard]] Run begin_run(std::span<AnyEnsemble* const> ensembles) {
-    hold_ = are_kept_for(ensembles);
+  /// A run begins, and what is now may not be what was when the last one ended.
+  [[nodiscard]] Run begin_run(Dependence const& now) {
+    hold_ = are_kept_for(now);
     running_ = true;
     return {running_};
   }
-  /// A run has ended with these particles.
-  void end_run(std::span<AnyEnsemble* const> ensembles) { keep(hold_ && inside_step_, ensembles); }
-  /// Influences have been restored, or not, with these particles, where a run had been.
-  void restored(bool with_influences, std::span<AnyEnsemble* const> ensembles) {
+  /// A run has ended so.
+  void end_run(Dependence const& now) { keep(hold_, now); }
+  /// Influences have been restored, or not, where a run had been.
+  void restored(bool with_influences, Dependence const& now) {
     hold_ = false;
-    keep(with_influences, ensembles);
+    keep(with_influences, now);
   }
-  /// Whether these particles' influences belong to the state: they hold, and can't be had again.
-  bool belong_to_state(std::span<AnyEnsemble* const> ensembles) const {
-    return inside_step_ && hold_ && (running_ || are_kept_for(ensembles));
-  }
+  /// Whether influences belong to the state: they hold, and can't be had again.
+  bool belong_to_state(Dependence const& now) const { return inside_step_ && hold_ && (running_ || are_kept_for(now)); }
 
  private:
-  bool are_kept_for(std::span<AnyEnsemble* const> ensembles) const {
-    return kept_ && *kept_ == rows_checksum(ensembles);
+  bool are_kept_for(Dependence const& now) const {
+    return kept_ && kept_->rows == now.rows && (inside_step_ || (now.schemes && kept_->schemes == now.schemes));
   }
-  void keep(bool so, std::span<AnyEnsemble* const> ensembles) {
-    kept_ = so ? std::optional(rows_checksum(ensembles)) : std::nullopt;
-  }
+  void keep(bool so, Dependence const& now) { kept_ = so ? std::optional(now) : std::nullopt; }
 
   bool hold_ = false, running_ = false, inside_step_ = false;
-  std::optional<std::uint64_t> kept_;  // the checksum of the rows that they are for
+  std::optional<Dependence> kept_;  // what they are for
 };
 
 }  // namespace boltzmann

@@ -151,6 +151,21 @@ void Simulation::speak_in(UnitSystem const& units) {
   for (auto* scheme : schemes_) scheme->speak_in(units);
 }
 
+Dependence Simulation::dependence() const {
+  Dependence now{rows_checksum(ensembles_), 0};
+  for (auto const* scheme : schemes_) {
+    auto const revision = scheme->revision();
+    now.schemes =
+        now.schemes && revision ? std::optional(*now.schemes * 0x9E3779B97F4A7C15U + *revision) : std::nullopt;
+  }
+  return now;
+}
+
+void Simulation::laws_changed() {
+  influences_.particles_changed();
+  whole_ = {};
+}
+
 void Simulation::update_derived_fields() const {
   for (auto* scheme : schemes_) scheme->complete(time());
   for (auto* dissipation : dissipations_) dissipation->update_derived_fields();
@@ -191,7 +206,7 @@ void Simulation::adapt_now() {
   for (auto const& change : changes_) {
     if (step_ % change.every != 0) continue;
     if (!completed) update_derived_fields();
-    auto const before = rows_checksum(ensembles_, true);
+    auto const before = rows_checksum(ensembles_);
     auto const sizes_before = sizes();
     try {
       change.adaptation->change();
@@ -201,7 +216,7 @@ void Simulation::adapt_now() {
           throw Error(
               fmt::format("ensemble '{}' had {} particles and has {} now, but some of them are frozen, by number",
                           parts_[k].ensemble->name(), sizes_before[k], sizes_now[k]));
-      completed = sizes_now == sizes_before && rows_checksum(ensembles_, true) == before;
+      completed = sizes_now == sizes_before && rows_checksum(ensembles_) == before;
       if (!completed) take_particles();
     } catch (Error const& error) {
       throw Error(fmt::format("step {}: {}", step_, error.what()));
@@ -267,11 +282,12 @@ void Simulation::run(std::uint64_t steps, int direction) {
     begun_ = true;
     observe_now();
   }
-  auto const running = influences_.begin_run(ensembles_);
+  Dependence const now = dependence();
+  auto const running = influences_.begin_run(now);
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
   bool const last = any_comes_last(schemes_);
-  std::unique_ptr<FusedSteps> const whole = steps > 0 ? fused_steps(dt) : nullptr;
+  FusedSteps* const whole = steps > 0 ? whole_steps(dt, now) : nullptr;
   for (std::uint64_t n = 0; n < steps && !stopped() && !pause_; ++n) {
     try {
       if (whole)
@@ -291,10 +307,15 @@ void Simulation::run(std::uint64_t steps, int direction) {
     }
     for (auto const& observer : progress_) observer(*this);
   }
-  if (whole) whole->store();
+  if (whole) {
+    whole->store();
+    influences_.outdated();
+  }
   if (last) calculate(time());
   update_derived_fields();
-  influences_.end_run(ensembles_);
+  Dependence const then = dependence();
+  influences_.end_run(then);
+  if (whole) whole_.are_for = then;
 }
 
 namespace {
@@ -361,7 +382,7 @@ std::vector<double> Simulation::state() const {
   for (auto const* scheme : schemes_) add(scheme->state());
   for (auto const* dissipation : dissipations_) add(dissipation->state());
   if (influences_.inside_step()) {
-    bool const fresh = influences_.belong_to_state(ensembles_);
+    bool const fresh = influences_.belong_to_state(dependence());
     state.push_back(fresh ? 1 : 0);
     for (auto const& part : parts_) {
       auto const influences = part.ensemble->influences();
@@ -407,7 +428,8 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   if (!gauss_radau_.parts().empty()) gauss_radau_.restore(next());
   take_lengths();
   update_derived_fields();
-  influences_.restored(with_influences, ensembles_);
+  whole_ = {};
+  influences_.restored(with_influences, dependence());
   begun_ = true;
 }
 

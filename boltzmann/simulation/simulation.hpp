@@ -80,6 +80,10 @@ class Simulation {
   /// The same for this run() alone: the next one goes on.
   void pause() { pause_ = true; }
 
+  /// Laws read variables of the program, and these have changed since the last run(): influences are calculated anew.
+  /// What particles, schemes, boxes and laws with numbers of their own hold need not be told of.
+  void laws_changed();
+
   std::int64_t step() const { return step_; }
   double time() const { return base_time_ + static_cast<double>(step_ - base_step_) * step_size_; }
   double step_size() const { return step_size_; }
@@ -165,6 +169,8 @@ class Simulation {
   void keep_rows();
   void restore_rows();
   std::unique_ptr<FusedSteps> fused_steps(double dt);
+  FusedSteps* whole_steps(double dt, Dependence const& now);
+  Dependence dependence() const;
   void check_moves(Part const& part) const;
   void note_start();
   std::string advice() const;
@@ -205,6 +211,11 @@ class Simulation {
   std::uint64_t seed_ = 1;
   int stages_ = 0;
   Freshness influences_;
+  struct {
+    std::unique_ptr<FusedSteps> steps = {};
+    double dt = 0;
+    Dependence are_for = {};  // as they were stored
+  } whole_;
   bool checked_ = false, begun_ = false;
   mutable bool stop_ = false;  // read and written as an atomic one: a signal or another thread may set it
   bool pause_ = false;

@@ -88,7 +88,16 @@ MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const
 
 MeshScheme::~MeshScheme() = default;
 
-void MeshScheme::changed() { work_.reset(); }
+void MeshScheme::changed() {
+  work_.reset();
+  Scheme::changed();
+}
+
+std::optional<std::uint64_t> MeshScheme::revision() const {
+  if (density_assignment_ || potential_calculation_ || influence_field_ || interpolation_) return std::nullopt;
+  auto const pairs = pairs_.revision();
+  return pairs ? std::optional(revision_with({*pairs})) : std::nullopt;
+}
 
 void MeshScheme::boundary(int axis, FieldBoundary low, FieldBoundary high) {
   refuse_choice("boundary");
@@ -131,7 +140,10 @@ void MeshScheme::form(PoissonForm form) {
   changed();
 }
 
-void MeshScheme::background(bool yes) { background_ = yes; }
+void MeshScheme::background(bool yes) {
+  background_ = yes;
+  Scheme::changed();
+}
 
 void MeshScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) {
   kind.check(ensemble, law_.constant, "mesh");

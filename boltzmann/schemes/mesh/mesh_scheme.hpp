@@ -62,7 +62,10 @@ class MeshScheme : public Scheme {
   /// A uniform background that makes the whole neutral. Where the field is periodic (or closed in by Neumann walls)
   /// there is no field without.
   void background(bool yes);
-  void precision(Precision precision) { precision_ = precision; }
+  void precision(Precision precision) {
+    precision_ = precision;
+    changed();
+  }
   Precision precision() const { return precision_; }
 
   /// The particles of an ensemble make the field and feel it: by their strength(), or under gravity by their mass if
@@ -120,6 +123,8 @@ class MeshScheme : public Scheme {
   /// Those that make the field, then those that only pairs() knows.
   std::vector<AnyEnsemble*> const& ensembles() const override;
   void add_influences(double time) override;
+  /// Nothing if a stage is the user's.
+  std::optional<std::uint64_t> revision() const override;
   void complete(double time) override { pairs_.complete(time); }
   void calculate(double time = 0) override;
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;

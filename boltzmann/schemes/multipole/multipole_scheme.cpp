@@ -92,6 +92,7 @@ void MultipoleScheme::background(bool yes) {
         "has "
         "to cancel");
   background_ = yes;
+  changed();
 }
 
 void MultipoleScheme::add(AnyEnsemble& ensemble, SourceKind const& kind) { load(ensemble, kind, true); }

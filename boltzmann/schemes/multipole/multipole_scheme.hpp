@@ -115,6 +115,7 @@ class MultipoleScheme final : public Scheme {
 
   std::vector<VortexSource> vortices() const override;
   void add_influences(double time) override;
+  std::optional<std::uint64_t> revision() const override { return revision_with({}); }
   EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;

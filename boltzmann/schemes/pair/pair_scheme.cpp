@@ -242,6 +242,7 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
   near->task.cutoff2 = cutoff * cutoff;
   if (!near->all_pairs()) near->list = neighbourhood_.add(target, source, cutoff);
   near_.push_back(std::move(near));
+  changed();
 }
 
 void PairScheme::add_connections(AnyEnsemble& ensemble, std::vector<Connection> const& connections, PairKernels kernels,
@@ -254,6 +255,7 @@ void PairScheme::add_connections(AnyEnsemble& ensemble, std::vector<Connection> 
   connected->traits = traits;
   connected->list = connected_pairs(connections, ensemble.size());
   connected_.push_back(std::move(connected));
+  changed();
 }
 
 void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, LawPointer law, LawTraits traits,
@@ -273,6 +275,15 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
           fmt::format("external influence on particle {} of '{}', which has {}", i, ensemble.name(), ensemble.size()));
   }
   external_.push_back(std::move(external));
+  changed();
+}
+
+std::optional<std::uint64_t> PairScheme::revision() const {
+  auto const reads_outside = [](auto const& all) {
+    return std::any_of(all.begin(), all.end(), [](auto const& one) { return one->traits.reads_outside; });
+  };
+  if (reads_outside(near_) || reads_outside(connected_) || reads_outside(external_)) return std::nullopt;
+  return revision_with({});
 }
 
 void PairScheme::calculate(double time) { calculate(time, true); }

@@ -121,6 +121,8 @@ class PairScheme final : public Scheme {
 
   void calculate(double time = 0) override;
   void add_influences(double time) override;
+  /// Nothing if a law reads what is not in it (a lambda that captures): that may change unseen.
+  std::optional<std::uint64_t> revision() const override;
   /// Fields that are sums, as laws have given them at the last calculation.
   void complete(double time) override;
   SmallSystem small_system() override;
@@ -155,15 +157,26 @@ class PairScheme final : public Scheme {
     std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart that it is
     int changes = -1;  ///< the driven field of the target whose rate it gives; -1: it moves particles
 
-    bool rates = false;  ///< it gives those of all driven fields; sums must be known before
+    bool reads_outside = false;  ///< what it depends on may not all be in it
+    bool rates = false;          ///< it gives those of all driven fields; sums must be known before
 
     bool moves() const { return changes < 0; }
     std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to know its length
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
-    return {length_scale_of(law), depends_on_velocity<Law>(), symmetry_of<Law>() == Symmetry::one_way,
-            is_uniform<Law>(), vortex_law(law)};
+    return {length_scale_of(law),
+            depends_on_velocity<Law>(),
+            symmetry_of<Law>() == Symmetry::one_way,
+            is_uniform<Law>(),
+            vortex_law(law),
+            -1,
+            reads_outside<Law>()};
+  }
+  /// A struct has its numbers in it; what else has data may have captured them by reference.
+  template <class Law>
+  static constexpr bool reads_outside() {
+    return !std::is_empty_v<Law> && !std::is_aggregate_v<Law>;
   }
   template <class Law>
   static std::optional<VortexLaw> vortex_law(Law const& law) {
