@@ -76,8 +76,9 @@ std::vector<std::string> listed_kinds();
 int show(std::string const& name);
 int show_schema(std::string const& name);
 int check(std::string const& scenario, Overrides const& overrides);
-/// `own_class`: one with a class of its own.
-int new_scenario(std::string const& name, bool own_class);
+/// What it shows: a gas, a class of its own, or laws of its own.
+enum class NewScenario { plain, of_class, of_law };
+int new_scenario(std::string const& name, NewScenario kind);
 
 struct AccuracyOptions {
   std::string scenario;

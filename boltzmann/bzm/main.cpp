@@ -286,10 +286,15 @@ class CommandLine {
         ->required();
     scenario_options(sub, accuracy_options_.overrides);
     sub->add_option("-o,--out", accuracy_options_.out, "draw seconds over errors: .png .svg .pdf")->type_name("FILE");
-    sub =
-        command("new", "write a commented scenario to start from", [this] { return new_scenario(name_, own_class_); });
+    sub = command("new", "write a commented scenario to start from", [this] {
+      return new_scenario(name_, own_class_ ? NewScenario::of_class
+                                 : own_law_ ? NewScenario::of_law
+                                            : NewScenario::plain);
+    });
     sub->add_option("name", name_, "the scenario's name; NAME.toml is written here")->required();
-    sub->add_flag("--class", own_class_, "one that derives a class of its own, with fields and rates");
+    auto* const of_class =
+        sub->add_flag("--class", own_class_, "one that derives a class of its own, with fields and rates");
+    sub->add_flag("--law", own_law_, "one whose laws are typed, between pairs and from outside")->excludes(of_class);
   }
 
   void add_tools() {
@@ -327,7 +332,7 @@ class CommandLine {
   bool names_only_ = false;
   std::string name_;
   Overrides overrides_;
-  bool schema_ = false, own_class_ = false;
+  bool schema_ = false, own_class_ = false, own_law_ = false;
   AccuracyOptions accuracy_options_;
   BuildOptions build_options_;
   std::string folder_;

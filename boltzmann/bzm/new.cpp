@@ -144,16 +144,104 @@ colour = "glow"
 file = "picture.png"
 )toml";
 
+// Dust in a plasma: two species behind a screen, and a law from outside that holds them together.
+constexpr char const* starter_of_law = R"toml(#:schema ./boltzmann.schema.json
+# A scenario of Boltzmann with laws of its own. Change what you like, then
+#   bzm check @name.toml    shows all mistakes, and runs nothing; it samples the laws, too
+#   bzm run @name.toml      leaves its results in results/@name
+# `bzm show lennard-jones` prints a shipped law as a formula to begin with; `bzm show influences` explains the keys.
+
+title = "Dust behind a screen"
+
+[units]                       # what plain numbers mean, and the units of the results
+base = "reduced"              # pure numbers; with "si", "custom", ... formulas have units, which are checked
+
+[box]
+low = [-8, -8]
+high = [8, 8]
+
+[run]
+step = 0.01
+steps = 3000
+seed = 1                      # of all random numbers
+
+[[ensembles]]
+name = "light"
+class = "Coulomb"             # fields: position, velocity, mass, charge
+mass = 1
+charge = 1
+load = { kind = "block", lattice = "square", spacing = 0.9, counts = [8, 8], origin = "centred" }
+diameter = 0.3                # for pictures
+
+[[ensembles]]
+name = "heavy"
+class = "Coulomb"
+mass = 4
+charge = 2
+load = { kind = "positions", positions = [[-5, 0], [5, 0], [0, 5], [0, -5]] }
+diameter = 0.6
+
+[[influences]]                # between pairs: an energy, from which forces follow
+energy = "k*p.charge*q.charge*screen/r"       # r: their distance; p.charge, q.charge: fields of both
+where = { screen = "exp(-r/length)" }         # parts with names
+among = ["light", "heavy"]                    # within each, and between the two; on = "light" within one
+parameters = { k = 1, length = { light = 1, heavy = 1.5 } }
+mixing = { length = "arithmetic" }            # for a light and a heavy one; or { ..., "light-heavy" = 1.2 }
+
+[[influences]]                # from outside: a formula of position (x, y, z), velocity, time and the fields
+energy = "0.1*mass*(x^2 + y^2)"
+from_outside = true
+on = "light"
+
+[[influences]]
+energy = "0.1*mass*(x^2 + y^2)"
+from_outside = true
+on = "heavy"
+
+[[influences]]                # an influence is a force (or, of tracers, a velocity): here a friction
+influence = "-0.05*mass*velocity"
+from_outside = true
+on = "light"
+
+[[diagnoses]]                 # columns of diagnoses.csv
+kind = "energies"
+
+[output]                      # every so many steps
+diagnoses = 20
+trajectory = 50
+
+[[output.pictures]]
+colour = "charge"
+file = "picture.png"
+
+[[output.pictures]]
+drawing = "time-series"
+y = "kinetic energy, potential energy, total energy"
+file = "energies.png"
+)toml";
+
+char const* text_of(NewScenario kind) {
+  switch (kind) {
+    case NewScenario::of_class:
+      return starter_of_class;
+    case NewScenario::of_law:
+      return starter_of_law;
+    case NewScenario::plain:
+      break;
+  }
+  return starter;
+}
+
 }  // namespace
 
-int new_scenario(std::string const& word, bool own_class) {
+int new_scenario(std::string const& word, NewScenario kind) {
   namespace fs = std::filesystem;
   std::string const name = word.ends_with(".toml") ? word.substr(0, word.size() - 5) : word;
   if (name.empty() || name.ends_with('/')) throw Error("a new scenario needs a name");
   std::string const path = name + ".toml";
   std::error_code ignored;
   if (fs::exists(path, ignored)) throw Error("'" + path + "' is there already; it stays as it is");
-  std::string text = own_class ? starter_of_class : starter;
+  std::string text = text_of(kind);
   std::string const stem = fs::path(name).filename().string();
   for (std::size_t at = 0; (at = text.find("@name", at)) != std::string::npos;) {
     std::string const replacement = text.compare(at + 5, 5, ".toml") == 0 ? name : stem;

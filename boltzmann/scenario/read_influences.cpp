@@ -1,6 +1,7 @@
 // Reads [[influences]]: which law acts on whom.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/laws/formula_law.hpp>
+#include <boltzmann/scenario/among.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -242,7 +243,7 @@ class InfluenceReader {
     } else if (!external()) {
       reading_.mistake(section_.place(),
                        "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
-                       "\"b\"] or on = \"a\" with by = \"b\"");
+                       "\"b\"], on = \"a\" with by = \"b\", or among = [\"a\", \"b\"]");
     } else if (!section_.has("between") && !section_.has("by")) {
       reading_.mistake(section_.place(),
                        fmt::format("{} comes from outside and needs 'on', e.g. on = \"atoms\"", called()));
@@ -380,7 +381,17 @@ class InfluenceReader {
 }  // namespace
 
 void read_influences(Section& document, Reading& reading) {
-  for (Item const* table : find_tables(document, "influences")) InfluenceReader(*table, reading).read();
+  for (Item const* table : find_tables(document, "influences")) {
+    if (!table->find("among")) {
+      InfluenceReader(*table, reading).read();
+      continue;
+    }
+    std::size_t const before = reading.context.mistakes.count();
+    for (auto const& one : influences_among(*table, reading)) {
+      InfluenceReader(one, reading).read();
+      if (reading.context.mistakes.count() != before) break;  // the others have the same
+    }
+  }
 }
 
 }  // namespace boltzmann

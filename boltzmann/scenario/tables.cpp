@@ -256,10 +256,19 @@ OptionTable make_influence_options() {
   OptionTable all;
   all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
   all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
-               "`on` or `between`");
+               "`on`, `between` or `among`");
   all.add_said("between", "the names of two ensembles", "between the particles of two ensembles, both ways",
                "`on` or `between`");
   all.add_said("by", "the name of an ensemble", "with `on`: who acts; nothing acts back", "the same as `on`");
+  all.add_said("among", "a list of names of ensembles",
+               "within each of them and between each two, in place of `on` and `between`. A parameter may be a table "
+               "by names then, `{ argon = \"0.01 eV\", krypton = \"0.014 eV\", \"argon-krypton\" = \"0.012 eV\" }`",
+               "`on` or `between`");
+  all.add_said(
+      "mixing", "a table of `\"arithmetic\"` and `\"geometric\"` by parameters",
+      "with `among`: numbers for two ensembles that such a table does not have are this mean of those of each, "
+      "`{ depth = \"geometric\", r0 = \"arithmetic\" }` (Lorentz and Berthelot)",
+      "tables have them");
   all.add_said("cutoff", "a length, positive", "of this law", "that of `[run]`");
   all.add_said("precision", "`\"full\"` or `\"single\"`",
                "in which the law is summed over all pairs; single is right to some 1e-6 and twice as fast, and for "

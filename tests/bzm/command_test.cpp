@@ -455,6 +455,10 @@ TEST(New, KeepsWhatIsThere) {
   EXPECT_TRUE(has(text_of(folder / "other.toml"), "bzm run other.toml"));
   EXPECT_EQ(bzm({"new", "grains", "--class"}, folder.string()).status, 0);
   EXPECT_EQ(bzm({"check", "grains.toml"}, folder.string()).status, 0);
+  EXPECT_EQ(bzm({"new", "dust", "--law"}, folder.string()).status, 0);
+  EXPECT_EQ(bzm({"check", "dust.toml"}, folder.string()).status, 0);
+  EXPECT_EQ(bzm({"run", "dust.toml", "--steps", "20"}, folder.string()).status, 0);
+  expect_one_line(bzm({"new", "both", "--law", "--class"}, folder.string()), 2, {"--law", "--class"});
   expect_one_line(bzm({"new", "no/such/folder/x"}, folder.string()), 2, {"no/such/folder/x.toml"});
 }
 
