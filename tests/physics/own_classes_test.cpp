@@ -133,5 +133,162 @@ TEST(ActiveMatter, FlocksFormBelowAThresholdOfNoise) {
   EXPECT_LT(polarisation(2), 0.2);
 }
 
+// A ripple on the state in which prey and predators stay as they are grows or decays at the eigenvalue of the linear
+// equations, with the lattice's laplace, -2 (1 - cos(2 pi m / n)) for a wave of m lengths along n sites.
+TEST(PredatorPrey, RipplesGrowAndDecayAsLinearTheoryHas) {
+  double const F = 0.05, k = 0.06, prey = 0.5 * (1 - std::sqrt(1 - 4 * square(F + k) / F)),
+               predators = (1 - prey) * F / (F + k);
+  int const n = 24, m = 2;
+  double const laplace = -2 * (1 - std::cos(2 * pi * m / n));
+  double const a = -square(predators) - F + 0.16 * laplace, b = -2 * prey * predators, c = square(predators),
+               d = 2 * prey * predators - F - k + 0.08 * laplace;
+  std::complex<double> const root = std::sqrt(std::complex<double>(square(a - d) / 4 + b * c)),
+                             fast = (a + d) / 2 + root, slow = (a + d) / 2 - root;
+  Overrides ripple;
+  ripple.set = {fmt::format("box.high=[{},4]", n),
+                fmt::format("ensembles.sites.load.counts=[{},4]", n),
+                fmt::format("classes.Site.parameters={{F={}, k={}}}", F, k),
+                fmt::format("ensembles.sites.formulas={{prey='{:.17g} + 1e-7*cos(2*pi*{}*x/{})', predators='{:.17g}'}}",
+                            prey, m, n, predators),
+                "ensembles.sites.integrator='rk4'",
+                "run.step=0.1"};
+  auto const run = shipped("predator-prey", ripple);
+  auto const& sites = *run->ensembles[0];
+  auto const mode = [&](char const* name) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      sum += field(sites, i, name) * std::cos(2 * pi * m * sites.row(i)[0] / n) * 2 / static_cast<double>(sites.size());
+    return sum;
+  };
+  double const start = mode("prey"), t = 20;
+  run->simulation->run(200);
+  // (u, v)' = M (u, v) from (start, 0).
+  auto const exact_prey = ((fast - d) * std::exp(fast * t) - (slow - d) * std::exp(slow * t)) / (fast - slow) * start;
+  auto const exact_predators = c * (std::exp(fast * t) - std::exp(slow * t)) / (fast - slow) * start;
+  EXPECT_NEAR(mode("prey"), exact_prey.real(), 1e-4 * start);
+  EXPECT_NEAR(mode("predators"), exact_predators.real(), 1e-4 * start);
+}
+
+TEST(PredatorPrey, SpotsDivideAsTheyAreShipped) {
+  Overrides small;
+  small.set = {"run.time=1200"};
+  auto const run = shipped("predator-prey", small);
+  auto const& sites = *run->ensembles[0];
+  auto const covered = [&] {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < sites.size(); ++i) count += field(sites, i, "predators") > 0.15 ? 1 : 0;
+    return count;
+  };
+  run->simulation->run(300);
+  std::size_t const before = covered();
+  run->simulation->run(900);
+  EXPECT_GT(before, 20U);
+  EXPECT_GT(covered(), before * 3 / 2);
+}
+
+// F. Cucker and S. Smale (2007): all with all, velocities about their mean fall like exp(-K t), and the mean stays.
+TEST(Boids, FlyAlikeAsCuckerAndSmaleHave) {
+  Overrides alone;
+  alone.set = {"influences.0.parameters.push=0",
+               "influences.1.influence='K/N*velocity'",
+               "influences.1.parameters={K=0.5, N=60}",
+               "influences.1.cutoff=1000",
+               "box.boundary='open'",
+               "influences.2.parameters.together=0",
+               "influences.3.parameters.drive=0",
+               "ensembles.birds.number=60",
+               "ensembles.birds.integrator='rk4'"};
+  auto const run = shipped("boids", alone);
+  auto const& birds = *run->ensembles[0];
+  auto const mean = [&](int a) {
+    double sum = 0;
+    for (std::size_t i = 0; i < birds.size(); ++i) sum += field(birds, i, "velocity", a) / 60;
+    return sum;
+  };
+  std::vector<double> start;
+  double const drift[] = {mean(0), mean(1), mean(2)};
+  for (std::size_t i = 0; i < birds.size(); ++i)
+    for (int a = 0; a < 3; ++a) start.push_back(field(birds, i, "velocity", a) - drift[a]);
+  run->simulation->run(200);
+  for (std::size_t i = 0; i < birds.size(); ++i)
+    for (int a = 0; a < 3; ++a)
+      EXPECT_NEAR(field(birds, i, "velocity", a),
+                  drift[a] + start[3 * i + static_cast<std::size_t>(a)] * std::exp(-2.0), 1e-4);
+}
+
+TEST(Boids, BecomeAFlockAtTheSpeedTheyLike) {
+  auto const run = shipped("boids");
+  run->simulation->run(1500);
+  auto const& birds = *run->ensembles[0];
+  double sum[3] = {}, speeds = 0;
+  for (std::size_t i = 0; i < birds.size(); ++i) {
+    double square = 0;
+    for (int a = 0; a < 3; ++a) {
+      double const v = field(birds, i, "velocity", a);
+      sum[a] += v / 600, square += v * v;
+    }
+    speeds += std::sqrt(square) / 600;
+  }
+  EXPECT_NEAR(speeds, 1, 0.01);
+  EXPECT_GT(std::hypot(sum[0], sum[1], sum[2]) / speeds, 0.98);
+}
+
+// Two discs that rest at a distance r: twice the angle between their axes is a pendulum, of the frequency
+// w = sqrt(8 J (1 - r/R)^2 / inertia), whose period is 4 K(sin(swing/2)) / w, K by the arithmetic-geometric mean.
+TEST(NematicDiscs, TwoOfThemSwingLikeAPendulum) {
+  double const swing = 1.5;
+  Overrides two;
+  two.set = {"ensembles.discs.load={kind='positions', positions=[[10,10],[11.3,10]]}",
+             "ensembles.discs.temperature=0",
+             "influences.0.parameters.push=0",
+             "influences.1.parameters.J=0",
+             "classes.Disc.parameters={friction=0, T=0, inertia=0.1}",
+             fmt::format("ensembles.discs.formulas={{angle='{}*step(x - 11)'}}", swing / 2),
+             "run.step=0.001"};
+  auto const run = shipped("nematic-discs", two);
+  auto const& discs = *run->ensembles[0];
+  double one = 1, other = std::cos(swing / 2);
+  for (int k = 0; k < 10; ++k) {
+    double const mean = 0.5 * (one + other);
+    other = std::sqrt(one * other);
+    one = mean;
+  }
+  double const period = 2 * pi / (one * std::sqrt(8 * 2 * square(1 - 1.3 / 1.8) / 0.1));
+  auto const angle = [&] { return 2 * (field(discs, 1, "angle") - field(discs, 0, "angle")); };
+  double before = angle(), turned = 0;
+  for (int step = 1; turned == 0; ++step) {  // until it is half way, and through zero
+    ASSERT_LT(step, 5000);
+    run->simulation->run(1);
+    double const now = angle();
+    if (now <= 0) turned = (step - 1 + before / (before - now)) * 0.001;
+    before = now;
+  }
+  EXPECT_NEAR(4 * turned / period, 1, 1e-4);
+}
+
+// Axes that order keep the temperature of their noise: I <spin^2> = T.
+TEST(NematicDiscs, OrderAndHaveTheTemperatureOfTheirNoise) {
+  auto const run = shipped("nematic-discs");
+  auto const& discs = *run->ensembles[0];
+  auto const order = [&] {
+    std::complex<double> sum = 0;
+    for (std::size_t i = 0; i < discs.size(); ++i) sum += std::polar(1.0, 2 * field(discs, i, "angle"));
+    return std::abs(sum) / static_cast<double>(discs.size());
+  };
+  double const anyhow = order();
+  run->simulation->run(800);
+  EXPECT_GT(order(), 0.15);
+  run->simulation->run(3200);  // until domains have grown together, which gives some more
+  double temperature = 0;
+  for (int part = 0; part < 50; ++part) {
+    run->simulation->run(20);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+      temperature += 0.1 * square(field(discs, i, "spin")) / static_cast<double>(discs.size()) / 50;
+  }
+  EXPECT_NEAR(temperature, 0.05, 0.002);
+  EXPECT_LT(anyhow, 0.1);
+  EXPECT_GT(order(), 0.8);
+}
+
 }  // namespace
 }  // namespace boltzmann::own_classes_test
