@@ -240,6 +240,7 @@ TEST(NematicDiscs, TwoOfThemSwingLikeAPendulum) {
   Overrides two;
   two.set = {"ensembles.discs.load={kind='positions', positions=[[10,10],[11.3,10]]}",
              "ensembles.discs.temperature=0",
+             "dissipation.0.temperature=0",
              "influences.0.parameters.push=0",
              "influences.1.parameters.J=0",
              "classes.Disc.parameters={friction=0, T=0, inertia=0.1}",
