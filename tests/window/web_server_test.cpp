@@ -1055,7 +1055,12 @@ TEST(WebServer, ends_quickly_whatever_the_others_do) {
     reader.join();
     EXPECT_EQ(joined, left);
   }
-  EXPECT_LT(best, 0.2);
+#ifdef BOLTZMANN_SANITIZED
+  constexpr double soon = 2;  // what looks on takes its time
+#else
+  constexpr double soon = 0.2;
+#endif
+  EXPECT_LT(best, soon);
 
   auto const start = Clock::now();
   for (int i = 0; i < 20; ++i) WebServer const unused({}, 0, "");
