@@ -58,10 +58,15 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
 /// From one table to an influence in the scheme: which law, on whom, with which parameters.
 class InfluenceReader {
  public:
-  InfluenceReader(Item const& table, Reading& reading)
+  /// `one_of_several`: made from a table with `among`, which has been read.
+  InfluenceReader(Item const& table, Reading& reading, bool one_of_several)
       : reading_(reading),
         before_(reading.context.mistakes.count()),
-        section_(table, "[[influences]]", reading.context) {}
+        section_(table, "[[influences]]", reading.context) {
+    for (char const* key : {"among", "mixing"}) one_of_several ? section_.mark_used(key) : section_.allow(key);
+    if (!one_of_several && section_.has("mixing"))
+      reading.mistake(section_.place("mixing"), "mixing: it belongs to 'among', the names of several ensembles");
+  }
 
   void read() {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
@@ -383,12 +388,12 @@ class InfluenceReader {
 void read_influences(Section& document, Reading& reading) {
   for (Item const* table : find_tables(document, "influences")) {
     if (!table->find("among")) {
-      InfluenceReader(*table, reading).read();
+      InfluenceReader(*table, reading, false).read();
       continue;
     }
     std::size_t const before = reading.context.mistakes.count();
     for (auto const& one : influences_among(*table, reading)) {
-      InfluenceReader(one, reading).read();
+      InfluenceReader(one, reading, true).read();
       if (reading.context.mistakes.count() != before) break;  // the others have the same
     }
   }

@@ -207,6 +207,8 @@ void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& unit
   Value told;
   ScenarioParameter& parameter = told.parameter;
   parameter.path = of.path + "." + option.key;
+  for (auto const& other : of.absent)
+    if (other.path == parameter.path) return;  // a table that is read several times
   parameter.group = of.group.empty() ? of.path : of.group;
   parameter.name = parameter.path.substr(parameter.group.size() + 1);
   parameter.doc = plain_text(option.doc);

@@ -121,6 +121,11 @@ INSTANTIATE_TEST_SUITE_P(
                 gas + "[[influences]]\nlaw = \"lennard-jones\"\namong = [\"a\", \"bb\"]\n" + right,
                 "31:15",
                 {"there is no ensemble 'bb'", "did you mean 'b'?"}},
+        Mistake{
+            "mixing of nobody",
+            gas + "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\n" + right + "mixing.depth = \"geometric\"\n",
+            "34:1",
+            {"mixing: it belongs to 'among'"}},
         Mistake{"twice",
                 gas + "[[influences]]\nlaw = \"lennard-jones\"\namong = [\"a\", \"a\"]\n" + right,
                 "31:15",
