@@ -141,7 +141,7 @@ TEST(SingleSteps, CountVariablesOfTheProgramIfTold) {
   expect_to_count(pushed, change, [](Melt& melt) { melt.scheme.external(melt.atoms, Push{3}); });
 }
 
-TEST(SingleSteps, CountAWallThatIsMovedOrARegion) {
+TEST(SingleSteps, CountARegionThatIsNew) {
   struct Walled {
     Ensemble<Newton<1>> ball{"ball", 1};
     PairScheme scheme{Box({0.}, {10.}, Boundary::reflecting)};
