@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
+#include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/formulas/machine_code.hpp>
 
 #include <cmath>
@@ -35,12 +36,20 @@ template <int W>
   *reinterpret_cast<typename Pack<double, W>::Native*>(to) = value.native;
 }
 
+/// An argument that has been calculated has been rounded.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> exp_in_formulas(Pack<double, W> x) {
+  if constexpr (W == 8) x = max(x, Pack<double, W>(least_exponent));
+  return exp_of_rounded(x);
+}
+
 /// How far the next pack of an operand is.
 template <int W>
 [[gnu::always_inline]] inline std::size_t stride_of(Operand operand) {
   return operand.scalar ? 0 : W;
 }
 
+/// What takes long enough that nothing else counts: one loop for operands of all kinds.
 template <int W, class F>
 [[gnu::always_inline]] inline void each(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
   double* const to = work.place(step.to);
@@ -49,6 +58,39 @@ template <int W, class F>
   for (std::size_t k = 0; k < packs; ++k)
     store_pack<W>(to + k * W, f(load_pack<W>(a + k * da), load_pack<W>(b + k * db), load_pack<W>(c + k * dc)));
 }
+
+/// A loop that knows which operands are scalars: these stay in registers, the others share one index.
+template <int W, bool scalar_a, bool scalar_b, bool scalar_c, class F>
+[[gnu::always_inline]] inline void each_of(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
+  double* const to = work.place(step.to);
+  double const *const a = work.place(step.a), *const b = work.place(step.b), *const c = work.place(step.c);
+  auto const x = load_pack<W>(a), y = load_pack<W>(b), z = load_pack<W>(c);
+  auto const at = [&](std::size_t k) __attribute__((always_inline)) {
+    store_pack<W>(to + k, f(scalar_a ? x : load_pack<W>(a + k), scalar_b ? y : load_pack<W>(b + k),
+                            scalar_c ? z : load_pack<W>(c + k)));
+  };
+  std::size_t k = 0;
+  for (; k + 4 * W <= packs * W; k += 4 * W) at(k), at(k + W), at(k + 2 * W), at(k + 3 * W);
+  for (; k < packs * W; k += W) at(k);
+}
+/// Short instructions. Where all operands are scalars (of a row) there is one pack, and any of the loops will do.
+template <int operands, int W, class F>
+[[gnu::always_inline]] inline void quick(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
+  if constexpr (operands == 3) {
+    if (step.c.scalar) {
+      if (step.a.scalar) return each_of<W, true, false, true>(work, step, packs, f);
+      if (step.b.scalar) return each_of<W, false, true, true>(work, step, packs, f);
+      return each_of<W, false, false, true>(work, step, packs, f);
+    }
+    if (step.a.scalar && step.b.scalar) return each_of<W, true, true, false>(work, step, packs, f);
+  }
+  if constexpr (operands > 1) {
+    if (step.a.scalar) return each_of<W, true, false, false>(work, step, packs, f);
+    if (step.b.scalar) return each_of<W, false, true, false>(work, step, packs, f);
+  }
+  each_of<W, false, false, false>(work, step, packs, f);
+}
+
 /// Of the C library, lane by lane.
 template <int W, class F>
 [[gnu::always_inline]] inline void each_lane(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
@@ -65,7 +107,7 @@ template <int W>
   Real const zero = 0.0, one = 1.0;
   switch (step.operation) {
     case Operation::exp:
-      return each<W>(work, step, packs, [](Real a, Real, Real) { return exp(a); });
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return exp_in_formulas(a); });
     case Operation::log:
       return each<W>(work, step, packs, [](Real a, Real, Real) { return log(a); });
     case Operation::sin:
@@ -125,28 +167,28 @@ template <int W>
   for (Step const* step = steps; step < steps + count; ++step) {
     switch (step->instruction) {
       case Instruction::add:
-        each<W>(work, *step, packs, [](Real a, Real b, Real) { return a + b; });
+        quick<2>(work, *step, packs, [](Real a, Real b, Real) { return a + b; });
         break;
       case Instruction::subtract:
-        each<W>(work, *step, packs, [](Real a, Real b, Real) { return a - b; });
+        quick<2>(work, *step, packs, [](Real a, Real b, Real) { return a - b; });
         break;
       case Instruction::multiply:
-        each<W>(work, *step, packs, [](Real a, Real b, Real) { return a * b; });
+        quick<2>(work, *step, packs, [](Real a, Real b, Real) { return a * b; });
         break;
       case Instruction::multiply3:
-        each<W>(work, *step, packs, [](Real a, Real b, Real c) { return a * b * c; });
+        quick<3>(work, *step, packs, [](Real a, Real b, Real c) { return a * b * c; });
         break;
       case Instruction::fuse:
-        each<W>(work, *step, packs, [](Real a, Real b, Real c) { return a * b + c; });
+        quick<3>(work, *step, packs, [](Real a, Real b, Real c) { return a * b + c; });
         break;
       case Instruction::reciprocal:
-        each<W>(work, *step, packs, [](Real a, Real, Real) { return 1.0 / a; });
+        quick<1>(work, *step, packs, [](Real a, Real, Real) { return 1.0 / a; });
         break;
       case Instruction::root:
-        each<W>(work, *step, packs, [](Real a, Real, Real) { return sqrt(a); });
+        quick<1>(work, *step, packs, [](Real a, Real, Real) { return sqrt(a); });
         break;
       case Instruction::inverse_root:
-        each<W>(work, *step, packs, [](Real a, Real, Real) { return rsqrt(a); });
+        quick<1>(work, *step, packs, [](Real a, Real, Real) { return rsqrt(a); });
         break;
       case Instruction::function:
         run_function<W>(work, *step, packs);

@@ -43,7 +43,7 @@ class Writer {
   FormulaProgram write(std::span<Expression const> results) {
     std::vector<Expression> shared;
     for (auto const result : results) shared.push_back(graph_.with_common_powers(result));
-    for (auto const e : shared) find_inverse_roots(e);
+    for (auto const e : shared) ++readers_[e], look_through(e);
     std::vector<Value> values;
     for (auto const e : shared) values.push_back(value_of(e));
     return placed(values);
@@ -66,9 +66,27 @@ class Writer {
     bool const of_row = place != Value::Place::column;
     Value const to{of_row ? Value::Place::row : Value::Place::column, of_row ? rows_++ : columns_++};
     (of_row ? row_steps_ : steps_).push_back({instruction, operation, to, a, b, c, operands});
+    Value const read[] = {a, b, c};
+    for (int k = 0; k < operands; ++k) ready_[to] = std::max(ready_[to], ready_[read[k]]);
+    ready_[to] += cycles_of(instruction);
     if (row_steps_.size() + steps_.size() > max_steps)
       throw Error(fmt::format("the formula is too long: more than {} steps", max_steps));
     return to;
+  }
+  /// About so long one waits for a result.
+  static int cycles_of(Instruction instruction) {
+    switch (instruction) {
+      case Instruction::multiply3:
+        return 8;
+      case Instruction::reciprocal:
+      case Instruction::root:
+      case Instruction::inverse_root:
+        return 25;
+      case Instruction::function:
+        return 50;
+      default:
+        return 4;
+    }
   }
   Value multiply(Value a, Value b) { return step(Instruction::multiply, Operation::exp, 2, a, b); }
 
@@ -87,7 +105,7 @@ class Writer {
         value = sum_of(node);
         break;
       case Kind::product:
-        value = product_of(node.terms, {});
+        value = product_of(node.terms);
         break;
       case Kind::operation: {
         int const count = arguments_of(node.operation);
@@ -101,28 +119,50 @@ class Writer {
     return value;
   }
 
-  /// Bases of odd negative powers of a root.
-  void find_inverse_roots(Expression e) {
+  /// Bases of odd negative powers of a root, and how many read each expression.
+  void look_through(Expression e) {
     if (!seen_.insert(e).second) return;
     auto const node = graph_.node(e);
     for (auto const& term : node.terms) {
       if (node.kind == Kind::product && term.factor < 0 && term.factor != std::floor(term.factor))
         inverse_roots_.insert(term.node);
-      find_inverse_roots(term.node);
+      ++readers_[term.node];
+      look_through(term.node);
     }
     if (node.kind != Kind::operation) return;
-    for (int k = 0; k < arguments_of(node.operation); ++k)
-      find_inverse_roots(node.arguments[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < arguments_of(node.operation); ++k) {
+      Expression const argument = node.arguments[static_cast<std::size_t>(k)];
+      ++readers_[argument];
+      look_through(argument);
+    }
   }
 
   Value sum_of(ExpressionGraph::Node const& node) {
-    // Row values first, so that they are added up once for the row.
+    // Row values first, so that they are added up once for the row. A product that nobody else reads is added as it is
+    // multiplied, last.
     struct Part {
       Value value;
       double factor;
     };
     std::vector<Part> parts;
-    for (auto const& term : node.terms) parts.push_back({value_of(term.node), term.factor});
+    std::vector<Term> simple;
+    std::vector<ExpressionGraph::Node> products;
+    for (auto const& term : node.terms) {
+      auto const& inner = graph_.node(term.node);
+      if (inner.kind == Kind::product && term.factor == 1 && readers_[term.node] == 1 && depends_on_column(term.node))
+        products.push_back(inner);
+      else
+        simple.push_back(term);
+    }
+    if (node.number == 0 && node.terms.size() == 1 && products.empty()) {  // a product with a number before it
+      auto const& only = graph_.node(node.terms[0].node);
+      if (only.kind == Kind::product && readers_[node.terms[0].node] == 1) {
+        auto factors = factors_of(only.terms);
+        factors.insert(factors.begin(), constant(node.terms[0].factor));
+        return multiplied(factors);
+      }
+    }
+    for (auto const& [e, factor] : simple) parts.push_back({value_of(e), factor});
     std::stable_sort(parts.begin(), parts.end(),
                      [](Part const& x, Part const& y) { return x.value.place < y.value.place; });
     std::optional<Value> total;
@@ -137,7 +177,25 @@ class Writer {
       else
         total = step(Instruction::fuse, Operation::exp, 3, value, constant(factor), *total);
     }
+    for (auto const& product : products) {
+      auto const& first = product.terms.front();
+      bool const square = product.terms.size() == 1 && first.factor == 2;
+      auto factors = square ? std::vector<Value>(2, value_of(first.node)) : factors_of(product.terms);
+      if (!total || factors.size() == 1) {
+        Value const value = multiplied(factors);
+        total = total ? step(Instruction::add, Operation::exp, 2, *total, value) : value;
+        continue;
+      }
+      Value const last = factors.back();
+      factors.pop_back();
+      total = step(Instruction::fuse, Operation::exp, 3, multiplied(factors), last, *total);
+    }
     return *total;
+  }
+  bool depends_on_column(Expression e) const {
+    auto const inputs = graph_.inputs_of(e);
+    return std::any_of(inputs.begin(), inputs.end(),
+                       [&](std::uint32_t input) { return inputs_.at(input).place == Value::Place::column; });
   }
 
   /// base^n, n in halves, by squaring from 1/base, sqrt(base) or 1/sqrt(base).
@@ -183,11 +241,16 @@ class Writer {
     return result;
   }
 
-  Value product_of(std::vector<Term> const& terms, std::optional<Value> start) {
+  Value product_of(std::vector<Term> const& terms) { return multiplied(factors_of(terms)); }
+  /// Constants and row values first, and what is known late last.
+  std::vector<Value> factors_of(std::vector<Term> const& terms) {
     std::vector<Value> factors;
-    if (start) factors.push_back(*start);
     for (auto const& [base, exponent] : terms) factors.push_back(power(base, exponent));
-    std::stable_sort(factors.begin(), factors.end(), [](Value x, Value y) { return x.place < y.place; });
+    std::stable_sort(factors.begin(), factors.end(),
+                     [&](Value x, Value y) { return std::pair(x.place, ready_[x]) < std::pair(y.place, ready_[y]); });
+    return factors;
+  }
+  Value multiplied(std::vector<Value> const& factors) {
     Value total = factors[0];
     for (std::size_t k = 1; k < factors.size();) {
       bool const three = k + 1 < factors.size() && factors[k + 1].place == Value::Place::column &&
@@ -287,9 +350,11 @@ class Writer {
   ExpressionGraph& graph_;
   std::unordered_map<std::uint32_t, Value> inputs_;
   std::unordered_map<Expression, Value> known_;
+  std::unordered_map<Expression, int> readers_;
   std::unordered_set<Expression> seen_, inverse_roots_;
   std::map<std::pair<Instruction, Value>, Value> unary_;
   std::map<std::pair<Value, int>, Value> powers_;
+  std::map<Value, int> ready_;  // cycles after the beginning
   std::map<double, std::size_t> constants_known_;
   std::vector<double> constants_;
   std::vector<Written> row_steps_, steps_;

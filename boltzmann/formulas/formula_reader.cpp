@@ -268,20 +268,26 @@ class Reader {
     skip();
     FormulaValue result = pure(graph_.number(value));
     result.plain = true;
-    if (!at_end() && is_unit_letter(text_[at_])) with_unit(result, value);
+    if (std::size_t const unit = begin_of_unit(); unit < text_.size()) with_unit(result, value, unit);
     return result;
   }
+  /// Where the letters of a unit begin, "s" or behind "1/" as in "0.1 1/s"; the end of the text: there is no unit.
+  std::size_t begin_of_unit() const {
+    std::size_t at = at_;
+    if (text_.substr(at_).starts_with("1/")) at = text_.find_first_not_of(' ', at_ + 2);
+    return at < text_.size() && is_unit_letter(text_[at]) ? at : text_.size();
+  }
   /// The unit that stands behind a number: as many factors as are units and no names of ours.
-  void with_unit(FormulaValue& result, double value) {
+  void with_unit(FormulaValue& result, double value, std::size_t first) {
     std::size_t const begin = at_;
-    if (stands_name(begin) || is_called(begin))
+    if (stands_name(first) || is_called(first))
       throw error(fmt::format("an operator is missing before '{}': write e.g. 2*x, not 2 x", quoted(word())));
     if (names_.units.is_reduced())
       throw FormulaError(begin, fmt::format("'{}': the scenario has pure numbers, without units; products need a '*'",
-                                            quoted(text_.substr(begin, unit_factor(begin) - begin))));
+                                            quoted(text_.substr(begin, unit_factor(first) - begin))));
     std::optional<TextQuantity> unit;
     std::size_t end = begin;
-    for (std::size_t next = begin; next < text_.size();) {
+    for (std::size_t next = first; next < text_.size();) {
       bool const in_parentheses = text_[next] == '(' && unit;
       std::size_t const to = in_parentheses ? text_.find(')', next) + 1 : unit_factor(next);
       if (to == 0 || to == next || stands_name(next) || is_called(next)) break;

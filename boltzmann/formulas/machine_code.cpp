@@ -102,9 +102,8 @@ enum class Number {
   five_sixteenths,
   log2_e,
   to_sixteenths,
-  ln2_high,
-  ln2_low,
-  limit,
+  ln2,
+  least_exponent,
   c0,
   c1,
   c2,
@@ -127,9 +126,8 @@ constexpr double number_values[numbers] = {1,
                                            0.3125,
                                            0x1.71547652b82fep+0,
                                            0x1.8p48,
-                                           0x1.62e42fefap-1,
-                                           0x1.cf79abc9e3b3ap-40,
-                                           0.03,
+                                           0x1.62e42fefa39efp-1,
+                                           least_exponent,
                                            0x1.fffffffffffecp-2,
                                            0x1.555555547cc9ep-3,
                                            0x1.5555555639e86p-5,
@@ -201,6 +199,14 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     return number_memory_[n];
   }
 
+  /// In the register where it is kept, or brought to this one.
+  Xmm kept(Number which, Xmm const& otherwise) {
+    auto const& own = number_register_[static_cast<std::size_t>(which)];
+    if (own) return *own;
+    vmovapd(otherwise, number(which));
+    return otherwise;
+  }
+
   /// A register that holds none of the values in use; if there is none, the value that is wanted last goes to its column.
   int take() {
     int found = -1;
@@ -254,6 +260,7 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
   /// In a register, where it stays for those who read it later.
   Xmm in(Source const& of) {
     if (of.value < 0) {
+      if (scalar_register_[of.scalar]) return *scalar_register_[of.scalar];
       int const r = take();
       vmovapd(reg(r), scalar(of.scalar));
       return reg(r);
@@ -270,7 +277,7 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
   /// In a register or, if this step is the last to read it, where it stands. Calls f with it.
   template <class F>
   void with(Source const& of, F const& f) {
-    if (of.value < 0) return f(scalar(of.scalar));
+    if (of.value < 0) return scalar_register_[of.scalar] ? f(*scalar_register_[of.scalar]) : f(scalar(of.scalar));
     if (in_register(of) || !ends(of)) return f(in(of));
     f(column(value(of.value).column));
   }
@@ -299,18 +306,19 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     holds_.fill(-1);
     pinned_.fill(false);
     number_register_.fill(std::nullopt);
+    scalar_register_.assign(max_scalars, std::nullopt);
   }
 
+  static constexpr int for_values = 14;  // registers
+  void keep(Number from, Number to) {
+    for (auto n = static_cast<std::size_t>(from); n <= static_cast<std::size_t>(to); ++n) {
+      if (number_register_[n] || registers_ <= for_values) continue;
+      number_register_[n] = reg(--registers_);
+      vmovapd(*number_register_[n], number_memory_[n]);
+    }
+  }
   /// Before a loop: those numbers that its steps need, in registers, where there are many.
   void keep_numbers(std::vector<Step> const& steps, std::size_t first, std::size_t end) {
-    constexpr int for_values = 14;
-    auto const keep = [&](Number from, Number to) {
-      for (auto n = static_cast<std::size_t>(from); n <= static_cast<std::size_t>(to); ++n) {
-        if (number_register_[n] || registers_ <= for_values) continue;
-        number_register_[n] = reg(--registers_);
-        vmovapd(*number_register_[n], number_memory_[n]);
-      }
-    };
     for (std::size_t k = first; k < end; ++k) {
       auto const& step = steps[k];
       if (step.instruction == Instruction::reciprocal) keep(Number::one, Number::one);
@@ -318,6 +326,16 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
       if (step.instruction == Instruction::function && step.operation == Operation::exp)
         keep(Number::log2_e, Number::roots_high);
     }
+  }
+
+  /// Before a loop, behind keep_numbers(): scalars of its steps, in registers that are left.
+  void keep_scalars(std::vector<Step> const& steps, std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k)
+      for (Operand const operand : {steps[k].a, steps[k].b, steps[k].c}) {
+        if (!operand.scalar || scalar_register_[operand.index] || registers_ <= for_values) continue;
+        scalar_register_[operand.index] = reg(--registers_);
+        vmovapd(*scalar_register_[operand.index], scalar(operand.index));
+      }
   }
 
   /// Steps one after the other. What is read at `end` or later is in its column behind them, if `keep`.
@@ -344,6 +362,7 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     jz(done, T_NEAR);
     xor_(eax, eax);
     keep_numbers(steps, first, end);
+    keep_scalars(steps, first, end);
     align(16);
     L(loop);
     sequence(steps, first, end, true);
@@ -410,6 +429,8 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     cmp(rdi, rsi);
     jae(done, T_NEAR);
     keep_numbers(program.steps, 0, end);
+    if (registers_ > for_values) keep(Number::least_square, Number::least_square);
+    keep_scalars(program.steps, 0, end);
     align(16);
     L(loop);
     at_ = 0;
@@ -505,10 +526,14 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
       else
         vfmadd231pd(reg(square), d, d);
     }
-    int const least = take();
-    vmovapd(reg(least), number(Number::least_square));
-    vmaxpd(reg(square), reg(least), reg(square));
-    pinned_[static_cast<std::size_t>(least)] = false;
+    if (auto const& least = number_register_[static_cast<std::size_t>(Number::least_square)]) {
+      vmaxpd(reg(square), *least, reg(square));
+    } else {
+      int const r = take();
+      vmovapd(reg(r), number(Number::least_square));
+      vmaxpd(reg(square), reg(r), reg(square));
+      pinned_[static_cast<std::size_t>(r)] = false;
+    }
     if (width_ == 8) vcmppd(k2, reg(square), scalar(program.scalars + D), 1);
     for (std::size_t c = 0; c < D; ++c) settle(r[c], flow_->at[c]);
     settle(square, flow_->at[D]);
@@ -656,42 +681,41 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     }
     Xmm const x = in(a), y = reg(r), e = reg(take()), p = reg(take());
     vrsqrt14pd(y, x);
-    vmulpd(p, x, y);
-    vmovapd(e, number(Number::one));
-    vfnmadd231pd(e, p, y);
+    vmulpd(e, x, y);
+    vfnmadd213pd(e, y, number(Number::one));
     vmovapd(p, number(Number::five_sixteenths));
     vfmadd213pd(p, e, number(Number::three_eighths));
     vfmadd213pd(p, e, number(Number::half));
     vcmppd(k1, e, e, 0);
     vmulpd(e, y, e);
-    vfmadd213pd(e, p, y);
-    vmovapd(y | k1, e);
+    vfmadd231pd(y | k1, e, p);
     hold(r, to);
   }
 
-  /// As exp() of core/pack_math.hpp.
+  /// As exp_in_formulas() of formulas/evaluate.hpp.
   void exponential(Source const& a, int to) {
     Xmm const given = in(a);
     int const r = take();
-    Xmm const result = reg(r), shifted = reg(take()), k = reg(take()), rest = reg(take()), root = reg(take());
+    Xmm const result = reg(r), shifted = reg(take()), k = reg(take()), rest = reg(take());
+    Xmm root = shifted;
     if (width_ == 4) {
       vmovapd(rest, number(Number::over));
       vminpd(rest, rest, given);
+      root = reg(take());
       vmovapd(root, number(Number::under));
       vmaxpd(rest, root, rest);
-    } else {
+    }
+    Xmm const x = width_ == 4 ? rest : given;
+    vmovapd(shifted, number(Number::to_sixteenths));
+    vfmadd231pd(shifted, x, number(Number::log2_e));
+    vsubpd(k, shifted, number(Number::to_sixteenths));
+    if (width_ == 8) {
+      vcmppd(k1, given, number(Number::least_exponent), 5);  // not below it
       vmovapd(rest, given);
     }
-    vmovapd(shifted, number(Number::to_sixteenths));
-    vfmadd231pd(shifted, rest, number(Number::log2_e));
-    vsubpd(k, shifted, number(Number::to_sixteenths));
-    vfnmadd231pd(rest, k, number(Number::ln2_high));
-    vfnmadd231pd(rest, k, number(Number::ln2_low));
+    vfnmadd231pd(rest, k, number(Number::ln2));
     if (width_ == 8) {
-      vrangepd(rest, rest, number(Number::limit), 2);
-      vmovapd(result, number(Number::roots_low));
-      vmovapd(root, shifted);
-      vpermi2pd(root, result, number(Number::roots_high));
+      vpermi2pd(root, kept(Number::roots_low, result), number(Number::roots_high));
     } else {
       vandpd(result, shifted, number(Number::fifteen));
       lea(r9, number_memory_[static_cast<std::size_t>(Number::roots_low)]);
@@ -709,7 +733,7 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
     vfmadd213pd(result, square, rest);
     vfmadd213pd(result, root, root);
     if (width_ == 8) {
-      vscalefpd(result, result, k);
+      vscalefpd(result | k1 | T_z, result, k);
     } else {  // times 2^n in two factors
       auto const whole = half_reg(shifted.getIdx()), first = half_reg(k.getIdx());
       vpsrlq(whole, whole, 4);
@@ -788,6 +812,7 @@ class CodeWriter : public MachineCode, private Xbyak::CodeGenerator {
   std::array<Xbyak::Label, numbers> number_label_;
   std::vector<Xbyak::Address> number_memory_;
   std::array<std::optional<Xmm>, numbers> number_register_;
+  std::vector<std::optional<Xmm>> scalar_register_;
 };
 
 bool processor_has(int width) {

@@ -15,6 +15,9 @@ namespace boltzmann {
 /// their separation, zero, no influence.
 inline constexpr double least_square = 1e-280;
 
+/// Exponentials of less than this are those of this: zero.
+inline constexpr double least_exponent = -1e4;
+
 /// What a program is run on where its columns are gathered from a list of rows: the components of q.position - p.position,
 /// their square, then fields of q. A result multiplies the separation (`along`), or there is one for each component.
 struct GatheredColumns {

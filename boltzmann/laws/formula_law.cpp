@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 namespace boltzmann {
@@ -85,6 +86,10 @@ class Maker {
       for (auto& result : results) result = ended(result, cutoff, false);
       // A positive number pushes p away from q.
       if (program.along) results[0] = graph_.scale(-1, graph_.product({{results[0], 1}, {square_, -0.5}}));
+      if (auto const factor = factor_of_separation(results); value.is_vector && factor) {
+        program.along = true;
+        results = {*factor};
+      }
       program.antisymmetric = &source == &target_ && is_antisymmetric(results, program.along, of_target, of_source);
     }
     std::vector<Expression> measured = results;
@@ -334,6 +339,26 @@ class Maker {
     for (std::uint32_t c = 0; c < D; ++c)
       direct[c] = graph_.sum(0, {{graph_.multiply(factor, graph_.input(c)), 1}, {direct[c], 1}});
     return direct;
+  }
+
+  /// What multiplies the separation, if all components are that times the same.
+  std::optional<Expression> factor_of_separation(std::vector<Expression> const& components) {
+    std::optional<Expression> common;
+    for (std::uint32_t c = 0; c < components.size(); ++c) {
+      auto const whole = graph_.node(components[c]);
+      bool const scaled = whole.kind == ExpressionGraph::Kind::sum && whole.number == 0 && whole.terms.size() == 1;
+      ExpressionGraph::Term const inner = scaled ? whole.terms[0] : ExpressionGraph::Term{components[c], 1};
+      auto const node = graph_.node(inner.node);
+      std::vector<ExpressionGraph::Term> factors{{inner.node, 1}};
+      if (node.kind == ExpressionGraph::Kind::product) factors = node.terms;
+      auto const separation = std::find(factors.begin(), factors.end(), ExpressionGraph::Term{graph_.input(c), 1});
+      if (separation == factors.end()) return std::nullopt;
+      factors.erase(separation);
+      Expression const rest = graph_.scale(inner.factor, factors.empty() ? graph_.number(1) : graph_.product(factors));
+      if (common && *common != rest) return std::nullopt;
+      common = rest;
+    }
+    return common;
   }
 
   /// An energy or an influence that ends at the cut-off as the law wishes.

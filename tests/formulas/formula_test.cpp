@@ -186,6 +186,10 @@ TEST(Formula, ChecksDimensions) {
   EXPECT_EQ(dimension("mod(x, 1 mm) + min(2, x)"), dimensions::length);
   EXPECT_EQ(dimension("sqrt(k/(2 kg))"), dimensions::frequency);
   EXPECT_EQ(dimension("velocity").length, 1);
+  EXPECT_EQ(dimension("0.1 1/s"), dimensions::frequency);
+  EXPECT_EQ(dimension("x*0.1 1/s + 3 m/s"), dimensions::velocity);
+  EXPECT_NEAR(inputs.read("2 1/ms + 3 1/ s")(std::array{2., 0., 0.}), 2003, 1e-12);
+  EXPECT_NEAR(inputs.read("2 1/cm^2*x^2")(std::array{2., 0., 0.}), 80000, 1e-9);
   EXPECT_EQ(inputs.read("[x, 2*x]/(1 s)").components(), 2U);
   EXPECT_TRUE(inputs.read("3 + 4/2").fits(dimensions::mass));
   EXPECT_FALSE(inputs.read("3 kg").fits(dimensions::length));
@@ -199,6 +203,9 @@ TEST(Formula, ChecksDimensions) {
            {"mod(x, 1 s)", 7, "a length and a time can't be compared"},
            {"velocity*velocity", 8, "dot(a, b)"},
            {"velocity + x", 9, "a velocity and a length can't be added"},
+           {"2 1/x", 2, "an operator is missing"},
+           {"2 1/y", 2, "unknown unit"},
+           {"2 1", 2, "1"},
            {"x < 3 kg", 2, "a length and a mass can't be compared"}}) {
     try {
       inputs.read(text);
