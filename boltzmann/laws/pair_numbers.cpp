@@ -97,13 +97,18 @@ bool is_singular(PairSampler& sampler, double near) {
   return !(nearer < 1.4 * there) && nearer > 0;
 }
 
+/// Whether there is a pair that could be looked at.
+bool are_pairs(AnyEnsemble const& target, AnyEnsemble const& source, double reach) {
+  if (target.size() == 0 || source.size() == 0 || (&target == &source && target.size() < 2)) return false;
+  return reach > 0 && std::isfinite(reach);
+}
+
 }  // namespace
 
 LawSample sample_law(PairNumbers const& law, AnyEnsemble const& target, AnyEnsemble const& source, double reach,
                      double spacing) {
   LawSample sample;
-  if (target.size() == 0 || source.size() == 0 || (&target == &source && target.size() < 2)) return sample;
-  if (!(reach > 0) || !std::isfinite(reach)) return sample;
+  if (!are_pairs(target, source, reach)) return sample;
   PairSampler sampler(law, target, source);
   Curve curve{reach / distances, {}, {}};
   for (std::size_t k = 0; k < pairs; ++k) {
@@ -135,6 +140,21 @@ LawSample sample_law(PairNumbers const& law, AnyEnsemble const& target, AnyEnsem
     if (length > 0) sample.length_scale = std::min(sample.length_scale, length);
   }
   return sample;
+}
+
+LawCurve law_curve(PairNumbers const& law, AnyEnsemble const& target, AnyEnsemble const& source, double reach,
+                   std::size_t points) {
+  LawCurve curve;
+  if (!are_pairs(target, source, reach)) return curve;
+  PairSampler sampler(law, target, source);
+  sampler.choose(0);
+  for (std::size_t k = 1; k <= points; ++k) {
+    double const r = k == points ? reach * (1 - 1e-12) : reach * static_cast<double>(k) / static_cast<double>(points);
+    curve.distance.push_back(r);
+    curve.force.push_back(sampler.force(r));
+    if (law.has_energy) curve.energy.push_back(sampler.energy());
+  }
+  return curve;
 }
 
 }  // namespace boltzmann

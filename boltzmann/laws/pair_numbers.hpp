@@ -39,4 +39,12 @@ struct LawSample {
 LawSample sample_law(PairNumbers const& law, AnyEnsemble const& target, AnyEnsemble const& source, double reach,
                      double spacing);
 
+/// A law over the distances up to `reach`, to be drawn: the force that pushes p away from q, and the energy, if the law has one.
+struct LawCurve {
+  std::vector<double> distance, force, energy;
+};
+/// For the first pair of these ensembles, at so many distances; empty if there is no pair or no reach.
+LawCurve law_curve(PairNumbers const& law, AnyEnsemble const& target, AnyEnsemble const& source, double reach,
+                   std::size_t points);
+
 }  // namespace boltzmann

@@ -58,9 +58,10 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
 /// From one table to an influence in the scheme: which law, on whom, with which parameters.
 class InfluenceReader {
  public:
-  /// `one_of_several`: made from a table with `among`, which has been read.
-  InfluenceReader(Item const& table, Reading& reading, bool one_of_several)
+  /// Table `number` of them. `one_of_several`: made from a table with `among`, which has been read.
+  InfluenceReader(Item const& table, std::size_t number, Reading& reading, bool one_of_several)
       : reading_(reading),
+        number_(number),
         before_(reading.context.mistakes.count()),
         section_(table, "[[influences]]", reading.context) {
     for (char const* key : {"among", "mixing"}) one_of_several ? section_.mark_used(key) : section_.allow(key);
@@ -155,6 +156,9 @@ class InfluenceReader {
         pairs_->between(a, b, typed_, reach);
       else
         pairs_->internal(a, typed_, reach);
+      if (moves && !from_outside_)
+        reading_.result->typed_laws.push_back(
+            {fmt::format("influences.{}.{}", number_, by_energy ? "energy" : "influence"), typed_, &a, &b, reach});
     } catch (FormulaLawError const& error) {
       refuse_formula(section_, error, *typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence",
                      reading_);
@@ -366,6 +370,7 @@ class InfluenceReader {
   }
 
   Reading& reading_;
+  std::size_t number_;
   PairScheme* pairs_ = reading_.result->pairs;
   SmoothScheme* smooth_ = reading_.result->scheme<SmoothScheme>();
   std::size_t before_;
@@ -386,14 +391,16 @@ class InfluenceReader {
 }  // namespace
 
 void read_influences(Section& document, Reading& reading) {
+  std::size_t number = 0;
   for (Item const* table : find_tables(document, "influences")) {
+    std::size_t const this_one = number++;
     if (!table->find("among")) {
-      InfluenceReader(*table, reading, false).read();
+      InfluenceReader(*table, this_one, reading, false).read();
       continue;
     }
     std::size_t const before = reading.context.mistakes.count();
     for (auto const& one : influences_among(*table, reading)) {
-      InfluenceReader(one, reading, true).read();
+      InfluenceReader(one, this_one, reading, true).read();
       if (reading.context.mistakes.count() != before) break;  // the others have the same
     }
   }

@@ -9,6 +9,7 @@
 #include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/parameters.hpp>
+#include <boltzmann/scenario/typed_law.hpp>
 #include <boltzmann/scenario/sweep.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -72,6 +73,7 @@ struct ScenarioSimulation {
   std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
   std::vector<ScenarioParameter> absent;      ///< keys that its tables could have, too; only for a page
   std::vector<DerivedClassText> classes;      ///< its own
+  std::vector<TypedLaw> typed_laws;           ///< of pairs
 
   Box const& box() const { return schemes.front()->box(); }
   /// The scheme of this kind, scheme<MeshScheme>(); null if there is none.

@@ -146,6 +146,33 @@ json json_of(std::vector<ScenarioParameter> const& parameters) {
   return list;
 }
 
+/// Numbers that are none become null.
+json json_of(std::vector<double> const& numbers, double factor) {
+  json list = json::array();
+  for (double const number : numbers) list.push_back(limit(number * factor));
+  return list;
+}
+
+/// What typed laws say, for small plots: one curve for each text.
+json curves_of(ScenarioSimulation const& scenario) {
+  constexpr std::size_t points = 160;
+  json list = json::array();
+  std::string last;
+  for (auto const& typed : scenario.typed_laws) {
+    if (std::exchange(last, typed.path) == typed.path) continue;  // among several
+    auto const curve = curve_of(typed, points);
+    if (curve.distance.empty()) continue;
+    auto const length = scenario.units.display(dimensions::length), energy = scenario.units.display(dimensions::energy);
+    list.push_back({{"path", typed.path},
+                    {"length_unit", length.unit},
+                    {"energy_unit", energy.unit},
+                    {"distance", json_of(curve.distance, length.factor)},
+                    {"force", json_of(curve.force, 1)},
+                    {"energy", json_of(curve.energy, energy.factor)}});
+  }
+  return list;
+}
+
 json refusal(std::string const& error) { return {{"error", error}}; }
 
 json refusal(ScenarioErrors const& errors, ScenarioValues const& values) {
@@ -268,6 +295,7 @@ json Gallery::scenario(std::string const& name) const {
       auto const scenario = load_scenario(one.path, overrides_of({}));
       reply["parameters"] = json_of(scenario->parameters);
       reply["absent"] = json_of(scenario->absent);
+      reply["curves"] = curves_of(*scenario);
     } catch (ScenarioErrors const& errors) {
       reply["errors"] = refusal(errors, {})["errors"];
     }
@@ -284,7 +312,7 @@ json Gallery::check(std::string const& name, json const& set) const {
   }
   return answer(values, [&]() -> json {
     auto const scenario = load_scenario(choice(name, folder_).path, overrides_of(values));
-    return {{"ok", true}, {"absent", json_of(scenario->absent)}};
+    return {{"ok", true}, {"absent", json_of(scenario->absent)}, {"curves", curves_of(*scenario)}};
   });
 }
 

@@ -8,6 +8,7 @@
 #include <tests/cpu_time.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -286,6 +287,33 @@ TEST_F(GalleryTest, TellsKeysOfTheWordsThatAreSet) {
   json const wrong = gallery.check("copper", {{"influences.0.law", "\"morse\""}});
   EXPECT_TRUE(wrong.contains("error"));
   EXPECT_EQ(find(wrong.at("absent"), "path", "influences.0.a").at("otherwise"), "needed");
+}
+
+// 4 (r^-12 - r^-6) has its minimum -1 at 2^(1/6).
+TEST_F(GalleryTest, DrawsWhatATypedLawSays) {
+  std::string text = small("Typed");
+  text.replace(text.find("[[1]]"), 5, "[[1], [2]]");
+  put("typed.toml", text + "[[influences]]\non = \"atoms\"\nenergy = \"4*(1/r^12 - 1/r^6)\"\ncutoff = 4\n");
+  json const curves = gallery.scenario("typed").at("curves");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].at("path"), "influences.0.energy");
+  auto const distance = curves[0].at("distance").get<std::vector<double>>();
+  auto const energy = curves[0].at("energy").get<std::vector<double>>();
+  auto const force = curves[0].at("force").get<std::vector<double>>();
+  ASSERT_EQ(distance.size(), energy.size());
+  ASSERT_EQ(distance.size(), force.size());
+  EXPECT_NEAR(distance.back(), 4, 1e-6);
+  auto const least = static_cast<std::size_t>(std::min_element(energy.begin(), energy.end()) - energy.begin());
+  EXPECT_NEAR(energy[least], -1, 0.002);
+  EXPECT_NEAR(distance[least], std::pow(2, 1. / 6), 0.013);
+  EXPECT_GT(force[least - 1], 0);
+  EXPECT_LT(force[least + 1], 0);
+  json const changed = gallery.check("typed", {{"influences.0.energy", "\"-1/r\""}}).at("curves");
+  EXPECT_NEAR(changed[0].at("energy").back().get<double>(), -0.25, 1e-9);
+  EXPECT_NEAR(changed[0].at("force").back().get<double>(), -0.0625, 1e-9);
+  EXPECT_FALSE(gallery.check("typed", {{"influences.0.energy", "\"-1/\""}}).contains("curves"));
+  put("small.toml", small("Small"));
+  EXPECT_EQ(gallery.check("small", json::object()).at("curves"), json::array());
 }
 
 TEST_F(GalleryTest, AKeyThatIsSetStandsInTheSavedFileAndIsToldAsAnyOther) {

@@ -216,6 +216,23 @@ test("a key whose field is emptied is left out, and put back; one that is needed
   assert.equal(await input(page, "ensembles.atoms.diameter").inputValue(), "2.2 angstrom");
 });
 
+test("a typed law is drawn beside its text, again when it changes, and not while it is wrong", async (t) => {
+  const { page } = await gallery(t);
+  await choose(page, "nematic-discs");
+  const path = "influences.0.energy";
+  const curve = field(page, path).locator(".gallery-curve");
+  assert.ok((await curve.locator("path.energy").getAttribute("d")).length > 200);
+  assert.match(await curve.textContent(), /energy.*force.*up to/);
+  const before = await curve.locator("path.force").getAttribute("d");
+  await keep(page, "typed-law");
+  await input(page, path).fill("push*(1 - r/1.2)^3*step(1.2 - r)");
+  await checked(page, "ok");
+  assert.notEqual(await curve.locator("path.force").getAttribute("d"), before);
+  await input(page, path).fill("push*(");
+  await checked(page, "errors");
+  assert.equal(await curve.count(), 0);
+});
+
 test("another word brings its own keys; what is set among them is there again after a run", async (t) => {
   const { page } = await gallery(t);
   await choose(page, "copper");

@@ -1,6 +1,7 @@
 // One parameter in the form: its input, what is allowed, what is wrong, and the way back to what the scenario has. One
 // that the scenario does not have is empty until it is set; one that is emptied is left out.
 import { h } from "../elements";
+import { drawn, type Curve } from "./curve";
 import { limits, shown, typed, wrong, type Parameter } from "./parameter";
 
 type Input = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
@@ -12,6 +13,7 @@ export class Field {
   private readonly input: Input;
   private readonly back: HTMLButtonElement;
   private readonly trouble: HTMLElement;
+  private curve: HTMLElement | null = null;
   /** What the scenario has, as it is shown. */
   readonly original: string;
   private told = "";
@@ -69,6 +71,12 @@ export class Field {
   tell(error: string): void {
     this.told = error;
     this.update();
+  }
+  /** What the law that is typed here says; null: it is not known. */
+  draw(curve: Curve | null): void {
+    this.curve?.remove();
+    this.curve = curve && drawn(curve);
+    if (this.curve) this.trouble.after(this.curve);
   }
   /** As the user had it before. */
   restore(text: string): void {

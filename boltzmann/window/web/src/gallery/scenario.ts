@@ -5,6 +5,7 @@ import type { Reply } from "../protocol";
 import { facts, picture, type Entry } from "./cards";
 import { paragraphs } from "./description";
 import { Field } from "./field";
+import type { Curve } from "./curve";
 import { More } from "./more";
 import type { Parameter } from "./parameter";
 
@@ -19,6 +20,8 @@ export interface Scenario {
   parameters: Parameter[];
   /** Keys that its tables could have, too. */
   absent: Parameter[];
+  /** What its typed laws say. */
+  curves?: Curve[];
   /** Of a saved one: what is wrong with it as it stands. */
   errors?: Trouble[];
 }
@@ -104,6 +107,7 @@ export class ScenarioPage {
       h("details", { class: "gallery-toml" }, h("summary", {}, "The scenario file (TOML)"), h("pre", { tabindex: 0 }, text)),
     );
     if (scenario.errors) this.show({ type: "reply", id: 0, errors: scenario.errors });
+    this.draw(scenario.curves ?? []);
     this.tellState();
     if (this.changed.length > 0) this.edited();
   }
@@ -279,9 +283,14 @@ export class ScenarioPage {
     const before = this.changed.length;
     if (Array.isArray(reply.absent)) this.offer(reply.absent as Parameter[]);
     this.show(reply);
+    this.draw((reply.curves as Curve[] | undefined) ?? []);
     this.element.dataset.checked = reply.error ? "errors" : "ok";
     this.tellState();
     if (this.changed.length > before) this.edited(); // a key that had been set before is offered again
+  }
+
+  private draw(curves: Curve[]): void {
+    for (const field of this.fields) field.draw(curves.find(({ path }) => path === field.parameter.path) ?? null);
   }
 
   /** Puts the errors of an answer where they belong. */
