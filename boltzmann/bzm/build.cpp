@@ -25,7 +25,20 @@ constexpr char const* interaction_hint = "an Interaction is {force, energy}, in 
 
 struct Installation {
   std::string include, library;
+  std::string precompiled =
+      {};  // what most programs include, as the examples beside it have it: half of the time of a short one
 };
+
+/// A precompiled header that no header has changed since; empty: there is none. The compiler does not look.
+std::string precompiled_header(fs::path const& source, fs::path const& build) {
+  auto const header = build / "CMakeFiles/examples_header.dir/cmake_pch.hxx";
+  std::error_code error;
+  auto const made = fs::last_write_time(header.string() + ".gch", error);
+  if (error) return "";
+  for (auto const& file : fs::recursive_directory_iterator(source / "boltzmann"))
+    if (file.path().extension() == ".hpp" && file.last_write_time() > made) return "";
+  return header.string();
+}
 
 // Where headers and library are: in the source and build folders if this program is in its build folder, else where it
 // is installed.
@@ -36,7 +49,7 @@ Installation installation() {
     if (!fs::exists(build / "libboltzmann.a"))
       throw Error(fmt::format("there is no libboltzmann.a in {}; cmake --build {} --target boltzmann makes it",
                               build.string(), build.string()));
-    return {BOLTZMANN_SOURCE, (build / "libboltzmann.a").string()};
+    return {BOLTZMANN_SOURCE, (build / "libboltzmann.a").string(), precompiled_header(BOLTZMANN_SOURCE, build)};
   }
   if (fs::exists(prefix / "include/boltzmann/core/error.hpp"))
     for (auto const* folder : {BOLTZMANN_LIBRARY_FOLDER, "lib", "lib64"})
@@ -110,6 +123,7 @@ int build(BuildOptions const& options) {
     line.emplace_back(word);
   if (isatty(STDERR_FILENO) == 1) line.emplace_back("-fdiagnostics-color=always");  // they go through a pipe
   line.push_back("-I" + place.include);
+  if (!place.precompiled.empty() && !chosen) line.insert(line.end(), {"-include", place.precompiled});
   line.push_back(options.program);
   line.emplace_back("-o");
   line.push_back(out);

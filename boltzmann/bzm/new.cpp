@@ -106,7 +106,7 @@ fields = [                    # kind = "vector" for those with a number for each
 ]
 rate.charge = "(full - charge)/tau"     # how fast it changes, by what the particle knows: a charge in a time
 rate.glow = "-glow/tau"
-diffusion.glow = "0.001/(1 s)"          # noise: a random walk of variance 2 D t; leave it out for none
+diffusion.glow = "0.001 1/s"            # noise: a random walk of variance 2 D t; leave it out for none
 parameters = { full = "2000 e", tau = "0.5 s" }
 
 [[ensembles]]

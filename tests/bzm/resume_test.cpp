@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, KilledAndResumed,
                          testing::Combine(testing::Values("copper", "rod", "three-body", "pythagorean", "cylinder",
                                                           "atmosphere", "two-stream", "langmuir", "electron-gas-2d",
                                                           "molten-salt", "dam-break", "convection", "penetration",
-                                                          "sod"),
+                                                          "sod", "active-matter"),
                                           testing::Values("1", "2")),
                          [](auto const& info) {
                            std::string name = std::get<0>(info.param) + "_" + std::get<1>(info.param);
@@ -71,6 +71,32 @@ TEST(Threads, OneAndTwoGiveTheSameBits) {
             .status,
         0);
   expect_same_checkpoint(folder / "1", folder / "2");
+}
+
+TEST(Resume, TypedDiagnosesGoOnWithTheSameBitsOnAnyThreads) {
+  GasFolder folder;
+  std::string const typed =
+      "diagnoses=[{ kind = 'formula', label = 'order', formula = 'norm(mean(velocity))/mean(speed)' }, { kind = "
+      "'formula', "
+      "label = 'spread', formula = 'sqrt(mean(dot(d, d)))', where = { d = 'position - mean(position)' } }, { kind = "
+      "'histogram', label = 'speeds', formula = 'speed', from = 0, to = 3, count = 6 }]";
+  auto const run = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--quiet"});
+    auto const outcome = bzm(words, folder.string());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  };
+  std::vector<std::string> const plan{"--set", typed, "--set", "output.diagnoses=5"};
+  auto const with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), plan.begin(), plan.end());
+    return words;
+  };
+  run(with({"run", "gas.toml", "--steps", "40", "--threads", "1", "--out", "whole"}));
+  run(with({"run", "gas.toml", "--steps", "25", "--threads", "2", "--out", "stopped"}));
+  run({"resume", "stopped", "--steps", "15", "--threads", "2"});
+  std::string const whole = text_of(folder / "whole/diagnoses.csv");
+  EXPECT_EQ(whole, text_of(folder / "stopped/diagnoses.csv"));
+  EXPECT_NE(whole.find("spread"), std::string::npos);
+  EXPECT_NE(whole.find("speeds"), std::string::npos);
 }
 
 TEST(Interrupt, FinishesTheStepWritesTheCheckpointAndCanBeResumed) {

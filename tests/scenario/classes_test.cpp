@@ -149,6 +149,38 @@ TEST(Classes, AResumedRunHasTheSameBits) {
   for (char const* method : {"leap-frog", "gauss-radau"}) expect_same_bits_resumed(oscillator(method, 0.1));
 }
 
+/// Three particles on a line, of which only neighbours see each other; each turns towards the mean of those that it sees.
+std::string flock(int dimension, std::string const& method) {
+  std::string const rest = dimension == 1 ? "" : dimension == 2 ? ", 0.5" : ", 0.5, 0.25";
+  auto const at = [&](char const* x) { return "[" + std::string(x) + rest + "]"; };
+  return "[units]\nbase = \"reduced\"\n[box]\nlow = " + at("-3") + "\nhigh = " +
+         (dimension == 1   ? "[5]"
+          : dimension == 2 ? "[5, 5]"
+                           : "[5, 5, 5]") +
+         "\n[run]\nstep = 0.1\nsteps = 7\ncutoff = 1.5\n[[classes]]\nname = \"Bird\"\nbase = \"Newton\"\n"
+         "fields = [{ name = \"angle\" }, { name = \"turn\", sum = true }, { name = \"neighbours\", sum = true }]\n"
+         "rate.angle = \"turn/max(neighbours, 1)\"\n[[ensembles]]\nname = \"a\"\nclass = \"Bird\"\nintegrator = \"" +
+         method + "\"\nload = { kind = \"positions\", positions = [" + at("0") + ", " + at("1") + ", " + at("2.2") +
+         "] }\nformulas = { angle = \"x^2\" }\n[[influences]]\nchanges = \"turn\"\ninfluence = \"sin(q.angle - "
+         "p.angle)\"\n"
+         "on = \"a\"\n[[influences]]\nchanges = \"neighbours\"\ninfluence = \"1\"\non = \"a\"\n";
+}
+
+TEST(Classes, SumsOverNeighboursAreThoseByHand) {
+  for (int dimension = 1; dimension <= 3; ++dimension) {
+    auto const run = parse_scenario(flock(dimension, "euler"), "flock.toml");
+    auto const& a = ensemble(*run, "a");
+    double angle[] = {0, 1, 4.84};
+    for (int step = 0; step < 3; ++step) {
+      run->simulation->run(1);
+      double const left = std::sin(angle[1] - angle[0]), right = std::sin(angle[2] - angle[1]);
+      angle[0] += 0.1 * left, angle[1] += 0.1 * (right - left) / 2, angle[2] -= 0.1 * right;
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(number(a, i, "angle"), angle[i], 1e-14) << dimension << "D";
+    }
+  }
+  for (char const* method : {"leap-frog", "rk2", "rk4", "euler"}) expect_same_bits_resumed(flock(2, method));
+}
+
 TEST(Classes, PairsChangeFieldsAsAPlainSumHasIt) {
   for (int dimension = 1; dimension <= 3; ++dimension) {
     auto const run = parse_scenario(mixture(dimension, "euler", 1), "sum.toml");
