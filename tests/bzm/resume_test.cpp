@@ -78,14 +78,15 @@ TEST(Resume, TypedDiagnosesGoOnWithTheSameBitsOnAnyThreads) {
   std::string const typed =
       "diagnoses=[{ kind = 'formula', label = 'order', formula = 'norm(mean(velocity))/mean(speed)' }, { kind = "
       "'formula', "
-      "label = 'spread', formula = 'sqrt(mean(dot(d, d)))', where = { d = 'position - mean(position)' } }, { kind = "
+      "label = 'spread', formula = 'sqrt(mean(v2) - dot(mean(velocity), mean(velocity)))', where = { v2 = "
+      "'dot(velocity, velocity)' } }, { kind = "
       "'histogram', label = 'speeds', formula = 'speed', from = 0, to = 3, count = 6 }]";
   auto const run = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"--quiet"});
     auto const outcome = bzm(words, folder.string());
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   };
-  std::vector<std::string> const plan{"--set", typed, "--set", "output.diagnoses=5"};
+  std::vector<std::string> const plan{"--set", typed, "--set", "output.diagnoses=5", "--set", "output.pictures=[]"};
   auto const with = [&](std::vector<std::string> words) {
     words.insert(words.end(), plan.begin(), plan.end());
     return words;

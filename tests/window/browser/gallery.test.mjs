@@ -224,6 +224,7 @@ test("a typed law is drawn beside its text, again when it changes, and not while
   assert.ok((await curve.locator("path.energy").getAttribute("d")).length > 200);
   assert.match(await curve.textContent(), /energy.*force.*up to/);
   const before = await curve.locator("path.force").getAttribute("d");
+  await curve.scrollIntoViewIfNeeded();
   await keep(page, "typed-law");
   await input(page, path).fill("push*(1 - r/1.2)^3*step(1.2 - r)");
   await checked(page, "ok");
