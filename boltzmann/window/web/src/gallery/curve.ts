@@ -25,8 +25,10 @@ function svg(tag: string, attributes: Record<string, string | number>): SVGEleme
 function extent(values: (number | null)[]): number {
   const finite = values.map((value) => (value === null ? 0 : value));
   const lowest = Math.min(0, ...finite);
+  const highest = Math.max(0, ...finite);
   const outside = Math.max(0, ...finite.slice(Math.floor(finite.length / 5)));
-  return Math.max(-lowest, lowest < 0 ? Math.min(outside, -1.5 * lowest) : outside) || 1;
+  const shown = highest < 4 * outside ? highest : outside;
+  return Math.max(-lowest, lowest < 0 ? Math.min(shown, -1.5 * lowest) : shown) || 1;
 }
 
 /** A line with gaps where there is no number; what is cut off leaves at the edge. */
