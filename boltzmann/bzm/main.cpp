@@ -261,8 +261,8 @@ class CommandLine {
         ->type_name("NAME=SYMBOL")
         ->allow_extra_args(false);
     sub->add_option("--units", export_options_.units,
-                    "metal (angstrom, ps, amu, eV, K, e), si, or run: those of trajectory.h5 "
-                    "[.xyz, .dump: metal for atoms, si for larger things; else run]");
+                    "metal (angstrom, ps, amu, eV, K, e), real, si, cgs, micro, nano, or run: those of trajectory.h5 "
+                    "[.xyz, .dump, .data: metal for atoms, si for larger things; else run]");
   }
 
   void add_words() {

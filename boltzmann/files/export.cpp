@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export.hpp>
+#include <boltzmann/files/export_atoms.hpp>
 #include <boltzmann/files/spatial.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/component_words.hpp>
@@ -121,12 +122,6 @@ std::string lattice(BoxEdges const& box) {
 
 int columns_of(ExportField const& field, int dimension) { return is_spatial(field, dimension) ? 3 : field.components; }
 
-double value_of(ExportField const& field, std::size_t particle, int component) {
-  return component < field.components
-             ? field.factor * field.first[particle * field.stride + static_cast<std::size_t>(component)]
-             : 0.0;
-}
-
 // The fields of `wanted`, in that order, as these particles have them.
 std::vector<ExportField const*> own_fields(ExportParticles const& particles, std::vector<ExportField> const& wanted) {
   std::vector<ExportField const*> own;
@@ -134,10 +129,6 @@ std::vector<ExportField const*> own_fields(ExportParticles const& particles, std
     own.push_back(&*std::find_if(particles.fields.begin(), particles.fields.end(),
                                  [&](ExportField const& candidate) { return candidate.name == field.name; }));
   return own;
-}
-
-std::string species_of(ExportParticles const& particles) {
-  return word(particles.species.empty() ? particles.name : particles.species);
 }
 
 std::size_t count_of(ExportFrame const& frame) {
@@ -206,6 +197,16 @@ std::vector<std::string> dump_columns(ExportField const& field, int dimension) {
 
 }  // namespace
 
+double value_of(ExportField const& field, std::size_t particle, int component) {
+  return component < field.components
+             ? field.factor * field.first[particle * field.stride + static_cast<std::size_t>(component)]
+             : 0.0;
+}
+
+std::string species_of(ExportParticles const& particles) {
+  return word(particles.species.empty() ? particles.name : particles.species);
+}
+
 ExportParticles export_particles(AnyEnsemble const& ensemble) {
   ExportParticles particles{ensemble.name(), ensemble.dimension(), ensemble.size(), 1, {}};
   for (auto const& field : ensemble.fields())
@@ -233,25 +234,14 @@ std::string xyz_text(ExportFrame const& frame) { return xyz(frame, true); }
 std::string dump_text(ExportFrame const& frame) {
   std::vector<ExportField> const fields = common_fields(frame.particles);
   int const dimension = frame.particles.empty() ? 3 : frame.particles.front().dimension;
-  std::array<double, 3> low{-0.5, -0.5, -0.5}, high{0.5, 0.5, 0.5};
+  auto const [low, high] = finite_edges(frame);
   std::string text =
       fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS", frame.step, count_of(frame));
   for (int axis = 0; axis < 3; ++axis) {
     bool const there = axis < frame.box.dimension;
-    double first = std::numeric_limits<double>::infinity(), last = -first;
-    for (auto const& particles : frame.particles)
-      for (auto const& field : particles.fields)
-        if (there && field.name == "position")
-          for (std::size_t i = 0; i < particles.size; ++i) {
-            first = std::min(first, value_of(field, i, axis));
-            last = std::max(last, value_of(field, i, axis));
-          }
-    if (!(first <= last)) first = last = 0;
     text += ' ';
     for (bool const lower : {true, false}) {
       double const edge = !there ? 0 : lower ? frame.box.low[axis] : frame.box.high[axis];
-      if (there)
-        (lower ? low : high)[static_cast<std::size_t>(axis)] = std::isfinite(edge) ? edge : lower ? first : last;
       text += !std::isfinite(edge) ? 's' : there && frame.box.periodic[axis] ? 'p' : 'f';
     }
   }

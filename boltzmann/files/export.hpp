@@ -44,6 +44,8 @@ struct ExportFrame {
   BoxEdges box;
   std::vector<ExportParticles> particles;
   std::string length_unit = {}, time_unit = {};  ///< of box and time; empty: not told
+  std::string units = {};                        ///< the style of all units: "metal"; empty: not told
+  std::size_t number = 0;                        ///< of the frame in its file
 };
 
 /// The fields that every one of them has, as the first one describes them. Formats of columns hold these.

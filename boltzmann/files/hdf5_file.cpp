@@ -7,6 +7,8 @@
 
 #include <unistd.h>
 
+#include <string.h>  // strnlen
+
 #include <algorithm>
 #include <cerrno>
 #include <limits>

@@ -1,12 +1,11 @@
 // Frames go from the reader, field by field, through a change of units, to the writer of a format.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/core/unit_system.hpp>
-#include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/export.hpp>
+#include <boltzmann/files/export_atoms.hpp>
+#include <boltzmann/files/frame_writers.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory_export.hpp>
-#include <boltzmann/particles/component_words.hpp>
+#include <boltzmann/files/unit_change.hpp>
 
 #include <fmt/format.h>
 
@@ -22,281 +21,51 @@ namespace boltzmann {
 namespace {
 
 namespace fs = std::filesystem;
+using Fields = ExportFormat::Fields;
+using Frames = ExportFormat::Frames;
+
+constexpr UnitStyle in_angstrom{"", "angstrom", "angstrom", "amu", "ps", "e", {}};
+constexpr UnitStyle in_nanometers{"", "nm and nm/ps", "nm", "amu", "ps", "e", {}};
+constexpr UnitStyle in_femtoseconds{"", "angstrom and angstrom/fs", "angstrom", "amu", "fs", "e", {}};
+constexpr UnitStyle in_picoseconds{"", "angstrom, ps, amu and e", "angstrom", "amu", "ps", "e", {}};
+
+template <std::string (*text)(ExportFrame const&)>
+std::unique_ptr<FrameWriter> writer_of(std::string const& path) {
+  return text_writer(path, text);
+}
 
 constexpr std::array all_formats{
     ExportFormat{"extended XYZ", ".xyz .extxyz",
                  "all frames as text: box, species, id, pos, velo and the other fields that the ensembles share",
-                 "OVITO, ASE, MDAnalysis and VMD (these two: positions alone)"},
+                 "OVITO, ASE, MDAnalysis and VMD (these two: positions alone)", writer_of<xyz_text>, Fields::shared,
+                 Frames::all, true},
     ExportFormat{"LAMMPS dump", ".dump .lammpstrj",
                  "all frames as text: box, id, type, element, x y z, vx vy vz, mass, q and the other fields",
-                 "OVITO, VMD, MDAnalysis, ASE"},
+                 "OVITO, VMD, MDAnalysis, ASE", writer_of<dump_text>, Fields::shared, Frames::all, true},
+    ExportFormat{"LAMMPS data", ".data .lmp",
+                 "one frame (the last): box, a type and a mass for each ensemble, atoms, charges, velocities",
+                 "LAMMPS' read_data, OVITO, MDAnalysis, ASE", writer_of<lammps_data_text>, Fields::known, Frames::one,
+                 true, nullptr, "position velocity mass charge"},
+    ExportFormat{"PDB", ".pdb .ent", "all frames as models: box and positions in angstrom",
+                 "VMD, PyMOL, MDAnalysis, ASE", writer_of<pdb_text>, Fields::known, Frames::all, true, &in_angstrom,
+                 "position"},
+    ExportFormat{"GRO", ".gro", "all frames: box, positions and velocities in nm and nm/ps",
+                 "GROMACS, VMD, MDAnalysis, ASE", writer_of<gro_text>, Fields::known, Frames::all, true, &in_nanometers,
+                 "position velocity"},
+    ExportFormat{"POSCAR", ".poscar .vasp POSCAR CONTCAR", "one frame (the last): box, positions and velocities",
+                 "VASP, VESTA, OVITO, ASE", writer_of<poscar_text>, Fields::known, Frames::one, true, &in_femtoseconds,
+                 "position velocity"},
+    ExportFormat{"H5MD", ".h5md",
+                 "all frames of all ensembles as one group: positions, velocities, species, masses, charges",
+                 "MDAnalysis, h5py", h5md_writer, Fields::known, Frames::all, true, &in_picoseconds,
+                 "position velocity mass charge"},
     ExportFormat{"VTK time series", ".pvd", "an index, and in a folder beside it a .vtp for each frame and ensemble",
-                 "ParaView"},
-    ExportFormat{"VTK PolyData", ".vtp", "one frame of one ensemble, with every field", "ParaView, VTK, PyVista"},
+                 "ParaView", pvd_writer, Fields::each, Frames::all},
+    ExportFormat{"VTK PolyData", ".vtp", "one frame of one ensemble, with every field", "ParaView, VTK, PyVista",
+                 vtp_writer, Fields::each, Frames::one_ensemble},
     ExportFormat{"CSV", ".csv", "a row for each particle and frame: step, time, ensemble, number and every field",
-                 "spreadsheets, pandas, R"},
+                 "spreadsheets, pandas, R", csv_writer, Fields::each, Frames::all},
 };
-enum class Kind { xyz, dump, pvd, vtp, csv };
-
-Kind kind_of(std::string const& path) { return static_cast<Kind>(&export_format(path) - all_formats.data()); }
-
-// ---- Units ----
-
-// LAMMPS' "metal" where it is not what follows from angstrom, amu and ps.
-struct MetalUnit {
-  Dimension dimension;
-  char const* unit;
-};
-constexpr std::array metal_units{
-    MetalUnit{dimensions::energy, "eV"},
-    MetalUnit{dimensions::force, "eV/angstrom"},
-    MetalUnit{dimensions::pressure, "bar"},
-    MetalUnit{dimensions::density, "g/cm^3"},
-    MetalUnit{dimensions::specific_energy, "eV/amu"},
-    MetalUnit{dimensions::heat_capacity, "eV/K"},
-};
-
-class UnitChange {
- public:
-  UnitChange(std::string wanted, Kind kind, TrajectoryReader const& reader) {
-    std::string length;
-    for (auto const& field : reader.ensembles().front().fields)
-      if (field.name == "position") length = field.unit;
-    if (!wanted.empty() && wanted != "metal" && wanted != "si" && wanted != "run") {
-      std::vector<std::string> const words{"metal", "si", "run"};
-      throw Error(
-          fmt::format("there are no units '{}'; there are {}{}", wanted, join(words), did_you_mean(wanted, words)));
-    }
-    if (length.empty()) {
-      if (!wanted.empty() && wanted != "run")
-        throw Error(fmt::format("the run has pure numbers, which can't become units of '{}'", wanted));
-      name_ = "none";
-      return;
-    }
-    bool const text = kind == Kind::xyz || kind == Kind::dump;
-    bool const atoms = parse_quantity("1 " + length).si < 1e-8;
-    name_ = !wanted.empty() ? wanted : !text ? "run" : atoms ? "metal" : "si";
-    using namespace literals;
-    if (name_ == "metal") units_ = UnitSystem(1_angstrom, 1_amu, 1_ps);
-    if (name_ == "si") units_ = UnitSystem::si();
-  }
-
-  std::string const& name() const { return name_; }
-
-  struct Change {
-    std::string unit;
-    double factor = 1;
-  };
-  /// For numbers that are in this unit.
-  Change operator()(std::string const& unit) const {
-    if (unit.empty() || !units_) return {unit, 1};
-    auto const quantity = parse_quantity(is_number(unit) ? unit : "1 " + unit);
-    auto const& d = quantity.dimension;
-    std::string target = units_->unit_name(d);
-    if (name_ == "metal")
-      for (auto const& special : metal_units)
-        if (special.dimension == d) target = special.unit;
-    if (target == unit) return {unit, 1};
-    return {target, quantity.si / parse_quantity(is_number(target) ? target : "1 " + target).si};
-  }
-
- private:
-  static bool is_number(std::string const& unit) {
-    return !unit.empty() && ((unit[0] >= '0' && unit[0] <= '9' && !unit.starts_with("1/")) || unit[0] == '.');
-  }
-
-  std::string name_;
-  std::optional<UnitSystem> units_;  // none: the units of the run
-};
-
-class FrameWriter {
- public:
-  FrameWriter() = default;
-  virtual ~FrameWriter() = default;
-  FrameWriter(FrameWriter const&) = delete;
-  FrameWriter& operator=(FrameWriter const&) = delete;
-  virtual void write(ExportFrame const& frame) = 0;
-  virtual void finish() = 0;
-};
-
-/// A text with all frames.
-class TextWriter final : public FrameWriter {
- public:
-  TextWriter(std::string path, std::string (*text)(ExportFrame const&)) : file_(std::move(path)), text_(text) {}
-  void write(ExportFrame const& frame) override { file_.write(text_(frame)); }
-  void finish() override { file_.finish(); }
-
- private:
-  PartFile file_;
-  std::string (*text_)(ExportFrame const&);
-};
-
-std::vector<std::string> component_names(ExportField const& field, int dimension) {
-  if (field.components == 1) return {field.name};
-  auto names = component_words(field.components, dimension);
-  for (auto& name : names) name = field.name + "." + name;
-  return names;
-}
-
-/// A row for each particle and frame, with the fields of all ensembles.
-class CsvWriter final : public FrameWriter {
- public:
-  explicit CsvWriter(std::string path) : file_(std::move(path)) {}
-
-  void write(ExportFrame const& frame) override {
-    std::string text;
-    if (columns_.empty()) text = header(frame);
-    for (auto const& particles : frame.particles) {
-      // Where each column is in these particles.
-      std::vector<ExportField const*> fields(columns_.size(), nullptr);
-      for (std::size_t c = 0; c < columns_.size(); ++c)
-        for (auto const& field : particles.fields)
-          if (field.name == columns_[c].field && columns_[c].component < field.components) fields[c] = &field;
-      std::string const name = csv_word(particles.name);
-      std::string start;
-      append_number(start, frame.step);
-      start += ',';
-      append_number(start, frame.time);
-      start += ',' + name + ',';
-      for (std::size_t i = 0; i < particles.size; ++i) {
-        text += start;
-        append_number(text, static_cast<std::int64_t>(i));
-        for (std::size_t c = 0; c < columns_.size(); ++c) {
-          text += ',';
-          if (auto const* field = fields[c])
-            append_number(text, field->factor *
-                                    field->first[i * field->stride + static_cast<std::size_t>(columns_[c].component)]);
-        }
-        text += '\n';
-      }
-    }
-    file_.write(text);
-  }
-  void finish() override { file_.finish(); }
-
- private:
-  struct ColumnOf {
-    std::string field;
-    int component;
-  };
-
-  std::string header(ExportFrame const& frame) {
-    auto const titled = [](std::string const& name, std::string const& unit) {
-      return csv_word(unit.empty() ? name : name + " (" + unit + ")");
-    };
-    std::string text = "step," + titled("time", frame.time_unit) + ",ensemble,number";
-    for (auto const& particles : frame.particles)
-      for (auto const& field : particles.fields) {
-        bool const known = std::any_of(columns_.begin(), columns_.end(),
-                                       [&](ColumnOf const& column) { return column.field == field.name; });
-        if (known) continue;
-        auto const names = component_names(field, particles.dimension);
-        for (int c = 0; c < field.components; ++c) {
-          columns_.push_back({field.name, c});
-          text += "," + titled(names[static_cast<std::size_t>(c)], field.unit);
-        }
-      }
-    return text + "\n";
-  }
-
-  PartFile file_;
-  std::vector<ColumnOf> columns_;
-};
-
-class VtpWriter final : public FrameWriter {
- public:
-  explicit VtpWriter(std::string path) : path_(std::move(path)) {}
-  void write(ExportFrame const& frame) override { write_vtp(path_ + ".part", frame.time, frame.particles.front()); }
-  void finish() override {
-    std::error_code error;
-    fs::rename(path_ + ".part", path_, error);
-    if (error) throw Error(fmt::format("{}: can't be written: {}", path_, error.message()));
-  }
-
- private:
-  std::string path_;
-};
-
-/// copper.pvd and copper/ions-000000100.vtp, ...
-class PvdWriter final : public FrameWriter {
- public:
-  explicit PvdWriter(std::string const& path)
-      : folder_(path.substr(0, path.size() - 4)), part_(folder_ + ".part"), index_(path) {
-    std::error_code error;
-    if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
-      throw Error(fmt::format("the frames go into the folder '{}', which is a file", folder_));
-    fs::remove_all(part_, error);
-    if (!fs::create_directory(part_, error))
-      throw Error(fmt::format("the folder '{}' can't be made: {}", part_, error.message()));
-    index_.write(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-        "<Collection>\n");
-  }
-  ~PvdWriter() override {
-    std::error_code ignored;
-    fs::remove_all(part_, ignored);
-  }
-
-  void write(ExportFrame const& frame) override {
-    for (std::size_t e = 0; e < frame.particles.size(); ++e) {
-      auto const& particles = frame.particles[e];
-      std::string const name = fmt::format("{}-{:09d}.vtp", file_name(particles.name), frame.step);
-      write_vtp(part_ + "/" + name, frame.time, particles);
-      names_.push_back(name);
-      std::string time;
-      append_number(time, frame.time);
-      index_.write(fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}/{}\"/>\n", time,
-                               e, file_name(particles.name), fs::path(folder_).filename().string(), name));
-    }
-  }
-
-  void finish() override {
-    index_.write("</Collection>\n</VTKFile>\n");
-    std::error_code error;
-    fs::create_directory(folder_, error);
-    // Frames of an earlier export go; what else somebody keeps there stays.
-    for (auto const& entry : fs::directory_iterator(folder_, error))
-      if (is_frame(entry.path().filename().string())) fs::remove(entry.path(), error);
-    for (auto const& name : names_) {
-      fs::rename(part_ + "/" + name, folder_ + "/" + name, error);
-      if (error) throw Error(fmt::format("{}/{}: can't be written: {}", folder_, name, error.message()));
-    }
-    index_.finish();
-  }
-
- private:
-  static std::string file_name(std::string name) {
-    for (char& c : name)
-      if (c == ' ' || c == '/' || c == '"' || c == '&' || c == '<' || c == '>') c = '_';
-    return name;
-  }
-  static bool is_frame(std::string const& name) {
-    auto const dash = name.rfind('-');
-    if (dash == std::string::npos || !name.ends_with(".vtp")) return false;
-    std::string const digits = name.substr(dash + 1, name.size() - dash - 5);
-    return digits.size() >= 9 && digits.find_first_not_of("0123456789") == std::string::npos;
-  }
-
-  std::string folder_, part_;
-  PartFile index_;
-  std::vector<std::string> names_;
-};
-
-std::unique_ptr<FrameWriter> make_writer(Kind kind, std::string const& path) {
-  switch (kind) {
-    case Kind::xyz:
-      return std::make_unique<TextWriter>(path, xyz_text);
-    case Kind::dump:
-      return std::make_unique<TextWriter>(path, dump_text);
-    case Kind::pvd:
-      return std::make_unique<PvdWriter>(path);
-    case Kind::vtp:
-      return std::make_unique<VtpWriter>(path);
-    case Kind::csv:
-      return std::make_unique<CsvWriter>(path);
-  }
-  return nullptr;
-}
 
 // ---- What is chosen ----
 
@@ -323,7 +92,13 @@ bool has_field(TrajectoryReader::StoredEnsemble const& ensemble, std::string con
   return std::any_of(ensemble.fields.begin(), ensemble.fields.end(), [&](auto const& f) { return f.name == name; });
 }
 
-std::vector<Chosen> choose(TrajectoryReader const& reader, ExportOptions const& options, bool in_columns) {
+std::vector<Chosen> choose(TrajectoryReader const& reader, ExportOptions const& options, ExportFormat const& format) {
+  bool const in_columns = format.fields == Fields::shared;
+  auto const known_fields = split_words(format.known, ' ');
+  auto const is_known = [&](std::string const& name) {
+    return format.fields != Fields::known ||
+           std::find(known_fields.begin(), known_fields.end(), name) != known_fields.end();
+  };
   for (auto const& name : options.ensembles) need_ensemble(reader, name);
   for (auto const& [name, species] : options.species) need_ensemble(reader, name);
   std::vector<Chosen> chosen;
@@ -346,12 +121,17 @@ std::vector<Chosen> choose(TrajectoryReader const& reader, ExportOptions const& 
           fmt::format("the field '{}' is not in {}, and this format has the same columns for all: choose an "
                       "ensemble, or write .csv or .pvd",
                       name, join(lacking)));
+    if (!is_known(name))
+      throw Error(
+          fmt::format("a file of format {} has no field '{}'; it has {}", format.name, name, join(known_fields)));
   }
+  auto const is_wanted = [&](std::string const& name) {
+    return options.fields.empty() || name == "position" ||
+           std::find(options.fields.begin(), options.fields.end(), name) != options.fields.end();
+  };
   for (auto& one : chosen)
     for (auto const& field : one.ensemble->fields)
-      if (options.fields.empty() || field.name == "position" ||
-          std::find(options.fields.begin(), options.fields.end(), field.name) != options.fields.end())
-        one.fields.push_back(&field);
+      if (is_known(field.name) && is_wanted(field.name)) one.fields.push_back(&field);
   return chosen;
 }
 
@@ -360,11 +140,11 @@ std::vector<Chosen> choose(TrajectoryReader const& reader, ExportOptions const& 
 std::span<ExportFormat const> export_formats() { return all_formats; }
 
 ExportFormat const& export_format(std::string const& path) {
-  std::string const suffix = fs::path(path).extension().string();
+  std::string const suffix = fs::path(path).extension().string(), whole = fs::path(path).filename().string();
   std::vector<std::string> all;
   for (auto const& format : all_formats)
     for (auto const& known : split_words(format.suffixes, ' ')) {
-      if (known == suffix) return format;
+      if (known == suffix || known == whole) return format;
       all.push_back(known);
     }
   throw Error(fmt::format("'{}' ends in none of {}{}", path, join(all), did_you_mean(suffix, all)));
@@ -416,6 +196,7 @@ ExportFrame frame_of(TrajectoryReader const& reader, std::size_t number, std::ve
   frame.step = reader.steps()[number];
   frame.time = reader.written_time(number) * time.factor;
   frame.time_unit = time.unit;
+  frame.units = units.name();
   frame.box = reader.box(number, TrajectoryReader::Numbers::written);
   for (auto const& [ensemble, fields, first_id] : chosen) {
     ExportParticles particles{ensemble->name, ensemble->dimension, reader.size(number, ensemble->name), first_id, {}};
@@ -437,9 +218,9 @@ ExportFrame frame_of(TrajectoryReader const& reader, std::size_t number, std::ve
   return frame;
 }
 
-std::vector<std::string> names_of(ExportFrame const& frame, bool in_columns) {
+std::vector<std::string> names_of(ExportFrame const& frame, Fields fields) {
   std::vector<std::string> names;
-  if (in_columns)
+  if (fields == Fields::shared)
     for (auto const& field : common_fields(frame.particles)) names.push_back(field.name);
   else
     for (auto const& particles : frame.particles)
@@ -451,15 +232,17 @@ std::vector<std::string> names_of(ExportFrame const& frame, bool in_columns) {
 }  // namespace
 
 ExportReport export_trajectory(TrajectoryReader const& reader, std::string const& path, ExportOptions const& options) {
-  Kind const kind = kind_of(path);
-  bool const in_columns = kind == Kind::xyz || kind == Kind::dump;
+  auto const& format = export_format(path);
   if (reader.frames() == 0) throw Error("the trajectory has no frames");
   std::vector<std::size_t> frames = options.frames;
+  if (frames.empty() && format.frames == Frames::one) frames = {reader.frames() - 1};
   if (frames.empty())
     for (std::size_t frame = 0; frame < reader.frames(); ++frame) frames.push_back(frame);
-  UnitChange const units(options.units, kind, reader);
-  auto chosen = choose(reader, options, in_columns);
-  if (kind == Kind::vtp && (frames.size() != 1 || chosen.size() != 1))
+  UnitChange const units(options.units, format, reader);
+  auto chosen = choose(reader, options, format);
+  if (format.frames == Frames::one && frames.size() != 1)
+    throw Error(fmt::format("'{}' holds one frame, not {}; choose it, -1 is the last", path, frames.size()));
+  if (format.frames == Frames::one_ensemble && (frames.size() != 1 || chosen.size() != 1))
     throw Error(fmt::format("'{}' holds one frame of one ensemble, not {} of {}; choose them, or write .pvd", path,
                             frames.size(), chosen.size()));
   // Identifiers of an ensemble stay what they are while others grow.
@@ -472,11 +255,12 @@ ExportReport export_trajectory(TrajectoryReader const& reader, std::string const
   }
 
   ExportReport report{0, units.name(), {}};
-  auto const writer = make_writer(kind, path);
+  auto const writer = format.make(path);
   for (auto const number : frames) {
     std::vector<std::vector<double>> memory;
-    auto const frame = frame_of(reader, number, chosen, units, options, memory);
-    if (report.frames == 0) report.names = names_of(frame, in_columns);
+    auto frame = frame_of(reader, number, chosen, units, options, memory);
+    frame.number = report.frames;
+    if (report.frames == 0) report.names = names_of(frame, format.fields);
     writer->write(frame);
     ++report.frames;
     if (options.progress) options.progress(report.frames, frames.size());

@@ -1,6 +1,7 @@
 // What may be written where, told before anything is.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/mesh_frames.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/recording/run_folder.hpp>
 

@@ -1,6 +1,7 @@
 // Frames of a run, and which of them stay when it goes on.
 #include <boltzmann/recording/run_frames.hpp>
 #include <boltzmann/recording/saved_state.hpp>
+#include <boltzmann/recording/trajectory_units.hpp>
 #include <boltzmann/recording/version.hpp>
 #include <boltzmann/simulation/keeps_numbers.hpp>
 
@@ -13,8 +14,8 @@ TrajectoryOptions RunFrames::options() const {
   options.version = program_version;
   options.sizes_change = numbers_change(simulation_.adaptations());
   if (!units_.is_reduced()) {
-    options.unit_name = [units = units_](Dimension d) { return units.display(d).unit; };
-    options.factor = [units = units_](Dimension d) { return units.display(d).factor; };
+    options.unit_name = [units = units_](Dimension d) { return trajectory_unit(units, d).unit; };
+    options.factor = [units = units_](Dimension d) { return trajectory_unit(units, d).factor; };
   }
   return options;
 }

@@ -1,6 +1,8 @@
 // The members of loaders with their keys, and which of them each kind has.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
+#include <boltzmann/core/unit_style.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 
 #include <limits>
@@ -37,11 +39,18 @@ OptionTable make_members() {
   all.add("temperature", &L::temperature, number(dimensions::temperature, positive), "of the atmosphere");
   all.add("acceleration", &L::acceleration, number(dimensions::acceleration), "downwards, along the last axis");
   all.add_said("positions", "a list of places, `[[0, 0], [1, 0]]`", "one for each particle");
-  all.add_said("path", "a text", "of an XYZ file, from the scenario's folder");
+  all.add_said("path", "a text", "of a file, from the scenario's folder");
+  all.add("format", &L::format, word(particle_file_names()), "of the file", "what its ending says");
   all.add("frame", &L::frame, whole(0, unlimited), "of the file, from 0");
-  all.add("species", &L::species, text(), "only these", "all");
-  all.add("length", &L::length, number(dimensions::length, positive), "the file's unit of length", "the base's");
-  all.add("velocity", &L::velocity, number(dimensions::velocity, positive), "and of velocities", "the base's");
+  all.add("species", &L::species, text(), "only these: an element, a name, the number of a type", "all");
+  all.add("units", &L::units, word(unit_style_names()), "the file's units, by LAMMPS' words",
+          "what the file says, else the base's");
+  all.add("style", &L::style, word({"atomic", "charge", "bond", "angle", "molecular", "full"}), "of LAMMPS data",
+          "what the file says");
+  all.add("length", &L::length, number(dimensions::length, positive), "the file's unit of length",
+          "what the file says, else the base's");
+  all.add("velocity", &L::velocity, number(dimensions::velocity, positive), "and of velocities",
+          "what the file says, else the base's");
   all.add("mass", &L::mass, number(dimensions::mass, positive), "of all together");
   all.add("radius", &L::radius, number(dimensions::length, positive),
           "Plummer's: half of the mass is within 1.305 of it");
@@ -105,8 +114,11 @@ std::vector<LoadKind> make_kinds() {
            {"sections"},
            {"overlap"}})},
       {"positions", "where you say", false, of({{"positions"}})},
-      {"file", "an XYZ file; its `Lattice` has to be the box along axes that are periodic in both (`pbc`)", false,
-       of({{"path"}, {"frame"}, {"species"}, {"length"}, {"velocity"}})},
+      {"file",
+       "a file of another program: XYZ, LAMMPS data or dump, PDB, GRO, POSCAR; its lattice has to be the box along "
+       "axes "
+       "that are periodic in both",
+       false, of({{"path"}, {"format"}, {"frame"}, {"species"}, {"units"}, {"style"}, {"length"}, {"velocity"}})},
   };
 }
 

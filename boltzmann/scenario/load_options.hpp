@@ -25,8 +25,8 @@ struct LoadOptions {
   bool quiet = false;
   double temperature = 1, acceleration = 0;
   std::int64_t frame = 0;
-  std::string species;
-  double length = 1, velocity = 1;
+  std::string species, format, units, style;
+  std::optional<double> length, velocity;
   double mass = 1, radius = 1;
   std::optional<double> G;
   std::optional<std::array<double, 3>> centre, drift, normal;

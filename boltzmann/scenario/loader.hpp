@@ -2,8 +2,8 @@
 #pragma once
 
 #include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
-#include <boltzmann/loaders/xyz_file.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -62,6 +62,7 @@ class Loader {
   double read_positions();
   void load_places(AnyEnsemble& particles);
   double read_file();
+  FrameOptions frame_options() const;
   void load_file(AnyEnsemble& particles);
 
   Reading& reading_;
@@ -79,7 +80,7 @@ class Loader {
   std::optional<double> volume_;
   Wave wave_;
   std::vector<double> positions_;
-  XyzFrame frame_;
+  ParticleFrame frame_;
 };
 
 /// A wave to be added to the velocities.

@@ -269,6 +269,7 @@ void read_run(Section& document, Reading& reading) {
   run.cutoff_known = run.cutoff_known || run.cutoff;
   run.cutoff_place = section.place("cutoff");
   run.skin = options.skin;
+  run.shifted = options.shifted;
   run.skin_place = section.place("skin");
   run.tolerance = options.tolerance;
   run.tolerance_place = section.place("tolerance");

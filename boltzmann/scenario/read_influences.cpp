@@ -6,6 +6,7 @@
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/schemes/pair/tail_correction.hpp>
 
 #include <fmt/format.h>
 
@@ -73,8 +74,7 @@ class InfluenceReader {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
     if (section_.has("energy")) typed_item_ = section_.find("energy");
     if (typed_item_) return read_typed();
-    for (char const* key :
-         {"energy", "influence", "parameters", "from_outside", "changes", "at_cutoff", "switch_from"}) {
+    for (char const* key : {"energy", "influence", "parameters", "from_outside", "changes"}) {
       if (section_.has(key))
         reading_.mistake(section_.place(key),
                          fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
@@ -90,6 +90,8 @@ class InfluenceReader {
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
     else
       read_pairs();
+    read_end();
+    read_tail();
     section_.finish();
     bool const there =
         a_ && b_ && a_->particles && b_->particles && (a_->smooth() ? smooth_ != nullptr : pairs_ != nullptr);
@@ -130,6 +132,7 @@ class InfluenceReader {
       typed_.where = read_formula_parts(section_, reading_);
     read_ensembles();
     read_end();
+    read_tail();
     if (!from_outside_)
       read_pairs();
     else if (!where || !where->is(Item::Kind::table))
@@ -159,6 +162,7 @@ class InfluenceReader {
       if (moves && !from_outside_)
         reading_.result->typed_laws.push_back(
             {fmt::format("influences.{}.{}", number_, by_energy ? "energy" : "influence"), typed_, &a, &b, reach});
+      add_tail(typed_, reach);
     } catch (FormulaLawError const& error) {
       refuse_formula(section_, error, *typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence",
                      reading_);
@@ -196,9 +200,9 @@ class InfluenceReader {
     static constexpr std::pair<char const*, AtCutoff> ways[] = {
         {"cut", AtCutoff::cut}, {"shift", AtCutoff::shift}, {"switch", AtCutoff::switched}};
     if (Item const* item = section_.find("at_cutoff")) {
-      if (from_outside_ || section_.has("connect"))
+      if (external() || section_.has("connect"))
         reading_.mistake(item->place, fmt::format("at_cutoff: {} no cut-off",
-                                                  from_outside_ ? "what comes from outside has" : "connections have"));
+                                                  external() ? "what comes from outside has" : "connections have"));
       std::vector<std::string> words;
       for (auto const& [word, way] : ways) words.emplace_back(word);
       auto const word = read_word(*item, "at_cutoff", words, reading_.context);
@@ -211,6 +215,60 @@ class InfluenceReader {
     else if (auto const from = section_.quantity("switch_from", dimensions::length, positive))
       typed_.switch_from = *from;
   }
+  /// Energy and pressure of pairs beyond the cut-off.
+  void read_tail() {
+    tail_ = section_.boolean("tail");
+    if (!tail_) return;
+    Place const place = section_.place("tail");
+    if (external() || section_.has("connect"))
+      reading_.mistake(
+          place, fmt::format("tail: {} no cut-off", external() ? "what comes from outside has" : "connections have"));
+    else if (by_)
+      reading_.mistake(place, "tail: it is of pairs that act on each other; write 'on' alone, or 'between'");
+    else if (typed_.at_cutoff != FormulaLaw::AtCutoff::cut)
+      reading_.mistake(place, "tail: a law that is shifted or switched ends at its cut-off; leave out one of the two");
+    else if (reading_.run.shifted)
+      reading_.mistake(
+          place, "tail: energies of pairs are counted from the cut-off; with a tail write shifted = false in [run]");
+  }
+  void add_tail(FormulaLaw const& law, double reach) {
+    if (!tail_) return;
+    catch_errors(reading_, section_.place("tail"), [&] {
+      auto* tails = reading_.result->scheme<TailCorrection>();
+      if (!tails) {
+        auto made = std::make_unique<TailCorrection>(*reading_.box);
+        tails = made.get();
+        reading_.result->schemes.push_back(std::move(made));
+      }
+      tails->between(*a_->particles, *b_->particles, law, reach);
+    });
+  }
+
+  /// A shipped law as somebody would type it. Error if it can't be typed.
+  FormulaLaw typed_twin(ParameterValues const& parameters) const {
+    std::string const text(law_->typed.in[reading_.dimension - 1]);
+    if (text.empty())
+      throw Error(fmt::format("law '{}' has no formula that could be ended at the cut-off, or integrated beyond it",
+                              law_->name));
+    FormulaLaw twin = typed_;
+    twin.gives = law_->has_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
+    twin.text = text;
+    for (auto const& [name, value] : parameters) twin.parameters.push_back({name, value.front(), dimensions::none});
+    return twin;
+  }
+  /// The same law, ended at the cut-off; a mistake if it can't be.
+  void install_ended(ParameterValues const& parameters, double reach) {
+    AnyEnsemble &a = *a_->particles, &b = *b_->particles;
+    if (single_) throw Error("at_cutoff: in single precision laws have no cut-off");
+    FormulaLaw const law = typed_twin(parameters);
+    if (by_)
+      pairs_->one_way(a, b, law, reach);
+    else if (between_)
+      pairs_->between(a, b, law, reach);
+    else
+      pairs_->internal(a, law, reach);
+  }
+
   std::string called() const { return typed_item_ ? "the typed law" : fmt::format("law '{}'", law_->name); }
 
   // ---- A shipped law ----
@@ -306,12 +364,15 @@ class InfluenceReader {
         install_external(*pairs_, *law_, parameters, a, only_ ? &*only_ : nullptr);
       else if (connect_)
         install_connections(*pairs_, *law_, parameters, a, connections_);
+      else if (typed_.at_cutoff != FormulaLaw::AtCutoff::cut)
+        install_ended(parameters, reach);
       else
         install_pairs(*pairs_, *law_, parameters,
                       between_ ? LawUse::between
                       : by_    ? LawUse::one_way
                                : LawUse::internal,
                       a, b, reach, single_);
+      if (tail_) add_tail(typed_twin(parameters), reach);
     });
     act_on_bodies(parameters);
   }
@@ -379,7 +440,7 @@ class InfluenceReader {
   Place law_place_;
   Item const* typed_item_ = nullptr;
   FormulaLaw typed_;
-  bool from_outside_ = false;
+  bool from_outside_ = false, tail_ = false;
   Item const *on_ = nullptr, *by_ = nullptr, *between_ = nullptr, *connect_ = nullptr;
   ReadEnsemble *a_ = nullptr, *b_ = nullptr;
   std::optional<double> cutoff_;

@@ -228,8 +228,13 @@ void Loader::load_places(AnyEnsemble& particles) {
   for (std::size_t i = 0; i < count_; ++i) std::copy_n(positions_.data() + i * dimension, dimension, particles.row(i));
 }
 
-void Loader::load_file(AnyEnsemble& particles) {
-  xyz_load(particles, frame_, {.species = options_.species, .length = options_.length, .velocity = options_.velocity});
+void Loader::load_file(AnyEnsemble& particles) { frame_load(particles, frame_, frame_options()); }
+
+FrameOptions Loader::frame_options() const {
+  return {.species = options_.species,
+          .length = options_.length,
+          .velocity = options_.velocity,
+          .units = reading_.context.units};
 }
 
 double Loader::read_block() {
@@ -386,12 +391,18 @@ double Loader::read_file() {
   auto const path = path_item ? read_path(*path_item, "path", reading_.context) : std::nullopt;
   Item const* species_item = section_.find("species");
   if (!path) return 0;
-  if (!catch_errors(reading_, path_item->place,
-                    [&] { frame_ = from_xyz_file(*path, static_cast<std::size_t>(options_.frame)); }))
+  if (!catch_errors(reading_, path_item->place, [&] {
+        frame_ = from_particle_file(*path, {.frame = static_cast<std::size_t>(options_.frame),
+                                            .format = options_.format,
+                                            .units = options_.units,
+                                            .style = options_.style});
+      }))
     return 0;
   if (reading_.box)
-    if (auto const line = lattice_misfit(frame_, *reading_.box, options_.length); !line.empty())
-      reading_.mistake(path_item->place, "path: " + line);
+    catch_errors(reading_, path_item->place, [&] {
+      if (auto const line = lattice_misfit(frame_, *reading_.box, frame_options()); !line.empty())
+        throw Error("path: " + line);
+    });
   double count = 0;
   catch_errors(reading_, species_item ? species_item->place : path_item->place,
                [&] { count = static_cast<double>(count_species(frame_, options_.species)); });

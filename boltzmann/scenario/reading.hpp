@@ -61,6 +61,7 @@ struct ReadRun {
   std::uint64_t seed = 1;
   int threads = 0;
   bool cutoff_known = true;  ///< false: there is one, but it could not be read
+  bool shifted = true;
   std::optional<Item> stop;  ///< the condition that ends the run, once the diagnoses are known
   Place place, cutoff_place, skin_place, step_place, time_place, tolerance_place, substeps_place;
 };

@@ -79,6 +79,7 @@ void load_pairs(Reading& reading) {
     reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
   if (!result.pairs) return;
   if (reading.run.skin) result.pairs->skin(*reading.run.skin);
+  if (!reading.run.shifted) result.pairs->shifted(false);
   // Those that no law acts on are supervised, too.
   for (auto const& ensemble : reading.ensembles)
     if (ensemble.particles && !ensemble.smooth())

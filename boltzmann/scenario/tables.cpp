@@ -47,6 +47,9 @@ OptionTable make_run_options() {
           "distance beyond which pair laws are zero; periodic axes need one. Energies of pairs are shifted, so that "
           "they are zero there and a run conserves energy; forces stay as they are",
           "all pairs count");
+  all.add("shifted", &RunOptions::shifted, flag(),
+          "energies of pairs are counted from the cut-off; `false`: as the law has them, as papers do that cut it and "
+          "add its [tail](#energies-as-papers-have-them)");
   all.add("skin", &RunOptions::skin, number(dimensions::length, not_negative),
           "by how much neighbour lists reach further than the cut-off, at most 4 cut-offs; it changes the speed, not "
           "the result",
@@ -296,10 +299,14 @@ OptionTable make_influence_options() {
   all.add_said("parameters", "a table of quantities", "of a typed law: `{ depth = \"0.1 eV\" }`", "none");
   all.add_said(
       "at_cutoff", "`\"cut\"`, `\"shift\"` or `\"switch\"`",
-      "of a typed law: as it is up to the cut-off; less its value there (an energy less its slope there, too, so "
+      "of a pair law: as it is up to the cut-off; less its value there (an energy less its slope there, too, so "
       "that the force ends at zero); or times a smooth step from 1 to 0",
       "`\"cut\"`");
   all.add_said("switch_from", "a length, positive", "where that step begins", "nine tenths of the cut-off");
+  all.add_said("tail", "`true` or `false`",
+               "energy and pressure have what pairs beyond the cut-off would add, if particles stood there as "
+               "everywhere; with `shifted = false` in `[run]`",
+               "false");
   all.add_said("from_outside", "`true` or `false`", "a typed law that acts from outside", "false");
   all.at("law").needed = "\"lennard-jones\"";
   return all;

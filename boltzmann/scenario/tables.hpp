@@ -23,6 +23,7 @@ struct RunOptions {
   int threads = 0;
   std::optional<double> cutoff, skin, tolerance;
   std::optional<SubstepOptions> substeps;
+  bool shifted = true;
 };
 OptionTable const& run_options();
 

@@ -85,7 +85,7 @@ TEST_F(Export, SaysWhatIsWrongInOneLine) {
   expect_refused({"gas", "-o", "a.xyz", "--fields", "velocty"}, {"did you mean 'velocity'?"});
   expect_refused({"gas", "-o", "a.xyz", "--ensemble", "atom"}, {"did you mean 'atoms'?"});
   expect_refused({"gas", "-o", "a.xyz", "--species", "Ar"}, {"atoms=Cu"});
-  expect_refused({"gas", "-o", "a.xyz", "--units", "imperial"}, {"metal, si, run"});
+  expect_refused({"gas", "-o", "a.xyz", "--units", "imperial"}, {"metal, real, si", "run"});
   expect_refused({"gas", "-o", "a.vtp"}, {"one frame of one ensemble, not 5 of 1"});
   expect_refused({"gas", "-o", "nowhere/a.xyz"}, {"nowhere/a.xyz", "No such file or directory"});
   expect_refused({"gas.toml", "-o", "a.xyz"}, {"gas.toml", "HDF5"});

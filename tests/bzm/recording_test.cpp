@@ -2,6 +2,7 @@
 #include "tests/bzm/command.hpp"
 
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/pendulum.hpp>
@@ -230,6 +231,33 @@ TEST(Recording, AFailureIsDrawnFromTheLastRecordedState) {
   EXPECT_TRUE(fs::exists(folder / "out/picture.png"));
   EXPECT_EQ(read_csv((folder / "out/diagnoses.csv").string()).column("step"), (std::vector<double>{0, 1, 2, 3, 4}));
   EXPECT_TRUE(std::isfinite(pair.atoms[1].velocity[0])) << "the recorded state is back";
+}
+
+// Runs of atoms have units in trajectory.h5 that MDAnalysis knows, whatever their base: it takes angstrom/fs for something
+// else, and knows no bohr.
+TEST(Recording, TrajectoriesOfAtomsAreInUnitsThatReadersKnow) {
+  Folder const folder;
+  auto const unit_of = [&](UnitSystem const& units, std::string const& name, double expected_speed) {
+    Pair pair;
+    Recording recording(pair.simulation, units, (folder / name).string());
+    recording.trajectory(1);
+    pair.simulation.run(1);
+    recording.finish();
+    TrajectoryReader const reader((folder / name / "trajectory.h5").string());
+    EXPECT_NEAR(reader.read(0, "atoms", "velocity", TrajectoryReader::Numbers::written)[1] / expected_speed, 1, 1e-9)
+        << name;
+    EXPECT_NEAR(reader.read(0, "atoms", "velocity")[1], 0.2, 1e-15) << name;
+    std::string all = reader.time_unit();
+    for (auto const& field : reader.ensembles()[0].fields)
+      if (field.name == "position" || field.name == "velocity") all += " " + field.unit;
+    return all;
+  };
+  double const bohr = 0.529177210903;  // angstrom
+  EXPECT_EQ(unit_of(UnitSystem(1 * units::angstrom, 1 * units::amu, 1 * units::femtosecond), "fs", 0.2e3),
+            "fs angstrom angstrom/ps");
+  EXPECT_EQ(unit_of(UnitSystem(1 * units::bohr, 1 * units::amu, 1 * units::picosecond), "bohr", 0.2 * bohr),
+            "ps angstrom angstrom/ps");
+  EXPECT_EQ(unit_of(UnitSystem(1 * units::nanometer, 1 * units::amu, 1 * units::picosecond), "nm", 0.2), "ps nm nm/ps");
 }
 
 }  // namespace

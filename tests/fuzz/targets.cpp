@@ -8,7 +8,7 @@
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory.hpp>
-#include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/recording/run_file.hpp>
@@ -162,21 +162,42 @@ std::vector<std::string> formula_seeds() {
 
 std::vector<std::string> run_file_seeds() { return {file_of_run(run_file)}; }
 
-void read_xyz(std::string const& text) {
+/// By one of the readers, which the text's length chooses.
+void read_particles_of(std::string const& text) {
   auto const path = file_of("fuzz.xyz", text);
+  auto const formats = particle_file_formats();
+  std::string const format(formats[text.size() % formats.size()].name);
   for (std::size_t frame = 0; frame < 2; ++frame) try {
-      auto const found = from_xyz_file(path, frame);
+      auto const found = from_particle_file(path, {.frame = frame, .format = format});
       Ensemble<Newton<3>> atoms("atoms");
-      xyz_load(atoms, found, {.resize = true});
+      frame_load(atoms, found, {.units = UnitSystem::si(), .resize = true});
     } catch (Error const& error) {
       if (std::string(error.what()).find('\n') != std::string::npos)
         throw std::logic_error(std::string("not one line: ") + error.what());
     }
 }
-std::vector<std::string> xyz_seeds() {
-  return {"2\nplain\nCu 0 0 0\nCu 1 2 3\n",
-          "1\nLattice=\"5 0 0 0 5 0 0 0 5\" Properties=species:S:1:pos:R:3:velo:R:3:charge:R:1 pbc=\"T T F\"\n"
-          "Ar 1 2 3 0.5 0 0 -1\n1\nsecond\nAr 1e-3 +2 -3.5\n"};
+/// Blanks behind a text until its length chooses this reader.
+std::string for_format(std::size_t number, std::string text) {
+  while (text.size() % particle_file_formats().size() != number) text += '\n';
+  return text;
+}
+std::vector<std::string> particle_seeds() {
+  return {
+      for_format(0, "2\nplain\nCu 0 0 0\nCu 1 2 3\n"),
+      for_format(0,
+                 "1\nLattice=\"5 0 0 0 5 0 0 0 5\" Properties=species:S:1:pos:R:3:velo:R:3:charge:R:1 pbc=\"T T "
+                 "F\"\nAr 1 2 3 0.5 0 0 -1\n1\nsecond\nAr 1e-3 +2 -3.5\n"),
+      for_format(1,
+                 "units = real\n\n2 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nMasses\n\n1 40 # "
+                 "Ar\n\nAtoms # charge\n\n2 1 0.5 1 2 3\n1 1 -1 3 2 1\n\nVelocities\n\n1 0 0 0\n2 1 1 1\n"),
+      for_format(2,
+                 "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp ff\n0 4 1\n0 4 0\n0 4 "
+                 "0\nITEM: ATOMS id type xs ys zs vx vy vz\n1 1 0.5 0.5 0.5 1 2 3\n"),
+      for_format(3,
+                 "CRYST1   18.774   18.774   18.774  90.00  80.00  90.00 P 1           1\nMODEL        1\n"
+                 "ATOM      1  OW  SOL     1       5.690  12.751  11.651  1.00  0.00           O  \nENDMDL\n"),
+      for_format(4, "t\n1\n    1WATER  OW1    1   0.126   1.624   1.679  0.1227 -0.0580  0.0434\n   1.8   1.8   1.8\n"),
+      for_format(5, "t\n-64\n1 0 0\n0 1 0\n0 0 1\nNa Cl\n1 1\nDirect\n0 0 0\n0.5 0.5 0.5\n\n1 0 0\n0 1 0\n")};
 }
 
 void read_table(std::string const& text) {
@@ -307,7 +328,7 @@ std::vector<Target> const& targets() {
       {"scenario", read_scenario_text, scenario_seeds, toml_words},
       {"formula", read_formula_of_any_text, formula_seeds, formula_words()},
       {"run_file", read_run_file, run_file_seeds, toml_words},
-      {"xyz", read_xyz, xyz_seeds, number_words},
+      {"particles", read_particles_of, particle_seeds, number_words},
       {"table", read_table, table_seeds, number_words},
       {"checkpoint", read_checkpoint_file, checkpoint_seeds, {}},
       {"trajectory", read_trajectory, trajectory_seeds, {}},

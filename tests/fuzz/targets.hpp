@@ -18,7 +18,7 @@ struct Target {
   std::vector<std::string> words;
 };
 
-/// "scenario", "formula", "run_file", "message", "xyz", "table", "checkpoint", "trajectory".
+/// "scenario", "formula", "run_file", "message", "particles", "table", "checkpoint", "trajectory".
 std::vector<Target> const& targets();
 /// Error if there is none of that name.
 Target const& target(std::string const& name);

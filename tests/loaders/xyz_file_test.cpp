@@ -1,6 +1,6 @@
 // XYZ files: plain and extended text as other programs write it, and every kind of mistake with its line.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/particles/laplace.hpp>
 
 #include <gtest/gtest.h>
@@ -42,15 +42,15 @@ TEST_F(XyzFile, Plain) {
   EXPECT_FALSE(frame.lattice);
 
   Ensemble<Newton<3>> hydrogen("hydrogen", 2);
-  EXPECT_EQ(xyz_load(hydrogen, frame, {.species = "H", .length = 10}), 2U);
+  EXPECT_EQ(frame_load(hydrogen, frame, {.species = "H", .length = 10}), 2U);
   EXPECT_EQ(hydrogen[1].position, (Vector<3>{0, -7.57, -4.67}));
   EXPECT_EQ(hydrogen[0].mass, 1);
-  EXPECT_THROW(xyz_load(hydrogen, frame), Error);
-  EXPECT_EQ(xyz_load(hydrogen, frame, {.resize = true}), 3U);
+  EXPECT_THROW(frame_load(hydrogen, frame), Error);
+  EXPECT_EQ(frame_load(hydrogen, frame, {.resize = true}), 3U);
   EXPECT_EQ(hydrogen.size(), 3U);
-  EXPECT_THROW(xyz_load(hydrogen, frame, {.species = "He"}), Error);
+  EXPECT_THROW(frame_load(hydrogen, frame, {.species = "He"}), Error);
   Ensemble<Newton<2>> flat("flat", 3);
-  EXPECT_THROW(xyz_load(flat, frame), Error);
+  EXPECT_THROW(frame_load(flat, frame), Error);
 }
 
 TEST_F(XyzFile, ExtendedWithVelocitiesMassesAndLattice) {
@@ -61,7 +61,7 @@ TEST_F(XyzFile, ExtendedWithVelocitiesMassesAndLattice) {
   EXPECT_EQ((*frame.lattice)[8], 7);
   EXPECT_EQ(frame.species[1], "Cl");
   Ensemble<Coulomb<2>> ions("ions", 2);
-  EXPECT_EQ(xyz_load(ions, frame, {.length = 2, .velocity = 100}), 2U);
+  EXPECT_EQ(frame_load(ions, frame, {.length = 2, .velocity = 100}), 2U);
   EXPECT_EQ(ions[1].position, (Vector<2>{6, 8}));
   EXPECT_EQ(ions[0].velocity, (Vector<2>{-50, 25}));
   EXPECT_EQ(ions[0].mass, 22.99);
@@ -74,7 +74,7 @@ TEST_F(XyzFile, Frames) {
   EXPECT_EQ(from_xyz_file(write(text), 2).size(), 0U);
   EXPECT_EQ(message_of(text, 3), ":10: the file has 3 frames, there is no frame 3 (the first is 0)");
   Ensemble<Newton<3>> none("none");
-  EXPECT_EQ(xyz_load(none, from_xyz_file(write(text), 2)), 0U);
+  EXPECT_EQ(frame_load(none, from_xyz_file(write(text), 2)), 0U);
 }
 
 TEST_F(XyzFile, MistakesNameTheirLine) {
@@ -104,16 +104,16 @@ TEST_F(XyzFile, TheLatticeIsThatOfAPeriodicBox) {
   Box const box(Vector{0.0, -1.0, 0.0}, Vector{5.0, 3.0, 20.0},
                 std::array{Boundary::periodic, Boundary::periodic, Boundary::open});
   auto const misfit = [&](std::string const& comment, double length = 1) {
-    return lattice_misfit(from_xyz_file(write("1\n" + comment + "\nAr 1 2 3\n")), box, length);
+    return lattice_misfit(from_xyz_file(write("1\n" + comment + "\nAr 1 2 3\n")), box, {.length = length});
   };
   EXPECT_EQ(misfit("no lattice"), "");
   EXPECT_EQ(misfit("Lattice=\"5 0 0 0 4 0 0 0 7\""), "");
   EXPECT_EQ(misfit("Lattice=\"0.5 0 0 0 0.4 0 0 0 1\"", 10), "");
   EXPECT_EQ(misfit("Lattice=\"5 0 0 0 4.01 0 0 0 7\""),
-            "the file's Lattice is 4.01 long along y, the periodic box 4; they must be the same");
+            "the file's lattice is 4.01 long along y, the periodic box 4; they must be the same");
   EXPECT_EQ(misfit("Lattice=\"5 0 0 0 4.01 0 0 0 7\" pbc=\"T F T\""), "");
   EXPECT_EQ(misfit("Lattice=\"5 0 0 1 4 0 0 0 7\""),
-            "the file's Lattice is skew along x; a periodic box has right angles");
+            "the file's lattice is skew along x; a periodic box has right angles");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/laws/two_columns.hpp>
-#include <boltzmann/loaders/xyz_file.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 
 #include <sys/stat.h>

@@ -836,11 +836,11 @@ TEST(Mistakes, OfTheFileSystem) {
   EXPECT_EQ(parse_scenario(scenario->resolved, "elsewhere.toml")->ensembles[0]->size(), 4U);
   // A species that the file lacks.
   std::ofstream(path) << load("{ kind = \"file\", path = \"boltzmann_mistakes_test.xyz\", species = \"Ag\" }");
-  EXPECT_NE(message(path).find("the XYZ frame has no particle of species 'Ag'; it has Cu"), std::string::npos);
+  EXPECT_NE(message(path).find("the file has no particle of species 'Ag'; it has Cu"), std::string::npos);
   // A lattice that is not the box.
   std::ofstream(path) << load("{ kind = \"file\", path = \"boltzmann_mistakes_test.xyz\" }");
   std::ofstream(folder + "/boltzmann_mistakes_test.xyz") << "2\nLattice=\"19 0 0 0 20 0 0 0 1\"\nCu 1 1 0\nCu 5 1 0\n";
-  EXPECT_NE(message(path).find("path: the file's Lattice is 19 long along x, the periodic box 20"), std::string::npos)
+  EXPECT_NE(message(path).find("path: the file's lattice is 19 angstrom long along x, the periodic box 20"), std::string::npos)
       << message(path);
   std::filesystem::remove(path);
   std::filesystem::remove(folder + "/boltzmann_mistakes_test.xyz");

@@ -100,6 +100,8 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
         start + atoms + "[[bodies]]\nshape = \"file\"\nname = \"b\"\npath = \"none.txt\"\n" + wrong}},
       {"influences",
        {start + atoms + "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1\n" + wrong,
+        start + atoms +
+            "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1\nat_cutoff = \"switch\"\n" + wrong,
         start + atoms + "[[influences]]\nlaw = \"drag\"\non = \"a\"\nfriction = 1\n" + wrong}},
       {"remesh", {start + ensemble("Vortex") + "[[remesh]]\nevery = 1\nspacing = 1\n" + wrong}},
       {"outflow", {start + ensemble("Vortex") + "[[outflow]]\nfrom = [1, 0]\ndirection = [1, 0]\n" + wrong}},

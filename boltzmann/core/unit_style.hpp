@@ -1,0 +1,32 @@
+// Unit styles: the units that files of atoms are in, by LAMMPS' words: "metal", "real", "si".
+#pragma once
+
+#include <boltzmann/core/dimension.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// Units of length, mass, time and charge, from which others follow, and those that do not follow from them.
+struct UnitStyle {
+  std::string_view name, doc;
+  std::string_view length, mass, time, charge;
+  struct Special {
+    Dimension dimension;
+    std::string_view unit;
+  };
+  std::span<Special const> special;
+
+  /// What a quantity of this dimension is in: "eV", "angstrom/ps"; empty for a pure number.
+  std::string unit(Dimension) const;
+};
+
+std::span<UnitStyle const> unit_styles();
+std::vector<std::string> unit_style_names();
+/// Error with all names, and the nearest.
+UnitStyle const& unit_style(std::string_view name);
+
+}  // namespace boltzmann

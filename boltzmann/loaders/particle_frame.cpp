@@ -1,0 +1,110 @@
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/loaders/particle_frame.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+/// A unit of the file in the simulation's. Error if it is of another dimension than what it is for.
+double factor_of(std::string const& column, std::string const& unit, Dimension dimension, FrameOptions const& options) {
+  if (dimension == dimensions::length && options.length) return *options.length;
+  if (dimension == dimensions::velocity && options.velocity) return *options.velocity;
+  if (unit.empty() || options.units.is_reduced()) return 1;
+  if (auto const own = options.units.display(dimension); own.unit == unit && own.factor == 1) return 1;
+  bool const is_number = (unit[0] >= '0' && unit[0] <= '9' && !unit.starts_with("1/")) || unit[0] == '.';
+  auto const quantity = parse_quantity(is_number ? unit : "1 " + unit);
+  if (quantity.dimension != dimension)
+    throw Error(fmt::format("the file's {} is in {}, {} is needed", boltzmann::quoted(column), boltzmann::quoted(unit),
+                            with_article(name_of(dimension))));
+  return options.units.from_si(quantity.si, dimension);
+}
+
+/// The particles of a species, by its own word or by a label of it.
+std::vector<std::size_t> of_species(ParticleFrame const& frame, std::string const& species) {
+  std::string word = species;
+  for (auto const& [label, type] : frame.labels)
+    if (label == species) word = type;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    if (species.empty() || frame.species[i] == species || frame.species[i] == word) chosen.push_back(i);
+  return chosen;
+}
+
+void fill(AnyEnsemble& ensemble, Field const& field, FileColumn const& column, std::vector<std::size_t> const& chosen,
+          double unit) {
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    double const* values = column.values.data() + chosen[k] * static_cast<std::size_t>(column.components);
+    for (int c = 0; c < field.components; ++c) ensemble.row(k)[field.offset + c] = unit * values[c];
+    for (int c = field.components; c < column.components; ++c)
+      if (values[c] != 0)
+        throw Error(
+            fmt::format("particle {} of the file has {} in component {} of its {}; ensemble '{}' has {} "
+                        "dimension{}, where it must be 0",
+                        chosen[k], values[c], "xyz"[c], column.name, ensemble.name(), ensemble.dimension(),
+                        ensemble.dimension() == 1 ? "" : "s"));
+  }
+}
+
+}  // namespace
+
+FileColumn const* ParticleFrame::find(std::string_view name) const {
+  for (auto const& column : columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+std::string lattice_misfit(ParticleFrame const& frame, Box const& box, FrameOptions const& options) {
+  if (!frame.lattice) return "";
+  auto const* position = frame.find("position");
+  double const unit = factor_of("lattice", position ? position->unit : "", dimensions::length, options);
+  auto const& units = options.units;
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (!box.periodic(a) || !frame.periodic[static_cast<std::size_t>(a)]) continue;
+    double const edge = unit * (*frame.lattice)[static_cast<std::size_t>(4 * a)], wanted = box.length(a);
+    for (int b = 0; b < 3; ++b)
+      if (b != a && ((*frame.lattice)[static_cast<std::size_t>(3 * a + b)] != 0 ||
+                     (*frame.lattice)[static_cast<std::size_t>(3 * b + a)] != 0))
+        return fmt::format("the file's lattice is skew along {}; a periodic box has right angles", "xyz"[a]);
+    if (!(std::abs(edge - wanted) <= 1e-6 * wanted + unit * frame.rounding))
+      return fmt::format("the file's lattice is {} long along {}, the periodic box {}; they must be the same",
+                         units.text(edge, dimensions::length, 8), "xyz"[a], units.text(wanted, dimensions::length, 8));
+  }
+  return "";
+}
+
+std::size_t count_species(ParticleFrame const& frame, std::string const& species) {
+  if (species.empty()) return frame.size();
+  if (auto const count = of_species(frame, species).size(); count > 0) return count;
+  std::vector<std::string> all = frame.species;
+  for (auto const& [label, type] : frame.labels) all.push_back(label);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  throw Error(fmt::format("the file has no particle of species '{}'; it has {}{}", species, some_of(all),
+                          did_you_mean(species, all)));
+}
+
+std::size_t frame_load(AnyEnsemble& ensemble, ParticleFrame const& frame, FrameOptions const& options) {
+  count_species(frame, options.species);
+  auto const chosen = of_species(frame, options.species);
+  if (ensemble.size() != chosen.size()) {
+    if (!options.resize)
+      throw Error(fmt::format("ensemble '{}' has {} particles, the file has {}", ensemble.name(), ensemble.size(),
+                              chosen.size()));
+    ensemble.resize(chosen.size());
+  }
+  for (auto const& column : frame.columns) {
+    Field const* field = ensemble.find_field(column.name);
+    if (field == nullptr) continue;
+    bool const spatial = column.components == 3 && field->components == ensemble.dimension();
+    if (column.components != field->components && !spatial) continue;
+    fill(ensemble, *field, column, chosen, factor_of(column.name, column.unit, field->dimension, options));
+  }
+  return chosen.size();
+}
+
+}  // namespace boltzmann

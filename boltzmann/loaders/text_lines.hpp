@@ -1,0 +1,67 @@
+// Text lines: a file of particles read line by line, and its words. Private to this room.
+#pragma once
+
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boltzmann {
+
+/// The words between blanks.
+std::vector<std::string_view> words_of(std::string_view line);
+
+/// The whole word as a number; false if it is none.
+template <class Number>
+bool parse_word(std::string_view word, Number& number) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
+/// The lines of a file, with their numbers for messages.
+class TextLines {
+ public:
+  /// `what` it is, "XYZ file". Error if it can't be opened.
+  TextLines(std::string const& path, std::string_view what);
+
+  /// The next line; false at the end.
+  bool next();
+  /// The next line. Error, "the file ends before WHAT", if there is none.
+  std::string const& need(std::string_view what);
+  /// The same line is the next one again.
+  void back() { again_ = true; }
+  std::string const& line() const { return line_; }
+  std::vector<std::string_view> words() const { return words_of(line_); }
+
+  /// "path:line: what"; of the line after the last one.
+  Error error(std::string const& what) const;
+  Error ended(std::string const& what) const;
+
+  /// A finite number, which `what` says. Error if the word is none.
+  double number(std::string_view word, std::string_view what) const;
+  /// So many finite numbers, the words from `first` on.
+  void numbers(std::vector<std::string_view> const& words, std::size_t first, std::size_t count, std::string_view what,
+               std::vector<double>& out) const;
+  /// A whole number, 0 or more.
+  std::size_t count(std::string_view word, std::string_view what) const;
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::string line_;
+  std::size_t number_ = 0;
+  bool again_ = false;
+};
+
+/// "the file has 3 frames, there is no frame 7 (the first is 0)"
+std::string no_frame(std::size_t frames, std::size_t wanted);
+
+}  // namespace boltzmann
