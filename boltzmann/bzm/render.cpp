@@ -73,6 +73,7 @@ class Frames {
       throw Error(
           "a wave spectrum can't be drawn from a trajectory: it is drawn when the run ends, from what its diagnosis "
           "has recorded; --drawing chooses another picture");
+    for (auto const& diagnosis : scenario.diagnoses) diagnoses_.push_back(diagnosis.get());
     paper_.scale = options.scale;
     paper_.dark = options.dark;
   }
@@ -84,7 +85,7 @@ class Frames {
     auto const frame = static_cast<std::size_t>(number);
     for (auto& ensemble : scenario_.ensembles) reader_.load(frame, *ensemble);
     Canvas drawn = draw(picture_, {*scenario_.simulation, scenario_.units, title_, reader_.steps()[frame],
-                                   reader_.times()[frame], folder_});
+                                   reader_.times()[frame], folder_, diagnoses_});
     if (!axes_) return drawn;
     Axis x = drawn.x_axis(), y = drawn.y_axis();
     x.low = (*axes_)[0].low, x.high = (*axes_)[0].high;
@@ -139,6 +140,7 @@ class Frames {
   std::string folder_, title_;
   TrajectoryReader reader_;
   Picture picture_;
+  std::vector<Diagnosis const*> diagnoses_;  // what they have gathered is in files
   FigureOptions paper_;
   std::optional<std::array<AxisRange, 2>> axes_;  // of a movie
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
+#include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/diagnoses/flow_impulse.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 
@@ -31,6 +32,13 @@ struct Sample {
   FlowImpulse taken = {};                              ///< of vortices that were taken out of a plane flow, so far
 };
 
+/// What a diagnosis has gathered over a run: a function of a distance, a wave number or a time lag.
+struct GatheredTable {
+  std::string name;             ///< of its file in the run's folder, without ".csv"; the same from the start
+  std::vector<Column> columns;  ///< the others are functions of the first
+  std::vector<std::vector<double>> values = {};  ///< of each column as many; none before there is something
+};
+
 class Diagnosis {
  public:
   virtual ~Diagnosis() = default;
@@ -48,6 +56,12 @@ class Diagnosis {
   virtual bool needs_mesh() const { return false; }
   /// Whether it follows particles from look to look by their numbers.
   virtual bool by_number() const { return false; }
+  /// Error if it can't be measured in such a box.
+  virtual void check(Box const&) const {}
+  /// Functions that it gathers from all looks so far: files at the end of a run, and the drawing `curve`.
+  virtual std::vector<GatheredTable> tables() const { return {}; }
+  /// What a run says of it at its end, a line each.
+  virtual std::vector<std::string> report(UnitSystem const&) const { return {}; }
   /// What it remembers from earlier looks (initial velocities of a group, ...), for checkpoints.
   virtual std::vector<double> state() const { return {}; }
   /// Takes back what state() gave. Error if it is not of this diagnosis.

@@ -1,6 +1,8 @@
 // The instruments behind the catalogue: each turns the plain functions of measures.hpp into columns.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
+#include <boltzmann/diagnoses/bond_order.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
@@ -8,10 +10,15 @@
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/formula_diagnosis.hpp>
+#include <boltzmann/diagnoses/green_kubo.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
+#include <boltzmann/diagnoses/mean_profile.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/diagnoses/radial_distribution.hpp>
 #include <boltzmann/diagnoses/shock.hpp>
 #include <boltzmann/diagnoses/slab.hpp>
+#include <boltzmann/diagnoses/structure_factor.hpp>
+#include <boltzmann/diagnoses/time_correlation.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
@@ -611,6 +618,67 @@ std::unique_ptr<Diagnosis> make_body_forces(DiagnosisParameters const& parameter
   return std::make_unique<BodyForces>(parameters.available, parameters.stream, parameters.length);
 }
 
+// ---- Structure and transport ----
+
+/// Where nothing is said, what its options begin with.
+std::size_t or_usual(std::size_t said, std::size_t usual) { return said > 0 ? said : usual; }
+
+std::unique_ptr<Diagnosis> make_radial_distribution(DiagnosisParameters const& parameters) {
+  RadialDistributionOptions options{parameters.ensembles, parameters.label, parameters.to};
+  options.count = or_usual(parameters.count, options.count);
+  options.since = parameters.since;
+  options.every = parameters.every;
+  return std::make_unique<RadialDistribution>(parameters.available, std::move(options));
+}
+
+std::unique_ptr<Diagnosis> make_structure_factor(DiagnosisParameters const& parameters) {
+  StructureFactorOptions options{parameters.ensembles, parameters.label};
+  options.modes = or_usual(parameters.modes, options.modes);
+  options.since = parameters.since;
+  options.every = parameters.every;
+  return std::make_unique<StructureFactor>(parameters.available, std::move(options));
+}
+
+std::unique_ptr<Diagnosis> make_bond_order(DiagnosisParameters const& parameters) {
+  return std::make_unique<BondOrder>(parameters.available, BondOrderOptions{parameters.ensembles, parameters.label,
+                                                                            parameters.range, parameters.order});
+}
+
+template <class Kind>
+std::unique_ptr<Diagnosis> make_time_correlation(DiagnosisParameters const& parameters) {
+  TimeCorrelationOptions options{parameters.ensembles, parameters.since, parameters.every};
+  options.count = or_usual(parameters.count, options.count);
+  options.origins = parameters.origins;
+  options.subtract_drift = parameters.subtract_drift;
+  return std::make_unique<Kind>(parameters.available, options);
+}
+
+std::unique_ptr<Diagnosis> make_green_kubo(DiagnosisParameters const& parameters) {
+  GreenKuboOptions options;
+  options.quantity = transport_words().named(parameters.quantity);
+  options.count = or_usual(parameters.count, options.count);
+  options.since = parameters.since;
+  return std::make_unique<GreenKubo>(parameters.available, options);
+}
+
+std::unique_ptr<Diagnosis> make_mean_profile(DiagnosisParameters const& parameters) {
+  MeanProfileOptions options;
+  if (!parameters.quantity.empty()) options.quantities = parameters.quantity;
+  options.ensembles = parameters.ensembles;
+  options.label = parameters.label;
+  options.axis = axis_of(parameters);
+  options.from = parameters.from;
+  options.to = parameters.to;
+  options.count = or_usual(parameters.count, options.count);
+  options.since = parameters.since;
+  return std::make_unique<MeanProfile>(parameters.available, std::move(options));
+}
+
+std::unique_ptr<Diagnosis> make_average(DiagnosisParameters const& parameters) {
+  return std::make_unique<Average>(parameters.columns_before,
+                                   AverageOptions{parameters.columns, parameters.label, parameters.since});
+}
+
 // ---- The table ----
 
 using Maker = std::unique_ptr<Diagnosis> (*)(DiagnosisParameters const&);
@@ -634,6 +702,11 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
     std::vector<OptionKey> group_and_quantity = group;
     group_and_quantity.push_back({"quantity", "a field, `\"speed\"`, `\"kinetic-energy\"`, ...", "", "\"speed\""});
     OptionKey const on_mesh{"quantity", "`\"field.x\"`, `\"potential\"` or `\"density\"`", "`\"field.x\"`"};
+    OptionKey const pairs_of{"ensembles", "of one: pairs within it; of two: between them", "of all particles"};
+    OptionKey const first_look{"since", "the time of the first look", "the start"};
+    OptionKey const rows{"every", "only rows whose steps are multiples of it count"};
+    OptionKey const lags{"count", "the longest lag, in looks", "`200`"};
+    OptionKey const moving{"subtract_drift", "relative to the mean of the ensemble"};
     OptionKey const some{"ensembles", "only of these", "all of the matter"};
     return std::vector<Entry>{
         {{"energies", "kinetic, potential, external, internal and total energy",
@@ -713,6 +786,69 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
          [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
            return std::make_unique<Diffusion>(parameters.available, parameters.ensembles, parameters.since);
          }},
+        {{"radial-distribution",
+          "height and place of the highest peak of g(r), over the looks so far; g(r) and the running coordination "
+          "number in radial-distribution.csv",
+          told({pairs_of,
+                {"label", "of columns and file", "the ensembles"},
+                {"to", "the largest distance", "half of the box's shortest side"},
+                {"count", "bins", "`200`"},
+                rows,
+                first_look})},
+         make_radial_distribution},
+        {{"structure-factor",
+          "height and place of the highest value of S(k), by direct sums over the wave vectors of a periodic box; S(k) "
+          "in structure-factor.csv",
+          told({pairs_of,
+                {"label", "of columns and file", "the ensembles"},
+                {"modes", "the shortest wave: so many periods in the longest side", "`12`"},
+                rows,
+                first_look})},
+         make_structure_factor},
+        {{"bond-order",
+          "how far the directions to neighbours are those of a crystal: in 3D Steinhardt's q6 (fcc 0.575, bcc 0.629), "
+          "in 2D psi6 (triangles 1), in the mean over particles and of the whole, and the mean number of neighbours",
+          told({{"ensembles", "among the particles of one", "among all"},
+                {"label", "of the columns", "the ensemble"},
+                {"range", "neighbours are within it", "", "1.5"},
+                {"order", "4 sees squares and cubes, 6 triangles and close packing", "`6`"}})},
+         make_bond_order},
+        {{"velocity-autocorrelation",
+          "the diffusion coefficient of Green and Kubo, from many time origins; <v(0).v(t)> in "
+          "velocity-autocorrelation.csv, its spectrum in velocity-spectrum.csv",
+          told({each, first_look, {"every"}, lags, {"origins"}, moving})},
+         make_time_correlation<VelocityAutocorrelation>},
+        {{"mean-square-displacement",
+          "the diffusion coefficient of Einstein, by the later half of the mean square displacement from many time "
+          "origins, followed through periodic axes; that in mean-square-displacement.csv",
+          told({each, first_look, {"every"}, lags, {"origins"}, moving})},
+         make_time_correlation<MeanSquareDisplacement>},
+        {{"green-kubo",
+          "a transport coefficient by the autocorrelation of the system's flux in equilibrium, from row to row; that "
+          "in "
+          "green-kubo-viscosity.csv and the like",
+          told({{"quantity", "the coefficient", "", "\"viscosity\"", option::word(transport_words().names())},
+                {"count", "the longest lag, in rows", "`200`"},
+                first_look})},
+         make_green_kubo},
+        {{"mean-profile",
+          "the lowest and the highest density, temperature, ... of bins along an axis, over the looks so far; the "
+          "profiles in mean-profile.csv",
+          told({some,
+                {"label", "of columns and file", "none"},
+                {"quantity", "with commas, what the drawing `profile` has: `\"density, pressure.xx\"`",
+                 "`\"density, kinetic-temperature\"`"},
+                {"axis", "across the bins", "`\"x\"`"},
+                {"from", "where the bins begin"},
+                {"to", "where they end"},
+                {"count", "bins", "`50`"},
+                first_look})},
+         make_mean_profile},
+        {{"average",
+          "of columns of the diagnoses above: the mean over the rows so far, its error by blocks of rows, and their "
+          "ratio; the run's last lines tell them, average.csv has the error by the length of blocks",
+          told({{"columns"}, {"label", "of the file", "none"}, first_look})},
+         make_average},
         {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", told(group_and_quantity)},
          make<ExtremesDiagnosis>},
         {{"formula",

@@ -51,6 +51,11 @@ OptionTable const& diagnosis_options() {
     all.add("stream", &P::stream, vector(dimensions::velocity), "velocity of the undisturbed flow", "none");
     all.add("length", &P::length, number(dimensions::length, positive), "of drag and lift coefficients",
             "no coefficients");
+    all.add("order", &P::order, whole(1, 16), "of the harmonics");
+    all.add("columns", &P::columns, name_of_quantity(), "of diagnoses above, with commas: `\"pressure, temperature\"`",
+            "all");
+    all.add("every", &P::every, whole(1, 1e9), "steps from one look to the next");
+    all.add("origins", &P::origins, whole(1, 10'000), "how many looks are remembered at a time to compare with");
     return all;
   }();
   return table;

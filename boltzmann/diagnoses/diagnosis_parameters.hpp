@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/weight.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -58,6 +59,11 @@ struct DiagnosisParameters {
   double near = 0;        ///< shock: where the window behind the front begins; 0: two margins behind it
   std::optional<std::array<double, 3>> stream = {};      ///< body-forces: velocity of the undisturbed flow
   double length = 0;                                     ///< body-forces: of coefficients; 0: none
+  std::size_t order = 6;                                 ///< bond-order: of the harmonics
+  std::vector<Column> columns_before = {};               ///< average: those of all diagnoses before it
+  std::string columns = {};                              ///< average: names of them, separated by commas; empty: all
+  std::size_t every = 1;                                 ///< of what gathers: steps from one look to the next
+  std::size_t origins = 20;                              ///< the same: how many of them are remembered
   double far = std::numeric_limits<double>::infinity();  ///< shock: where it ends, or a margin before the driven end
 };
 

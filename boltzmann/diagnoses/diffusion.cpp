@@ -1,4 +1,5 @@
 // Displacements from look to look, added up.
+#include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
 
 #include <boltzmann/core/compensated_sum.hpp>
@@ -6,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace boltzmann {
@@ -14,16 +14,8 @@ namespace boltzmann {
 Diffusion::Diffusion(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
                      double since)
     : since_(since), prefixed_(!names.empty() || available.size() > 1) {
-  if (available.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
+  for (auto const& name : chosen_names(available, names)) followed_.push_back({name, {}, {}, {}});
   dimension_ = available.front()->dimension();
-  std::vector<std::string> known;
-  for (auto const* ensemble : available) known.push_back(ensemble->name());
-  for (auto const& name : names.empty() ? known : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error(
-          fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
-    followed_.push_back({name, {}, {}, {}});
-  }
 }
 
 std::vector<Column> Diffusion::columns() const {
@@ -36,16 +28,6 @@ std::vector<Column> Diffusion::columns() const {
   }
   return columns;
 }
-
-namespace {
-
-AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name) {
-  for (auto const* ensemble : sample.ensembles)
-    if (ensemble->name() == name) return *ensemble;
-  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
-}
-
-}  // namespace
 
 void Diffusion::follow(Sample const& sample) {
   if (!begun_) return;

@@ -176,31 +176,60 @@ MatterState matter_between(MassiveParticles const& bodies, Box const& box, int a
   return sum.matter(box.dimension(), boltzmann_constant);
 }
 
-Profile profile(MassiveParticles const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
-                double boltzmann_constant) {
-  int const dimension = box.dimension();
+ProfileSums::ProfileSums(int dimension, int axis, double low, double high, std::size_t count)
+    : dimension_(dimension),
+      axis_(axis),
+      low_(low),
+      high_(high),
+      width_((high - low) / static_cast<double>(count)),
+      sums_(count) {
   if (axis < 0 || axis >= dimension)
     throw Error(
         fmt::format("a profile along axis {}: the space has {} ax{}", axis, dimension, dimension == 1 ? "is" : "es"));
   if (count == 0) throw Error("a profile needs at least one bin");
   if (!(low < high) || !std::isfinite(high - low))
     throw Error(fmt::format("a profile goes from a lower to a higher place, not from {} to {}", low, high));
-  double const width = (high - low) / static_cast<double>(count);
-  std::vector<MomentSums> sums(count);
+}
+
+void ProfileSums::add(MassiveParticles const& bodies, Box const& box) {
   bodies.for_each([&](double const* position, MomentSums::Body const& body) {
-    double const x = position[axis];
-    if (!(x >= low && x <= high)) return;
-    auto const bin = static_cast<std::size_t>((x - low) / width);  // a particle at the high end is in the last one
-    sums[std::min(bin, count - 1)].add(body, dimension);
+    double const x = position[axis_];
+    if (!(x >= low_ && x <= high_)) return;
+    auto const bin = static_cast<std::size_t>((x - low_) / width_);  // a particle at the high end is in the last one
+    sums_[std::min(bin, sums_.size() - 1)].add(body, dimension_);
   });
-  Profile result{dimension, axis, {}, {}};
-  for (std::size_t b = 0; b < count; ++b) {
-    double const left = low + width * static_cast<double>(b), right = b + 1 == count ? high : left + width;
-    sums[b].add_volume(volume_between(box, axis, left, right));
-    result.position.push_back(left + width / 2);
-    result.matter.push_back(sums[b].matter(dimension, boltzmann_constant));
+  for (std::size_t b = 0; b < sums_.size(); ++b)
+    sums_[b].add_volume(volume_between(box, axis_, left(b), b + 1 == sums_.size() ? high_ : left(b) + width_));
+}
+
+Profile ProfileSums::profile(double boltzmann_constant) const {
+  Profile result{dimension_, axis_, {}, {}};
+  for (std::size_t b = 0; b < sums_.size(); ++b) {
+    result.position.push_back(left(b) + width_ / 2);
+    result.matter.push_back(sums_[b].matter(dimension_, boltzmann_constant));
   }
   return result;
+}
+
+std::vector<double> ProfileSums::state() const {
+  std::vector<double> state;
+  for (auto const& sum : sums_)
+    for (double const number : sum.state()) state.push_back(number);
+  return state;
+}
+
+void ProfileSums::restore(std::span<double const> state) {
+  if (state.size() != sums_.size() * MomentSums::state_size)
+    throw Error("the checkpoint does not fit this diagnosis: its profile has other bins");
+  for (std::size_t b = 0; b < sums_.size(); ++b)
+    sums_[b].restore(state.subspan(b * MomentSums::state_size, MomentSums::state_size));
+}
+
+Profile profile(MassiveParticles const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
+                double boltzmann_constant) {
+  ProfileSums sums(box.dimension(), axis, low, high, count);
+  sums.add(bodies, box);
+  return sums.profile(boltzmann_constant);
 }
 
 // ---- By name ----

@@ -113,6 +113,30 @@ struct Profile {
   std::vector<double> values(std::string_view quantity) const;
 };
 
+/// The sums of a profile, over as many states as one likes.
+class ProfileSums {
+ public:
+  /// `count` bins from `low` to `high`. Error if there is no such axis, no bin, or low is not below high.
+  ProfileSums(int dimension, int axis, double low, double high, std::size_t count);
+
+  /// The particles of a state. Of a bin that reaches beyond the box (where the axis is not open) only what is inside
+  /// counts as its volume.
+  void add(MassiveParticles const& bodies, Box const& box);
+  /// The mean over all states; numbers of particles are those of all.
+  Profile profile(double boltzmann_constant) const;
+
+  std::vector<double> state() const;
+  /// Error if there are other bins.
+  void restore(std::span<double const> state);
+
+ private:
+  double left(std::size_t bin) const { return low_ + width_ * static_cast<double>(bin); }
+
+  int dimension_, axis_;
+  double low_, high_, width_;
+  std::vector<MomentSums> sums_;
+};
+
 /// `count` bins from `low` to `high`. Of a bin that reaches beyond the box (where the axis is not open) only what is
 /// inside counts as its volume. Error if there is no such axis, no bin, or low is not below high.
 Profile profile(MassiveParticles const& bodies, Box const& box, int axis, double low, double high, std::size_t count,

@@ -42,6 +42,68 @@ std::string text_of(MeanError const& value) {
   return plain ? text : fmt::format("({})e{:+03d}", text, shift);
 }
 
+void BlockSums::add(double value) {
+  for (std::size_t k = 0;; ++k) {
+    if (k == levels_.size()) levels_.emplace_back();
+    Level& level = levels_[k];
+    level.count += 1;
+    double const off = value - level.mean;
+    level.mean += off / level.count;
+    level.squares += off * (value - level.mean);
+    level.waits = 1 - level.waits;
+    if (level.waits != 0) {
+      level.waiting = value;
+      return;
+    }
+    value = 0.5 * (level.waiting + value);
+  }
+}
+
+std::size_t BlockSums::count() const { return levels_.empty() ? 0 : static_cast<std::size_t>(levels_[0].count); }
+
+std::vector<BlockSums::Blocks> BlockSums::blocks() const {
+  std::vector<Blocks> all;
+  std::size_t length = 1;
+  for (auto const& level : levels_) {
+    double const error = level.count > 1 ? std::sqrt(level.squares / (level.count * (level.count - 1)))
+                                         : std::numeric_limits<double>::quiet_NaN();
+    all.push_back({length, static_cast<std::size_t>(level.count), error});
+    length *= 2;
+  }
+  return all;
+}
+
+MeanError BlockSums::mean() const {
+  constexpr std::size_t least = 8;
+  MeanError result;
+  if (levels_.empty()) return result;
+  result.mean = levels_[0].mean;
+  auto const all = blocks();
+  for (auto const& one : all) {
+    if (one.number < least) break;
+    double const ratio = all[0].error > 0 ? one.error / all[0].error : 1, length = static_cast<double>(one.length);
+    if (length * length * length <= 2 * levels_[0].count * std::pow(ratio, 4)) continue;
+    result.error = one.error;
+    result.count = one.number;
+    break;
+  }
+  return result;
+}
+
+std::vector<double> BlockSums::state() const {
+  std::vector<double> state;
+  for (auto const& level : levels_)
+    state.insert(state.end(), {level.count, level.mean, level.squares, level.waiting, level.waits});
+  return state;
+}
+
+void BlockSums::restore(std::span<double const> state) {
+  if (state.size() % 5 != 0) throw Error("the checkpoint does not fit this diagnosis: its sums are others");
+  levels_.clear();
+  for (std::size_t k = 0; k < state.size(); k += 5)
+    levels_.push_back({state[k], state[k + 1], state[k + 2], state[k + 3], state[k + 4]});
+}
+
 void LineSums::add(double x, double y) {
   count_ += 1;
   double const dx = x - x_, dy = y - y_;

@@ -24,6 +24,34 @@ MeanError mean_with_error(std::span<double const> values);
 /// where there is no error.
 std::string text_of(MeanError const& value);
 
+/// The sums of a series whose neighbours know of each other, in blocks of 1, 2, 4, 8, ... values (Flyvbjerg and Petersen
+/// 1989): the error of the mean grows with the block until blocks are independent.
+class BlockSums {
+ public:
+  void add(double value);
+  std::size_t count() const;
+
+  struct Blocks {
+    std::size_t length, number;  ///< values in a block, and full blocks
+    double error;                ///< of the mean, if these are independent; NaN of fewer than 2
+  };
+  std::vector<Blocks> blocks() const;
+  /// The mean of all values, with the error of the shortest blocks of length B that are long enough for it:
+  /// B^3 > 2 n (error of B / error of 1)^4 (Lee and others 2011). NaN where fewer than 8 such blocks are there: the
+  /// series is too short to know. `count`: those blocks.
+  MeanError mean() const;
+
+  std::vector<double> state() const;
+  void restore(std::span<double const> state);
+
+ private:
+  struct Level {
+    double count = 0, mean = 0, squares = 0;  // of full blocks
+    double waiting = 0, waits = 0;            // for its partner of the next level
+  };
+  std::vector<Level> levels_;
+};
+
 /// y = intercept + slope x by least squares, with the standard errors that the scatter of the points about the line
 /// tells (n - 2 degrees of freedom): NaN of two points, and everything NaN where all x are the same.
 struct LineFit {

@@ -131,6 +131,17 @@ std::vector<double> const& CsvTable::column(std::string_view name) const {
       fmt::format("there is no column '{}'; there are {}{}", name, some_of(header), did_you_mean(name, header)));
 }
 
+void write_csv(std::string const& path, CsvTable const& table) {
+  std::string text = header_row(table.header);
+  std::size_t const rows = table.columns.empty() ? 0 : table.columns[0].size();
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      append_number(text, table.columns[c][r]);
+      text += c + 1 < table.columns.size() ? ',' : '\n';
+    }
+  write_whole(path, text);
+}
+
 CsvTable read_csv(std::string const& path) {
   std::string const text = read_text(path);
   std::size_t at = 0;

@@ -56,6 +56,10 @@ struct CsvTable {
   std::vector<double> const& column(std::string_view name) const;
 };
 
+/// Writes a whole table, columns of the same length with as many words in the header; a file of that name is replaced.
+/// Error if it can't be written.
+void write_csv(std::string const& path, CsvTable const& table);
+
 /// Reads a table of numbers. Empty fields are NaN. Error, with the line, for a row of another length or a field that is
 /// no number.
 CsvTable read_csv(std::string const& path);

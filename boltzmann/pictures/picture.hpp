@@ -36,7 +36,8 @@ struct Picture {
                        ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential.
                        ///< flow: "vorticity" (also if empty), "speed", "velocity.x", in 3D "vorticity.x", "Q".
                        ///< profile: names of profile_quantities(), separated by commas; empty: "density".
-                       ///< wave-spectrum: which of those recorded, by its quantity; empty: the first
+                       ///< wave-spectrum: which of those recorded, by its quantity; empty: the first.
+                       ///< curves: names of tables, "radial-distribution", separated by commas; empty: the first
   std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
   std::string size = {};  ///< the same, for the diameter: the largest value gets the ensemble's; empty: the ensemble's
   std::string vectors = {};          ///< cartesian: arrows of one of vector_names() at the particles, 2000 at most
@@ -68,7 +69,7 @@ struct Picture {
 };
 
 /// "cartesian" (in 1D phase space, since space is a line), "phase-space", "histogram", "spectrum", "time-series",
-/// "profile", "mesh", "wave-spectrum"; of vortices "flow" (colours) and "streamlines"; of the smooth fields of particles "map" (colours), "contours" (lines) and
+/// "profile", "curves", "mesh", "wave-spectrum"; of vortices "flow" (colours) and "streamlines"; of the smooth fields of particles "map" (colours), "contours" (lines) and
 /// "bands" (shades between levels).
 std::vector<std::string> const& drawing_names();
 

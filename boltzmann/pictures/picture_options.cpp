@@ -126,6 +126,15 @@ std::vector<Drawing> make_drawings() {  // long: a table, an entry for each draw
        all({{{"y", "columns, with commas: `\"kinetic energy, total energy\"`", "all of the first's dimension"},
              {"logarithmic"}}}),
        draw_time_series, check_time_series, nullptr},
+      {"curves", "functions that diagnoses gather over the run: radial distributions, correlations, ...",
+       all({{{"y",
+              "tables, with commas, by the names of their files: `\"radial-distribution\"`; of a column that is not "
+              "the "
+              "second `\"radial-distribution: coordination number\"`",
+              "the first table"}},
+            axis_ends,
+            {{"logarithmic"}}}),
+       draw_curves, check_curves, nullptr},
       {"profile", "matter in bins along an axis, each quantity in its own unit",
        all({{{"x", "`\"position.x\"`, y or z", "`\"position.x\"`"},
              {"y",

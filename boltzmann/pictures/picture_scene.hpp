@@ -143,6 +143,9 @@ void check_waves(Question const& question);
 Canvas draw_time_series(Scene& scene);
 void check_time_series(Question const& question);
 
+Canvas draw_curves(Scene& scene);
+void check_curves(Question const& question);
+
 Canvas draw_profiles(Scene& scene);
 void check_profiles(Question const& question);
 std::optional<Dimension> dimension_of_profile(Question const& question);

@@ -24,6 +24,10 @@ void DiagnosisRows::check() const {
   std::set<std::string> names;
   for (auto const& column : columns())
     if (!names.insert(column.name).second) throw Error("two diagnoses give a column called '" + column.name + "'");
+  std::set<std::string> files{"diagnoses.csv"};
+  for (auto const& file : gathered_files())
+    if (!files.insert(file).second) throw Error("two diagnoses write the file '" + file + "'; give one another label");
+  for (auto const& diagnosis : list_) diagnosis->check(simulation_.schemes().front()->box());
   for (auto const& diagnosis : list_)
     if (numbers_change(simulation_.adaptations()) && diagnosis->by_number())
       throw Error(
@@ -61,6 +65,27 @@ std::vector<std::string> DiagnosisRows::header() const {
 
 bool DiagnosisRows::follow_steps() const {
   return std::any_of(list_.begin(), list_.end(), [](auto const& diagnosis) { return diagnosis->follows(); });
+}
+
+std::vector<std::string> DiagnosisRows::gathered_files() const {
+  std::vector<std::string> files;
+  for (auto const& diagnosis : list_)
+    for (auto const& table : diagnosis->tables()) files.push_back(table.name + ".csv");
+  return files;
+}
+
+void DiagnosisRows::write_gathered(std::string const& folder) const {
+  for (auto const& diagnosis : list_)
+    for (auto& gathered : diagnosis->tables()) {
+      CsvTable table{{}, std::move(gathered.values)};
+      table.columns.resize(gathered.columns.size());
+      for (std::size_t c = 0; c < gathered.columns.size(); ++c) {
+        auto const [unit, factor] = units_.display(gathered.columns[c].dimension);
+        table.header.push_back(gathered.columns[c].name + (unit.empty() ? "" : " (" + unit + ")"));
+        for (double& value : table.columns[c]) value *= factor;
+      }
+      write_csv(folder + "/" + gathered.name + ".csv", table);
+    }
 }
 
 void DiagnosisRows::begin(std::string const& path) {

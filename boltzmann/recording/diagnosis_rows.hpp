@@ -44,6 +44,9 @@ class DiagnosisRows {
   std::vector<Column> columns() const;
   std::vector<std::string> header() const;
   bool follow_steps() const;
+  /// What diagnoses have gathered so far: the names of its files, "NAME.csv", and the files in this folder.
+  std::vector<std::string> gathered_files() const;
+  void write_gathered(std::string const& folder) const;
 
   void begin(std::string const& path);
   /// Goes on behind the rows of the run that was saved.

@@ -41,6 +41,8 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
     if (auto const line = dissipation->report(); !line.empty()) fmt::print("  dissipation {}\n", line);
   for (auto const* adaptation : simulation.adaptations())
     if (auto const line = adaptation->report(recording.units()); !line.empty()) fmt::print("  changes  {}\n", line);
+  for (auto const* diagnosis : recording.instruments())
+    for (auto const& line : diagnosis->report(recording.units())) fmt::print("  mean     {}\n", line);
   if (!report.condition.empty())
     fmt::print("  stop     {}: true at step {}\n", report.condition, recording.ended_step());
   fmt::print("  results  {}: {}\n", recording.folder(), join(recording.files()));

@@ -87,6 +87,7 @@ struct Recording::State {
     parameters.units = units;
     auto const all = ensembles();
     parameters.available.assign(all.begin(), all.end());
+    parameters.columns_before = rows.columns();
     for (auto const& known : diagnosis_kinds()) {
       if (known.name != kind) continue;
       if (known.of_mesh) parameters.mesh_fields = mesh_fields_of(simulation.schemes());
@@ -137,6 +138,7 @@ struct Recording::State {
                   "' goes on where the program calls run_with_progress, or Recording::resume() itself");
     std::vector<std::string> files;
     for (auto const& picture : pictures) files.push_back(picture.file);
+    for (auto const& file : rows.gathered_files()) files.push_back(file);
     folder.begin(files);
     try {
       describe();
@@ -277,6 +279,7 @@ struct Recording::State {
       frames.write_last();
       frames.close();
       rows.close();
+      rows.write_gathered(folder.name());
       draw_pictures(simulation.step(), simulation.time(), "");
     } catch (Error const& error) {
       std::string const left = checkpoint_left();
@@ -407,6 +410,7 @@ std::vector<std::string> Recording::files() const {
   if (state_->rows.every > 0) files.emplace_back("diagnoses.csv");
   if (state_->frames.every > 0) files.emplace_back("trajectory.h5");
   if (state_->every_mesh > 0) files.emplace_back("mesh.pvd");
+  for (auto const& file : state_->rows.gathered_files()) files.push_back(file);
   files.emplace_back("checkpoint.h5");
   for (auto const& picture : state_->pictures) files.push_back(picture.file);
   return files;

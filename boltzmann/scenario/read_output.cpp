@@ -42,6 +42,13 @@ void check_range_of_weight(Section& section, double range, Box const& box) {
 
 namespace {
 
+std::vector<Column> columns_of(ScenarioSimulation const& scenario) {
+  std::vector<Column> columns;
+  for (auto const& diagnosis : scenario.diagnoses)
+    for (auto& column : diagnosis->columns()) columns.push_back(std::move(column));
+  return columns;
+}
+
 /// A name or an array of names.
 void read_ensemble_names(Section& section, std::string const& key, std::vector<std::string>& names, Reading& reading) {
   Item const* item = section.find(key);
@@ -127,7 +134,9 @@ void read_diagnosis(Item const& table, Reading& reading) {
       for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
       find_vortices(parameters, schemes);
     }
+    parameters.columns_before = columns_of(*reading.result);
     auto diagnosis = make_diagnosis(*name, parameters);
+    if (reading.box) diagnosis->check(*reading.box);
     if (*name == "heat-flux" && reading.box)
       temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
     if (auto const* slab = dynamic_cast<Slab const*>(diagnosis.get()); slab && reading.box)
@@ -195,9 +204,7 @@ void read_stop(Reading& reading) {
     return reading.mistake(
         item.place, fmt::format("stop: a condition in quotes is needed, e.g. \"time > 5\", not {}", describe(item)));
   if (!reading.diagnoses_known || !all_loaded(reading) || !reading.base_known) return;
-  std::vector<Column> columns;
-  for (auto const& diagnosis : reading.result->diagnoses)
-    for (auto& column : diagnosis->columns()) columns.push_back(std::move(column));
+  std::vector<Column> const columns = columns_of(*reading.result);
   if (columns.empty() || reading.result->output.diagnoses == 0)
     return reading.mistake(
         item.place, columns.empty() ? "stop: it looks at the columns of diagnoses, and there are no [[diagnoses]]"

@@ -32,7 +32,7 @@ PictureSources sources_of(PicturePlan const& plan, Reading const& reading) {
 }
 
 bool of_diagnoses(PicturePlan const& plan) {
-  return plan.drawing == "time-series" || plan.drawing == "wave-spectrum" ||
+  return plan.drawing == "time-series" || plan.drawing == "wave-spectrum" || plan.drawing == "curves" ||
          (plan.drawing == "spectrum" && plan.x == "time");
 }
 

@@ -133,7 +133,7 @@ void Views::add_usual() {
   add("Mesh", {.drawing = "mesh", .y = "potential"});
   // What shows the state comes before what needs a history.
   std::stable_partition(entries_.begin(), entries_.end(), [](Entry const& entry) {
-    return !entry.table && entry.picture.drawing != "wave-spectrum" &&
+    return !entry.table && entry.picture.drawing != "wave-spectrum" && entry.picture.drawing != "curves" &&
            !(entry.picture.drawing == "spectrum" && entry.picture.x == "time");
   });
 }

@@ -1,0 +1,146 @@
+// Harmonics of the directions to neighbours, particle by particle.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/bond_order.hpp>
+#include <boltzmann/diagnoses/chosen.hpp>
+#include <boltzmann/diagnoses/near_images.hpp>
+#include <boltzmann/diagnoses/unknown.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+constexpr std::size_t largest_order = 16;
+
+/// The sums over directions of the harmonics of one order: in 3D Y_lm for m = 0, ..., l, in 2D exp(i l theta).
+class Harmonics {
+ public:
+  Harmonics(int dimension, std::size_t order)
+      : dimension_(dimension), order_(static_cast<unsigned>(order)), sums_(dimension == 3 ? order + 1 : 1) {}
+
+  void add(double const* direction, double length) {
+    count_ += 1;
+    double const angle = std::atan2(direction[1], direction[0]);
+    if (dimension_ == 2) {
+      sums_[0] += std::polar(1.0, order_ * angle);
+      return;
+    }
+    double const polar = std::acos(std::fmax(-1.0, std::fmin(1.0, direction[2] / length)));
+    for (unsigned m = 0; m <= order_; ++m) sums_[m] += std::sph_legendre(order_, m, polar) * std::polar(1.0, m * angle);
+  }
+  void add(Harmonics const& other) {
+    count_ += other.count_;
+    for (std::size_t m = 0; m < sums_.size(); ++m) sums_[m] += other.sums_[m];
+  }
+  double count() const { return count_; }
+  std::complex<double> mean() const { return sums_[0] / count_; }
+  /// q_l or psi_l; NaN of no direction.
+  double order() const {
+    if (count_ == 0) return unknown;
+    if (dimension_ == 2) return std::abs(mean());
+    double squares = std::norm(sums_[0]);
+    for (std::size_t m = 1; m < sums_.size(); ++m) squares += 2 * std::norm(sums_[m]);  // those of m and -m
+    return std::sqrt(4 * std::numbers::pi / (2 * order_ + 1) * squares) / count_;
+  }
+
+ private:
+  int dimension_;
+  unsigned order_;
+  double count_ = 0;
+  std::vector<std::complex<double>> sums_;
+};
+
+}  // namespace
+
+BondOrder::BondOrder(std::vector<AnyEnsemble const*> const& available, Options options)
+    : options_(std::move(options)), label_(options_.label) {
+  chosen_names(available, options_.ensembles);
+  dimension_ = available.front()->dimension();
+  if (dimension_ == 1) throw Error("bond-order: on a line neighbours have no directions");
+  if (options_.ensembles.size() > 1)
+    throw Error(fmt::format("bond-order: of one ensemble or of all particles, not of {}", join(options_.ensembles)));
+  if (!(options_.range > 0))
+    throw Error("bond-order: it needs a positive 'range' within which particles are neighbours");
+  if (options_.order < 1 || options_.order > largest_order)
+    throw Error(fmt::format("bond-order: the order is 1 to {}, not {}", largest_order, options_.order));
+  if (label_.empty() && !options_.ensembles.empty()) label_ = options_.ensembles[0];
+}
+
+std::vector<Column> BondOrder::columns() const {
+  std::string const name = fmt::format("{}{}", dimension_ == 3 ? "q" : "psi", options_.order);
+  return {{labelled(label_, name), dimensions::none},
+          {labelled(label_, name + " of all"), dimensions::none},
+          {labelled(label_, "neighbours"), dimensions::none}};
+}
+
+void BondOrder::check(Box const& box) const {
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.periodic(a) && options_.range > 0.5 * box.length(a))
+      throw Error(fmt::format("bond-order: the range {} is more than half of periodic axis {}",
+                              box.spoken_units().text(options_.range, dimensions::length, 6), "xyz"[a]));
+}
+
+template <int D>
+BondOrder::Local BondOrder::find(Sample const& sample) const {
+  Box const& box = sample.box;
+  std::vector<double> places;
+  for (auto const* ensemble : sample.ensembles) {
+    if (!options_.ensembles.empty() && ensemble->name() != options_.ensembles[0]) continue;
+    for (std::size_t i = 0; i < ensemble->size(); ++i)
+      for (int a = 0; a < D; ++a) {
+        double const x = ensemble->row(i)[a];
+        places.push_back(box.periodic(a) ? box.wrapped(x, a) : x);
+      }
+  }
+  std::size_t const size = places.size() / D;
+  Local local{std::vector<double>(size, unknown), std::vector<double>(size, 0.0), unknown};
+  if (size == 0) return local;
+  Cells const cells(D, places.data(), D, size, options_.range, sample.threads);
+  std::vector<Harmonics> own(size, Harmonics(D, options_.order));
+  double const reach2 = options_.range * options_.range;
+  for_ranges(size, 64, threads_for(size, 16, sample.threads), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      each_near<D>(cells, &places[D * i], box, options_.range, [&](std::size_t j, double const* image) {
+        if (j == i) return;
+        double way[3] = {0, 0, 0}, r2 = 0;
+        for (int a = 0; a < D; ++a) way[a] = places[D * j + a] - image[a];
+        for (int a = 0; a < D; ++a) r2 += way[a] * way[a];
+        if (r2 < reach2 && r2 > 0) own[i].add(way, std::sqrt(r2));
+      });
+      local.order[i] = own[i].order();
+      local.neighbours[i] = own[i].count();
+    }
+  });
+  Harmonics all(D, options_.order);
+  std::complex<double> sum = 0;
+  double with = 0;
+  for (auto const& one : own) {
+    all.add(one);
+    if (one.count() > 0) sum += one.mean(), with += 1;
+  }
+  local.whole = D == 3 ? all.order() : with > 0 ? std::abs(sum) / with : unknown;
+  return local;
+}
+
+BondOrder::Local BondOrder::local(Sample const& sample) const {
+  check(sample.box);
+  return dimension_ == 2 ? find<2>(sample) : find<3>(sample);
+}
+
+void BondOrder::measure(Sample const& sample, std::vector<double>& values) {
+  Local const found = local(sample);
+  double order = 0, with = 0, neighbours = 0;
+  for (std::size_t i = 0; i < found.order.size(); ++i) {
+    neighbours += found.neighbours[i];
+    if (found.neighbours[i] > 0) order += found.order[i], with += 1;
+  }
+  auto const size = static_cast<double>(found.order.size());
+  values.insert(values.end(), {with > 0 ? order / with : unknown, found.whole, size > 0 ? neighbours / size : unknown});
+}
+
+}  // namespace boltzmann

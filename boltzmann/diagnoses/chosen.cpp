@@ -1,0 +1,78 @@
+// Names of ensembles, and states of diagnoses number by number.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/diagnoses/chosen.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace boltzmann {
+
+std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,
+                                      std::vector<std::string> const& names) {
+  if (available.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
+  std::vector<std::string> known;
+  for (auto const* ensemble : available) known.push_back(ensemble->name());
+  for (auto const& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(
+          fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
+  return names.empty() ? known : names;
+}
+
+AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name) {
+  for (auto const* ensemble : sample.ensembles)
+    if (ensemble->name() == name) return *ensemble;
+  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+}
+
+std::vector<std::string> split_names(std::string const& text) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t const end = std::min(text.find(',', at), text.size());
+    std::string name = text.substr(at, end - at);
+    name.erase(0, name.find_first_not_of(' '));
+    name.erase(name.find_last_not_of(' ') + 1);
+    if (!name.empty()) names.push_back(name);
+    at = end + 1;
+  }
+  return names;
+}
+
+std::string labelled(std::string const& label, std::string const& what) {
+  return label.empty() ? what : label + " " + what;
+}
+
+std::string file_name(std::string const& kind, std::string const& label) {
+  std::string name = label.empty() ? kind : kind + "-" + label;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '.') c = '-';
+  return name;
+}
+
+std::span<double const> StateReader::next(std::size_t count) {
+  if (count > left_.size()) throw Error("the checkpoint does not fit this diagnosis: its state is too short");
+  auto const numbers = left_.first(count);
+  left_ = left_.subspan(count);
+  return numbers;
+}
+
+std::vector<double> StateReader::list() {
+  double const count = next();
+  if (!(count >= 0 && count <= static_cast<double>(left_.size())))
+    throw Error("the checkpoint does not fit this diagnosis: a list in its state has another length");
+  auto const numbers = next(static_cast<std::size_t>(count));
+  return {numbers.begin(), numbers.end()};
+}
+
+void StateReader::finish() const {
+  if (!left_.empty()) throw Error("the checkpoint does not fit this diagnosis: its state is too long");
+}
+
+void add_list(std::vector<double>& state, std::span<double const> list) {
+  state.push_back(static_cast<double>(list.size()));
+  state.insert(state.end(), list.begin(), list.end());
+}
+
+}  // namespace boltzmann

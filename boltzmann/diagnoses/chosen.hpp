@@ -1,0 +1,42 @@
+// Chosen ensembles: who a diagnosis looks at, by name, and the names of what it gives.
+#pragma once
+
+#include <boltzmann/diagnoses/diagnosis.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+/// The names, all ensembles' if there are none. Error if one is not there, or there is nobody to look at.
+std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,
+                                      std::vector<std::string> const& names);
+/// Error if it is not in the simulation any more.
+AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name);
+
+/// "a, b" -> {"a", "b"}.
+std::vector<std::string> split_names(std::string const& text);
+/// "Na Cl g peak": the column `what` of a diagnosis with this label, which may be empty.
+std::string labelled(std::string const& label, std::string const& what);
+/// "radial-distribution-Na-Cl": the file of a diagnosis with this label, of letters, digits, '-', '_' and '.'.
+std::string file_name(std::string const& kind, std::string const& label);
+
+/// Numbers of a checkpoint's state, one after the other. Error where there are none left, or left over.
+class StateReader {
+ public:
+  explicit StateReader(std::span<double const> state) : left_(state) {}
+  double next() { return next(1)[0]; }
+  std::span<double const> next(std::size_t count);
+  /// A list behind its length.
+  std::vector<double> list();
+  void finish() const;
+
+ private:
+  std::span<double const> left_;
+};
+/// The same the other way.
+void add_list(std::vector<double>& state, std::span<double const> list);
+
+}  // namespace boltzmann

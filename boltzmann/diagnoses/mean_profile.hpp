@@ -1,0 +1,61 @@
+// Mean profile: matter in bins along an axis, over all looks of a run.
+#pragma once
+
+#include <boltzmann/diagnoses/diagnosis.hpp>
+#include <boltzmann/diagnoses/profile.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+struct MeanProfileOptions {
+  std::string quantities = "density, kinetic-temperature";  ///< of profile_quantities(), separated by commas
+  std::vector<std::string> ensembles = {};                  ///< those that count; empty: all of the matter
+  std::string label = {};                                   ///< of columns and file
+  int axis = 0;
+  double from = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the ends of the box
+  double to = std::numeric_limits<double>::quiet_NaN();
+  std::size_t count = 50;  ///< bins
+  double since = 0;        ///< the time of the first look
+};
+
+/// Densities, temperatures, pressures and so on between places along an axis, in the mean over time and over what is
+/// there (ProfileSums): temperatures are of the motion about the mean velocity of the bin over the whole time. Columns:
+/// the lowest and the highest value of each quantity. Table: the quantities over the place.
+class MeanProfile final : public Diagnosis {
+ public:
+  using Options = MeanProfileOptions;
+  /// Error if an ensemble isn't there or carries no momentum, or a profile has no such axis or quantity.
+  MeanProfile(std::vector<AnyEnsemble const*> const& available, Options options);
+
+  std::vector<Column> columns() const override;
+  /// Error where the axis is open and nobody says from where to where.
+  void check(Box const& box) const override;
+  void measure(Sample const& sample, std::vector<double>& values) override;
+  bool needs_energies() const override;
+  bool needs_virial() const override;
+  std::vector<GatheredTable> tables() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+  std::size_t looks() const { return static_cast<std::size_t>(looks_); }
+  /// Nothing before the first look.
+  std::optional<Profile> profile() const;
+
+ private:
+  std::vector<double> values_of(Profile const& profile, ProfileQuantity const& quantity) const;
+  void begin(double low, double high);
+
+  Options options_;
+  int dimension_;
+  std::vector<ProfileQuantity> quantities_;
+  double looks_ = 0, low_ = 0, high_ = 0, constant_ = 1;
+  std::optional<ProfileSums> sums_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,61 @@
+// Structure factor: how strongly the particles' density varies with the wave vectors that fit into a periodic box.
+#pragma once
+
+#include <boltzmann/diagnoses/diagnosis.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+
+struct StructureFactorOptions {
+  /// None: of all particles; one: of it; two: the partial one between them.
+  std::vector<std::string> ensembles = {};
+  std::string label = {};  ///< before the columns' names; empty: the ensembles
+  std::size_t modes = 12;  ///< wave vectors are as long as so many periods in the longest side, or shorter
+  double since = 0;        ///< the time of the first look
+  std::size_t every = 1;   ///< looks at rows whose steps are multiples of it
+};
+
+/// S(k) = <|sum_i exp(-i k r_i)|^2> / N, summed directly for every wave vector 2 pi (n_x/L_x, n_y/L_y, n_z/L_z) up to a
+/// length, in the mean over looks and over those of about the same length; between two ensembles
+/// S_ab(k) = Re <rho_a rho_b*> / sqrt(N_a N_b) (Ashcroft and Langreth 1967). Columns: the highest value in the table and
+/// its wave number. Table: wave number, S, how many wave vectors (k and -k are one).
+class StructureFactor final : public Diagnosis {
+ public:
+  using Options = StructureFactorOptions;
+  /// Error if an ensemble isn't there, or there are more than two.
+  StructureFactor(std::vector<AnyEnsemble const*> const& available, Options options);
+
+  std::vector<Column> columns() const override;
+  /// Error if an axis is not periodic, or there are more wave vectors than one can sum.
+  void check(Box const& box) const override;
+  void measure(Sample const& sample, std::vector<double>& values) override;
+  std::vector<GatheredTable> tables() const override;
+  std::vector<double> state() const override;
+  void restore(std::span<double const> state) override;
+
+  std::size_t looks() const { return looks_; }
+  /// Of the wave vectors one by one: {n_x, n_y, n_z} and S.
+  std::vector<std::array<int, 3>> const& modes() const { return modes_; }
+  std::vector<double> s_of_modes() const;
+
+ private:
+  struct Shells {
+    std::vector<double> wave_number, s, vectors;
+  };
+  Shells shells() const;
+
+  Options options_;
+  std::string label_;
+  std::size_t looks_ = 0;
+  std::vector<double> lengths_;  // of the box, in the mean over looks
+  std::vector<std::array<int, 3>> modes_;
+  std::vector<double> sums_;  // of S over looks, for each mode
+};
+
+}  // namespace boltzmann
