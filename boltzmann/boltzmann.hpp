@@ -9,6 +9,7 @@
 #include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
+#include <boltzmann/diagnoses/chains.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/heat_flux.hpp>
@@ -23,6 +24,7 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/laws/angular.hpp>
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/formula_law.hpp>
@@ -54,6 +56,7 @@
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ring_load.hpp>
@@ -73,6 +76,7 @@
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/pair/single_precision.hpp>
