@@ -11,6 +11,7 @@
 #include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
 #include <boltzmann/diagnoses/bond_order.hpp>
+#include <boltzmann/diagnoses/chains.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/green_kubo.hpp>
@@ -30,6 +31,7 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/laws/angular.hpp>
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/formula_law.hpp>
@@ -61,6 +63,7 @@
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ring_load.hpp>
@@ -80,6 +83,7 @@
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/pair/single_precision.hpp>

@@ -1,5 +1,6 @@
 // From the text of a law to programs: names and fields become inputs, energies are differentiated.
 #include <boltzmann/formulas/formula_reader.hpp>
+#include <boltzmann/laws/angular_program.hpp>
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/pair_numbers.hpp>
 
@@ -137,6 +138,22 @@ class Maker {
     program.measure = make_program(graph_, measured, columns, rows);
     program.velocity_dependent = reads_changing(target_, program.of_p);
     program.depends_on_time = depend_on(measured, time);
+    return program;
+  }
+
+  AngularProgram angular(std::string const& variable) {
+    if (law_.gives != FormulaLaw::Gives::energy || !law_.changes.empty())
+      throw FormulaLawError("", 0, fmt::format("what acts by the {} is an energy", variable));
+    next_ = 1;
+    names_.values[variable] = {{graph_.input(0)}, dimension_of(dimensions::angle), false, false};
+    FormulaValue const value = read();
+    need(value, dimensions::energy, "an energy");
+    std::vector<Expression> results{graph_.derivative(value.components[0], 0)};
+    std::vector<std::uint32_t> const columns{0};
+    AngularProgram program;
+    program.influence = make_program(graph_, results, columns, {});
+    results.push_back(value.components[0]);
+    program.measure = make_program(graph_, results, columns, {});
     return program;
   }
 
@@ -500,6 +517,10 @@ PairProgram FormulaLaw::between(AnyEnsemble const& target, AnyEnsemble const& so
 }
 
 ExternalProgram FormulaLaw::on(AnyEnsemble const& target) const { return Maker(*this, target).external(); }
+
+AngularProgram angular_program(FormulaLaw const& law, AnyEnsemble const& ensemble, std::string const& variable) {
+  return Maker(law, ensemble).angular(variable);
+}
 
 RateProgram FieldRates::on(AnyEnsemble const& target) const {
   FormulaLaw law = FormulaLaw::influence("", parameters, where, units);

@@ -1,8 +1,11 @@
 // List building: chunks of targets, each with memory of its own, which it keeps from build to build.
 #include <boltzmann/neighbours/neighbour_list.hpp>
 
+#include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/neighbour_kernels.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -61,6 +64,9 @@ void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, do
   cutoff_ = cutoff;
   skin_ = skin;
   std::size_t const rows = target.owned();
+  if (!filter_.start.empty() && filter_.start.size() != rows + 1)
+    throw Error(fmt::format("ensemble '{}' had {} particles when its bonded pairs were told, now it has {}",
+                            target.ensemble().name(), filter_.start.size() - 1, rows));
   NearTask const task = task_of(target, source, cutoff, skin);
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
   row_.resize(rows);
@@ -82,6 +88,8 @@ void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, do
       out.rows = rows;
       find(kernel, task, begin, end, out, index, scratch);
       for (std::size_t i = begin; i < end; ++i) row_[i] = index.data() + scratch.offset[i - begin];
+      if (!filter_.start.empty())
+        for (std::size_t i = begin; i < end; ++i) sift(target, source, i);
       entries += out.used;
     }
   });
@@ -109,7 +117,27 @@ void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, 
       row_[i] = replaced_.back().data();
     }
     std::copy_n(index.data(), out.used, row_[i]);
+    if (!filter_.start.empty()) sift(target, source, i);
   }
+}
+
+/// Takes what the filter does not let through out of a row; what follows moves up, in its order.
+void NeighbourList::sift(SortedCopy const& target, SortedCopy const& source, std::size_t i) {
+  std::uint32_t const particle = target.order()[i];
+  std::uint32_t const* const first = filter_.index.data() + filter_.start[particle];
+  std::uint32_t const* const last = filter_.index.data() + filter_.start[particle + 1];
+  if (!filter_.only && first == last) return;
+  std::uint32_t* const row = row_[i];
+  std::uint32_t read = 0, kept = 0;
+  for (int ring = 0; ring < list_rings; ++ring) {
+    std::uint32_t& length = length_[static_cast<std::size_t>(ring) * size() + i];
+    for (; read < length; ++read) {
+      std::uint32_t const partner = source.order()[source.owner(row_of_item(row[read]))];
+      if (std::binary_search(first, last, partner) == filter_.only) row[kept++] = row[read];
+    }
+    length = kept;
+  }
+  std::fill(row + kept, row + read, item_of_row(source.sentinel()));
 }
 
 std::size_t NeighbourList::bytes() const {

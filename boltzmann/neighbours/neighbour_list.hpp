@@ -8,9 +8,19 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
+
+/// Pairs within one ensemble by particle numbers: those that a list leaves out, or the only ones that it has. Their
+/// images are meant, too.
+struct PairFilter {
+  bool only = false;
+  std::vector<std::size_t> start;    ///< of each particle's partners in `index`
+  std::vector<std::uint32_t> index;  ///< sorted
+  friend bool operator==(PairFilter const&, PairFilter const&) = default;
+};
 
 /// The full list: for every owned row of a target sorted copy the rows of a source sorted copy, owned and ghosts, that
 /// were within cutoff + skin of it, by the references of both; not itself. An entry is item_of_row() of a source row. A
@@ -19,6 +29,9 @@ namespace boltzmann {
 /// within the cut-off, and isn't read. Rows are padded with the source's sentinel.
 class NeighbourList {
  public:
+  /// Of a list whose target and source are one ensemble, from the next build on.
+  void filter(PairFilter filter) { filter_ = std::move(filter); }
+  PairFilter const& filter() const { return filter_; }
   /// Finds everybody's neighbours.
   void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads);
   /// Finds those of the given target rows anew, after references have been changed (SortedCopy::move).
@@ -36,6 +49,9 @@ class NeighbourList {
   std::size_t bytes() const;
 
  private:
+  void sift(SortedCopy const& target, SortedCopy const& source, std::size_t i);
+
+  PairFilter filter_;
   double cutoff_ = 0, skin_ = 0;
   std::size_t entries_ = 0;
   std::vector<std::uint32_t*> row_;

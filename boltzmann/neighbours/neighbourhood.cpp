@@ -33,13 +33,17 @@ std::string skin_refused(double cutoff, double skin) {
                      skin, most, cutoff, std::pow(1 + skin / cutoff, 3));
 }
 
-std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff) {
+std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter) {
   check_cutoff(cutoff);
   for (std::size_t n = 0; n < lists_.size(); ++n)
     if (&lists_[n].target->ensemble() == &target && &lists_[n].source->ensemble() == &source &&
-        lists_[n].cutoff == cutoff)
+        lists_[n].cutoff == cutoff && lists_[n].list.filter() == filter)
       return n;
+  if (!filter.start.empty() && (&target != &source || filter.start.size() != target.size() + 1))
+    throw Error(fmt::format("a filter of pairs is of the particles of one ensemble, all {} of '{}'", target.size(),
+                            target.name()));
   lists_.push_back({&copy(target), &copy(source), cutoff, {}});
+  lists_.back().list.filter(std::move(filter));
   stale_ = true;
   return lists_.size() - 1;
 }

@@ -32,7 +32,10 @@ class Neighbourhood {
 
   /// A list of the neighbours of every particle of `target` among those of `source`; returns its number, that of an
   /// equal list if there is one. Error if the cut-off is not a positive length.
-  std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff);
+  std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff) { return add(target, source, cutoff, {}); }
+  /// The same but for pairs that a filter does not let through. Error if it is not of as many particles, or of two
+  /// ensembles.
+  std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter);
   /// The sorted copy of an ensemble, made when it is first asked for, with so many extra blocks (see SortedCopy).
   SortedCopy& copy(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
   /// Changes the cut-off of a list: all lists are built anew at the next refresh.

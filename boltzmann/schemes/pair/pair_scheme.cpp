@@ -38,6 +38,35 @@ bool is_flow(AnyEnsemble const& target, AnyEnsemble const& source) {
 double* sum_of(AnyEnsemble& ensemble, PairScheme::LawTraits const& traits) {
   return traits.moves() ? ensemble.influence(0) : ensemble.rate(static_cast<std::size_t>(traits.changes));
 }
+std::size_t numbers_of(AnyEnsemble const& ensemble, PairScheme::LawTraits const& traits) {
+  return ensemble.size() * (traits.moves() ? ensemble.influence_size() : ensemble.rate_stride());
+}
+
+/// A filter of these pairs of so many particles.
+PairFilter filter_of(std::vector<BondMembers> const& pairs, std::size_t size, bool only) {
+  std::vector<std::vector<std::uint32_t>> partners(size);
+  for (auto const& [i, j] : pairs) {
+    partners[i].push_back(j);
+    partners[j].push_back(i);
+  }
+  PairFilter filter{only, {0}, {}};
+  for (auto& mine : partners) {
+    std::sort(mine.begin(), mine.end());
+    filter.index.insert(filter.index.end(), mine.begin(), mine.end());
+    filter.start.push_back(filter.index.size());
+  }
+  return filter;
+}
+
+/// A second image of who is bonded must not be near: it would be taken for the first.
+void check_images_of_bonded(Box const& box, double cutoff) {
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.periodic(a) && box.length(a) < 2 * cutoff)
+      throw Error(
+          fmt::format("bonded pairs are left out or scaled where a second image is not near: the periodic axis {} must "
+                      "be twice the cut-off {} or longer, not {}",
+                      "xyz"[a], cutoff, box.length(a)));
+}
 
 /// Error unless influences beyond the walls of mirror axes are those of the images of a flow, as many as there are.
 void check_walls(Box const& box, AnyEnsemble const& target, AnyEnsemble const& source, double cutoff) {
@@ -74,8 +103,10 @@ struct PairScheme::Near {
   std::size_t list = 0;   // its number in the neighbourhood, if there is a cut-off
   std::size_t pairs = 0;  // at the last locate()
   PairTask task, overwriting;
-  PairKernel few = nullptr;    // the kernel for a handful of particles, if they are
-  std::vector<double> images;  // rows of those beyond walls
+  PairKernel few = nullptr;        // the kernel for a handful of particles, if they are
+  std::vector<double> images;      // rows of those beyond walls
+  double factor = 1;               // of all that the law gives: between some that are bonded
+  std::vector<double> whole = {};  // what it gives before that
 
   bool all_pairs() const { return cutoff == no_cutoff; }
   /// Of a typed law, for the particles as they are now.
@@ -142,6 +173,15 @@ struct PairScheme::Near {
     beyond.sources = turns.size() * source->size();
     beyond.same = beyond.overwrite = false;
     return beyond;
+  }
+  /// Lets the kernel store what the law gives, for add_part() to add.
+  void whole_instead() {
+    whole.resize(numbers_of(*target, traits));
+    task.influence = whole.data();
+  }
+  void add_part() {
+    double* const sum = sum_of(*target, traits);
+    for (std::size_t k = 0; k < whole.size(); ++k) sum[k] += factor * whole[k];
   }
   std::size_t grain() const {
     // Of all pairs, whole blocks of targets: kernels take up to 16 together.
@@ -214,6 +254,36 @@ PairScheme::PairScheme(Box box, double cutoff)
 
 PairScheme::~PairScheme() = default;
 
+/// Pairs that laws treat apart from others, and the factor of each kind of them.
+struct PairScheme::BondedPairs {
+  AnyEnsemble* ensemble;
+  PairFilter apart;
+  std::vector<std::pair<double, PairFilter>> factors;  // neither 0 nor 1
+};
+
+void PairScheme::bonded_factors(AnyEnsemble& ensemble, std::vector<BondMembers> const& bonds,
+                                std::vector<double> const& factors) {
+  std::erase_if(bonded_, [&](auto const& one) { return one->ensemble == &ensemble; });
+  for (auto const& bond : bonds)
+    for (auto const i : bond)
+      if (i >= ensemble.size())
+        throw Error(fmt::format("a bond names particle {}, but '{}' has {}", i, ensemble.name(), ensemble.size()));
+  std::vector<BondMembers> apart;
+  BondedPairs all{&ensemble, {}, {}};
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    if (!std::isfinite(factors[k]))
+      throw Error(fmt::format("the factor of pairs {} bonds apart is a number, not {}", k + 1, factors[k]));
+    if (factors[k] == 1) continue;
+    auto const pairs = pairs_apart(bonds, k + 1);
+    apart.insert(apart.end(), pairs.begin(), pairs.end());
+    if (factors[k] != 0 && !pairs.empty())
+      all.factors.emplace_back(factors[k], filter_of(pairs, ensemble.size(), true));
+  }
+  if (apart.empty()) return;
+  all.apart = filter_of(apart, ensemble.size(), false);
+  bonded_.push_back(std::make_unique<BondedPairs>(std::move(all)));
+}
+
 void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law,
                            LawTraits traits, double cutoff) {
   if (!(cutoff > 0)) throw Error(fmt::format("the cut-off is a positive length, not {}", cutoff));
@@ -231,6 +301,21 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
   }
   add(target);
   add(source);
+  auto const bonded = std::find_if(bonded_.begin(), bonded_.end(),
+                                   [&](auto const& one) { return &target == &source && one->ensemble == &target; });
+  if (bonded == bonded_.end())
+    return add_near(target, source, kernels, std::move(law), std::move(traits), cutoff, {}, 1);
+  if (!std::isfinite(cutoff))
+    throw Error(fmt::format("bonded pairs of '{}' are left out of a law or scaled in it where it has a cut-off",
+                            target.name()));
+  check_images_of_bonded(box(), cutoff);
+  add_near(target, source, kernels, law, traits, cutoff, (*bonded)->apart, 1);
+  for (auto const& [factor, pairs] : (*bonded)->factors)
+    add_near(target, source, kernels, law, traits, cutoff, pairs, factor);
+}
+
+void PairScheme::add_near(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law,
+                          LawTraits traits, double cutoff, PairFilter filter, double factor) {
   auto near = std::make_unique<Near>();
   near->target = &target;
   near->source = &source;
@@ -240,7 +325,8 @@ void PairScheme::add_pairs(AnyEnsemble& target, AnyEnsemble& source, PairKernels
   near->cutoff = cutoff;
   near->task.same = &target == &source;
   near->task.cutoff2 = cutoff * cutoff;
-  if (!near->all_pairs()) near->list = neighbourhood_.add(target, source, cutoff);
+  near->factor = factor;
+  if (!near->all_pairs()) near->list = neighbourhood_.add(target, source, cutoff, std::move(filter));
   near_.push_back(std::move(near));
   changed();
 }
@@ -315,7 +401,8 @@ void PairScheme::calculate(double time, bool overwrite) {
   auto const first_on = [&](AnyEnsemble* ensemble) { return std::erase(clear, ensemble) > 0; };
   for (auto const& near : near_) {
     near->locate(quantum_, neighbourhood_);
-    near->task.overwrite = near->traits.moves() && first_on(near->target);
+    if (near->factor != 1) near->whole_instead();
+    near->task.overwrite = near->factor != 1 || (near->traits.moves() && first_on(near->target));
     PairTask const& task = near->task;
     PairKernel const kernel = near->all_pairs() ? near->kernels.all
                               : quantum_ > 0    ? near->kernels.list_reversible
@@ -325,6 +412,7 @@ void PairScheme::calculate(double time, bool overwrite) {
     else
       for_ranges(task.targets, near->grain(), threads_for(near->pairs, pair_work, threads()),
                  [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
+    if (near->factor != 1) near->add_part();
     if (!box().any_wall()) continue;
     check_walls(box(), *near->target, *near->source, near->cutoff);
     PairTask const beyond = near->task_of_images(box());
@@ -402,8 +490,19 @@ EnergyAndVirial PairScheme::measure(double time) {
     measures.driven = measures.driven || near->traits.velocity_dependent || !has_reaction(*near);
     near->locate(0, neighbourhood_);
     near->task.zero_at = shifted_ && !near->all_pairs() ? near->cutoff : 0;
+    auto const to = number(near->target);
+    std::vector<double> energies, virials;  // of others, while a part of these is measured
+    if (near->factor != 1) {
+      energies.resize(measures.per_particle[to].size());
+      virials.resize(virial[to].size());
+      energies.swap(measures.per_particle[to]);
+      virials.swap(virial[to]);
+    }
     run(near->task, near->target, near->grain(),
         near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
+    for (std::size_t i = 0; i < energies.size(); ++i)
+      measures.per_particle[to][i] = energies[i] + near->factor * measures.per_particle[to][i];
+    for (std::size_t i = 0; i < virials.size(); ++i) virial[to][i] = virials[i] + near->factor * virial[to][i];
   }
   for (auto const& connected : connected_) {
     if (!connected->traits.moves()) continue;
@@ -506,7 +605,12 @@ void PairScheme::make_reversible(double quantum) {
       throw Error("the reversible leap-frog can't run a law that depends on velocities (on '" + name +
                   "'); use leap-frog");
   };
-  for (auto const& near : near_) refuse(near->traits.velocity_dependent, near->target->name());
+  for (auto const& near : near_) {
+    refuse(near->traits.velocity_dependent, near->target->name());
+    if (near->factor != 1)
+      throw Error("the reversible leap-frog can't run a law that is scaled between bonded pairs (of '" +
+                  near->target->name() + "'), only one that leaves them out; use leap-frog");
+  }
   for (auto const& connected : connected_) refuse(connected->traits.velocity_dependent, connected->ensemble->name());
   for (auto const& external : external_) refuse(external->traits.velocity_dependent, external->ensemble->name());
   quantum_ = quantum;

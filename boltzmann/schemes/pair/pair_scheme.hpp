@@ -5,6 +5,7 @@
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/neighbours/bonds.hpp>
 #include <boltzmann/neighbours/connection.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/schemes/pair/external_kernels.hpp>
@@ -97,6 +98,11 @@ class PairScheme final : public Scheme {
   void external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vector<std::uint32_t> const* only = nullptr);
   /// The rates of fields (AnyEnsemble::driven()), and how they diffuse: FormulaLawError if one is wrong.
   void rates(AnyEnsemble& ensemble, FieldRates const& rates);
+
+  /// Of particles that are bonded: laws within this ensemble that are added from now on act between those 1, 2, ... bonds
+  /// apart with these factors; 0 leaves a pair out. None: as between others. Error unless factors are finite. Such a
+  /// law needs a cut-off, and a periodic axis twice as long, so that no second image is near.
+  void bonded_factors(AnyEnsemble& ensemble, std::vector<BondMembers> const& bonds, std::vector<double> const& factors);
 
   /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
   void skin(double length) { neighbourhood_.skin(length); }
@@ -201,9 +207,12 @@ class PairScheme final : public Scheme {
  private:
   struct Near;
   struct Connected;
+  struct BondedPairs;
   struct External;
 
   void calculate(double time, bool overwrite);
+  void add_near(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law, LawTraits traits,
+                double cutoff, PairFilter filter, double factor);
   bool has_reaction(Near const& near) const;
   void warn_of_typed(Near const& near, std::vector<std::string>& lines) const;
 
@@ -215,6 +224,7 @@ class PairScheme final : public Scheme {
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;
   std::vector<std::unique_ptr<External>> external_;
+  std::vector<std::unique_ptr<BondedPairs>> bonded_;  // with factors of their own
 };
 
 }  // namespace boltzmann
