@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -146,12 +147,14 @@ bool of_atoms(std::string const& name) {
   return false;
 }
 
-// The name of a scale that is a known unit.
-std::optional<std::string> exact_name(double si, Dimension d) {
+// The name of a scale that is a known unit; of larger things none of atoms.
+std::optional<std::string> exact_name(double si, Dimension d, bool atoms) {
   for (auto const& unit : printed_units())
-    if (unit.dimension == d && fits(si, unit.si)) return unit.name;
+    if (unit.dimension == d && fits(si, unit.si) && (atoms || !of_atoms(unit.name))) return unit.name;
   return std::nullopt;
 }
+
+constexpr double largest_of_atoms = 1e-6, least_of_galaxies = 1e15;  // m
 
 }  // namespace
 
@@ -238,16 +241,68 @@ std::string UnitSystem::text(double number, Dimension d, int digits) const {
   return fmt::format("{:.{}g}{}{}", number * factor, digits, unit.empty() ? "" : " ", unit);
 }
 
+void UnitSystem::show_in(Dimension d, std::string const& unit) {
+  if (reduced_) throw Error(fmt::format("'{}': in a base of pure numbers results have no units", quoted(unit)));
+  auto const quantity = parse_quantity("1 " + unit);
+  if (quantity.dimension != d) {
+    auto const examples = example_units(d);
+    throw Error(fmt::format("'{}' is {}, {} is needed (e.g. '{}')", quoted(unit),
+                            with_article(name_of(quantity.dimension)), with_article(name_of(d)),
+                            join(examples, "', '")));
+  }
+  std::erase_if(shown_, [&](Shown const& shown) { return shown.dimension == d; });
+  shown_.push_back({d, unit, quantity.si});
+}
+
+std::vector<std::pair<std::string, Dimension>> shown_dimensions() {
+  using namespace dimensions;
+  std::vector<std::pair<std::string, Dimension>> all;
+  for (auto const d : {length,
+                       mass,
+                       time,
+                       temperature,
+                       charge,
+                       area,
+                       volume,
+                       velocity,
+                       acceleration,
+                       frequency,
+                       force,
+                       energy,
+                       power,
+                       pressure,
+                       density,
+                       number_density,
+                       momentum,
+                       angular_momentum,
+                       spring_constant,
+                       viscosity,
+                       specific_energy,
+                       heat_capacity,
+                       electric_potential,
+                       electric_field,
+                       magnetic_field}) {
+    std::string name = name_of(d);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    all.emplace_back(std::move(name), d);
+  }
+  return all;
+}
+
 UnitSystem::Display UnitSystem::display(Dimension d) const {
   if (reduced_ || d == dimensions::none) return {};
   double const size = to_si(1, d);
-  if (auto name = exact_name(size, d)) return {*name};
+  for (auto const& shown : shown_)
+    if (shown.dimension == d) return {shown.unit, size / shown.si};
+  bool const atoms = scale_.length<largest_of_atoms, stars = scale_.mass> 1e20;
+  if (auto name = exact_name(size, d, atoms)) return {*name};
+  if (stars && scale_.length > least_of_galaxies && d == dimensions::velocity) return {"km/s", size / 1e3};
 
   std::vector<Factor> factors;
   bool all_known = true;
   auto const add = [&](Dimension dimension, double si, int exponent) {
     if (exponent == 0) return;
-    auto const name = exact_name(si, dimension);
+    auto const name = exact_name(si, dimension, true);
     all_known = all_known && name;
     factors.push_back({name.value_or(""), exponent});
   };
@@ -262,7 +317,6 @@ UnitSystem::Display UnitSystem::display(Dimension d) const {
   // number, the shortest first.
   Display best;
   std::size_t best_cost = 0;
-  bool const atoms = scale_.length<1e-6, stars = scale_.mass> 1e20;
   auto const consider = [&](std::string const& name, double si) {
     if (!atoms && of_atoms(name)) return;
     double const ratio = size / si;

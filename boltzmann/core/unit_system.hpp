@@ -5,6 +5,8 @@
 #include <boltzmann/core/units.hpp>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace boltzmann {
 
@@ -67,13 +69,17 @@ class UnitSystem {
   double from_si(double si, Dimension) const;
   double to_si(double number, Dimension) const;
 
-  /// How numbers of this system are shown to people: number * factor, in the system's own unit where it is made of known
-  /// ones ("angstrom", "amu angstrom^2/ps^2"), else in a unit that people know. A reduced base has none: "" and 1.
+  /// How numbers of this system are shown to people: number * factor, in a unit that was chosen; else in the system's own
+  /// unit where it is made of known ones ("angstrom", "amu angstrom^2/ps^2"); else in a unit that people know. A reduced
+  /// base has none: "" and 1.
   struct Display {
     std::string unit;
     double factor = 1;
   };
   Display display(Dimension) const;
+  /// From now on quantities of this dimension are shown in this unit, "kcal/mol". Error if it is of another dimension, or
+  /// the base is reduced.
+  void show_in(Dimension, std::string const& unit);
   /// A number of this system with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273
   /// fs"), the product ("65.46 fs").
   std::string text(double number, Dimension, int digits = 4) const;
@@ -90,8 +96,19 @@ class UnitSystem {
  private:
   long double unit(Dimension) const;
 
+  struct Shown {
+    Dimension dimension;
+    std::string unit;
+    double si;
+    friend bool operator==(Shown const&, Shown const&) = default;
+  };
+
   Scale scale_;
   bool reduced_ = false;
+  std::vector<Shown> shown_ = {};  // units of somebody's choice
 };
+
+/// The dimensions whose units of results can be chosen, by their names: "energy", "specific_energy".
+std::vector<std::pair<std::string, Dimension>> shown_dimensions();
 
 }  // namespace boltzmann

@@ -163,6 +163,25 @@ void read_diagnosis(Item const& table, Reading& reading) {
   });
 }
 
+/// In which units results are.
+void read_output_units(Item const& item, Reading& reading) {
+  if (!item.is(Item::Kind::table))
+    return reading.mistake(item.place,
+                           fmt::format("units: a table is needed, {{ energy = \"eV\" }}, not {}", describe(item)));
+  Section section(item, "units", reading.context);
+  for (auto const& one : shown_dimensions()) {
+    Item const* unit = section.find(one.first);
+    auto const text = unit ? read_text(*unit, one.first, reading.context) : std::nullopt;
+    if (!text) continue;
+    try {
+      reading.result->units.show_in(one.second, *text);
+    } catch (Error const& error) {
+      reading.mistake(unit->place, fmt::format("{}: {}", one.first, error.what()));
+    }
+  }
+  section.finish();
+}
+
 }  // namespace
 
 void read_diagnoses(Section& document, Reading& reading) {
@@ -186,6 +205,7 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
     plan.mesh = options.mesh;
     if (plan.mesh > 0) find_mesh_fields(reading, section.place("mesh"), "mesh: a series of frames");
     recorded = {options.trajectory != 0, options.diagnoses != 0};  // what could not be read has been told of
+    if (Item const* units = section.find("units")) read_output_units(*units, reading);
     for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);
     section.finish();
   }

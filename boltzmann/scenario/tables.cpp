@@ -323,6 +323,9 @@ OptionTable make_output_options() {
           "steps between two frames of density, potential and field: `mesh/000000100.vti`, ... and `mesh.pvd`, which "
           "ParaView opens as a time series",
           "none");
+  all.add_said("units", "a table of units by what they are of, `{ energy = \"kcal/mol\", length = \"angstrom\" }`",
+               "of results: diagnoses, tables, pictures and trajectories ([units](units.md#results))",
+               "those of the base");
   all.add_said("pictures", "tables, `[[output.pictures]]`", "pictures of the last state", "none");
   return all;
 }
