@@ -34,6 +34,7 @@
 #include <boltzmann/laws/angular.hpp>
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/embedded_atoms.hpp>
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
@@ -52,6 +53,7 @@
 #include <boltzmann/laws/rydberg.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/spring.hpp>
+#include <boltzmann/laws/stillinger_weber.hpp>
 #include <boltzmann/laws/state_law.hpp>
 #include <boltzmann/laws/stream.hpp>
 #include <boltzmann/laws/table.hpp>
@@ -81,6 +83,8 @@
 #include <boltzmann/program/program.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
+#include <boltzmann/schemes/many_body/embedded_atom_scheme.hpp>
+#include <boltzmann/schemes/many_body/stillinger_weber_scheme.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>

@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/laws/interaction.hpp>
+#include <boltzmann/laws/octave_knots.hpp>
 #include <boltzmann/particles/rows.hpp>
 
 #include <array>
@@ -76,6 +77,10 @@ class Table {
   std::size_t intervals() const { return data_->rows.size(); }
   double first() const { return data_->first; }
   double last() const { return data_->last; }
+  /// For loops that read several tables of the same knots at once: four coefficients of powers of r^2 - knot for each
+  /// interval.
+  OctaveKnots knots() const { return {first_row_, shift_, least_, greatest_}; }
+  double const* coefficients() const { return rows_; }
   /// The smallest distance at which the law is known.
   double length_scale() const { return data_->first; }
 
@@ -87,7 +92,7 @@ class Table {
   template <class Real>
   [[gnu::always_inline]] inline Value<Real> at(Real const& square) const {
     // Not min(square, ...): where the square is NaN, the limit is taken.
-    Real const inside = max(Real(least_), min(Real(greatest_), square));
+    Real const inside = knots().inside(square);
     auto const [knot, c] = interval(inside);
     Real const d = inside - knot;
     Real const slope = c[1] + d * (2.0 * c[2] + d * (3.0 * c[3]));
@@ -123,26 +128,23 @@ class Table {
   static Table within(Source const& source, Tolerance tolerance);
   static TableError measured(Table const& table, Source const& source);
 
-  // A double without its last `shift_` bits is the knot below it; those that are left, counted from the first knot, are
-  // the number of the row.
   Interval<double> interval(double square) const {
-    auto const row = static_cast<std::size_t>((std::bit_cast<std::int64_t>(square) >> shift_) - first_row_);
-    double const* const c = rows_ + 4 * row;
-    return {knot(first_row_ + static_cast<std::int64_t>(row)), {c[0], c[1], c[2], c[3]}};
+    std::int64_t const number = knots().row(square);
+    double const* const c = rows_ + 4 * static_cast<std::size_t>(number - first_row_);
+    return {knot(number), {c[0], c[1], c[2], c[3]}};
   }
   template <int W>
   [[gnu::always_inline]] inline Interval<Pack<double, W>> interval(Pack<double, W> square) const {
-    using Unsigned = typename detail::register_of<std::uint64_t, W>::type;
-    auto const number = (detail::Bits<W>)((Unsigned)detail::bits_of(square) >> shift_);
+    auto const number = knots().row(square);
     auto const offsets = std::bit_cast<std::array<std::int64_t, W>>((number - first_row_) << 2);
     Interval<Pack<double, W>> result;
-    result.knot = detail::from_bits<W>((detail::Bits<W>)((Unsigned)number << shift_));
+    result.knot = knots().template knot<W>(number);
     detail::transpose_block<W>([&](int lane) { return rows_ + offsets[static_cast<std::size_t>(lane)]; }, 0,
                                result.c.data(), 4);
     return result;
   }
   std::vector<double> knots_between(std::int64_t end_row) const;
-  double knot(std::int64_t row) const { return std::bit_cast<double>(row << shift_); }
+  double knot(std::int64_t row) const { return knots().knot(row); }
 
   double const* rows_;
   std::int64_t first_row_;

@@ -45,6 +45,19 @@ Cell cell_of(Lattice kind, int dimension) {
       double const a = 2 / std::numbers::sqrt3, h = a / 2;
       return {{a, a, a}, {{0, 0, 0}, {h, h, h}}};
     }
+    case Lattice::diamond: {
+      if (dimension != 3) throw refuse("3D");
+      double const a = 4 / std::numbers::sqrt3, h = a / 2, q = a / 4;
+      return {{a, a, a},
+              {{0, 0, 0},
+               {h, h, 0},
+               {h, 0, h},
+               {0, h, h},
+               {q, q, q},
+               {h + q, h + q, q},
+               {h + q, q, h + q},
+               {q, h + q, h + q}}};
+    }
     case Lattice::hcp: {  // every second layer lies in hollows of the first
       if (dimension != 3) throw refuse("3D");
       double const row = std::numbers::sqrt3 / 2, hollow = row / 3, layer = std::numbers::sqrt2 / std::numbers::sqrt3;
@@ -69,7 +82,8 @@ Words<Lattice> const& lattice_words() {
                                    {Lattice::triangular, "triangular", "2D: 6 neighbours"},
                                    {Lattice::fcc, "fcc", "3D, face-centred cubic: 12 neighbours"},
                                    {Lattice::bcc, "bcc", "3D, body-centred cubic: 8 neighbours"},
-                                   {Lattice::hcp, "hcp", "3D, hexagonal close packing: 12 neighbours"}}};
+                                   {Lattice::hcp, "hcp", "3D, hexagonal close packing: 12 neighbours"},
+                                   {Lattice::diamond, "diamond", "3D, two fcc lattices in each other: 4 neighbours"}}};
   return all;
 }
 std::string to_string(Lattice kind) { return lattice_words().name(kind); }

@@ -18,15 +18,16 @@ enum class Lattice {
   triangular,  ///< 2D: 6 neighbours; every second row is shifted by half a spacing
   fcc,         ///< 3D, face-centred cubic: 12 neighbours; the cube's edge is sqrt(2) spacing, 4 sites in it
   bcc,         ///< 3D, body-centred cubic: 8 neighbours; the cube's edge is 2/sqrt(3) spacing, 2 sites in it
-  hcp,  ///< 3D, hexagonal close packing: 12 neighbours; triangular layers one above the other along z, in cells of
-        ///< 1 x sqrt(3) x sqrt(8/3) spacings, 4 sites in each
+  hcp,      ///< 3D, hexagonal close packing: 12 neighbours; triangular layers one above the other along z, in cells of
+            ///< 1 x sqrt(3) x sqrt(8/3) spacings, 4 sites in each
+  diamond,  ///< 3D, two fcc lattices in each other: 4 neighbours; the cube's edge is 4/sqrt(3) spacing, 8 sites in it
 };
 
 Words<Lattice> const& lattice_words();
 std::string to_string(Lattice kind);
 
 /// A block of crystal: `counts` cells along x, y, z (what is beyond the dimension does not count). A cell is one site,
-/// or the cube of fcc and bcc, or the block of hcp.
+/// or the cube of fcc, bcc and diamond, or the block of hcp.
 struct LatticeBlock {
   Lattice kind = Lattice::square;
   double spacing = 1;
@@ -37,7 +38,7 @@ struct LatticeBlock {
 /// Sites of the block in a space of that dimension. Error if the lattice does not exist in it, or spacing or origin are
 /// no usable numbers.
 std::size_t site_count(LatticeBlock const& block, int dimension);
-/// The place of every site: cells in the order x fastest, then y, then z; inside a cell of fcc, bcc or hcp the corner
+/// The place of every site: cells in the order x fastest, then y, then z; inside a cell of several sites the corner
 /// first.
 std::vector<std::array<double, 3>> lattice_sites(LatticeBlock const& block, int dimension);
 /// The lengths after which the block repeats itself: a periodic box of these lengths is filled without a seam (for

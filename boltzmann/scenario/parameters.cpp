@@ -74,7 +74,7 @@ std::optional<double> count_of(Item const& ensemble, Item const& box, int dimens
   double count = 1;
   for (int a = 0; a < dimension; ++a) count *= (*counts)[static_cast<std::size_t>(a)];
   std::string const lattice = text_in(*load, "lattice");
-  return count * (lattice == "fcc" || lattice == "hcp" ? 4 : lattice == "bcc" ? 2 : 1);
+  return count * (lattice == "fcc" || lattice == "hcp" ? 4 : lattice == "bcc" ? 2 : lattice == "diamond" ? 8 : 1);
 }
 
 /// In SI, or the plain number; which of them is told.

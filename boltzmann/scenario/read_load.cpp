@@ -268,6 +268,7 @@ double Loader::read_block() {
   }
   if (block_.kind == Lattice::fcc || block_.kind == Lattice::hcp) count *= 4;
   if (block_.kind == Lattice::bcc) count *= 2;
+  if (block_.kind == Lattice::diamond) count *= 8;
   if (dimension > 0) {
     try {
       volume_ = std::pow(block_.spacing / spacing_for_density(block_.kind, dimension, 1), dimension);

@@ -38,9 +38,6 @@ OptionTable keys_but_of_the_law(OptionTable const& all) {
   return all.only(keys);
 }
 
-namespace {
-
-/// Those that a key names. Null where one could not be read.
 std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Reading& reading) {
   std::vector<ReadEnsemble*> named;
   Item const* item = section.find(key);
@@ -55,6 +52,8 @@ std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Re
   }
   return named;
 }
+
+namespace {
 
 /// Whom a law can act between.
 class Fitting {

@@ -210,6 +210,12 @@ void add_to_mesh(Item const& table, Reading& reading);
 void add_to_multipole(Item const& table, Reading& reading);
 void add_to_cylinder(Item const& table, Reading& reading);
 void add_to_smooth(Item const& table, Reading& reading);
+void read_embedded_atoms(Item const& table, Reading& reading);
+void add_to_embedded_atoms(Item const& table, Reading& reading);
+void read_stillinger_weber(Item const& table, Reading& reading);
+void add_to_stillinger_weber(Item const& table, Reading& reading);
+/// The ensembles that a key names, one or a list. Null where one could not be read.
+std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Reading& reading);
 /// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit; and those that
 /// `test_particles` names to `test`, if there is such a key. False: something is wrong with those that are there.
 using AddToField = std::function<void(AnyEnsemble&, SourceKind const&)>;

@@ -4,6 +4,7 @@
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
+#include <boltzmann/schemes/many_body/many_body_options.hpp>
 #include <boltzmann/schemes/mesh/mesh_options.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/multipole/multipole_options.hpp>
@@ -19,6 +20,8 @@ std::vector<SchemeEntry> const& scheme_entries() {
   static CylinderOptions cylinder;
   static SmoothOptions smooth;
   static RezoneOptions rezone;
+  static EmbeddedAtomOptions embedded_atoms;
+  static StillingerWeberOptions stillinger_weber;
   static std::vector<SchemeEntry> const all = {
       {{"mesh", "[mesh]", "charges or masses influence each other through a field on a mesh", &mesh_options(), &mesh},
        {},
@@ -38,7 +41,17 @@ std::vector<SchemeEntry> const& scheme_entries() {
        {{"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
          &rezone_options(), &rezone}},
        read_smooth,
-       add_to_smooth}};
+       add_to_smooth},
+      {{"embedded_atoms", "[embedded_atoms]", "metals: atoms in the density that their neighbours make",
+        &embedded_atom_options(), &embedded_atoms},
+       {},
+       read_embedded_atoms,
+       add_to_embedded_atoms},
+      {{"stillinger_weber", "[stillinger_weber]", "silicon and its like: atoms with bonds at given angles",
+        &stillinger_weber_options(), &stillinger_weber},
+       {},
+       read_stillinger_weber,
+       add_to_stillinger_weber}};
   return all;
 }
 

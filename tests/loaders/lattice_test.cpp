@@ -50,8 +50,8 @@ TEST(Lattice, EverySiteHasItsCoordinationNumberAtTheSpacing) {
   };
   for (auto const& [kind, dimension, neighbours] :
        {Case{Lattice::square, 1, 2}, Case{Lattice::square, 2, 4}, Case{Lattice::square, 3, 6},
-        Case{Lattice::triangular, 2, 6}, Case{Lattice::fcc, 3, 12}, Case{Lattice::bcc, 3, 8},
-        Case{Lattice::hcp, 3, 12}}) {
+        Case{Lattice::triangular, 2, 6}, Case{Lattice::fcc, 3, 12}, Case{Lattice::bcc, 3, 8}, Case{Lattice::hcp, 3, 12},
+        Case{Lattice::diamond, 3, 4}}) {
     LatticeBlock const block{kind, 2.551, {4, 4, 4}, {0.3, -7, 1}};
     Shell const shell = nearest_shell(block, dimension);
     EXPECT_NEAR(shell.distance, 2.551, 1e-12) << to_string(kind) << dimension;
@@ -61,7 +61,8 @@ TEST(Lattice, EverySiteHasItsCoordinationNumberAtTheSpacing) {
 }
 
 TEST(Lattice, DensitiesAreThoseOfCrystals) {
-  // Numbers of sites per spacing^D: square 1, triangular 2/sqrt(3), fcc and hcp sqrt(2), bcc 3 sqrt(3)/4.
+  // Numbers of sites per spacing^D: square 1, triangular 2/sqrt(3), fcc and hcp sqrt(2), bcc 3 sqrt(3)/4, diamond half
+  // of that.
   struct Case {
     Lattice kind;
     int dimension;
@@ -70,7 +71,7 @@ TEST(Lattice, DensitiesAreThoseOfCrystals) {
   for (auto const& [kind, dimension, density] :
        {Case{Lattice::square, 2, 1}, Case{Lattice::triangular, 2, 2 / std::sqrt(3.0)},
         Case{Lattice::fcc, 3, std::sqrt(2.0)}, Case{Lattice::bcc, 3, 3 * std::sqrt(3.0) / 4},
-        Case{Lattice::hcp, 3, std::sqrt(2.0)}}) {
+        Case{Lattice::hcp, 3, std::sqrt(2.0)}, Case{Lattice::diamond, 3, 3 * std::sqrt(3.0) / 8}}) {
     LatticeBlock const block{kind, 1, {3, 5, 2}, {}};
     auto const lengths = repeat_lengths(block, dimension);
     double volume = 1;

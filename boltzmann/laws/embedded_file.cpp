@@ -1,0 +1,203 @@
+// Files of embedded atoms: setfl (eam.alloy) and funcfl, in eV and angstrom, as LAMMPS describes them.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/input_file.hpp>
+#include <boltzmann/laws/embedding_table.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+namespace boltzmann {
+namespace {
+
+constexpr double hartree_bohr = 27.2 * 0.529;  // eV angstrom: rounded as the writers of such files have it
+constexpr double most_points = 1e6;
+constexpr std::size_t most_elements = 10, finest_of_files = 4096;
+constexpr double spline_error = 1e-6;  // error of splines through splines
+
+/// Reads the words of a text file, one after the other.
+class WordReader {
+ public:
+  explicit WordReader(std::string path) : path_(std::move(path)) {
+    need_regular_file(path_);
+    file_.open(path_);
+    if (!file_) throw Error(fmt::format("{}: can't open the file", path_));
+  }
+
+  /// What is left of the line, and goes to the next.
+  std::vector<std::string> line(std::string const& what) {
+    std::string text;
+    ++number_;
+    if (!read_line(file_, text, path_))
+      throw Error(fmt::format("{}: the file ends before line {}, {}", path_, number_, what));
+    std::vector<std::string> words;
+    constexpr std::string_view blank = " \t\r\f\v,";
+    for (std::string_view rest = text;;) {
+      auto const begin = rest.find_first_not_of(blank);
+      if (begin == std::string_view::npos) return words;
+      auto const end = std::min(rest.find_first_of(blank, begin), rest.size());
+      words.emplace_back(rest.substr(begin, end - begin));
+      rest.remove_prefix(end);
+    }
+  }
+  /// So many numbers from the next line on, as many on each as there are; what is behind the last is an error.
+  std::vector<double> numbers(std::size_t count, std::string const& what) {
+    std::vector<double> all;
+    while (all.size() < count) {
+      std::string const where = fmt::format("where number {} of {} of the {} is to be", all.size() + 1, count, what);
+      for (auto const& word : line(where)) {
+        if (all.size() == count)
+          throw wrong(
+              fmt::format("'{}' stands behind the last of the {} numbers of the {}", quoted(word), count, what));
+        all.push_back(number(word));
+      }
+    }
+    return all;
+  }
+  double number(std::string word) const {
+    for (char& c : word)
+      if (c == 'D' || c == 'd') c = 'e';  // of Fortran
+    double value = 0;
+    char const* const digits = word.data() + (word.starts_with('+') ? 1 : 0);
+    auto const [last, error] = std::from_chars(digits, word.data() + word.size(), value);
+    if (error != std::errc{} || last != word.data() + word.size() || !std::isfinite(value))
+      throw wrong(fmt::format("'{}' is not a finite number", quoted(word)));
+    return value;
+  }
+  Error wrong(std::string const& what) const { return Error(fmt::format("{}:{}: {}", path_, number_, what)); }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  int number_ = 0;
+};
+
+/// How densities and distances are spaced.
+struct FileSpacing {
+  std::size_t densities, distances;
+  double density, distance, cutoff;
+};
+
+FileSpacing read_spacing(WordReader& words) {
+  auto const line = words.line("\"Nrho drho Nr dr cutoff\"");
+  if (line.size() != 5)
+    throw words.wrong(fmt::format("{} words; the line \"Nrho drho Nr dr cutoff\" has 5 numbers", line.size()));
+  std::array<double, 5> n;
+  for (std::size_t k = 0; k < 5; ++k) n[k] = words.number(line[k]);
+  for (std::size_t const k : {0, 2})
+    if (!(n[k] >= 5 && n[k] <= most_points && n[k] == std::floor(n[k])))
+      throw words.wrong(
+          fmt::format("{} = {}; a whole number from 5 to {} is needed", k == 0 ? "Nrho" : "Nr", n[k], most_points));
+  for (std::size_t const k : {1, 3, 4})
+    if (!(n[k] > 0))
+      throw words.wrong(fmt::format("{} = {} must be positive", k == 1 ? "drho" : k == 3 ? "dr" : "cutoff", n[k]));
+  if (n[4] < 4 * n[3]) throw words.wrong(fmt::format("the cut-off {} is less than 4 dr = {}", n[4], 4 * n[3]));
+  return {static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[2]), n[1], n[3], n[4]};
+}
+
+/// What stands in a file, in its units.
+struct FileTables {
+  FileSpacing spacing;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> embedding, density, pair;  ///< pairs: (0, 0), (1, 0), (1, 1), ...; times distance
+};
+
+FileTables read_setfl(WordReader& words, std::vector<std::string> const& elements) {
+  FileTables tables;
+  tables.names.assign(elements.begin() + 1, elements.end());
+  tables.spacing = read_spacing(words);
+  for (auto const& name : tables.names) {
+    if (words.line(fmt::format("the atomic number, mass and lattice of {}", name)).size() < 2)
+      throw words.wrong(fmt::format("the atomic number, mass and lattice of {} are needed here", name));
+    tables.embedding.push_back(words.numbers(tables.spacing.densities, "embedding energies of " + name));
+    tables.density.push_back(words.numbers(tables.spacing.distances, "densities of " + name));
+  }
+  for (std::size_t a = 0; a < tables.names.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      tables.pair.push_back(words.numbers(tables.spacing.distances,
+                                          fmt::format("pair energies of {} and {}", tables.names[a], tables.names[b])));
+  return tables;
+}
+
+FileTables read_funcfl(WordReader& words) {
+  FileTables tables;
+  tables.names = {""};
+  tables.spacing = read_spacing(words);
+  tables.embedding.push_back(words.numbers(tables.spacing.densities, "embedding energies"));
+  auto charges = words.numbers(tables.spacing.distances, "effective charges");
+  for (double& z : charges) z = hartree_bohr * z * z;
+  tables.pair.push_back(std::move(charges));
+  tables.density.push_back(words.numbers(tables.spacing.distances, "densities"));
+  return tables;
+}
+
+FileTables read_tables(std::string const& path) {
+  auto const is_whole = [](std::string const& word) {
+    return std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+  };
+  auto const letter = [](std::string const& word) { return (word[0] | 32) >= 'a' && (word[0] | 32) <= 'z'; };
+  {
+    // What the fourth line of setfl begins with: how many elements there are, and their names.
+    WordReader words(path);
+    for (int k = 0; k < 3; ++k) words.line("a comment, or the head of a table");
+    auto const fourth = words.line("the elements, or numbers of a table");
+    if (!fourth.empty() && is_whole(fourth[0]) && fourth.size() > 1 &&
+        std::all_of(fourth.begin() + 1, fourth.end(), letter)) {
+      auto const count = static_cast<std::size_t>(words.number(fourth[0]));
+      if (count != fourth.size() - 1 || count > most_elements)
+        throw words.wrong(fmt::format("{} elements and {} names; as many of both are needed, up to {}", fourth[0],
+                                      fourth.size() - 1, most_elements));
+      return read_setfl(words, fourth);
+    }
+  }
+  WordReader words(path);
+  words.line("a comment");
+  if (words.line("the atomic number, mass and lattice").size() < 2)
+    throw words.wrong(
+        "neither setfl, whose line 4 says how many elements there are and their names, nor funcfl, whose line 2 has "
+        "the atomic number, mass and lattice of one");
+  return read_funcfl(words);
+}
+
+}  // namespace
+
+EmbeddedAtoms EmbeddedAtoms::from_file(std::string const& path, UnitSystem const& units) {
+  FileTables const tables = read_tables(path);
+  double const energy = units(1 * units::electronvolt), length = units(1 * units::angstrom);
+  auto const& spacing = tables.spacing;
+  // The last distance that is no further than the cut-off.
+  auto const last = std::min(static_cast<std::size_t>(spacing.cutoff / spacing.distance + 1e-6), spacing.distances - 1);
+  std::vector<EmbeddedElement> elements;
+  for (std::size_t a = 0; a < tables.names.size(); ++a) {
+    auto energies = tables.embedding[a];
+    for (double& F : energies) F *= energy;
+    elements.push_back({tables.names[a], std::make_shared<EmbeddingTable>(energies, spacing.density)});
+  }
+  auto const points = [&](auto const& value) {
+    std::vector<TablePoint> all;
+    for (std::size_t k = 1; k <= last; ++k) {
+      double const r = spacing.distance * static_cast<double>(k);
+      all.push_back({r * length, value(k, r)});
+    }
+    return all;
+  };
+  auto const pair = [&](std::size_t a, std::size_t b, PerOctave fineness) {
+    auto const& values = tables.pair[a * (a + 1) / 2 + b];
+    return Table(points([&](std::size_t k, double r) { return values[k] / r * energy; }), {}, fineness);
+  };
+  auto const density = [&](std::size_t, std::size_t b, PerOctave fineness) {
+    return Table(points([&](std::size_t k, double) { return tables.density[b][k]; }), {}, fineness);
+  };
+  try {
+    return EmbeddedAtoms(std::move(elements), Tabulate(pair), Tabulate(density), finest_of_files, spline_error);
+  } catch (Error const& error) {
+    throw Error(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,33 @@
+// Atom points: what passes over pairs read of atoms that feel their surroundings, whatever class and ensemble they are
+// of. What stands behind the position is filled between the passes.
+#pragma once
+
+#include <boltzmann/particles/particle.hpp>
+
+namespace boltzmann {
+
+/// An embedded atom: in 3D one block of four numbers.
+template <int D, class Real = double>
+struct EmbeddedPoint : Particle<D, Real> {
+  static constexpr char const* class_name = "embedded atom";
+  Real slope;  ///< dF/d(density)
+};
+
+/// One of several elements.
+template <int D, class Real = double>
+struct AlloyPoint : Particle<D, Real> {
+  static constexpr char const* class_name = "atom of an alloy";
+  Real element;  ///< its number
+  Real slope;    ///< dF/d(density)
+};
+
+/// One with bonds, each of a weight g and a direction u.
+template <int D, class Real = double>
+struct BondedPoint : Particle<D, Real> {
+  static constexpr char const* class_name = "atom with bonds";
+  Real weight;                   ///< sum g
+  Vector<D, Real> lean;          ///< sum g u
+  Real spread[D * (D + 1) / 2];  ///< sum g u u: xx, xy, xz, yy, yz, zz
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,176 @@
+// The members of embedded atoms and of atoms with bonds with their keys.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/laws/embedding_table.hpp>
+#include <boltzmann/schemes/many_body/many_body_options.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+namespace boltzmann {
+
+Words<MetalPotential> const& metal_potential_words() {
+  static Words<MetalPotential> const all{
+      "potential",
+      {{MetalPotential::sutton_chen, "sutton-chen",
+        "V = epsilon (a/r)^n, rho = (a/r)^m, F = -c epsilon sqrt(rho) (Sutton and Chen 1990)"},
+       {MetalPotential::gupta, "gupta",
+        "V = 2 A exp(-p (r/r0 - 1)), rho = xi^2 exp(-2 q (r/r0 - 1)), F = -sqrt(rho) (Cleri and Rosato 1993)"},
+       {MetalPotential::formulas, "formulas", "V, rho and F as they are typed"},
+       {MetalPotential::file, "file", "the tables of a file, setfl (eam.alloy) or funcfl"}}};
+  return all;
+}
+
+OptionTable const& embedded_atom_options() {
+  using namespace option;
+  using E = EmbeddedAtomOptions;
+  static OptionTable const all = [] {
+    OptionTable all;
+    auto const add = [&](char const* key, auto const& member, std::optional<Dimension> dimension, char const* doc,
+                         char const* example) {
+      all.add_of<E>(key, member, number(dimension, positive), doc);
+      all.at(key).needed = example;
+    };
+    all.add_of<E>(
+        "potential", [](E& e) -> OptionPlace { return named_value(&e.potential, metal_potential_words()); },
+        word(metal_potential_words().names()),
+        "what pairs, densities and atoms in densities have as energies: of Sutton and Chen, of Gupta, as typed, or a "
+        "file's");
+    all.at("potential").needed = "\"sutton-chen\"";
+    all.add_said("on", "the name of an ensemble, or a list", "the atoms", "all that a force moves");
+    all.add_said("elements", "a table, { atoms = \"Cu\" }", "of a file with several: the element of each ensemble",
+                 "the ensemble's name");
+    all.add_said("file", "a text",
+                 "of `\"file\"`, from the scenario's folder: tables in eV and angstrom, setfl (eam.alloy) or funcfl");
+    all.at("file").needed = "\"Cu.eam.alloy\"";
+    add(
+        "epsilon", [](E& e) -> OptionPlace { return &e.sutton_chen.epsilon; }, dimensions::energy,
+        "of `\"sutton-chen\"`: the energy of pairs a apart", "\"12.382 meV\"");
+    add(
+        "a", [](E& e) -> OptionPlace { return &e.sutton_chen.a; }, dimensions::length,
+        "of `\"sutton-chen\"`: the lattice constant", "\"3.61 angstrom\"");
+    add(
+        "n", [](E& e) -> OptionPlace { return &e.sutton_chen.n; }, dimensions::none,
+        "of `\"sutton-chen\"`: how fast pair energies fall", "9");
+    add(
+        "m", [](E& e) -> OptionPlace { return &e.sutton_chen.m; }, dimensions::none,
+        "of `\"sutton-chen\"`: how fast densities fall", "6");
+    add(
+        "c", [](E& e) -> OptionPlace { return &e.sutton_chen.c; }, dimensions::none,
+        "of `\"sutton-chen\"`: how strongly densities bind", "39.432");
+    add(
+        "A", [](E& e) -> OptionPlace { return &e.gupta.A; }, dimensions::energy,
+        "of `\"gupta\"`: half the energy of pairs r0 apart", "\"85.5 meV\"");
+    add(
+        "xi", [](E& e) -> OptionPlace { return &e.gupta.xi; }, dimensions::energy,
+        "of `\"gupta\"`: the root of the density at r0", "\"1.224 eV\"");
+    add(
+        "p", [](E& e) -> OptionPlace { return &e.gupta.p; }, dimensions::none,
+        "of `\"gupta\"`: how fast pair energies fall", "10.96");
+    add(
+        "q", [](E& e) -> OptionPlace { return &e.gupta.q; }, dimensions::none,
+        "of `\"gupta\"`: how fast the roots of densities fall", "2.278");
+    add(
+        "r0", [](E& e) -> OptionPlace { return &e.gupta.r0; }, dimensions::length,
+        "of `\"gupta\"`: the distance of neighbours", "\"2.556 angstrom\"");
+    all.add_said("pair", "a formula of r", "of `\"formulas\"`: the energy V of a pair");
+    all.add_said("density", "a formula of r", "of `\"formulas\"`: the density rho that an atom makes, a pure number");
+    all.add_said("embedding", "a formula of rho", "of `\"formulas\"`: the energy F of an atom in a density");
+    all.add_said("parameters", "a table, { xi = \"1.2 eV\" }", "of `\"formulas\"`: what they may use", "none");
+    all.at("pair").needed = "\"A*exp(-p*(r/r0 - 1))\"";
+    all.at("density").needed = "\"exp(-2*q*(r/r0 - 1))\"";
+    all.at("embedding").needed = "\"-xi*sqrt(rho)\"";
+    add(
+        "cutoff", [](E& e) -> OptionPlace { return &e.cutoff; }, dimensions::length,
+        "where pair energies and densities end; a file says so itself", "\"7.2 angstrom\"");
+    all.add("switch_from", &E::from, number(dimensions::length, positive),
+            "from here to the cut-off both are multiplied by a factor that falls from 1 to 0 with three continuous "
+            "derivatives",
+            "0.9 of the cut-off");
+    all.add("skin", &E::skin, number(dimensions::length, not_negative),
+            "how far atoms move before lists are rebuilt: lists reach cutoff + skin", "0.12 of the cut-off");
+    return all;
+  }();
+  return all;
+}
+
+OptionTable embedded_atom_options(MetalPotential potential) {
+  std::vector<OptionKey> keys{{"potential"}, {"on"}};
+  auto const add = [&](std::initializer_list<char const*> more) {
+    for (char const* key : more) keys.push_back({key});
+  };
+  if (potential == MetalPotential::sutton_chen) add({"epsilon", "a", "n", "m", "c", "cutoff", "switch_from"});
+  if (potential == MetalPotential::gupta) add({"A", "xi", "p", "q", "r0", "cutoff", "switch_from"});
+  if (potential == MetalPotential::formulas)
+    add({"pair", "density", "embedding", "parameters", "cutoff", "switch_from"});
+  if (potential == MetalPotential::file) add({"elements", "file"});
+  add({"skin"});
+  return embedded_atom_options().only(keys);
+}
+
+EmbeddedAtoms embedded_atoms(EmbeddedAtomOptions const& options, UnitSystem const& units) {
+  if (options.potential == MetalPotential::file) return EmbeddedAtoms::from_file(options.file, units);
+  EmbeddedReach reach{options.cutoff};
+  if (options.from) reach.switch_from = *options.from;
+  if (options.potential == MetalPotential::gupta) return {options.gupta, reach};
+  if (options.potential == MetalPotential::formulas) {
+    // Above all densities but those of hard collisions.
+    double const greatest = 500 * options.density(options.cutoff / 3);
+    if (!(greatest > 0) || !std::isfinite(greatest))
+      throw Error(fmt::format("density: {:.6g} at a third of the cut-off; it must be positive there",
+                              options.density(options.cutoff / 3)));
+    return EmbeddedAtoms(
+        {{"", std::make_shared<EmbeddingTable>(options.embedding, greatest)}},
+        [&](std::size_t, std::size_t, double r) { return options.pair(r); },
+        [&](std::size_t, std::size_t, double r) { return options.density(r); }, reach);
+  }
+  return {options.sutton_chen, reach};
+}
+
+OptionTable const& stillinger_weber_options() {
+  using namespace option;
+  using S = StillingerWeberOptions;
+  static OptionTable const all = [] {
+    OptionTable all;
+    auto const add = [&](char const* key, auto const& member, OptionKind const& kind, char const* doc,
+                         char const* otherwise = "") { all.add_of<S>(key, member, kind, doc, otherwise); };
+    all.add_said("on", "the name of an ensemble, or a list", "the atoms", "all that a force moves");
+    add(
+        "epsilon", [](S& s) -> OptionPlace { return &s.law.epsilon; }, number(dimensions::energy, positive),
+        "the depth of a pair's energy; of silicon `\"2.1683 eV\"`");
+    add(
+        "sigma", [](S& s) -> OptionPlace { return &s.law.sigma; }, number(dimensions::length, positive),
+        "its length: 0.8909 of the distance of neighbours; of silicon `\"2.0951 angstrom\"`");
+    all.at("epsilon").needed = "\"2.1683 eV\"";
+    all.at("sigma").needed = "\"2.0951 angstrom\"";
+    add(
+        "A", [](S& s) -> OptionPlace { return &s.law.A; }, number(dimensions::none, not_negative),
+        "of pairs: epsilon A (B (sigma/r)^p - (sigma/r)^q) exp(1/(r/sigma - a))");
+    add(
+        "B", [](S& s) -> OptionPlace { return &s.law.B; }, number(dimensions::none, not_negative),
+        "as above: of what repels");
+    add(
+        "p", [](S& s) -> OptionPlace { return &s.law.p; }, whole(0, 24), "as above: how fast what repels falls");
+    add(
+        "q", [](S& s) -> OptionPlace { return &s.law.q; }, whole(0, 24), "as above: how fast what attracts falls");
+    add(
+        "a", [](S& s) -> OptionPlace { return &s.law.a; }, number(dimensions::none, positive),
+        "the cut-off of pairs and bonds, in sigma");
+    add(
+        "lambda", [](S& s) -> OptionPlace { return &s.law.lambda; }, number(dimensions::none, not_negative),
+        "the strength of angles: lambda epsilon g(r_ij) g(r_ik) (cos theta - cosine)^2, g = exp(gamma/(r/sigma - a))");
+    add(
+        "gamma", [](S& s) -> OptionPlace { return &s.law.gamma; }, number(dimensions::none, positive),
+        "as above: how far bonds reach");
+    add(
+        "cosine", [](S& s) -> OptionPlace { return &s.law.cosine; }, number(dimensions::none, {-1, 1, false}),
+        "as above: of the angle without energy", "-1/3, that of a tetrahedron");
+    all.add("skin", &S::skin, number(dimensions::length, not_negative),
+            "how far atoms move before lists are rebuilt: lists reach cut-off + skin", "0.12 of the cut-off");
+    return all;
+  }();
+  return all;
+}
+
+}  // namespace boltzmann
