@@ -29,7 +29,9 @@
 #include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/nose_hoover.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
+#include <boltzmann/dissipation/velocity_rescaling.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/laws/angular.hpp>
 #include <boltzmann/laws/by_energy.hpp>

@@ -93,6 +93,19 @@ Box::Edges Box::edges() const {
   return edges;
 }
 
+void Box::edges(Edges const& edges) {
+  for (int a = 0; a < dimension_; ++a) {
+    double const low = edges[a], high = edges[3 + a];
+    if (low == low_[a] && high == high_[a]) continue;
+    if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
+      throw Error(fmt::format("box: on axis {} the low edge {} is not below the high edge {}", "xyz"[a], low, high));
+    if (walls_move_ && !periodic(a)) throw Error("box: an axis whose walls move is not stretched");
+    low_[a] = first_low_[a] = low;
+    high_[a] = first_high_[a] = high;
+    revision_ = new_revision();
+  }
+}
+
 double Box::volume() const {
   double product = 1;
   for (int a = 0; a < dimension_; ++a) product *= length(a);

@@ -78,6 +78,9 @@ class Box {
   double length(int axis) const { return high_[axis] - low_[axis]; }
   /// As walls stand now; 0 behind the box's dimension.
   Edges edges() const;
+  /// Puts them elsewhere: a box that is stretched. Error if low is not below high, an edge is not finite, or a wall on
+  /// such an axis moves.
+  void edges(Edges const& edges);
   Boundary boundary(int axis) const { return boundaries_[axis]; }
   bool periodic(int axis) const { return boundaries_[axis] == Boundary::periodic; }
   bool any_periodic() const;

@@ -84,6 +84,7 @@ class Frames {
   Canvas canvas(std::int64_t number) {
     auto const frame = static_cast<std::size_t>(number);
     for (auto& ensemble : scenario_.ensembles) reader_.load(frame, *ensemble);
+    for (auto& scheme : scenario_.schemes) reader_.load(frame, scheme->box());
     Canvas drawn = draw(picture_, {*scenario_.simulation, scenario_.units, title_, reader_.steps()[frame],
                                    reader_.times()[frame], folder_, diagnoses_});
     if (!axes_) return drawn;

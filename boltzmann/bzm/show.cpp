@@ -142,9 +142,11 @@ void show_scenario(std::string const& name) {
   for (auto const& dissipation : scenario->dissipations) {
     std::vector<std::string> names;
     for (auto const* ensemble : dissipation->ensembles()) names.push_back(ensemble->name());
-    auto const* pairs = dynamic_cast<PairDissipation const*>(dissipation.get());
-    fmt::print("  dissipation {} on {}\n", pairs ? "dpd, " + to_string(pairs->method()) : "langevin", join(names));
+    fmt::print("  dissipation {} on {}\n", dissipation->kind(), join(names));
   }
+  for (auto const& barostat : scenario->simulation->barostats())
+    fmt::print("  barostat    at {}\n",
+               shown(barostat->options().pressure, dimensions::energy / pow(dimensions::length, box.dimension())));
   fmt::print("\nbzm run {}\n", name);
 }
 

@@ -3,6 +3,7 @@
 #include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
 #include <boltzmann/diagnoses/bond_order.hpp>
+#include <boltzmann/diagnoses/box_measures.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
@@ -882,6 +883,10 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
         {{"wave-spectrum", "of a mesh: no columns; records a quantity for the drawing wave-spectrum",
           told({on_mesh, {"axis", "along which waves run", "`\"x\"`"}, {"modes"}}), true},
          make_wave_spectrum},
+        {{"box", "volume and lengths of the box, and the mass of all particles over the volume", {}},
+         [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
+           return std::make_unique<BoxMeasures>(dimension_of(parameters));
+         }},
         {{"energy-balance", "energy, work of moving walls, heat of baths, and what is left: the first less these", {}},
          [](DiagnosisParameters const&) -> std::unique_ptr<Diagnosis> { return std::make_unique<EnergyBalance>(); }},
     };

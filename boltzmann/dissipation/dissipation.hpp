@@ -5,12 +5,20 @@
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace boltzmann {
+
+/// What is around a dissipation in its simulation.
+struct Surroundings {
+  std::vector<AnyEnsemble const*> massive;    ///< all ensembles that carry momentum
+  std::array<bool, 3> momentum_is_kept = {};  ///< in total along this axis, by forces, walls and other dissipations
+  bool equilibrates = false;                  ///< velocities are still to be brought to a temperature
+};
 
 /// One part of a split equation of motion. After every step of the integrators (kick, drift, kick) a simulation lets
 /// its dissipations act for the time of the step, on the particles where they stand; forces, which are functions of
@@ -38,6 +46,13 @@ class Dissipation {
   virtual double heat() const { return 0; }
   /// Whether the momentum of its ensembles is kept.
   virtual bool keeps_momentum() const { return false; }
+  /// Whether it has to know its surroundings, which it is told before a run; Error if it can't act there.
+  virtual bool asks_for_surroundings() const { return false; }
+  virtual void settle(Surroundings const&) {}
+  /// The box has been stretched. PhysicsFailure if it has become too small.
+  virtual void box_changed() {}
+  /// What it is, for `bzm show`: its word in scenarios.
+  virtual std::string kind() const { return "dissipation"; }
   /// What one should know before a run with such steps; warnings begin with "warning: ".
   virtual std::vector<std::string> warnings(double /*step_size*/) { return {}; }
   /// One line about the work done, for the end of a run.

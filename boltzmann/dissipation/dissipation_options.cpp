@@ -53,11 +53,32 @@ OptionTable make_dissipation_options() {
 
 OptionTable make_bath_options() {
   OptionTable all;
-  all.add("temperature", &BathOptions::temperature, number(dimensions::temperature, not_negative), "of the heat bath");
+  all.add("temperature", &BathOptions::temperature, number(dimensions::temperature, not_negative),
+          "of the heat bath; or a formula of the `time` in quotes");
   all.add("rate", &BathOptions::rate, number(dimensions::frequency, positive),
           "velocities forget themselves in 1 / rate");
   all.at("temperature").needed = "\"300 K\"";
   all.at("rate").needed = "\"5 1/ps\"";
+  all.add("low", &BathOptions::low, vector(dimensions::length),
+          "with `high`: the block of space in which it acts, on those who are there at the time", "everywhere");
+  all.add("high", &BathOptions::high, vector(dimensions::length), "its other corner", "everywhere");
+  return all;
+}
+
+OptionTable make_rescaling_options() {
+  return bath_options().only(
+      {{"temperature"}, {"rate", "the kinetic energy forgets itself in 1 / rate"}, {"low"}, {"high"}});
+}
+
+OptionTable make_equilibration_bath_options() { return bath_options().only({{"temperature"}, {"rate"}}); }
+
+OptionTable make_chain_options() {
+  OptionTable all = bath_options().only(
+      {{"temperature", "of the heat bath, above zero; or a formula of the `time` in quotes"},
+       {"rate",
+        "about the rate of the motion that it takes part in: the masses of the chain are f k T / rate^2 and "
+        "k T / rate^2"}});
+  all.add("chain", &BathOptions::chain, whole(1, 100), "its length");
   return all;
 }
 
@@ -65,6 +86,7 @@ OptionTable make_bath_options() {
 
 OptionTable const& dissipation_options() { return once<make_dissipation_options>(); }
 OptionTable const& bath_options() { return once<make_bath_options>(); }
+OptionTable const& equilibration_bath_options() { return once<make_equilibration_bath_options>(); }
 
 std::vector<DissipationKind> const& dissipation_kinds() {
   static std::vector<DissipationKind> const all = {
@@ -74,7 +96,14 @@ std::vector<DissipationKind> const& dissipation_kinds() {
        "dp = -friction chi^2 v dt + noise chi dW, chi = (1 - r / range)^exponent, v the relative velocity",
        dissipation_options()},
       {"langevin", "a heat bath on each particle", "dv = -rate v dt + (2 rate k temperature / m)^(1/2) dW",
-       bath_options()}};
+       bath_options()},
+      {"velocity-rescaling",
+       "a heat bath on the kinetic energy of all particles together, canonical (Bussi, Donadio and Parrinello), which "
+       "keeps momenta and hardly disturbs the motion",
+       "dK = rate (f k temperature / 2 - K) dt + (2 K rate k temperature)^(1/2) dW", once<make_rescaling_options>()},
+      {"nose-hoover", "a chain of Nose and Hoover on all particles together (Martyna, Klein and Tuckerman), no noise",
+       "dv = -u v dt, du = rate^2 (2 K / (f k temperature) - 1) dt, and the chain behind u",
+       once<make_chain_options>()}};
   return all;
 }
 

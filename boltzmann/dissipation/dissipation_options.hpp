@@ -4,6 +4,8 @@
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,15 @@ struct DissipationOptions {
 };
 OptionTable const& dissipation_options();
 
-/// A heat bath on each particle (see LangevinBath).
+/// A heat bath (see HeatBath), on each particle or on the kinetic energy of all.
 struct BathOptions {
   double temperature = 0, rate = 0;
+  std::optional<std::array<double, 3>> low, high;  ///< of the block in which it acts
+  int chain = 3;                                   ///< links of one of Nose and Hoover
 };
 OptionTable const& bath_options();
+/// Of one that acts before the run begins.
+OptionTable const& equilibration_bath_options();
 
 struct DissipationKind {
   std::string name, doc, equation;

@@ -158,6 +158,15 @@ void PairDissipation::check() {
   }
 }
 
+void PairDissipation::box_changed() {
+  Box const& box = scheme_.box();
+  for (auto const& coupling : couplings_)
+    for (int a = 0; a < box.dimension(); ++a)
+      if (box.periodic(a) && coupling->dissipation.range > 0.5 * box.length(a) * (1 + 1e-12))
+        throw PhysicsFailure(fmt::format("the box has shrunk to {} along {}, less than twice the range {} of friction",
+                                         box.length(a), "xyz"[a], coupling -> dissipation.range));
+}
+
 PairNoise PairDissipation::Coupling::noise(StepContext const& context, double k, std::uint32_t owner) const {
   DissipationLaw const& d = dissipation;
   PairNoise n;

@@ -52,6 +52,8 @@ class PairDissipation final : public Dissipation {
 
   std::vector<AnyEnsemble*> ensembles() const override;
   void check() override;
+  void box_changed() override;
+  std::string kind() const override { return "dpd, " + to_string(method_); }
   void advance(StepContext const& context) override;
   void update_derived_fields() override;
   double internal_energy() const override;

@@ -24,6 +24,8 @@
 
 namespace boltzmann {
 
+class Box;
+
 class AnyEnsemble;
 
 struct TrajectoryOptions {
@@ -119,6 +121,8 @@ class TrajectoryReader {
   /// Fills the ensemble (resizing it) with the stored ensemble of the same name: every field of its class that the file
   /// has. Error if the file has no such ensemble, or it is of another class or dimension.
   void load(std::size_t frame, AnyEnsemble& ensemble) const;
+  /// Puts the ends of periodic axes where they were: of a box that was stretched.
+  void load(std::size_t frame, Box& box) const;
 
  private:
   struct State;

@@ -1,14 +1,17 @@
 // Reading trajectories.
-#include <fmt/format.h>
+#include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/files/trajectory_layout.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -279,6 +282,20 @@ BoxEdges TrajectoryReader::box(std::size_t frame, Numbers numbers) const {
   for (std::size_t axis = 0; axis < d; ++axis) box.low[axis] /= factor, box.high[axis] /= factor;
   std::ranges::copy(layout::periodic_axes(file, group), box.periodic);
   return box;
+}
+
+void TrajectoryReader::load(std::size_t frame, Box& box) const {
+  constexpr double rounding = 1e-12;
+  BoxEdges const stored = this->box(frame);
+  auto edges = box.edges();
+  for (int a = 0; a < std::min(stored.dimension, box.dimension()); ++a) {
+    bool const moved = std::max(std::abs(stored.low[a] - box.low(a)), std::abs(stored.high[a] - box.high(a))) >
+                       rounding * box.length(a);
+    if (!box.periodic(a) || !moved) continue;
+    edges[a] = stored.low[a];
+    edges[3 + a] = stored.high[a];
+  }
+  box.edges(edges);
 }
 
 void TrajectoryReader::load(std::size_t frame, AnyEnsemble& ensemble) const {

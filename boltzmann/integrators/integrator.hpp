@@ -45,6 +45,7 @@ struct StepContext {
   double dt;
   std::uint64_t step;  ///< number of the step, for random streams
   std::uint64_t seed;
+  double time = 0;  ///< at the end of the step, for what depends on it
 };
 
 /// The furthest that a particle has moved in the last step, and the first particle that is not finite, if any.

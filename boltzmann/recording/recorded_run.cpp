@@ -39,6 +39,8 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
     if (auto const line = scheme->report(); !line.empty()) fmt::print("  scheme   {}\n", line);
   for (auto const* dissipation : simulation.dissipations())
     if (auto const line = dissipation->report(); !line.empty()) fmt::print("  dissipation {}\n", line);
+  for (auto const& barostat : simulation.barostats())
+    if (auto const line = barostat->report(); !line.empty()) fmt::print("  box      {}\n", line);
   for (auto const* adaptation : simulation.adaptations())
     if (auto const line = adaptation->report(recording.units()); !line.empty()) fmt::print("  changes  {}\n", line);
   for (auto const* diagnosis : recording.instruments())

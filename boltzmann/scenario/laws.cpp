@@ -140,6 +140,11 @@ void install_external(PairScheme& scheme, LawInfo const& law, ParameterValues co
   throw unfit(law, ensemble);
 }
 
+void change_external(PairScheme& scheme, std::size_t number, LawInfo const& law, ParameterValues const& parameters) {
+  BoundLaw const bound = law.bind(parameters, scheme.box().dimension());
+  scheme.replace_external(number, bound.law, bound.traits);
+}
+
 void install_external(SmoothScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
                       AnyEnsemble& ensemble) {
   require(law, ensemble, true);

@@ -56,6 +56,8 @@ void install_connections(PairScheme& scheme, LawInfo const& law, ParameterValues
 /// An external law on all particles or the chosen ones. Errors as above.
 void install_external(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, AnyEnsemble& ensemble,
                       std::vector<std::uint32_t> const* only);
+/// Other parameters of one that is installed, by its number among those of the scheme.
+void change_external(PairScheme& scheme, std::size_t number, LawInfo const& law, ParameterValues const& parameters);
 /// The same on smooth particles.
 void install_external(SmoothScheme& scheme, LawInfo const& law, ParameterValues const& parameters,
                       AnyEnsemble& ensemble);

@@ -2,9 +2,12 @@
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/nose_hoover.hpp>
+#include <boltzmann/dissipation/velocity_rescaling.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/scenario/time_formula.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 
 #include <fmt/format.h>
@@ -31,6 +34,7 @@ struct Dissipations {
   PairDissipation* pairs = nullptr;  // all of them together
   std::optional<Place> first_dpd;
   DissipationOptions together;  // method, corrector and metropolis: those of the first
+  std::size_t number = 0;       // of the table that is read
   std::vector<DissipatingPair> dissipations, baths;
 };
 
@@ -223,28 +227,77 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
   });
 }
 
-/// A heat bath for every particle, from `temperature` and `rate`.
-std::unique_ptr<LangevinBath> read_bath(Section& section, Reading& reading) {
+struct ReadBath {
+  BathOptions options;
+  std::function<double(double)> temperature;  ///< of the time; null: that of the options
+};
+
+/// A heat bath from the keys of its kind; nothing, and mistakes, if they are wrong.
+std::optional<ReadBath> read_bath(Section& section, OptionTable const& keys, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
-  BathOptions bath;
-  read_options(section, bath_options(), &bath, {.dimension = reading.dimension});
-  if (reading.context.mistakes.count() != before || !reading.base_known) return nullptr;
-  return std::make_unique<LangevinBath>(bath.temperature, bath.rate, reading.boltzmann_constant());
+  ReadBath bath;
+  OptionTable known = keys;
+  auto const formulas = read_time_formulas(section, known, {"temperature"}, reading);
+  if (!formulas.empty()) bath.temperature = formulas.front().value;
+  read_options(section, known, &bath.options, {.dimension = reading.dimension});
+  if (bath.options.low.has_value() != bath.options.high.has_value())
+    reading.mistake(section.place(bath.options.low ? "low" : "high"),
+                    fmt::format("{}: a block needs both 'low' and 'high'; leave both out for everywhere",
+                                bath.options.low ? "low" : "high"));
+  if (reading.context.mistakes.count() != before || !reading.base_known) return std::nullopt;
+  if (bath.temperature) bath.options.temperature = bath.temperature(0);
+  return bath;
 }
 
-void read_langevin(Section& section, Dissipations& all) {
+template <class Bath>
+std::unique_ptr<Bath> make_bath(ReadBath const& read, Reading const& reading) {
+  BathOptions const& options = read.options;
+  double const k = reading.boltzmann_constant();
+  std::unique_ptr<Bath> bath;
+  if constexpr (std::is_same_v<Bath, NoseHooverChain>)
+    bath = std::make_unique<Bath>(options.temperature, options.rate, k, options.chain);
+  else
+    bath = std::make_unique<Bath>(options.temperature, options.rate, k);
+  if (read.temperature) bath->temperature(read.temperature);
+  if (options.low) bath->within({*options.low, *options.high});
+  return bath;
+}
+
+std::unique_ptr<HeatBath> make_bath(std::string const& kind, ReadBath const& read, Reading const& reading) {
+  if (kind == "velocity-rescaling") return make_bath<VelocityRescaling>(read, reading);
+  if (kind == "nose-hoover") return make_bath<NoseHooverChain>(read, reading);
+  return make_bath<LangevinBath>(read, reading);
+}
+
+/// One ensemble, or a list of them.
+std::vector<std::pair<ReadEnsemble const*, Place>> read_bath_ensembles(Item const& on, Reading& reading) {
+  std::vector<std::pair<ReadEnsemble const*, Place>> read;
+  std::vector<Item> const one{on};
+  if (read_texts(on, "on", reading.context).empty()) return read;
+  for (Item const& word : on.is(Item::Kind::array) ? on.elements : one)
+    if (ReadEnsemble const* ensemble = reading.ensemble(word, "on")) read.emplace_back(ensemble, word.place);
+  return read;
+}
+
+void read_heat_bath(Section& section, DissipationKind const& kind, Dissipations& all) {
   Reading& reading = all.reading;
   std::size_t const before = reading.context.mistakes.count();
   section.explain_said(dissipation_pair_options());
   Item const* on = section.need("on", "on = \"atoms\"");
-  ReadEnsemble const* ensemble = on ? reading.ensemble(*on, "on") : nullptr;
-  auto bath = read_bath(section, reading);
+  auto const ensembles = on ? read_bath_ensembles(*on, reading) : std::vector<std::pair<ReadEnsemble const*, Place>>{};
+  auto const read = read_bath(section, kind.options, reading);
   section.finish();
-  if (reading.context.mistakes.count() != before || !ensemble || !bath) return;
-  if (!supports(*ensemble, on->place, "on", reading)) return;
-  if (taken(all.baths, ensemble, ensemble, on->place, "langevin", reading)) return;
+  if (reading.context.mistakes.count() != before || !read) return;
+  for (auto const& [ensemble, place] : ensembles) {
+    if (!supports(*ensemble, place, "on", reading)) return;
+    if (!read->options.low && taken(all.baths, ensemble, ensemble, place, kind.name, reading)) return;
+  }
   catch_errors(reading, on->place, [&] {
-    bath->on(*ensemble->particles);
+    auto bath = make_bath(kind.name, *read, reading);
+    for (auto const& [ensemble, place] : ensembles) bath->on(*ensemble->particles);
+    reading.settable.push_back(settable_number(fmt::format("dissipation.{}.temperature", all.number),
+                                               dimensions::temperature, kind.options.find("temperature")->kind.range,
+                                               [bath = bath.get()](Simulation&, double t) { bath->temperature(t); }));
     reading.result->dissipations.push_back(std::move(bath));
   });
 }
@@ -258,12 +311,14 @@ void read_table(Item const& table, Dissipations& all) {
   auto const kind = word ? read_word(*word, "dissipation", kinds, reading.context) : std::nullopt;
   if (!kind) return;
   section.rename(fmt::format("[[dissipation]] '{}'", *kind));
-  for (auto const& one : dissipation_kinds())
-    if (one.name == *kind) section.explain_word("kind", one.doc);
-  if (*kind == "dpd")
-    read_pairs(section, table, all);
-  else
-    read_langevin(section, all);
+  for (auto const& one : dissipation_kinds()) {
+    if (one.name != *kind) continue;
+    section.explain_word("kind", one.doc);
+    if (*kind == "dpd")
+      read_pairs(section, table, all);
+    else
+      read_heat_bath(section, one, all);
+  }
 }
 
 /// Without `on` those that forces move by leap-frog are brought to it.
@@ -276,13 +331,9 @@ std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& rea
         chosen.push_back(&ensemble);
     return chosen;
   }
-  std::vector<Item> const one{*on};
-  if (read_texts(*on, "on", reading.context).empty()) return {};
-  for (Item const& word : on->is(Item::Kind::array) ? on->elements : one)
-    if (ReadEnsemble const* ensemble = reading.ensemble(word, "on"))
-      if (supports(*ensemble, word.place, "on", reading) &&
-          std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
-        chosen.push_back(ensemble);
+  for (auto const& [ensemble, place] : read_bath_ensembles(*on, reading))
+    if (supports(*ensemble, place, "on", reading) && std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
+      chosen.push_back(ensemble);
   return chosen;
 }
 
@@ -291,12 +342,12 @@ void read_equilibration(Item const& table, Reading& reading) {
   Section section(table, "[equilibrate]", reading.context);
   section.explain_said(equilibration_options());
   Item const* on = section.find("on");
-  auto bath = read_bath(section, reading);
+  auto const read = read_bath(section, equilibration_bath_options(), reading);
   auto const time = section.need_quantity(
       "time", dimensions::time, reading.context.units.is_reduced() ? "time = 10" : "time = \"2 ps\"", not_negative);
   section.finish();
   auto const chosen = to_be_equilibrated(on, reading);
-  if (reading.context.mistakes.count() != before || !bath || !time || !reading.run.step) return;
+  if (reading.context.mistakes.count() != before || !read || !time || !reading.run.step) return;
   // A time of so many steps, but for rounding, is that many.
   double const steps = std::ceil(*time / *reading.run.step * (1 - 1e-12));
   if (steps > max_steps)
@@ -313,6 +364,7 @@ void read_equilibration(Item const& table, Reading& reading) {
                                             "material, and no other friction)"
                                           : ""));
   catch_errors(reading, table.place, [&] {
+    auto bath = make_bath<LangevinBath>(*read, reading);
     for (ReadEnsemble const* ensemble : chosen) bath->on(*ensemble->particles);
     reading.equilibration = {std::move(bath), static_cast<std::uint64_t>(steps)};
   });
@@ -321,8 +373,11 @@ void read_equilibration(Item const& table, Reading& reading) {
 }  // namespace
 
 void read_dissipations(Section& document, Reading& reading) {
-  Dissipations all{reading, nullptr, {}, {}, {}, {}};
-  for (Item const* table : find_tables(document, "dissipation")) read_table(*table, all);
+  Dissipations all{reading, nullptr, {}, {}, 0, {}, {}};
+  for (Item const* table : find_tables(document, "dissipation")) {
+    read_table(*table, all);
+    ++all.number;
+  }
   if (Item const* table = find_table(document, "equilibrate")) read_equilibration(*table, reading);
 }
 

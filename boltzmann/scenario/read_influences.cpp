@@ -361,7 +361,7 @@ class InfluenceReader {
       if (smooth)
         install_external(*smooth_, *law_, parameters, a);
       else if (external())
-        install_external(*pairs_, *law_, parameters, a, only_ ? &*only_ : nullptr);
+        install_settable(parameters, a);
       else if (connect_)
         install_connections(*pairs_, *law_, parameters, a, connections_);
       else if (typed_.at_cutoff != FormulaLaw::AtCutoff::cut)
@@ -375,6 +375,37 @@ class InfluenceReader {
       if (tail_) add_tail(typed_twin(parameters), reach);
     });
     act_on_bodies(parameters);
+  }
+
+  /// From outside: events may set its parameters.
+  void install_settable(ParameterValues const& parameters, AnyEnsemble& particles) {
+    install_external(*pairs_, *law_, parameters, particles, only_ ? &*only_ : nullptr);
+    auto const values = std::make_shared<ParameterValues>(parameters);
+    auto const change = [scheme = pairs_, number = pairs_->externals() - 1, law = law_, values](
+                            std::string_view name, std::vector<double> const& value) {
+      for (auto& one : *values)
+        if (one.first == name) one.second = value;
+      change_external(*scheme, number, *law, *values);
+    };
+    for (auto const& parameter : law_->parameters) {
+      std::string const name(parameter.name), path = fmt::format("influences.{}.{}", number_, name);
+      Dimension const dimension = parameter.dimension.in(reading_.dimension);
+      if (!parameter.vector) {
+        reading_.settable.push_back(settable_number(
+            path, dimension, parameter.range, [change, name](Simulation&, double value) { change(name, {value}); }));
+        continue;
+      }
+      bool const one = parameter.axial && reading_.dimension < 3;
+      reading_.settable.push_back(
+          {path, [=](Item const& item, Reading& reading) -> std::function<void(Simulation&)> {
+             auto const value =
+                 one ? std::nullopt : read_vector(item, path, reading.dimension, dimension, reading.context);
+             auto const alone = one ? read_quantity(item, path, dimension, reading.context) : std::nullopt;
+             if (!value && !alone) return nullptr;
+             auto const numbers = value ? *value : std::vector<double>{*alone};
+             return [change, name, numbers](Simulation&) { change(name, numbers); };
+           }});
+    }
   }
 
   /// Whatever flows acts on bodies, too: each ensemble of vortices, and each law from outside, once.

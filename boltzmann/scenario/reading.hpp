@@ -16,6 +16,7 @@
 #include <boltzmann/schemes/panels/panel_scheme.hpp>
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/simulation/barostat.hpp>
 #include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/vortex_relaxation.hpp>
 
@@ -30,6 +31,7 @@
 
 namespace boltzmann {
 
+struct Reading;
 struct SchemeEntry;
 
 /// A class that the file derives from another one.
@@ -89,6 +91,25 @@ struct ReadSmooth {
   std::vector<ReadRezone> rezones;
 };
 
+struct ReadBarostat {
+  BarostatOptions options;
+  Place place;
+  std::function<double(double)> pressure = {}, temperature = {};  ///< of the time; null: those of the options
+};
+
+/// What an event may set: by the path of its key, "dissipation.0.temperature".
+struct Settable {
+  std::string path;
+  /// What setting it to this value does; null, and a mistake, if it can't be.
+  std::function<std::function<void(Simulation&)>(Item const& value, Reading& reading)> read;
+};
+
+struct ReadEvent {
+  double at = 0;
+  bool lasting = false;
+  std::function<void(Simulation&)> happen;
+};
+
 struct ReadRelaxation {
   std::optional<RelaxationOptions> options;
   Place place;
@@ -135,6 +156,9 @@ struct Reading {
   Place bodies_place = {};
   std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
   std::vector<std::unique_ptr<ReadClass>> classes = {};
+  std::vector<ReadBarostat> barostats = {};
+  std::vector<Settable> settable = {};
+  std::vector<ReadEvent> events = {};
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
   std::vector<std::string> ensemble_names() const;
@@ -157,6 +181,10 @@ bool catch_errors(Reading& reading, Place const& place, Function const& function
     return false;
   }
 }
+
+/// A number of a dimension that an event may set.
+Settable settable_number(std::string path, Dimension dimension, NumberRange range,
+                         std::function<void(Simulation&, double)> set);
 
 /// Where the ensemble is loaded that an error of a lower room names.
 Place place_of(std::string const& message, Reading const& reading);
@@ -258,6 +286,12 @@ void load_rates(Reading& reading);
 /// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
 void read_dissipations(Section& document, Reading& reading);
 void add_dissipations(Reading const& reading);
+/// Reads [[barostat]]; lets the simulation have it.
+void read_barostats(Section& document, Reading& reading);
+void add_barostats(Reading& reading);
+/// Reads [[events]], when all that they may set has been read; lets the simulation have them.
+void read_events(Section& document, Reading& reading);
+void add_events(Reading& reading);
 /// Reads [relaxation]; lets the simulation have it.
 void read_relaxation(Section& document, Reading& reading);
 void add_relaxation(Reading& reading);

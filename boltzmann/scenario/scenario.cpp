@@ -47,6 +47,8 @@ void build(Item& document, Reading& reading) {
   read_adaptations(top, reading);
   settle_run(document, reading);
   read_dissipations(top, reading);
+  read_barostats(top, reading);
+  read_events(top, reading);
   read_relaxation(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
@@ -77,6 +79,8 @@ void build(Item& document, Reading& reading) {
   for (auto& ensemble : reading.ensembles)
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
+  add_barostats(reading);
+  add_events(reading);
   add_rezoners(reading);
   add_relaxation(reading);
   add_bodies(reading);
@@ -173,6 +177,7 @@ Place place_of(std::string const& message, Reading const& reading) {
   if (message.starts_with("the step ")) return reading.run.step_place;
   if (message.starts_with("substeps") || message.starts_with("steps ")) return reading.run.substeps_place;
   if (message.starts_with("mesh: ")) return reading.mesh.background_place;
+  if (message.starts_with("barostat: ") && !reading.barostats.empty()) return reading.barostats.front().place;
   for (auto const& [entry, table] : reading.schemes)
     if (entry->told.name == "multipole" && message.starts_with("multipoles: ")) return table->place;
   return reading.run.place;

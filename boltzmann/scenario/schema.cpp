@@ -289,6 +289,8 @@ std::string scenario_schema() {
       {"influences", influences()},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
+      {"barostat", one_or_tables(closed("barostat"))},
+      {"events", tables(closed("events"))},
       {"relaxation", closed("relaxation")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"remesh", one_or_tables(closed("remesh"))},

@@ -361,7 +361,8 @@ OptionTable make_set_options() {
 
 OptionTable make_dissipation_pair_options() {
   OptionTable all;
-  all.add_said("on", "the name of an ensemble", "for the pairs within it", "`on` or `between`");
+  all.add_said("on", "the name of an ensemble; of heat baths also a list",
+               "for the pairs within it; on whom a bath acts", "`on` or `between`");
   all.add_said("between", "the names of two ensembles", "for the pairs of one of each", "`on` or `between`");
   return all;
 }
@@ -386,8 +387,26 @@ OptionTable make_wall_options() {
   return all;
 }
 
+OptionTable make_event_options() {
+  using E = EventOptions;
+  OptionTable all;
+  all.add("at", &E::at, number(dimensions::time, positive),
+          "since the start of the run; at the end of the step that ends "
+          "there or just behind");
+  all.add_said("set", "a table of keys by their paths, as those of `--set`, and values",
+               "numbers that other tables have said: `{ \"dissipation.0.temperature\" = \"100 K\" }`", "none");
+  all.add_said("on", ensemble_or_list, "whose velocities are changed", "all that have velocities");
+  all.add_said("where", "a [formula](#formulas)", "of those the ones for which it is true then", "all");
+  all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),
+          "velocities, relative to their common one, are scaled to it: a quench");
+  all.add("scale", &E::scale, number(dimensions::none), "velocities are multiplied by it");
+  all.add("kick", &E::kick, vector(dimensions::velocity), "a velocity that is added");
+  all.at("at").needed = "\"5 ps\"";
+  return all;
+}
+
 OptionTable make_equilibration_options() {
-  OptionTable all = bath_options();
+  OptionTable all = equilibration_bath_options();
   all.add_said("time", "a time, zero or more", "how long");
   all.add_said("on", ensemble_or_list, "who is brought to it", "all that leap-frog moves");
   all.at("time").needed = "\"2 ps\"";
@@ -396,6 +415,7 @@ OptionTable make_equilibration_options() {
 
 }  // namespace
 
+OptionTable const& event_options() { return once<make_event_options>(); }
 OptionTable const& run_options() { return once<make_run_options>(); }
 OptionTable const& box_options() { return once<make_box_options>(); }
 OptionTable const& ensemble_options() { return once<make_ensemble_options>(); }
@@ -420,6 +440,8 @@ std::vector<ScenarioTable> make_tables() {
   static SetOptions set;
   static OutputOptions output;
   static RelaxationOptions relaxation;
+  static BarostatOptions barostat;
+  static EventOptions event;
   static RemeshOptions remesh;
   static CoreSplittingOptions split;
   static OutflowOptions outflow;
@@ -456,6 +478,8 @@ std::vector<ScenarioTable> make_tables() {
        {"dye", "[[dye]]", "where tracers are released while the run goes on", &dye_options(), &dye},
        {"output", "[output]", "what is written, and how often", &output_options(), &output},
        {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
+       {"barostat", "[[barostat]]", "a pressure that is held by stretching the box", &barostat_options(), &barostat},
+       {"events", "[[events]]", "what happens once at a time of the run", &event_options(), &event},
        {"relaxation", "[relaxation]", "vortices in 3D: vorticity is turned towards the curl of the flow",
         &relaxation_options(), &relaxation},
        {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,

@@ -6,6 +6,7 @@
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/simulation/barostat.hpp>
 #include <boltzmann/simulation/substeps.hpp>
 
 #include <array>
@@ -65,6 +66,14 @@ OptionTable const& set_options();
 
 /// [equilibrate]: a heat bath for a while.
 OptionTable const& equilibration_options();
+
+/// [[events]]; what is set and who is meant are read by code.
+struct EventOptions {
+  double at = 0;
+  std::optional<double> temperature, scale;
+  std::optional<std::array<double, 3>> kick;
+};
+OptionTable const& event_options();
 
 /// [output]: steps between two.
 struct OutputOptions {

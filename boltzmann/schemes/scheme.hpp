@@ -109,6 +109,10 @@ class Scheme {
   /// Adds the velocity that everything else of this scheme gives to a fluid at places, D numbers each: streams, walls.
   virtual void add_stream(std::span<double const> /*places*/, double /*time*/, std::span<double> /*velocities*/) {}
 
+  /// Whether its box may be stretched while it runs (Box::edges()); it is told of that.
+  virtual bool follows_box() const { return false; }
+  virtual void box_changed() {}
+
   /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
   /// more, until they are asked for again with `taken` false.
   virtual std::vector<Rotation> rotations(AnyEnsemble const& /*ensemble*/, bool /*taken*/) { return {}; }

@@ -54,7 +54,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     advance_in_substeps(dt);
   else
     advance(time(), dt);
-  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
   if (!dissipations.empty()) calculate(time() + dt);
   for (auto* dissipation : dissipations) dissipation->advance(context);
   for (auto const& part : parts_) check_moves(part);
@@ -91,6 +91,20 @@ void Simulation::keep_in_box(Part& part) {
     work_ += part.home->box().apply(*part.ensemble, part.home->threads());
   } catch (PhysicsFailure const& failure) {
     throw PhysicsFailure(failure.what() + advice());
+  }
+}
+
+StretchedSystem Simulation::stretched_system() {
+  return {schemes_, ensembles_, momentum_is_kept_, [this] { return measure(); }};
+}
+
+/// After a step that is done but not counted yet.
+void Simulation::stretch_box(double dt) {
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
+  for (auto const& barostat : barostats_) {
+    if ((step_ + 1) % barostat->every() != 0) continue;
+    work_ += barostat->act(stretched_system(), context);
+    influences_.outdated();
   }
 }
 
@@ -194,7 +208,9 @@ FusedSteps* Simulation::whole_steps(double dt, Dependence const& now) {
 }
 
 std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
-  if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty() || substeps_) return nullptr;
+  if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty() || !events_.empty() || !barostats_.empty() ||
+      substeps_)
+    return nullptr;
   std::vector<Mover> movers;
   for (auto const& part : parts_) {
     Method const method = part.integrator->method();

@@ -1,4 +1,5 @@
 // What is looked at before the first step, so that a wrong simulation is one line.
+#include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -51,6 +52,8 @@ void Simulation::check() {
   influences_.outdated();
   calculate(time());
   check_influences();
+  settle_dissipations();
+  if (!barostats_.empty()) check_barostats();
   note_start();
   checked_ = true;
 }
@@ -169,6 +172,46 @@ void Simulation::check_dissipations() {
     }
     dissipation->check();
   }
+}
+
+/// Along which axes the total momentum of all particles with mass is kept, as far as is known.
+std::array<bool, 3> Simulation::kept_momentum() const {
+  std::array<bool, 3> kept{};
+  if (!changes_.empty() || !measure().reciprocal) return kept;
+  if (!std::all_of(dissipations_.begin(), dissipations_.end(), [](auto const* one) { return one->keeps_momentum(); }))
+    return kept;
+  Box const& box = schemes_.front()->box();
+  if (!box.regions().empty()) return kept;
+  for (int a = 0; a < box.dimension(); ++a) kept[a] = !box.walled(a, Box::End::low) && !box.walled(a, Box::End::high);
+  return kept;
+}
+
+/// Tells heat baths what is around them, twice: whether they keep momentum themselves depends on it.
+void Simulation::settle_dissipations() {
+  std::vector<Dissipation*> all = dissipations_;
+  for (auto const& equilibration : equilibrations_) all.push_back(equilibration.dissipation.get());
+  bool const asked = std::any_of(all.begin(), all.end(), [](auto const* one) { return one->asks_for_surroundings(); });
+  if (!asked && barostats_.empty()) return;
+  Surroundings around;
+  around.equilibrates = equilibrates();
+  for (auto const* ensemble : ensembles_)
+    if (carries_momentum(*ensemble) && method(*ensemble) != Method::deactivate) around.massive.push_back(ensemble);
+  for (auto* dissipation : all) dissipation->settle(around);
+  around.momentum_is_kept = momentum_is_kept_ = kept_momentum();
+  for (auto* dissipation : all) dissipation->settle(around);
+}
+
+void Simulation::check_barostats() {
+  if (substeps_) throw Error("barostat: steps that are divided into substeps don't go with it");
+  if (!changes_.empty()) throw Error("barostat: adaptations, which know their box, don't go with it");
+  for (auto* ensemble : ensembles_) {
+    Part const& part = *part_of(*ensemble);
+    if (part.integrator->method() != Method::leap_frog || !part.integrator->same_for_all())
+      throw Error(
+          fmt::format("barostat: ensemble '{}' needs leap-frog for all its particles, not {}", ensemble->name(),
+                      part.integrator->same_for_all() ? to_string(part.integrator->method()) : "some that are frozen"));
+  }
+  for (auto const& barostat : barostats_) barostat->check(stretched_system());
 }
 
 FixedPoint Simulation::choose_grid() const {

@@ -49,10 +49,11 @@ Conserved conserved(Simulation const& simulation) {
   Conserved total;
   auto const& ensembles = simulation.ensembles();
   EnergyAndVirial const measures = simulation.measure();
-  total.isolated = measures.reciprocal && simulation.adaptations().empty();
+  total.isolated = measures.reciprocal && simulation.adaptations().empty() && !simulation.has_events();
   total.work = measures.work;
   total.heat = measures.heat;
-  total.driven = measures.driven || !simulation.dissipations().empty() || !simulation.adaptations().empty();
+  total.driven = measures.driven || !simulation.dissipations().empty() || !simulation.adaptations().empty() ||
+                 simulation.has_events();
   bool massive = !ensembles.empty(), moves_in_space = true;
   bool periodic = false;
   for (auto const* scheme : simulation.schemes()) {

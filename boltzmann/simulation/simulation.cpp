@@ -56,6 +56,21 @@ void Simulation::add(Dissipation& dissipation) {
   checked_ = false;
 }
 
+void Simulation::add(Barostat barostat) {
+  barostat.number(static_cast<std::uint32_t>(barostats_.size()));
+  barostats_.push_back(std::make_unique<Barostat>(std::move(barostat)));
+  checked_ = false;
+}
+
+void Simulation::happen(double time, std::function<void()> event, bool lasting) {
+  if (!(time > 0) || !std::isfinite(time))
+    throw Error(fmt::format("an event happens at a positive time since the start of the run, not at {}", time));
+  // A time of so many steps, but for rounding, is that many.
+  double const step = std::ceil(time / std::abs(step_size_) * (1 - 1e-12));
+  if (step > 9e15) throw Error(fmt::format("an event at {} would happen after {:.3g} steps", told_time(time), step));
+  events_.push_back({static_cast<std::int64_t>(step), std::move(event), lasting});
+}
+
 void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator) {
   checked_ = false;
   if (Part* const part = part_of(ensemble))
@@ -226,6 +241,25 @@ void Simulation::adapt_now() {
   }
 }
 
+void Simulation::happen_now() {
+  bool some = false;
+  for (auto const& event : events_) {
+    if (event.step != step_) continue;
+    if (!some) update_derived_fields();
+    some = true;
+    try {
+      event.happen();
+    } catch (Error const& error) {
+      throw Error(fmt::format("step {}: {}", step_, error.what()));
+    }
+  }
+  if (!some) return;
+  checked_ = false;  // laws and methods may be others
+  check();
+  influences_.particles_changed();
+  take_particles();
+}
+
 bool Simulation::observation_due() const {
   return std::any_of(observations_.begin(), observations_.end(),
                      [&](Observation const& observation) { return observation.due(step_); });
@@ -277,6 +311,8 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (direction < 0 && !changes_.empty())
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
   if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
+  if (direction < 0 && !barostats_.empty()) throw Error("a run whose box is stretched can't go backwards");
+  if (direction < 0 && !events_.empty()) throw Error("a run with events can't go backwards");
   if (!begun_) {
     equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
     begun_ = true;
@@ -294,12 +330,14 @@ void Simulation::run(std::uint64_t steps, int direction) {
         whole->step(time());
       else
         advance(dt, dissipations_);
+      if (!barostats_.empty()) stretch_box(dt);
       if (last && stages_ == 0) influences_.outdated();  // nothing has moved, but a stream may have changed
     } catch (PhysicsFailure const& failure) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }
     step_ += direction;
     if (!changes_.empty()) adapt_now();
+    if (!events_.empty()) happen_now();
     if (!observations_.empty()) {
       if (whole && observation_due()) whole->store();
       if (last && observation_due()) calculate(time());
@@ -379,6 +417,11 @@ std::vector<double> Simulation::state() const {
     state.push_back(static_cast<double>(part.size()));
     state.insert(state.end(), part.begin(), part.end());
   };
+  if (!barostats_.empty()) {
+    auto const edges = schemes_.front()->box().edges();
+    state.insert(state.end(), edges.begin(), edges.end());
+    for (auto const& barostat : barostats_) add(barostat->state());
+  }
   for (auto const* scheme : schemes_) add(scheme->state());
   for (auto const* dissipation : dissipations_) add(dissipation->state());
   if (influences_.inside_step()) {
@@ -404,7 +447,6 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   base_time_ = state[1];
   work_ = state[5];
   seed_ = seed;
-  check();
   std::size_t at = 6;
   auto const next = [&] {
     if (at >= state.size()) throw misfit();
@@ -413,6 +455,20 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     at += count;
     return state.subspan(at - count, count);
   };
+  if (!barostats_.empty()) {  // before particles are put into the box
+    if (state.size() < at + 6) throw misfit();
+    Box::Edges edges;
+    std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), 6, edges.begin());
+    at += 6;
+    for (auto* scheme : schemes_) {
+      scheme->box().edges(edges);
+      scheme->box_changed();
+    }
+    for (auto const& barostat : barostats_) barostat->restore(next());
+  }
+  for (auto const& event : events_)
+    if (event.lasting && event.step <= step_) event.happen();
+  check();
   for (auto* scheme : schemes_) scheme->restore(next());
   for (auto* dissipation : dissipations_) dissipation->restore(next());
   if (influences_.inside_step() && at >= state.size()) throw misfit();

@@ -6,9 +6,11 @@
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
+#include <boltzmann/simulation/barostat.hpp>
 #include <boltzmann/simulation/freshness.hpp>
 #include <boltzmann/simulation/substeps.hpp>
 
+#include <array>
 #include <atomic>
 #include <concepts>
 #include <cstdint>
@@ -29,6 +31,10 @@ class Simulation {
   /// A dissipation that acts after every step, for the time of the step (it must outlive the simulation). Its ensembles
   /// are advanced by leap-frog. A run with dissipations can't go backwards.
   void add(Dissipation& dissipation);
+
+  /// A pressure that is held by stretching the box, every so many steps, after dissipations. All influences are those of
+  /// pairs, and all ensembles are advanced by leap-frog. A run with barostats can't go backwards.
+  void add(Barostat barostat);
 
   /// How an ensemble is advanced, if not as its class usually is (usual_method). A class with equations of motion of
   /// its own has no usual method.
@@ -58,6 +64,12 @@ class Simulation {
   void adapt(std::uint64_t every, std::function<void()> change);
   /// In the order in which they are called.
   std::vector<Adaptation const*> adaptations() const;
+
+  /// Something happens once, at the end of the first step that ends at this time since the start of the run or later,
+  /// after adaptations and before observers look. `lasting`: it sets a number of a law or a bath, a method, ..., and is
+  /// done again where a run is resumed behind it; else it changes particles, which a checkpoint holds. A run with events
+  /// can't go backwards. Error unless the time is positive.
+  void happen(double time, std::function<void()> event, bool lasting);
 
   /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this
   /// dissipation in place of the simulation's own, on velocities relative to the common one of each ensemble: a body is
@@ -110,6 +122,9 @@ class Simulation {
 
   std::vector<Scheme*> const& schemes() const { return schemes_; }
   std::vector<Dissipation*> const& dissipations() const { return dissipations_; }
+  std::vector<std::unique_ptr<Barostat>> const& barostats() const { return barostats_; }
+  /// Whether something is still to happen, or has happened.
+  bool has_events() const { return !events_.empty(); }
   /// Whether equilibrate() is still to be done.
   bool equilibrates() const { return !equilibrations_.empty(); }
   /// Each once, in the order of the schemes; none before check().
@@ -142,6 +157,12 @@ class Simulation {
     std::unique_ptr<Adaptation> adaptation;
   };
 
+  struct Event {
+    std::int64_t step;
+    std::function<void()> happen;
+    bool lasting;
+  };
+
   struct Equilibration {
     std::shared_ptr<Dissipation> dissipation;
     std::uint64_t steps;
@@ -155,6 +176,8 @@ class Simulation {
   void check_substeps() const;
   void check_influences() const;
   void check_dissipations();
+  void check_barostats();
+  void settle_dissipations();
   FixedPoint choose_grid() const;
   void make_reversible(FixedPoint const& grid);
 
@@ -184,6 +207,10 @@ class Simulation {
   void accept_particles();
   void take_particles();
   void adapt_now();
+  void happen_now();
+  std::array<bool, 3> kept_momentum() const;
+  StretchedSystem stretched_system();
+  void stretch_box(double dt);
   bool observation_due() const;
   void observe_now() const;
   void equilibrate_now();
@@ -194,6 +221,9 @@ class Simulation {
   std::vector<Part> parts_;
   std::vector<Observation> observations_;
   std::vector<Change> changes_;
+  std::vector<std::unique_ptr<Barostat>> barostats_;
+  std::array<bool, 3> momentum_is_kept_{};
+  std::vector<Event> events_;
   std::vector<Equilibration> equilibrations_;
   std::vector<std::function<void(Simulation const&)>> progress_;
   GaussRadau gauss_radau_;

@@ -63,6 +63,7 @@ void Replay::go_to(std::int64_t frame) {
   if (!reader_) throw Error("'" + path_ + "' can't be read at the moment");
   std::int64_t const wanted = std::clamp<std::int64_t>(frame, 0, frames() - 1);
   auto const fill = [&](std::int64_t with) {
+    for (auto* scheme : views_.simulation().schemes()) reader_->load(static_cast<std::size_t>(with), scheme->box());
     for (auto* scheme : views_.simulation().schemes())
       for (auto* ensemble : scheme->ensembles()) reader_->load(static_cast<std::size_t>(with), *ensemble);
   };

@@ -14,6 +14,8 @@ constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept
 
 std::string no_rewind(Simulation const& simulation) {
   if (!simulation.dissipations().empty()) return "friction and noise can't be run backwards";
+  if (!simulation.barostats().empty()) return "a box that is stretched can't be run backwards";
+  if (simulation.has_events()) return "events can't be run backwards";
   if (!simulation.adaptations().empty()) return "particles come and go between steps, which can't be run backwards";
   return "";
 }

@@ -194,7 +194,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
       "velocity-diffusion, diffusion, radial-distribution, structure-factor, bond-order, "
       "velocity-autocorrelation, mean-square-displacement, green-kubo, mean-profile, average, extremes, formula, "
       "histogram, field-energy, field-mode, wave-spectrum, "
-      "energy-balance; "
+      "box, energy-balance; "
       "did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
@@ -225,7 +225,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 31U);
+  EXPECT_EQ(diagnosis_kinds().size(), 32U);
   Ensemble<Smooth<2>> gas("gas");
   Ensemble<Vortex<2>> vortices("vortices");
   Ensemble<Panel<2>> body("body");

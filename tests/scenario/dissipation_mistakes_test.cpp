@@ -120,7 +120,7 @@ std::vector<Mistake> const rows{
     {"unknown dissipation",
      with("\"dpd\"", "\"dbd\""),
      "26:8",
-     {"unknown dissipation 'dbd'", "dpd, langevin", "did you mean 'dpd'?"}},
+     {"unknown dissipation 'dbd'", "dpd, langevin, velocity-rescaling, nose-hoover", "did you mean 'dpd'?"}},
     {"dissipation as a table",
      "[dissipation]\nkind = \"langevin\"\n" + good.substr(0, good.find("[[dissipation]]")),
      "1:1",

@@ -364,6 +364,12 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
   changed();
 }
 
+void PairScheme::replace_external(std::size_t number, LawPointer law, LawTraits traits) {
+  external_.at(number)->law = std::move(law);
+  external_.at(number)->traits = traits;
+  changed();
+}
+
 std::optional<std::uint64_t> PairScheme::revision() const {
   auto const reads_outside = [](auto const& all) {
     return std::any_of(all.begin(), all.end(), [](auto const& one) { return one->traits.reads_outside; });
@@ -579,6 +585,16 @@ bool PairScheme::velocity_dependent(AnyEnsemble const& ensemble) const {
          depends(connected_, [&](Connected const& connected) { return connected.ensemble == &ensemble; }) ||
          depends(external_,
                  [&](External const& external) { return external.ensemble == &ensemble && !external.taken; });
+}
+
+void PairScheme::box_changed() {
+  for (auto const& near : near_)
+    for (int a = 0; a < box().dimension(); ++a)
+      if (box().periodic(a) && near->cutoff > box().length(a))
+        throw PhysicsFailure(fmt::format("the box has shrunk to {} along {}, less than the cut-off {} of a law on '{}'",
+                                         spoken_units().text(box().length(a), dimensions::length), "xyz"[a],
+                                         spoken_units().text(near->cutoff, dimensions::length), near->target->name()));
+  neighbourhood_.stale();
 }
 
 bool PairScheme::translation_invariant() const {

@@ -135,6 +135,9 @@ class PairScheme final : public Scheme {
   EnergyAndVirial measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
+  bool follows_box() const override { return true; }
+  /// Lists are built anew. PhysicsFailure if a cut-off is longer than a periodic axis now.
+  void box_changed() override;
   /// Of pairs without cut-offs in open space, on which nothing acts from outside.
   bool translation_invariant() const override;
   double length_scale(AnyEnsemble const& ensemble) const override;
@@ -198,6 +201,9 @@ class PairScheme final : public Scheme {
                        LawPointer law, LawTraits traits);
   void add_external(AnyEnsemble& ensemble, ExternalKernels kernels, LawPointer law, LawTraits traits,
                     std::vector<std::uint32_t> const* only);
+  /// How many external influences there are, and another law of the same type in place of one of them, by number.
+  std::size_t externals() const { return external_.size(); }
+  void replace_external(std::size_t number, LawPointer law, LawTraits traits);
   template <class Law>
   static LawPointer keep(Law const& law) {
     check_parameters(law);

@@ -1,0 +1,61 @@
+// HeatBath: what baths that bring particles to a temperature have in common: on whom they act, and how hot they are.
+#pragma once
+
+#include <boltzmann/dissipation/dissipation.hpp>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace boltzmann {
+
+class HeatBath : public Dissipation {
+ public:
+  /// A block of space, edges included.
+  struct Block {
+    std::array<double, 3> low, high;
+  };
+
+  /// `temperature` (zero or more), `rate` (per time, positive), Boltzmann's constant in the simulation's units. Error
+  /// otherwise.
+  HeatBath(double temperature, double rate, double boltzmann_constant);
+
+  /// Lets it act on an ensemble, all of them together. Error if its class has no mass and velocity.
+  void on(AnyEnsemble& ensemble);
+  /// Only on those of them that are in this block when it acts. Error if low is not below high.
+  virtual void within(Block const& block);
+  /// From now on: a number, zero or more (Error otherwise), or a function of the time.
+  void temperature(double temperature);
+  void temperature(std::function<double(double time)> of_time) { of_time_ = std::move(of_time); }
+  /// At this time; PhysicsFailure if the function gives no number of zero or more.
+  double temperature_at(double time) const;
+
+  std::vector<AnyEnsemble*> ensembles() const override { return ensembles_; }
+  /// Error where a mass is not positive.
+  void check() override;
+  double heat() const override { return heat_; }
+  std::vector<double> state() const override { return {heat_}; }
+  void restore(std::span<double const> state) override;
+
+ protected:
+  std::optional<Block> const& block() const { return block_; }
+  bool acts_on(double const* row, int dimension) const {
+    if (block_)
+      for (int a = 0; a < dimension; ++a)
+        if (!(row[a] >= block_->low[a] && row[a] <= block_->high[a])) return false;
+    return true;
+  }
+  double rate() const { return rate_; }
+  double boltzmann_constant() const { return boltzmann_constant_; }
+  void add_heat(double heat) { heat_ += heat; }
+
+ private:
+  double temperature_, rate_, boltzmann_constant_;
+  double heat_ = 0;
+  std::function<double(double)> of_time_;
+  std::optional<Block> block_;
+  std::vector<AnyEnsemble*> ensembles_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,118 @@
+// Kinetic energies of baths, added up in one order whatever the threads, and the scaling of velocities.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/threads.hpp>
+#include <boltzmann/dissipation/rescaling_bath.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+constexpr std::size_t rescaling_grain = 2048;
+
+/// The sum of so many numbers over the particles of an ensemble, by grains in their order; add(row, sums) adds those of
+/// one.
+template <std::size_t Numbers, class Add>
+std::array<double, Numbers> sum_over(AnyEnsemble const& ensemble, int threads, Add const& add) {
+  std::vector<std::array<double, Numbers>> parts(ensemble.size() / rescaling_grain + 1, std::array<double, Numbers>{});
+  for_ranges(ensemble.size(), rescaling_grain, threads_for(ensemble.size(), 1, threads),
+             [&](std::size_t begin, std::size_t end) {
+               for (std::size_t i = begin; i < end; ++i) add(ensemble.row(i), parts[i / rescaling_grain]);
+             });
+  std::array<double, Numbers> total{};
+  for (auto const& part : parts)
+    for (std::size_t k = 0; k < Numbers; ++k) total[k] += part[k];
+  return total;
+}
+
+}  // namespace
+
+void RescalingBath::settle(Surroundings const& surroundings) {
+  auto const own = ensembles();
+  takes_all_ = !block() && std::all_of(surroundings.massive.begin(), surroundings.massive.end(), [&](auto const* one) {
+    return std::find(own.begin(), own.end(), one) != own.end();
+  });
+  for (std::size_t a = 0; a < 3; ++a) kept_[a] = takes_all_ && surroundings.momentum_is_kept[a];
+  if (block() || own.empty()) return;
+  Motion const now = motion();
+  if (!(degrees(now) > 0))
+    throw Error("the heat bath of '" + own.front()->name() +
+                "' has no degree of freedom to act on: one particle whose momentum is conserved does not get warm");
+  if (!(now.kinetic > 0) && !surroundings.equilibrates)
+    throw Error("the heat bath of '" + own.front()->name() +
+                "' scales velocities, and nobody moves: give the ensemble a temperature");
+}
+
+RescalingBath::Motion RescalingBath::motion() const {
+  Motion all;
+  bool const relative = std::find(kept_.begin(), kept_.end(), true) != kept_.end();
+  if (relative) {
+    std::array<double, 4> total{};  // momentum, mass
+    for (auto const* ensemble : ensembles()) {
+      int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
+      auto const part = sum_over<4>(*ensemble, threads(), [&](double const* row, std::array<double, 4>& sums) {
+        for (int a = 0; a < ensemble->dimension(); ++a) sums[a] += row[mass] * row[velocity + a];
+        sums[3] += row[mass];
+      });
+      for (std::size_t k = 0; k < 4; ++k) total[k] += part[k];
+    }
+    for (std::size_t a = 0; a < 3; ++a)
+      if (kept_[a]) all.common[a] = total[a] / total[3];
+  }
+  for (auto const* ensemble : ensembles()) {
+    int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
+    auto const part = sum_over<2>(*ensemble, threads(), [&](double const* row, std::array<double, 2>& sums) {
+      if (!acts_on(row, ensemble->dimension())) return;
+      double square = 0;
+      for (int a = 0; a < ensemble->dimension(); ++a) {
+        double const v = row[velocity + a] - all.common[a];
+        square += v * v;
+      }
+      sums[0] += 0.5 * row[mass] * square;
+      sums[1] += 1;
+    });
+    all.kinetic += part[0];
+    all.particles += part[1];
+  }
+  return all;
+}
+
+double RescalingBath::degrees(Motion const& motion) const {
+  if (ensembles().empty()) return 0;
+  int const dimension = ensembles().front()->dimension();
+  double degrees = motion.particles * dimension;
+  for (int a = 0; a < dimension; ++a) degrees -= kept_[a] ? 1 : 0;
+  return degrees;
+}
+
+double RescalingBath::degrees_of_freedom() const { return degrees(motion()); }
+double RescalingBath::kinetic_energy() const { return motion().kinetic; }
+
+void RescalingBath::advance(StepContext const& context) {
+  Motion const now = motion();
+  double const freedom = degrees(now), kT = boltzmann_constant() * temperature_at(context.time);
+  if (!(freedom > 0)) return;  // nobody is in its block
+  if (!(now.kinetic > 0)) {
+    if (kT > 0) throw PhysicsFailure("a heat bath scales velocities, and nobody in it moves");
+    return;
+  }
+  double const scale = factor(now.kinetic, freedom, kT, context);
+  for (auto* ensemble : ensembles()) {
+    int const velocity = ensemble->field("velocity").offset, dimension = ensemble->dimension();
+    for_ranges(ensemble->size(), rescaling_grain, threads_for(ensemble->size(), 1, threads()),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   double* row = ensemble->row(i);
+                   if (!acts_on(row, dimension)) continue;
+                   for (int a = 0; a < dimension; ++a) {
+                     double& v = row[velocity + a];
+                     v = now.common[a] + scale * (v - now.common[a]);
+                   }
+                 }
+               });
+  }
+  add_heat((scale * scale - 1) * now.kinetic);
+}
+
+}  // namespace boltzmann

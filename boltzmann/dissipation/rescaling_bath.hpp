@@ -1,0 +1,43 @@
+// RescalingBath: baths that scale the velocities of all their particles by one factor, so that they act on the kinetic
+// energy alone: stochastic velocity rescaling and chains of Nose and Hoover.
+#pragma once
+
+#include <boltzmann/dissipation/heat_bath.hpp>
+
+#include <array>
+
+namespace boltzmann {
+
+/// Where the total momentum along an axis is kept by everything else, and all particles with mass are in the bath, it is
+/// kept by the bath, too: velocities are those relative to the common one, and a degree of freedom less counts.
+class RescalingBath : public HeatBath {
+ public:
+  using HeatBath::HeatBath;
+
+  bool keeps_momentum() const override { return takes_all_; }
+  bool asks_for_surroundings() const override { return true; }
+  /// Error if no degree of freedom is left, or nobody moves at a temperature above zero.
+  void settle(Surroundings const& surroundings) override;
+  void advance(StepContext const& context) override;
+  /// Of its particles as they stand, those in its block.
+  double degrees_of_freedom() const;
+  /// Relative to the common velocity along axes whose momentum is kept.
+  double kinetic_energy() const;
+
+ protected:
+  /// The factor of all velocities over this step, for this kinetic energy, so many degrees of freedom and k T.
+  virtual double factor(double kinetic, double degrees, double kT, StepContext const& context) = 0;
+
+ private:
+  struct Motion {
+    double particles = 0, kinetic = 0;
+    std::array<double, 3> common{};  // the velocity that stays
+  };
+  Motion motion() const;
+  double degrees(Motion const& motion) const;
+
+  bool takes_all_ = false;
+  std::array<bool, 3> kept_{};
+};
+
+}  // namespace boltzmann

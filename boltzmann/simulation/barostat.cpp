@@ -1,0 +1,243 @@
+// One move of the box: what it is drawn from, and whether it is accepted.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/once.hpp>
+#include <boltzmann/core/random.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/simulation/barostat.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace boltzmann {
+namespace {
+
+constexpr std::uint32_t first_number = 192;  // of barostats, among what random numbers of heat baths are for
+
+OptionTable make_barostat_options() {
+  using namespace option;
+  using B = BarostatOptions;
+  OptionTable all;
+  all.add("pressure", &B::pressure, number_by_space(dimensions::energy, -1, any_number),
+          "that is held; or a formula of the `time` in quotes");
+  all.add("temperature", &B::temperature, number(dimensions::temperature, positive),
+          "of the ensemble: that of the heat bath beside it; or a formula of the `time` in quotes");
+  all.add("compressibility", &B::compressibility, number_by_space(dimensions::none / dimensions::energy, 1, positive),
+          "about - dV / (V dP); a wrong one makes the box slower or faster, and nothing else");
+  all.add("rate", &B::rate, number(dimensions::frequency, positive),
+          "a volume that is off comes back in 1 / rate, for this compressibility");
+  all.add_said("axes", "x, y or z, or a list of them", "whose lengths change, periodic ones", "all");
+  all.add("together", &B::together, flag(),
+          "all of them by one factor, from their mean pressure; else each by its own, from the pressure along it");
+  all.add("every", &B::every, whole(1, std::numeric_limits<double>::infinity()), "steps from one move to the next");
+  all.at("pressure").needed = "\"1 bar\"";
+  all.at("temperature").needed = "\"300 K\"";
+  all.at("compressibility").needed = "\"4.5e-10 1/Pa\"";
+  all.at("rate").needed = "\"1 1/ps\"";
+  return all;
+}
+
+/// The velocity that the system has as a whole, along axes where it keeps its momentum.
+std::array<double, 3> common_velocity(StretchedSystem const& system) {
+  std::array<double, 3> common{};
+  auto const total = momentum(system.ensembles);
+  double const mass = total_mass(system.ensembles);
+  for (std::size_t a = 0; a < 3; ++a) common[a] = system.momentum_is_kept[a] ? total[a] / mass : 0;
+  return common;
+}
+
+}  // namespace
+
+OptionTable const& barostat_options() { return once<make_barostat_options>(); }
+
+/// Energies and pressure of the system as it is.
+struct Barostat::Look {
+  double potential = 0, kinetic = 0, pressure = 0, volume = 0;
+
+  Look(StretchedSystem const& system, std::vector<int> const& axes) {
+    auto const measures = system.measure();
+    potential = measures.potential + measures.external + measures.internal;
+    volume = system.schemes.front()->box().volume();
+    auto const common = common_velocity(system);
+    double virial = 0;
+    for (int const a : axes) virial += measures.virial[a][a];
+    for (auto const* ensemble : system.ensembles) {
+      int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
+      for (std::size_t i = 0; i < ensemble->size(); ++i) {
+        double const* row = ensemble->row(i);
+        for (int const a : axes) {
+          double const v = row[velocity + a] - common[a];
+          kinetic += 0.5 * row[mass] * v * v;
+        }
+      }
+    }
+    pressure = (2 * kinetic + virial) / (static_cast<double>(axes.size()) * volume);
+  }
+};
+
+Barostat::Barostat(BarostatOptions options, double boltzmann_constant)
+    : options_(std::move(options)), boltzmann_constant_(boltzmann_constant) {
+  auto const need_positive = [](double number, char const* what) {
+    if (!(number > 0) || !std::isfinite(number))
+      throw Error(fmt::format("barostat: the {} is positive, not {}", what, number));
+  };
+  if (!std::isfinite(options_.pressure)) throw Error("barostat: the pressure is not finite");
+  need_positive(options_.temperature, "temperature");
+  need_positive(options_.compressibility, "compressibility");
+  need_positive(options_.rate, "rate");
+  need_positive(boltzmann_constant, "constant of Boltzmann");
+  if (options_.every < 1) throw Error(fmt::format("barostat: it moves every 1 or more steps, not {}", options_.every));
+}
+
+void Barostat::pressure(double pressure) {
+  options_.pressure = pressure;
+  pressure_of_time_ = nullptr;
+}
+
+void Barostat::temperature(double temperature) {
+  options_.temperature = temperature;
+  temperature_of_time_ = nullptr;
+}
+
+std::vector<std::vector<int>> Barostat::groups(int dimension) const {
+  std::vector<int> axes = options_.axes;
+  if (axes.empty()) {
+    axes.resize(static_cast<std::size_t>(dimension));
+    std::iota(axes.begin(), axes.end(), 0);
+  }
+  if (options_.together) return {axes};
+  std::vector<std::vector<int>> each;
+  for (int const a : axes) each.push_back({a});
+  return each;
+}
+
+void Barostat::check(StretchedSystem const& system) const {
+  Box const& box = system.schemes.front()->box();
+  for (auto const* scheme : system.schemes)
+    if (!scheme->follows_box())
+      throw Error(
+          "barostat: the box is stretched where all influences are those of pairs; meshes, multipoles, smooth "
+          "particles and bodies do not follow it");
+  if (!box.regions().empty()) throw Error("barostat: a box with regions can't be stretched");
+  for (auto const& group : groups(box.dimension()))
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      int const a = group[k];
+      if (a < 0 || a >= box.dimension())
+        throw Error(fmt::format("barostat: a box of {} dimensions has no axis number {}", box.dimension(), a));
+      if (std::count(group.begin(), group.end(), a) > 1)
+        throw Error(fmt::format("barostat: axis {} is named twice", "xyz"[a]));
+      if (!box.periodic(a))
+        throw Error(fmt::format("barostat: axis {} is {}; periodic axes are stretched (for a piston move a wall)",
+                                "xyz"[a], to_string(box.boundary(a))));
+    }
+  for (auto const* ensemble : system.ensembles)
+    if (!carries_momentum(*ensemble) || ensemble->fields().front().dimension != dimensions::length)
+      throw Error(fmt::format("barostat: '{}' is of class {}, which has no mass and velocity in space",
+                              ensemble->name(), ensemble->class_name()));
+  auto const measures = system.measure();
+  if (!measures.unknown.empty()) throw Error("barostat: energies are needed, and " + measures.unknown + " gives none");
+  if (!measures.no_virial.empty()) throw Error("barostat: the virial is needed: " + measures.no_virial);
+}
+
+double Barostat::act(StretchedSystem const& system, StepContext const& context) {
+  Stream stream(context.seed, context.step, 0,
+                static_cast<std::uint32_t>(Purpose::thermostat) | (first_number + number_) << 8U);
+  if (pressure_of_time_) options_.pressure = pressure_of_time_(context.time);
+  if (temperature_of_time_) options_.temperature = temperature_of_time_(context.time);
+  if (!std::isfinite(options_.pressure) || !(options_.temperature > 0) || !std::isfinite(options_.temperature))
+    throw PhysicsFailure(
+        fmt::format("the formulas of a barostat give the pressure {} and the temperature {}; they must "
+                    "be finite, and the temperature positive",
+                    options_.pressure, options_.temperature));
+  double work = 0;
+  for (auto const& axes : groups(system.schemes.front()->box().dimension()))
+    work += move(system, axes, stream, static_cast<double>(options_.every) * context.dt);
+  return work;
+}
+
+double Barostat::move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream, double duration) {
+  double const kT = boltzmann_constant_ * options_.temperature, mobility = options_.compressibility * options_.rate;
+  double const spread2 = 0.5 * kT * mobility * duration;  // of the root of the volume, over the move
+  auto const mean = [&](Look const& at) {
+    double const root = std::sqrt(at.volume);
+    return root + 0.5 * mobility * root * (at.pressure - options_.pressure + 0.5 * kT / at.volume) * duration;
+  };
+  ++moves_;
+  Look const before(system, axes);
+  double const root = std::sqrt(before.volume), centre = mean(before),
+               drawn = centre + std::sqrt(spread2) * stream.normal(), chance = stream.uniform();
+  if (!(drawn > 0)) return 0;
+  double const ratio = drawn * drawn / before.volume, factor = std::pow(ratio, 1 / static_cast<double>(axes.size()));
+  std::vector<std::vector<double>> rows;
+  for (auto const* ensemble : system.ensembles)
+    rows.emplace_back(ensemble->row(0), ensemble->row(0) + ensemble->size() * ensemble->stride());
+  auto const edges = system.schemes.front()->box().edges();
+  std::array<double, 3> factors{1, 1, 1};
+  double kept = 0;
+  for (int const a : axes) {
+    factors[static_cast<std::size_t>(a)] = factor;
+    kept += system.momentum_is_kept[static_cast<std::size_t>(a)] ? 1 : 0;
+  }
+  stretch(system, factors);
+  Look const after(system, axes);
+  double const gained = after.potential - before.potential + after.kinetic - before.kinetic;
+  double const back = root - mean(after), forth = drawn - centre;
+  double const logarithm = -(gained + options_.pressure * (after.volume - before.volume)) / kT +
+                           std::log(drawn / root) + kept * std::log(factor) +
+                           (forth * forth - back * back) / (2 * spread2);
+  if (std::log(chance) < logarithm) {
+    ++accepted_;
+    return gained;
+  }
+  for (auto* scheme : system.schemes) {
+    scheme->box().edges(edges);
+    scheme->box_changed();
+  }
+  for (std::size_t e = 0; e < rows.size(); ++e) std::copy(rows[e].begin(), rows[e].end(), system.ensembles[e]->row(0));
+  return 0;
+}
+
+void stretch(StretchedSystem const& system, std::array<double, 3> const& factors) {
+  Box const& first = system.schemes.front()->box();
+  std::array<double, 3> middle{};
+  for (int a = 0; a < first.dimension(); ++a) middle[a] = first.low(a) + 0.5 * first.length(a);
+  auto const common = common_velocity(system);
+  for (auto* scheme : system.schemes) {
+    auto edges = scheme->box().edges();
+    for (int a = 0; a < first.dimension(); ++a)
+      if (factors[a] != 1)
+        for (int const end : {a, 3 + a}) edges[end] = middle[a] + factors[a] * (edges[end] - middle[a]);
+    scheme->box().edges(edges);
+  }
+  for (auto* ensemble : system.ensembles) {
+    int const velocity = ensemble->field("velocity").offset;
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double* row = ensemble->row(i);
+      for (int a = 0; a < first.dimension(); ++a) {
+        if (factors[a] == 1) continue;
+        row[a] = middle[a] + factors[a] * (row[a] - middle[a]);
+        row[velocity + a] = common[a] + (row[velocity + a] - common[a]) / factors[a];
+      }
+    }
+    first.wrap(*ensemble);
+  }
+  for (auto* scheme : system.schemes) scheme->box_changed();
+}
+
+std::string Barostat::report() const {
+  if (moves_ == 0) return "";
+  return fmt::format("barostat: {} of {} moves of the box accepted", accepted_, moves_);
+}
+
+std::vector<double> Barostat::state() const { return {static_cast<double>(moves_), static_cast<double>(accepted_)}; }
+
+void Barostat::restore(std::span<double const> state) {
+  if (state.size() != 2) throw Error("the checkpoint does not fit this simulation: it has no barostat");
+  moves_ = static_cast<std::size_t>(state[0]);
+  accepted_ = static_cast<std::size_t>(state[1]);
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,89 @@
+// Barostat: holds the pressure by stretching the box: stochastic cell rescaling (M. Bernetti and G. Bussi, J. Chem. Phys.
+// 153, 114107 (2020)), each move of which is accepted or refused, so that volumes are distributed exactly.
+#pragma once
+
+#include <boltzmann/core/options.hpp>
+#include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/schemes/scheme.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+
+class Stream;
+
+struct BarostatOptions {
+  double pressure = 0;         ///< that it holds: energy over length^D
+  double temperature = 0;      ///< of the ensemble, that of the heat bath beside it
+  double compressibility = 0;  ///< - dV / (V dP), about; with the rate it says how fast the box follows
+  double rate = 0;             ///< a volume that is off comes back in 1 / rate
+  std::vector<int> axes = {};  ///< whose lengths change; empty: all
+  bool together = true;        ///< all of them by one factor; else each by its own, from the pressure along it
+  std::int64_t every = 10;     ///< steps
+};
+OptionTable const& barostat_options();
+
+/// What a barostat acts on. `measure` gives energies and virial of particles and box as they are.
+struct StretchedSystem {
+  std::span<Scheme* const> schemes;
+  std::span<AnyEnsemble* const> ensembles;
+  std::array<bool, 3> momentum_is_kept;
+  std::function<EnergyAndVirial()> measure;
+};
+
+/// Volumes V have the density exp(-(H + P V) / kT) dV, and particles belong to it. The root of V is moved as the
+/// stochastic equation has it, with the force 2 V^(1/2) (P(t) - P) + k T / V^(1/2), P(t) the pressure of now; positions go
+/// with the box and momenta the other way, H changes, and the move is accepted with the probability of Metropolis and
+/// Hastings. So the ensemble does not depend on rate, compressibility or `every`.
+class Barostat {
+ public:
+  /// Error if temperature, compressibility or rate is not positive, or something is not finite.
+  Barostat(BarostatOptions options, double boltzmann_constant);
+
+  /// Refuses what can't be stretched: Error with one line.
+  void check(StretchedSystem const& system) const;
+  /// After the step of this number. Returns the energy that the particles have got. PhysicsFailure if the box becomes
+  /// too small for a law.
+  double act(StretchedSystem const& system, StepContext const& context);
+
+  std::int64_t every() const { return options_.every; }
+  BarostatOptions const& options() const { return options_; }
+  /// From now on: a number, or a function of the time.
+  void pressure(double pressure);
+  void pressure(std::function<double(double time)> of_time) { pressure_of_time_ = std::move(of_time); }
+  void temperature(double temperature);
+  void temperature(std::function<double(double time)> of_time) { temperature_of_time_ = std::move(of_time); }
+  /// Its place among the barostats of a simulation: two never share random numbers.
+  void number(std::uint32_t number) { number_ = number; }
+
+  std::size_t moves() const { return moves_; }
+  std::size_t accepted() const { return accepted_; }
+  std::string report() const;
+  std::vector<double> state() const;
+  void restore(std::span<double const> state);
+
+ private:
+  struct Look;
+  std::vector<std::vector<int>> groups(int dimension) const;
+  double move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream, double duration);
+
+  BarostatOptions options_;
+  double boltzmann_constant_;
+  std::function<double(double)> pressure_of_time_, temperature_of_time_;
+  std::uint32_t number_ = 0;
+  std::size_t moves_ = 0, accepted_ = 0;
+};
+
+/// Stretches the boxes of all schemes about their middle by a factor along each axis, and the particles with them:
+/// positions by the factor, velocities (relative to the common one along axes whose momentum is kept) by its inverse.
+void stretch(StretchedSystem const& system, std::array<double, 3> const& factors);
+
+}  // namespace boltzmann

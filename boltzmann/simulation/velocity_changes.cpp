@@ -1,0 +1,66 @@
+// Sums over the chosen particles, in their order.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/simulation/velocity_changes.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace boltzmann {
+namespace {
+
+/// Calls function(velocity, mass, dimension) for each; a class without mass has 0.
+template <class Function>
+void each_velocity(std::vector<ChosenParticles> const& of, Function const& function) {
+  for (auto const& [ensemble, which] : of) {
+    int const velocity = ensemble->field("velocity").offset;
+    Field const* mass = ensemble->find_field("mass");
+    for (auto const i : which) {
+      double* row = ensemble->row(i);
+      function(row + velocity, mass ? row[mass->offset] : 0, ensemble->dimension());
+    }
+  }
+}
+
+}  // namespace
+
+void scale_velocities(std::vector<ChosenParticles> const& of, double factor) {
+  each_velocity(of, [&](double* v, double, int dimension) {
+    for (int a = 0; a < dimension; ++a) v[a] *= factor;
+  });
+}
+
+void kick(std::vector<ChosenParticles> const& of, std::array<double, 3> const& velocity) {
+  each_velocity(of, [&](double* v, double, int dimension) {
+    for (int a = 0; a < dimension; ++a) v[a] += velocity[a];
+  });
+}
+
+void scale_to_temperature(std::vector<ChosenParticles> const& of, double temperature, double boltzmann_constant) {
+  if (!(temperature >= 0) || !std::isfinite(temperature))
+    throw Error(fmt::format("velocities are scaled to a temperature of zero or more, not {}", temperature));
+  std::array<double, 3> common{};
+  double total = 0, particles = 0, twice_kinetic = 0;
+  int dimension = 1;
+  each_velocity(of, [&](double const* v, double mass, int D) {
+    if (!(mass > 0)) throw Error("velocities are scaled to a temperature where all masses are positive");
+    for (int a = 0; a < D; ++a) common[a] += mass * v[a];
+    total += mass;
+    particles += 1;
+    dimension = D;
+  });
+  if (particles == 0) return;
+  for (double& v : common) v = particles > 1 ? v / total : 0;
+  each_velocity(of, [&](double const* v, double mass, int D) {
+    for (int a = 0; a < D; ++a) twice_kinetic += mass * (v[a] - common[a]) * (v[a] - common[a]);
+  });
+  double const wanted = dimension * (particles > 1 ? particles - 1 : 1) * boltzmann_constant * temperature;
+  if (!(twice_kinetic > 0) && wanted > 0)
+    throw Error("velocities can't be scaled to a temperature: nobody moves against the others");
+  double const factor = wanted > 0 ? std::sqrt(wanted / twice_kinetic) : 0;
+  each_velocity(of, [&](double* v, double, int D) {
+    for (int a = 0; a < D; ++a) v[a] = common[a] + factor * (v[a] - common[a]);
+  });
+}
+
+}  // namespace boltzmann
