@@ -289,6 +289,7 @@ std::string scenario_schema() {
       {"influences", influences()},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
+      {"minimise", closed("minimise")},
       {"relaxation", closed("relaxation")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"remesh", one_or_tables(closed("remesh"))},

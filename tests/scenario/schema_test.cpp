@@ -85,6 +85,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"smooth", {start + "[smooth]\n" + wrong + ensemble("Smooth")}},
       {"smooth.rezone", {start + "[[smooth.rezone]]\nevery = 1\n" + wrong + ensemble("Smooth")}},
       {"relaxation", {start + "[relaxation]\nevery = 1\n" + wrong + atoms}},
+      {"minimise", {start + "[minimise]\n" + wrong + atoms}},
       {"equilibrate", {start + "[equilibrate]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
       {"classes", {start + "[[classes]]\nname = \"A\"\nbase = \"Newton\"\n" + wrong + atoms}},
       {"classes.fields",
