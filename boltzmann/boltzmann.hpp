@@ -63,6 +63,7 @@
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/laws/vorticity_exchange.hpp>
+#include <boltzmann/loaders/disc_load.hpp>
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/jitter.hpp>

@@ -167,12 +167,12 @@ std::string allowed(Option const& option) {
   };
   std::string const of_the_rest = kind.words.empty() ? "a quantity of what is shown" : kind.words.front();
   std::string const quantity =
-      kind.counted_in != 1                  ? "degrees"
-      : !kind.dimension                     ? of_the_rest
-      : *kind.dimension == dimensions::none ? "a number"
+      kind.counted_in != 1 ? "degrees"
+      : !kind.dimension    ? of_the_rest
       : kind.by_space != 0
           ? "in 3D " + with_article(name_of(*kind.dimension * pow(dimensions::length, 3 * kind.by_space)))
-          : with_article(name_of(*kind.dimension));
+      : *kind.dimension == dimensions::none ? "a number"
+                                            : with_article(name_of(*kind.dimension));
   switch (kind.form) {
     case flag:
       return "true or false";

@@ -72,6 +72,7 @@ class WithDrivenFields final : public Integrator {
   int stages() const override { return inner_->stages(); }
   double time_after(int stage) const override { return inner_->time_after(stage); }
   bool same_for_all() const override { return inner_->same_for_all(); }
+  std::span<std::uint32_t const> resting() const override { return inner_->resting(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
   EquationsOfMotion* equations_of_motion() override { return inner_->equations_of_motion(); }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -102,6 +103,8 @@ class Integrator {
   virtual Motion advance(int stage, StepContext const& context) = 0;
   /// False if some particles are treated in another way than method() has it.
   virtual bool same_for_all() const { return true; }
+  /// The numbers of those that stay where they are while others move.
+  virtual std::span<std::uint32_t const> resting() const { return {}; }
   /// What a method without stages works on, which advances all ensembles together; null for methods of stages.
   virtual EquationsOfMotion* equations_of_motion() { return nullptr; }
   /// Puts the state on a grid (reversible leap-frog only).

@@ -149,9 +149,6 @@ namespace {
 
 /// How many cells there are along each axis.
 std::array<double, 3> cells_of(Filling const& filling, int dimension) {
-  if (filling.kind != Lattice::square && filling.kind != Lattice::triangular)
-    throw Error(
-        fmt::format("lattice {} does not fill blocks of any size; square and triangular do", to_string(filling.kind)));
   check(LatticeBlock{filling.kind, filling.spacing, {1, 1, 1}, filling.low}, dimension);
   Cell const cell = cell_of(filling.kind, dimension);
   std::array<double, 3> cells{1, 1, 1};
@@ -166,13 +163,33 @@ std::array<double, 3> cells_of(Filling const& filling, int dimension) {
   return cells;
 }
 
+/// Of cells with several sites, the outermost as far from the ends as each other.
+void fill_cells(Filling const& filling, Cell const& cell, std::array<double, 3> const& cells,
+                std::vector<Place>& places) {
+  Place furthest{0, 0, 0};  // of the sites of a cell, in parts of its edges
+  for (Place const& site : cell.sites)
+    for (std::size_t a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], site[a] / cell.edges[a]);
+  for (double z = 0; z < cells[2]; ++z)
+    for (double y = 0; y < cells[1]; ++y)
+      for (double x = 0; x < cells[0]; ++x)
+        for (Place const& site : cell.sites) {
+          Place const number{x, y, z};
+          Place place{0, 0, 0};
+          for (std::size_t a = 0; a < 3; ++a)
+            place[a] = filling.low[a] + (filling.high[a] - filling.low[a]) / cells[a] *
+                                            (number[a] + site[a] / cell.edges[a] + 0.5 * (1 - furthest[a]));
+          places.push_back(place);
+        }
+}
+
 }  // namespace
 
 std::size_t filling_count(Filling const& filling, int dimension) {
   auto const cells = cells_of(filling, dimension);
-  double const count = cells[0] * cells[1] * cells[2];
+  double const count =
+      cells[0] * cells[1] * cells[2] * static_cast<double>(cell_of(filling.kind, dimension).sites.size());
   if (count > std::numeric_limits<std::uint32_t>::max())
-    throw Error(fmt::format("lattice: a block of {:.0f} cells has too many sites", count));
+    throw Error(fmt::format("lattice: a block of {:.0f} sites has too many", count));
   return static_cast<std::size_t>(count);
 }
 
@@ -180,8 +197,13 @@ std::vector<Place> filling_sites(Filling const& filling, int dimension) {
   std::size_t const count = filling_count(filling, dimension);
   auto const cells = cells_of(filling, dimension);
   bool const shifted = filling.kind == Lattice::triangular;
+  Cell const cell = cell_of(filling.kind, dimension);
   std::vector<Place> places;
   places.reserve(count);
+  if (cell.sites.size() > 1) {
+    fill_cells(filling, cell, cells, places);
+    return places;
+  }
   for (std::size_t k = 0; k < count; ++k) {
     auto const x = static_cast<std::size_t>(cells[0]), y = static_cast<std::size_t>(cells[1]);
     std::array<std::size_t, 3> const number{k % x, k / x % y, k / x / y};
@@ -200,7 +222,36 @@ double site_volume(Filling const& filling, int dimension) {
   auto const cells = cells_of(filling, dimension);
   double volume = 1;
   for (int a = 0; a < dimension; ++a) volume *= (filling.high[a] - filling.low[a]) / cells[a];
-  return volume;
+  return volume / static_cast<double>(cell_of(filling.kind, dimension).sites.size());
+}
+
+double spacing_for_number(Filling filling, int dimension, std::size_t number) {
+  double volume = 1;
+  for (int a = 0; a < dimension; ++a) volume *= filling.high[a] - filling.low[a];
+  double const even = spacing_for_density(filling.kind, dimension, static_cast<double>(number) / volume);
+  Cell const cell = cell_of(filling.kind, dimension);
+  // Between two of these no count of cells changes.
+  double const from = even / 1.5, to = even * 1.5;
+  std::vector<double> changes{from, to};
+  for (int a = 0; a < dimension; ++a)
+    for (double half = 0.5; true; half += 0.5) {
+      double const change = (filling.high[a] - filling.low[a]) / (cell.edges[a] * half);
+      if (change < from) break;
+      if (change < to) changes.push_back(change);
+    }
+  std::sort(changes.begin(), changes.end());
+  double best = 0;
+  std::size_t below = 0, above = 0;
+  for (std::size_t k = 0; k + 1 < changes.size(); ++k) {
+    filling.spacing = 0.5 * (changes[k] + changes[k + 1]);
+    std::size_t const count = filling_count(filling, dimension);
+    if (count == number && std::abs(filling.spacing - even) < std::abs(best - even)) best = filling.spacing;
+    if (count < number) below = std::max(below, count);
+    if (count > number) above = above == 0 ? count : std::min(above, count);
+  }
+  if (best > 0) return best;
+  throw Error(fmt::format("lattice: no number of {} cells that fills this block has {} sites; {} or {} would do",
+                          to_string(filling.kind), number, below, above));
 }
 
 namespace {

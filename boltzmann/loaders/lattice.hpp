@@ -50,10 +50,11 @@ LatticeBlock centred(LatticeBlock block, Box const& box);
 double spacing_for_density(Lattice kind, int dimension, double number_density);
 
 /// A lattice that fills the block from `low` to `high` exactly: as many cells along each axis as come nearest to this
-/// spacing, stretched to fit, with a site in the middle of each. A triangular lattice has an even number of rows, so
-/// that it also fills a periodic box. For particles that carry mass: each has the same share of the volume.
+/// spacing, stretched to fit, with a site in the middle of each (of cells with several sites: the outermost equally far
+/// from both ends). A triangular lattice has an even number of rows, so that it also fills a periodic box. For particles
+/// that carry mass: each has the same share of the volume.
 struct Filling {
-  Lattice kind = Lattice::square;  ///< or triangular
+  Lattice kind = Lattice::square;
   double spacing = 1;
   std::array<double, 3> low{0, 0, 0}, high{1, 1, 1};
   double density = 0;  ///< fill_load: mass per length, area or volume; 0: masses stay as they are
@@ -65,6 +66,10 @@ std::size_t filling_count(Filling const& filling, int dimension);
 std::vector<std::array<double, 3>> filling_sites(Filling const& filling, int dimension);
 /// The length, area or volume that each site has.
 double site_volume(Filling const& filling, int dimension);
+
+/// The spacing at which a filling has so many sites, with cells as regular as can be; Error with the next numbers that
+/// fit, if none does.
+double spacing_for_number(Filling filling, int dimension, std::size_t number);
 
 /// Puts particle k on site k; an ensemble without particles gets one for each site, and is drawn with the diameter of
 /// the spacing unless it has one. Returns how many were placed: all of the ensemble. Error if it has particles, but not

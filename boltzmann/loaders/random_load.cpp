@@ -5,6 +5,7 @@
 #include <boltzmann/loaders/placing.hpp>
 #include <boltzmann/loaders/quiet_start.hpp>
 #include <boltzmann/loaders/random_load.hpp>
+#include <boltzmann/loaders/random_places.hpp>
 
 #include <fmt/format.h>
 
@@ -40,113 +41,81 @@ Field const& velocity_field(AnyEnsemble const& ensemble) {
   return velocity;
 }
 
-/// The particles placed so far, in cells at least as wide as the minimum distance.
-class Neighbourhood {
- public:
-  Neighbourhood(AnyEnsemble const& ensemble, Box const& box, double distance)
-      : ensemble_(ensemble), box_(box), distance2_(distance * distance), next_(ensemble.size(), nobody) {
-    double const most = std::max(
-        1.0, std::floor(std::pow(2.0 * static_cast<double>(ensemble.size()) + 1.0, 1.0 / ensemble.dimension())));
-    std::size_t total = 1;
-    for (int a = 0; a < box.dimension(); ++a) {
-      cells_[a] = static_cast<std::size_t>(std::clamp(std::floor(box.length(a) / distance), 1.0, most));
-      total *= cells_[a];
-    }
-    first_.assign(total, nobody);
-  }
+/// Of the density that the whole box would have.
+double spheres_in(Box const& box, std::size_t count, double diameter) {
+  return static_cast<double>(count) * ball_volume(box.dimension(), diameter) / box.volume();
+}
 
-  bool free(double const* x) const {
-    std::array<std::array<std::size_t, 3>, 3> near{};
-    std::array<std::size_t, 3> count{1, 1, 1};
-    for (int a = 0; a < box_.dimension(); ++a) {
-      std::size_t const here = cell(a, x[a]), last = cells_[a] - 1;
-      count[a] = 0;
-      auto const look = [&](std::size_t c) {
-        for (std::size_t k = 0; k < count[a]; ++k)
-          if (near[a][k] == c) return;
-        near[a][count[a]++] = c;
-      };
-      look(here);
-      if (here > 0 || box_.periodic(a)) look(here > 0 ? here - 1 : last);
-      if (here < last || box_.periodic(a)) look(here < last ? here + 1 : 0);
-    }
-    for (std::size_t k2 = 0; k2 < count[2]; ++k2)
-      for (std::size_t k1 = 0; k1 < count[1]; ++k1)
-        for (std::size_t k0 = 0; k0 < count[0]; ++k0)
-          for (std::size_t j = first_[(near[2][k2] * cells_[1] + near[1][k1]) * cells_[0] + near[0][k0]]; j != nobody;
-               j = next_[j])
-            if (distance2(x, ensemble_.row(j)) < distance2_) return false;
-    return true;
-  }
+[[noreturn]] void refuse_full_box(AnyEnsemble const& ensemble, Box const& box, double distance, std::size_t placed) {
+  int const D = box.dimension();
+  throw Error(fmt::format(
+      "random load: the box is full with {} of the {} particles of '{}' at the minimum distance {} (packing fraction "
+      "{:.3f}; random addition ends at {} in {}D); for all of them it must be well below {:.3g}, or take a lattice",
+      placed, ensemble.size(), ensemble.name(), distance, spheres_in(box, placed, distance), saturation(D), D,
+      distance_for_packing(box, ensemble.size(), saturation(D))));
+}
 
-  void add(std::size_t i) {
-    double const* x = ensemble_.row(i);
-    std::array<std::size_t, 3> at{0, 0, 0};
-    for (int a = 0; a < box_.dimension(); ++a) at[a] = cell(a, x[a]);
-    std::size_t& first = first_[(at[2] * cells_[1] + at[1]) * cells_[0] + at[0]];
-    next_[i] = first;
-    first = i;
-  }
-
- private:
-  static constexpr std::size_t nobody = ~std::size_t{0};
-
-  std::size_t cell(int a, double x) const {
-    double const c = std::floor((x - box_.low(a)) / box_.length(a) * static_cast<double>(cells_[a]));
-    return static_cast<std::size_t>(std::clamp(c, 0.0, static_cast<double>(cells_[a] - 1)));
-  }
-  double distance2(double const* x, double const* y) const {
-    std::array<double, 3> d{0, 0, 0};
-    for (int a = 0; a < box_.dimension(); ++a) d[a] = x[a] - y[a];
-    box_.nearest_image(d.data());
-    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-  }
-
-  AnyEnsemble const& ensemble_;
-  Box const& box_;
-  double distance2_;
-  std::array<std::size_t, 3> cells_{1, 1, 1};
-  std::vector<std::size_t> first_, next_;
-};
-
-/// The distance at which N particles fill a box as densely as random placing can (jamming coverage of random sequential
-/// addition: 0.7476 in 1D, 0.547 in 2D, 0.384 in 3D).
-double jamming_distance(Box const& box, std::size_t count) {
-  double const volume = box.volume() / static_cast<double>(count);
-  if (box.dimension() == 1) return 0.7476 * volume;
-  if (box.dimension() == 2) return std::sqrt(0.547 * volume * 4 / pi);
-  return std::cbrt(0.384 * volume * 6 / pi);
+double minimum_distance_of(AnyEnsemble const& ensemble, Box const& box, RandomLoadOptions const& options) {
+  double const fraction = options.packing_fraction, distance = options.minimum_distance;
+  if (!(distance >= 0) || !std::isfinite(distance))
+    throw Error(fmt::format("random load: the minimum distance must not be negative, it is {}", distance));
+  if (fraction == 0 || ensemble.size() == 0) return distance;
+  if (distance > 0) throw Error("random load: a packing fraction says the minimum distance, too; leave one out");
+  if (options.where || !box.regions().empty())
+    throw Error(
+        "random load: a packing fraction is of the whole box, of which 'where' and regions leave an unknown part; give "
+        "the minimum distance");
+  check_packing(fraction, box.dimension());
+  return distance_for_packing(box, ensemble.size(), fraction);
 }
 
 }  // namespace
 
+void check_packing(double fraction, int dimension) {
+  if (fraction > 0 && fraction < saturation(dimension)) return;
+  throw Error(fmt::format(
+      "the packing fraction {} is out of reach: {}-dimensional {} that are added at random leave no place for another "
+      "one at {}; take less, or a lattice",
+      fraction, dimension,
+      dimension == 1   ? "rods"
+      : dimension == 2 ? "discs"
+                       : "spheres",
+      saturation(dimension)));
+}
+
+double distance_for_packing(Box const& box, std::size_t count, double fraction) {
+  double const volume = fraction * box.volume() / static_cast<double>(count);
+  return std::pow(volume / ball_volume(box.dimension(), 1), 1.0 / box.dimension());
+}
+
+double count_for_packing(Box const& box, double distance, double fraction) {
+  return std::floor(fraction * box.volume() / ball_volume(box.dimension(), distance) * (1 + 1e-12));
+}
+
 void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const& options) {
-  double const minimum_distance = options.minimum_distance;
   check_dimension(ensemble, box, "random load");
-  if (!(minimum_distance >= 0) || !std::isfinite(minimum_distance))
-    throw Error(fmt::format("random load: the minimum distance must not be negative, it is {}", minimum_distance));
+  double const minimum_distance = minimum_distance_of(ensemble, box, options);
+  if (options.packing_fraction > 0 && ensemble.appearance.diameter == 0)
+    ensemble.appearance.diameter = minimum_distance;
   bool const keep_apart = minimum_distance > 0;
-  std::optional<Neighbourhood> placed;
+  std::optional<PlacedParticles> placed;
+  std::optional<FreeBlocks> blocks;  // once it has become difficult
   if (keep_apart) placed.emplace(ensemble, box, minimum_distance);
   std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "random");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::position);
     std::array<double, 3> x{};
-    int draws = 0;
-    auto const there = [&] { return allowed(box, x.data()) && (!options.where || options.where(x.data())); };
-    do {
-      if (++draws > longest_search) {
-        if (!keep_apart)
-          throw Error(fmt::format("random load: {} no place for particle {} of '{}'",
-                                  options.where ? "'where' and regions leave" : "the regions leave", i,
-                                  ensemble.name()));
-        throw Error(
-            fmt::format("random load: found no place for particle {} of '{}' with the minimum distance {}; for {} "
-                        "particles in this box it must be well below {:.3g}",
-                        i, ensemble.name(), minimum_distance, ensemble.size(), jamming_distance(box, ensemble.size())));
-      }
+    auto const there = [&](double const* at) { return allowed(box, at) && (!options.where || options.where(at)); };
+    bool found = false;
+    for (int draws = 0; draws < longest_search && !found && !blocks; ++draws) {
       for (int a = 0; a < box.dimension(); ++a) x[a] = on_axis(box, a, stream.uniform());
-    } while (!there() || (placed && !placed->free(x.data())));
+      found = there(x.data()) && (!placed || placed->free(x.data()));
+    }
+    if (!found && !keep_apart)
+      throw Error(fmt::format("random load: {} no place for particle {} of '{}'",
+                              options.where ? "'where' and regions leave" : "the regions leave", i, ensemble.name()));
+    if (!found && !blocks) blocks.emplace(box, *placed, minimum_distance, ensemble.size());
+    if (!found && !blocks->draw(stream, there, x.data())) refuse_full_box(ensemble, box, minimum_distance, i);
     std::copy_n(x.data(), box.dimension(), ensemble.row(i));
     if (placed) placed->add(i);
   }

@@ -18,14 +18,24 @@ namespace boltzmann {
 
 struct RandomLoadOptions {
   double minimum_distance = 0;
+  double packing_fraction = 0;  ///< instead: of the box, which rods, discs or spheres as wide as that fill
   std::uint64_t seed = 1;
   std::function<bool(double const*)> where{};  ///< of a place, only where it is true; without it everywhere
 };
 
 /// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in, and
 /// where `where` says so: a box as small as the shape finds places fast. With a minimum distance, particle i is drawn
-/// again until it is that far from particles 0..i-1 (nearest images on periodic axes). Error if no place is found: the box is too full; the message says about how far it can go.
+/// again until it is that far from particles 0..i-1 (nearest images on periodic axes): random sequential addition. Error
+/// if there is no place any more, with the fraction reached. Of a packing fraction the distance follows (the ensemble is
+/// drawn so wide unless it has a diameter). Error if it is not below saturation, 0.7476 in 1D, 0.547 in 2D, 0.384 in 3D,
+/// or there are regions or a `where`.
 void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const& options = {});
+
+/// The minimum distance at which so many particles have this packing fraction, and how many have it at a distance.
+double distance_for_packing(Box const& box, std::size_t count, double fraction);
+double count_for_packing(Box const& box, double distance, double fraction);
+/// Error, with the limit, for a packing fraction that random addition can't reach.
+void check_packing(double fraction, int dimension);
 
 /// One component of a field drawn from any random variable: RandomLoad of section B.9.1, for example with Ripple on
 /// "position". Components count from 0. Error if there is no such field or component.

@@ -27,6 +27,7 @@ void print_summary(Recording const& recording, RunReport const& report, Conserve
   fmt::print("\n{} particles{}, {} steps to step {}, time {}\n\n", report.particles,
              changed ? fmt::format(" at the start, {} at the end", now) : "", report.steps, simulation.step(),
              recording.units().text(simulation.time(), dimensions::time, 6));
+  if (simulation.minimised()) fmt::print("  minimised {}\n\n", text(*simulation.minimised(), recording.units()));
   if (report.steps > 0) {
     for (auto const& line : conserved_table(start, end, recording.units())) fmt::print("{}\n", line);
     double const work = std::max(report.seconds - recorded, 1e-9);
@@ -88,6 +89,9 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   if (!options.quiet) print_summary(recording, report, *start, end, recorded);
   for (auto const& line : drift_warnings(*start, end, recording.units()))
     fmt::print(stderr, "{}{}\n", options.warnings ? "" : recording.folder() + ": ", line);
+  if (auto const& minimised = simulation.minimised(); minimised && !minimised->converged)
+    fmt::print(stderr, "{}warning: the minimum before the run was not reached: {}\n",
+               options.warnings ? "" : recording.folder() + ": ", text(*minimised, recording.units()));
   if (report.interrupted || report.out_of_time)
     fmt::print(stderr, "{} after step {}; its checkpoint is written: {}/checkpoint.h5\n",
                report.interrupted ? "stopped by a signal" : "out of time", simulation.step(), recording.folder());

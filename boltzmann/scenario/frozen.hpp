@@ -23,6 +23,7 @@ class Frozen final : public Integrator {
   double time_after(int stage) const override { return inner_->time_after(stage); }
   void prepare(FixedPoint const& grid) override { inner_->prepare(grid); }
   bool same_for_all() const override { return false; }
+  std::span<std::uint32_t const> resting() const override { return which_; }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

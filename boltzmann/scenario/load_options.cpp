@@ -20,7 +20,10 @@ OptionTable make_members() {
   all.add_of<L>(
       "lattice", [](L& l) -> OptionPlace { return named_value(&l.lattice, lattice_words()); },
       word(lattice_words().names()), "`\"square\"`: in 1D a line, in 3D simple cubic");
-  all.add("spacing", &L::spacing, number(dimensions::length, positive), "of nearest neighbours");
+  all.add("spacing", &L::spacing, number(dimensions::length, positive), "of nearest neighbours",
+          "`number_density` says it");
+  all.add("number_density", &L::number_density, number_by_space(dimensions::none, -1, positive),
+          "instead of the spacing: particles per length, area or volume", "`spacing` says it");
   all.add_said("counts", "a list of whole numbers, one for each axis", "cells along each axis");
   all.add_said("origin", "a length along each axis, or `\"centred\"`", "of the first site", "centred in the box");
   all.add("jitter", &L::jitter, number(dimensions::none, {0, 1}),
@@ -29,6 +32,11 @@ OptionTable make_members() {
   all.add_said("high", "a length along each axis", "where it ends", "the box");
   all.add_said("where", "a [formula](#formulas)", "only where it is true: `\"r < 1\"`", "everywhere");
   all.add("minimum_distance", &L::minimum_distance, number(dimensions::length, not_negative), "between any two");
+  all.add(
+      "packing_fraction", &L::packing_fraction, number(dimensions::none, {0, 0.7476, true}),
+      "of the block, filled by rods, discs or spheres that don't overlap, added at random: below 0.7476 in 1D, 0.547 "
+      "in 2D, 0.384 in 3D. `number` says how wide they are, or `minimum_distance` how many",
+      "none");
   all.add("axis", &L::axis, axis_word(), "of the wave");
   all.add("mode", &L::mode, whole(1, unlimited), "periods in the box", "or `wave_number`");
   all.add("wave_number", &L::wave_number, number(dimensions::wave_number, positive), "2 pi over the wave's length",
@@ -58,6 +66,15 @@ OptionTable make_members() {
           "Newton's constant, by which they move", "that of nature; 1 of pure numbers");
   all.add("centre", &L::centre, vector(dimensions::length), "of the cluster", "0 on each axis");
   all.add("drift", &L::drift, vector(dimensions::velocity), "how the cluster moves", "0 on each axis");
+  all.add_of<L>(
+      "profile", [](L& l) -> OptionPlace { return named_value(&l.profile, disc_profile_words()); },
+      word(disc_profile_words().names()),
+      "`\"exponential\"`: the surface density falls as exp(-R / radius); `\"kuzmin\"`: as (R^2 + radius^2)^(-3/2); "
+      "`\"uniform\"`");
+  all.add("edge", &L::edge, number(dimensions::length, positive), "where the disc ends",
+          "5 radii; of a uniform one its radius");
+  all.add("central_mass", &L::central_mass, number(dimensions::mass, not_negative),
+          "of another ensemble in the middle, about which they move, too");
   all.add("normal", &L::normal, vector(dimensions::none), "in 3D, of any length: the ring goes around it",
           "the z axis");
   all.add("ripple", &L::ripple, number(dimensions::none, {-1, 1}), "its radius is radius (1 + ripple cos(mode angle))");
@@ -70,7 +87,6 @@ OptionTable make_members() {
   all.at("core_radius").needed = "0.1";
   all.at("mass").needed = "\"1e4 Msun\"";
   all.at("radius").needed = "\"1 pc\"";
-  all.at("spacing").needed = "\"2.551 angstrom\"";
   all.at("counts").needed = "[25, 10]";
   all.at("amplitude").needed = "0.1";
   all.at("temperature").needed = "\"300 K\"";
@@ -83,20 +99,37 @@ OptionTable make_members() {
 std::vector<LoadKind> make_kinds() {
   OptionTable const members = make_members();
   auto const of = [&](std::vector<OptionKey> const& keys) { return members.only(keys); };
-  OptionKey const simple{"lattice", "in 1D a line, in 3D simple cubic", "", "", word({"square", "triangular"})};
-  OptionKey const about{"spacing", "about that of nearest neighbours: cells fill the block exactly", "", "0.1"};
+  OptionKey const about{"spacing", "about that of nearest neighbours: cells fill the block exactly",
+                        "`number_density` or the ensemble's `number` says it"};
+  OptionKey const about_density{"number_density", "instead of the spacing: about so many per length, area or volume"};
   return {
-      {"block", "a block of crystal", false, of({{"lattice"}, {"spacing"}, {"counts"}, {"origin"}, {"jitter"}})},
+      {"block", "a block of crystal", false,
+       of({{"lattice"}, {"spacing"}, {"number_density"}, {"counts"}, {"origin"}, {"jitter"}})},
       {"fill", "a lattice that fills a block exactly, a particle in the middle of each cell", false,
-       of({simple, about, {"low"}, {"high"}, {"where"}, {"jitter"}})},
+       of({{"lattice"}, about, about_density, {"low"}, {"high"}, {"where"}, {"jitter"}})},
       {"random", "uniform in the box, or in a part of it", true,
-       of({{"low", "where their block begins"}, {"high", "where it ends"}, {"where"}, {"minimum_distance"}})},
+       of({{"low", "where their block begins"},
+           {"high", "where it ends"},
+           {"where"},
+           {"minimum_distance"},
+           {"packing_fraction"}})},
       {"quiet", "uniform without noise: in order along x, evenly in bit-reversed order along the others", true, {}},
       {"sinusoidal", "a density with a wave", true,
        of({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}, {"amplitude"}, {"quiet"}})},
       {"barometric", "the barometric density along the last axis", true, of({{"temperature"}, {"acceleration"}})},
       {"plummer-sphere", "Plummer's cluster of stars, at rest in its own gravity, with masses and velocities", true,
        of({{"mass"}, {"radius"}, {"G"}, {"centre"}, {"drift"}})},
+      {"disc", "a disc of masses, each on a circle in the gravity of all", true,
+       of({{"profile"},
+           {"mass", "of all together; 0: they feel the middle alone", "", "\"5e10 Msun\"",
+            number(dimensions::mass, not_negative)},
+           {"radius", "over which it falls; where a uniform one ends", "", "\"3 kpc\""},
+           {"edge"},
+           {"central_mass"},
+           {"G"},
+           {"centre", "of the disc"},
+           {"drift", "how the disc moves"},
+           {"normal", "in 3D, of any length: they go around it"}})},
       {"ring", "evenly on a circle", true,
        of({{"radius", "of the circle", "", "1"},
            {"centre", "of the circle"},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/loaders/disc_load.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 
 #include <array>
@@ -15,9 +16,10 @@ namespace boltzmann {
 /// What is a plain number or word; counts, places, formulas and files are read by code.
 struct LoadOptions {
   Lattice lattice = Lattice::square;
-  double spacing = 1;
+  std::optional<double> spacing, number_density;
   double jitter = 0;  ///< a part of the spacing
   double minimum_distance = 0;
+  std::optional<double> packing_fraction;
   std::string axis = "x";
   std::int64_t mode = 0;  ///< 0: the wave number is given
   std::optional<double> wave_number;
@@ -30,6 +32,9 @@ struct LoadOptions {
   double mass = 1, radius = 1;
   std::optional<double> G;
   std::optional<std::array<double, 3>> centre, drift, normal;
+  DiscProfile profile = DiscProfile::exponential;
+  std::optional<double> edge;
+  double central_mass = 0;
   double ripple = 0;
   double circulation = 1, core_radius = 1, overlap = 1.25;
   std::int64_t layers = 4, sections = 0;

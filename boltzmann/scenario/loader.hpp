@@ -40,6 +40,7 @@ class Loader {
   };
   static Way const& way_of(std::string_view kind);
 
+  void read_spacing(std::optional<std::size_t> number, Place const& number_place);
   double read_block();
   void refuse_overlapping_ends(std::array<double, 3> const& lengths);
   void load_block(AnyEnsemble& particles);
@@ -49,12 +50,16 @@ class Loader {
   /// A lattice that fills the block from low to high (without them the box), where a formula says so.
   double read_fill();
   double read_random();
+  Box part_of_box() const;
   void load_random(AnyEnsemble& particles);
   void load_quiet(AnyEnsemble& particles);
   double read_wave();
   void load_sinusoidal(AnyEnsemble& particles);
   void load_barometric(AnyEnsemble& particles);
+  double newton_constant() const;
   void load_plummer(AnyEnsemble& particles);
+  double read_disc();
+  void load_disc(AnyEnsemble& particles);
   double read_ring();
   void load_ring(AnyEnsemble& particles);
   double read_vortex_ring();
@@ -67,6 +72,7 @@ class Loader {
 
   Reading& reading_;
   ClassVariant const* variant_;
+  bool spacing_known_ = false, corners_read_ = false;
   Section section_;
   Place place_;
   LoadKind const* kind_ = nullptr;

@@ -6,6 +6,7 @@
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/tail_correction.hpp>
 
 #include <fmt/format.h>
@@ -84,6 +85,7 @@ class InfluenceReader {
     on_ = section_.find("on");
     if (!external()) by_ = section_.find("by"), between_ = section_.find("between");
     read_ensembles();
+    read_every();
     if (!law_ || refused_with_smooth() || refused_with_bodies()) return;
     auto const parameters = read_parameters(section_, fmt::format("law '{}'", law_->name), law_->parameters, reading_);
     if (external())
@@ -131,6 +133,7 @@ class InfluenceReader {
     if (!from_outside_ || (where && where->is(Item::Kind::table)))
       typed_.where = read_formula_parts(section_, reading_);
     read_ensembles();
+    read_every();
     read_end();
     read_tail();
     if (!from_outside_)
@@ -330,6 +333,32 @@ class InfluenceReader {
     reading_.mistake(item.place,
                      fmt::format("{}: '{}' twice; within one ensemble write on = \"{}\"", key, a_->name, a_->name));
     a_ = nullptr;
+  }
+
+  /// Slow laws have a scheme of their own, one for each number of steps.
+  void read_every() {
+    Item const* item = section_.find("every");
+    auto const steps = item ? read_integer(*item, "every", 1, 1'000'000, reading_.context) : std::nullopt;
+    if (!steps || *steps == 1 || !pairs_ || !reading_.box) return;
+    if (a_ && a_->smooth())
+      return reading_.mistake(item->place, "every: laws on smooth particles are calculated in each step; leave it out");
+    if (reading_.result->scheme<MeshScheme>())
+      return reading_.mistake(
+          item->place,
+          "every: a scenario with a [mesh] has all its pair laws in that scheme, which is calculated "
+          "in each step; leave it out");
+    for (auto const& [slow, of_slow] : reading_.slow)
+      if (of_slow == *steps)
+        if (auto* pairs = dynamic_cast<PairScheme*>(slow)) {
+          pairs_ = pairs;
+          return;
+        }
+    auto own = std::make_unique<PairScheme>(*reading_.box, reading_.run.cutoff.value_or(no_cutoff));
+    own->threads(reading_.run.threads);
+    if (reading_.run.skin) own->skin(*reading_.run.skin);
+    pairs_ = own.get();
+    reading_.slow.emplace_back(pairs_, *steps);
+    reading_.result->schemes.push_back(std::move(own));
   }
 
   void read_pairs() {

@@ -85,6 +85,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
       Way{"sinusoidal", &Loader::read_wave, &Loader::load_sinusoidal},
       Way{"barometric", nullptr, &Loader::load_barometric},
       Way{"plummer-sphere", nullptr, &Loader::load_plummer},
+      Way{"disc", &Loader::read_disc, &Loader::load_disc},
       Way{"ring", &Loader::read_ring, &Loader::load_ring},
       Way{"ring-tube", &Loader::read_vortex_ring, &Loader::load_vortex_ring},
       Way{"positions", &Loader::read_positions, &Loader::load_places},
@@ -108,12 +109,12 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   section_.explain_word("kind", kind_->doc);
   read_options(section_, kind_->options, &options_, {.dimension = reading_.dimension});
   block_.kind = options_.lattice;
-  block_.spacing = options_.spacing;
   way_ = &way_of(*name);
+  if (kind_->options.find("spacing")) read_spacing(number, number_place);
   double own_count = way_->read ? (this->*way_->read)() : 0;
   section_.finish();
   if (reading_.context.mistakes.count() != before) return false;
-  if (kind_->counted) {
+  if (kind_->counted && own_count == 0) {
     if (!number) {
       reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", *name));
       return false;
@@ -128,6 +129,30 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
   count_ = static_cast<std::size_t>(own_count);
   return count_ > 0;
+}
+
+/// Of a lattice: as it says, or as its density does, or the number of those that fill a block.
+void Loader::read_spacing(std::optional<std::size_t> number, Place const& number_place) {
+  bool const fills = kind_->name == "fill";
+  block_.spacing = 1;
+  if (options_.spacing) {
+    block_.spacing = *options_.spacing;
+    section_.refuse("number_density", "'spacing' says it, too; leave one out");
+  } else if (options_.number_density) {
+    catch_errors(reading_, section_.place("number_density"), [&] {
+      if (reading_.dimension > 0)
+        block_.spacing = spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
+    });
+  } else if (fills && number) {
+    read_corners();
+    if (reading_.box && *number > 0)
+      catch_errors(reading_, number_place, [&] {
+        block_.spacing = spacing_for_number({block_.kind, 1, low_, high_}, reading_.dimension, *number);
+      });
+  } else if (!section_.has("spacing") && !section_.has("number_density")) {
+    section_.need("spacing", reading_.context.units.is_reduced() ? "spacing = 1" : "spacing = \"2.551 angstrom\"");
+  }
+  spacing_known_ = options_.spacing || options_.number_density || (fills && number);
 }
 
 void Loader::load(AnyEnsemble& particles) {
@@ -163,15 +188,41 @@ void Loader::load_barometric(AnyEnsemble& particles) {
                    .seed = reading_.run.seed});
 }
 
+double Loader::newton_constant() const {
+  return options_.G.value_or(reading_.context.units.is_reduced() ? 1 : reading_.context.units(constants::gravitation));
+}
+
 void Loader::load_plummer(AnyEnsemble& particles) {
   std::array<double, 3> const none{0, 0, 0};
-  double const newton = reading_.context.units.is_reduced() ? 1 : reading_.context.units(constants::gravitation);
   plummer_load(particles, {.mass = options_.mass,
                            .radius = options_.radius,
-                           .G = options_.G.value_or(newton),
+                           .G = newton_constant(),
                            .centre = options_.centre.value_or(none),
                            .drift = options_.drift.value_or(none),
                            .seed = reading_.run.seed});
+}
+
+/// In a plane nothing tells a normal.
+double Loader::read_disc() {
+  if (options_.normal && reading_.dimension == 2)
+    reading_.mistake(section_.place("normal"), "normal: a disc in a plane has none; leave it out");
+  if (options_.edge && options_.profile == DiscProfile::uniform)
+    reading_.mistake(section_.place("edge"), "edge: a uniform disc ends at its radius; leave it out");
+  return 0;
+}
+
+void Loader::load_disc(AnyEnsemble& particles) {
+  DiscOptions options{.profile = options_.profile,
+                      .mass = options_.mass,
+                      .radius = options_.radius,
+                      .edge = options_.edge.value_or(0),
+                      .central_mass = options_.central_mass,
+                      .G = newton_constant(),
+                      .seed = reading_.run.seed};
+  if (options_.centre) options.centre = *options_.centre;
+  if (options_.drift) options.drift = *options_.drift;
+  if (options_.normal) options.normal = *options_.normal;
+  disc_load(particles, options);
 }
 
 double Loader::read_ring() {
@@ -269,7 +320,7 @@ double Loader::read_block() {
   if (block_.kind == Lattice::fcc || block_.kind == Lattice::hcp) count *= 4;
   if (block_.kind == Lattice::bcc) count *= 2;
   if (block_.kind == Lattice::diamond) count *= 8;
-  if (dimension > 0) {
+  if (dimension > 0 && spacing_known_) {
     try {
       volume_ = std::pow(block_.spacing / spacing_for_density(block_.kind, dimension, 1), dimension);
     } catch (Error const&) {  // there is no such lattice: load() says so
@@ -294,6 +345,7 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
 
 /// The block from low to high, without them the box.
 void Loader::read_corners() {
+  if (std::exchange(corners_read_, true)) return;
   int const dimension = reading_.dimension;
   std::size_t const before = reading_.context.mistakes.count();
   Item const *low_item = section_.find("low"), *high_item = section_.find("high");
@@ -323,23 +375,46 @@ void Loader::read_where() {
 
 bool Loader::is_wanted(double const* place) { return !where_ || (*where_)(place) != 0; }
 
+/// Of a packing fraction at a distance the number follows.
 double Loader::read_random() {
   read_corners();
   read_where();
-  return 0;
+  if (!options_.packing_fraction || !reading_.box || reading_.dimension == 0) return 0;
+  if (section_.has("where") || !reading_.box->regions().empty()) {
+    reading_.mistake(section_.place("packing_fraction"),
+                     "packing_fraction: it is of the whole block, of which 'where' and regions leave an unknown part; "
+                     "give minimum_distance and number");
+    return 0;
+  }
+  double count = 0;
+  catch_errors(reading_, section_.place("packing_fraction"), [&] {
+    check_packing(*options_.packing_fraction, reading_.dimension);
+    if (options_.minimum_distance > 0)
+      count = count_for_packing(part_of_box(), options_.minimum_distance, *options_.packing_fraction);
+    if (options_.minimum_distance > 0 && count < 1)
+      throw Error("packing_fraction: a single particle of this minimum_distance fills more");
+  });
+  return count;
+}
+
+/// From low to high; where an axis is whole, it has its images.
+Box Loader::part_of_box() const {
+  Box const& box = *reading_.box;
+  std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(box.dimension()); ++a) {
+    int const axis = static_cast<int>(a);
+    if (low_[a] == box.low(axis) && high_[a] == box.high(axis)) boundaries[a] = box.boundary(axis);
+  }
+  return Box(box.dimension(), low_, high_, boundaries);
 }
 
 void Loader::load_random(AnyEnsemble& particles) {
   Box const& box = *reading_.box;
-  std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(box.dimension()); ++a) {  // images stay where the axis is whole
-    int const axis = static_cast<int>(a);
-    if (low_[a] == box.low(axis) && high_[a] == box.high(axis)) boundaries[a] = box.boundary(axis);
-  }
-  Box part(box.dimension(), low_, high_, boundaries);
   RandomLoadOptions options{.minimum_distance = options_.minimum_distance, .seed = reading_.run.seed};
+  if (options_.packing_fraction && options.minimum_distance == 0) options.packing_fraction = *options_.packing_fraction;
   if (where_) options.where = [&](double const* place) { return is_wanted(place); };
   if (!section_.has("low") && !section_.has("high")) return random_load(particles, box, options);
+  Box part = part_of_box();
   for (auto const& region : box.regions()) part.install(region);
   random_load(particles, part, options);
 }
@@ -349,7 +424,7 @@ double Loader::read_fill() {
   std::size_t const before = reading_.context.mistakes.count();
   read_corners();
   read_where();
-  if (!section_.has("spacing") || !reading_.box || reading_.context.mistakes.count() != before) return 0;
+  if (!spacing_known_ || !reading_.box || reading_.context.mistakes.count() != before) return 0;
   double count = 0;
   catch_errors(reading_, section_.place(section_.has("lattice") ? "lattice" : "spacing"), [&] {
     Filling const filling{block_.kind, block_.spacing, low_, high_};

@@ -62,6 +62,7 @@ void read_multipole(Item const& table, Reading& reading) {
                            : std::make_unique<MultipoleScheme>(*reading.box, *law, options.tolerance);
     if (cells) scheme->grid(*cells);
     catch_errors(reading, place_of_background, [&] { scheme->background(options.background); });
+    if (options.every > 1) reading.slow.emplace_back(scheme.get(), options.every);
     reading.result->schemes.push_back(std::move(scheme));
   });
 }

@@ -146,8 +146,10 @@ struct Reading {
   std::vector<ReadDye> dyes = {};
   ReadEquilibration equilibration = {};
   ReadRelaxation relaxation = {};
-  std::vector<Place> diagnosis_places = {};  ///< of each in the result
-  bool diagnoses_known = true;               ///< false: one could not be read, so that columns may be missing
+  std::optional<MinimiseOptions> minimisation = {};
+  std::vector<std::pair<Scheme*, std::int64_t>> slow = {};  ///< and every how many steps they are calculated
+  std::vector<Place> diagnosis_places = {};                 ///< of each in the result
+  bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
   std::vector<std::function<void(Simulation&)>> adaptations = {};  ///< what changes particles between steps
   std::unique_ptr<PanelScheme> bodies = {};  ///< until it stands behind the other schemes; null: there are none
@@ -295,6 +297,9 @@ void add_events(Reading& reading);
 /// Reads [relaxation]; lets the simulation have it.
 void read_relaxation(Section& document, Reading& reading);
 void add_relaxation(Reading& reading);
+/// Reads [minimise]; lets the simulation do it first.
+void read_minimise(Section& document, Reading& reading);
+void add_minimisation(Reading const& reading);
 void read_diagnoses(Section& document, Reading& reading);
 /// `resolved` gets the intervals that the file leaves to us.
 void read_output(Section& document, Item& resolved, Reading& reading);

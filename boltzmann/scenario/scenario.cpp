@@ -50,6 +50,7 @@ void build(Item& document, Reading& reading) {
   read_barostats(top, reading);
   read_events(top, reading);
   read_relaxation(top, reading);
+  read_minimise(top, reading);
   read_diagnoses(top, reading);
   read_output(top, document, reading);
   read_stop(reading);
@@ -62,6 +63,7 @@ void build(Item& document, Reading& reading) {
   catch_errors(reading, reading.run.place, [&] {
     result.simulation = std::make_unique<Simulation>(*result.schemes.front(), *reading.run.step);
     for (std::size_t k = 1; k < result.schemes.size(); ++k) result.simulation->add(*result.schemes[k]);
+    for (auto const& [slow, steps] : reading.slow) result.simulation->every(steps, *slow);
     result.simulation->seed(reading.run.seed);
     result.simulation->speak_in(result.units);
   });
@@ -83,6 +85,7 @@ void build(Item& document, Reading& reading) {
   add_events(reading);
   add_rezoners(reading);
   add_relaxation(reading);
+  add_minimisation(reading);
   add_bodies(reading);
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   add_dyes(reading);
@@ -170,11 +173,12 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
 }  // namespace
 
 Place place_of(std::string const& message, Reading const& reading) {
+  bool const of_step = message.starts_with("the step ");
   for (auto const& ensemble : reading.ensembles)
-    if (message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
+    if (!of_step && message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;
   if (message.starts_with("the skin "))
     return reading.smooth.wanted && !reading.run.skin ? reading.smooth.skin_place : reading.run.skin_place;
-  if (message.starts_with("the step ")) return reading.run.step_place;
+  if (of_step) return reading.run.step_place;
   if (message.starts_with("substeps") || message.starts_with("steps ")) return reading.run.substeps_place;
   if (message.starts_with("mesh: ")) return reading.mesh.background_place;
   if (message.starts_with("barostat: ") && !reading.barostats.empty()) return reading.barostats.front().place;

@@ -291,6 +291,7 @@ std::string scenario_schema() {
       {"equilibrate", closed("equilibrate")},
       {"barostat", one_or_tables(closed("barostat"))},
       {"events", tables(closed("events"))},
+      {"minimise", closed("minimise")},
       {"relaxation", closed("relaxation")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
       {"remesh", one_or_tables(closed("remesh"))},

@@ -8,6 +8,7 @@
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/panels/body_options.hpp>
 #include <boltzmann/simulation/dye.hpp>
+#include <boltzmann/simulation/minimise.hpp>
 #include <boltzmann/simulation/outflow.hpp>
 #include <boltzmann/simulation/remesh.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
@@ -273,6 +274,10 @@ OptionTable make_influence_options() {
       "`{ depth = \"geometric\", r0 = \"arithmetic\" }` (Lorentz and Berthelot)",
       "tables have them");
   all.add_said("cutoff", "a length, positive", "of this law", "that of `[run]`");
+  all.add_said("every", "a whole number, 1 or more",
+               "so many steps from one calculation to the next: a slow law, which then counts as often (r-RESPA); "
+               "energies are right at multiples of it",
+               "in each step");
   all.add_said("precision", "`\"full\"` or `\"single\"`",
                "in which the law is summed over all pairs; single is right to some 1e-6 and twice as fast, and for "
                "`biot-savart` and `biot-savart-algebraic`",
@@ -442,6 +447,7 @@ std::vector<ScenarioTable> make_tables() {
   static RelaxationOptions relaxation;
   static BarostatOptions barostat;
   static EventOptions event;
+  static MinimiseOptions minimise;
   static RemeshOptions remesh;
   static CoreSplittingOptions split;
   static OutflowOptions outflow;
@@ -477,6 +483,7 @@ std::vector<ScenarioTable> make_tables() {
         &outflow},
        {"dye", "[[dye]]", "where tracers are released while the run goes on", &dye_options(), &dye},
        {"output", "[output]", "what is written, and how often", &output_options(), &output},
+       {"minimise", "[minimise]", "particles are moved downhill before the run begins", &minimise_options(), &minimise},
        {"equilibrate", "[equilibrate]", "a heat bath before the run begins", &equilibration_options(), &bath},
        {"barostat", "[[barostat]]", "a pressure that is held by stretching the box", &barostat_options(), &barostat},
        {"events", "[[events]]", "what happens once at a time of the run", &event_options(), &event},

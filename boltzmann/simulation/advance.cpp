@@ -1,7 +1,7 @@
 // One step, by whatever advances the particles, and the checks that turn a failing one into one line.
 #include <boltzmann/integrators/driven_fields.hpp>
-#include <boltzmann/simulation/overlap.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <boltzmann/simulation/start_forces.hpp>
 
 #include <fmt/format.h>
 
@@ -32,8 +32,8 @@ void Simulation::move_walls(double time) {
     if (scheme->box().walls_move()) scheme->box().move_walls(time);
 }
 
-/// The influences on particles as they are, unless they stand there.
-void Simulation::calculate(double time) {
+/// The influences on particles as they are at this step, unless they stand there.
+void Simulation::calculate(double time, std::int64_t step) {
   if (influences_.hold()) return;
   move_walls(time);
   if (small_system_.call) {
@@ -42,9 +42,29 @@ void Simulation::calculate(double time) {
     schemes_.front()->calculate(time);
   } else {
     for (auto* ensemble : ensembles_) ensemble->clear_influence();
-    for (auto* scheme : schemes_) scheme->add_influences(time);
+    for (auto* scheme : schemes_) {
+      std::int64_t const steps = every(*scheme);
+      if (steps == 1)
+        scheme->add_influences(time);
+      else if (step % steps == 0)
+        add_impulse(*scheme, time, steps);
+    }
   }
   influences_.calculated();
+}
+
+/// As much as a scheme gives in so many steps.
+void Simulation::add_impulse(Scheme& scheme, double time, std::int64_t times) {
+  of_others_.clear();
+  for (auto* ensemble : scheme.ensembles()) {
+    auto const influences = ensemble->influences();
+    of_others_.insert(of_others_.end(), influences.begin(), influences.end());
+    ensemble->clear_influence();
+  }
+  scheme.add_influences(time);
+  double const* others = of_others_.data();
+  for (auto* ensemble : scheme.ensembles())
+    for (double& influence : ensemble->influences()) influence = *others++ + static_cast<double>(times) * influence;
 }
 
 void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
@@ -55,7 +75,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
   else
     advance(time(), dt);
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
-  if (!dissipations.empty()) calculate(time() + dt);
+  if (!dissipations.empty()) calculate(time() + dt, step_ + (dt > 0 ? 1 : -1));
   for (auto* dissipation : dissipations) dissipation->advance(context);
   for (auto const& part : parts_) check_moves(part);
   for (auto const* scheme : schemes_)
@@ -71,7 +91,7 @@ void Simulation::advance(double start, double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double passed = 0;
   for (int stage = 0; stage < stages_; ++stage) {
-    calculate(start + passed * dt);
+    calculate(start + passed * dt, passed == 1 ? step_ + (dt > 0 ? 1 : -1) : step_);
     for (auto& part : parts_) {
       if (stage >= part.stages) continue;
       Motion const motion = part.integrator->advance(stage, context);
@@ -142,7 +162,8 @@ void Simulation::advance_in_substeps(double dt) {
     return std::abs(static_cast<double>(size) * unit) > allowed;
   };
   calculate(start);
-  double allowed = longest_substep(*substeps_, ensembles_, schemes_);
+  std::vector<Moved> const moving = moved();
+  double allowed = longest_substep(*substeps_, moving, schemes_);
   for (std::uint64_t at = 0; at < whole;) {
     std::uint64_t size = at == 0 ? whole : at & (~at + 1);
     while (size > 0 && longer(size, allowed)) size /= 2;
@@ -154,7 +175,7 @@ void Simulation::advance_in_substeps(double dt) {
             fmt::format("substeps would have to be shorter than a 10^12th of the step, {}", told_time(allowed)));
       advance(moment(at), static_cast<double>(size) * unit);
       calculate(moment(at + size));
-      double const at_end = longest_substep(*substeps_, ensembles_, schemes_);
+      double const at_end = longest_substep(*substeps_, moving, schemes_);
       fits = !longer(size, at_end);
       if (fits) {
         allowed = at_end;
@@ -247,26 +268,21 @@ void Simulation::check_moves(Part const& part) const {
                                    move.particle, name, length(moved), length(allowed), advice()));
 }
 
-/// What a failure may be told of, from the state that check() has seen.
-void Simulation::note_start() {
-  start_ = step_;
-  collision_step_ = std::numeric_limits<double>::infinity();
-  for (auto const* scheme : schemes_) collision_step_ = std::min(collision_step_, scheme->collision_step());
-  overlap_ = overlap(schemes_, ensembles_, step_size_);
-}
-
 /// The cure of a step that has brought a particle too far, as far as it is known.
 std::string Simulation::advice() const {
-  if (step_ == start_ && !overlap_.empty()) return "; " + overlap_;
   auto const told = [&](double number) { return units().text(number, dimensions::time, 3); };
-  double const safe = 0.1 * collision_step_;  // forces between atoms rise over a tenth of their law's length
-  if (std::abs(step_size_) > safe)
+  double const of_speeds = collisions_followed * collision_step_, safe = std::min(of_speeds, force_step_);
+  if (std::abs(step_size_) > of_speeds)
     return fmt::format(
         "; at the speeds of the start a step above {} does not follow collisions, and forces need a shorter one; a "
         "tenth is safe to begin with: take a step below {}",
         told(collision_step_), told(safe));
+  if (std::abs(step_size_) > safe)
+    return fmt::format("; the forces of the start are too large for it: take a step below {}", told(safe));
   if (std::isfinite(safe))
-    return fmt::format("; the speeds of the start allow the step ({}), forces do not: begin with half", told(safe));
+    return fmt::format(
+        "; the speeds and forces of the start allow the step ({}), those since then do not: begin with half",
+        told(safe));
   return "; take a shorter step";
 }
 

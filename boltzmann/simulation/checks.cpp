@@ -3,6 +3,7 @@
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <boltzmann/simulation/start_forces.hpp>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,13 @@ namespace boltzmann {
 
 void Simulation::check() {
   if (checked_) return;
+  make_ready();
+  if (!minimisation_) check_start();
+  checked_ = true;
+}
+
+/// All that does not depend on the size of forces.
+void Simulation::make_ready() {
   small_system_ = {};
   whole_ = {};
   move_walls(time());
@@ -37,6 +45,7 @@ void Simulation::check() {
   take_lengths();
   check_dissipations();
   if (substeps_) check_substeps();
+  if (!slow_.empty()) check_slow_schemes();
   if (reversible && !changes_.empty())
     throw Error("the reversible leap-frog can't take back what an adaptation does between steps; use leap-frog");
   if (reversible) make_reversible(grid_.position > 0 ? grid_ : choose_grid());
@@ -51,11 +60,29 @@ void Simulation::check() {
   influences_.inside_step(inside_step);
   influences_.outdated();
   calculate(time());
-  check_influences();
   settle_dissipations();
   if (!barostats_.empty()) check_barostats();
-  note_start();
-  checked_ = true;
+}
+
+/// By steps of the run.
+std::vector<Moved> Simulation::moved() const {
+  std::vector<Moved> all;
+  for (auto const* ensemble : ensembles_)
+    for (auto const& part : parts_)
+      if (part.ensemble == ensemble && part.integrator->method() != Method::deactivate &&
+          !part.integrator->equations_of_motion())
+        all.push_back({ensemble, part.integrator->resting(), std::sqrt(part.longest_move2)});
+  return all;
+}
+
+/// Forces that are finite, and not too large for the first step of a run; what a later failure may be told of.
+void Simulation::check_start() {
+  check_influences();
+  collision_step_ = std::numeric_limits<double>::infinity();
+  for (auto const* scheme : schemes_) collision_step_ = std::min(collision_step_, scheme->collision_step());
+  StartForces const forces = forces_at_start(moved(), ensembles_, schemes_.front()->box(), step_size_, collision_step_);
+  force_step_ = forces.step;
+  if (!begun_ && !substeps_ && !forces.too_large.empty()) throw Error(forces.too_large);
 }
 
 /// The integrator of an ensemble, with its stages and with what it takes over from the schemes.
@@ -126,6 +153,24 @@ void Simulation::check_substeps() const {
   if (substeps_->courant && std::none_of(schemes_.begin(), schemes_.end(),
                                          [](Scheme* scheme) { return std::isfinite(scheme->longest_step()); }))
     throw Error("substeps: no scheme of the simulation has a Courant step; give distance or energy");
+}
+
+/// Impulses belong to steps that all have in common, and to forces of positions alone.
+void Simulation::check_slow_schemes() const {
+  if (slow_.size() == schemes_.size())
+    throw Error("every: all influences are calculated every so many steps; take a longer step instead");
+  if (substeps_)
+    throw Error("every: steps that are divided into substeps have no steps in common; leave out one of both");
+  for (auto* ensemble : ensembles_) {
+    Method const method = this->method(*ensemble);
+    if (method != Method::leap_frog && method != Method::deactivate)
+      throw Error("every: influences of every so many steps are for leap-frog; ensemble '" + ensemble->name() +
+                  "' moves by " + to_string(method));
+    for (auto const* scheme : schemes_)
+      if (scheme->velocity_dependent(*ensemble) || !ensemble->driven().empty() || any_comes_last(schemes_))
+        throw Error("every: influences of every so many steps may depend on positions alone; those on ensemble '" +
+                    ensemble->name() + "' depend on more");
+  }
 }
 
 void Simulation::check_influences() const {
@@ -203,6 +248,7 @@ void Simulation::settle_dissipations() {
 
 void Simulation::check_barostats() {
   if (substeps_) throw Error("barostat: steps that are divided into substeps don't go with it");
+  if (!slow_.empty()) throw Error("barostat: forces that are calculated every few steps don't go with it");
   if (!changes_.empty()) throw Error("barostat: adaptations, which know their box, don't go with it");
   for (auto* ensemble : ensembles_) {
     Part const& part = *part_of(*ensemble);

@@ -50,6 +50,21 @@ void Simulation::add(Scheme& scheme) {
   checked_ = false;
 }
 
+void Simulation::every(std::int64_t steps, Scheme& scheme) {
+  if (steps < 1) throw Error(fmt::format("a scheme is calculated every 1 or more steps, not every {}", steps));
+  if (std::find(schemes_.begin(), schemes_.end(), &scheme) == schemes_.end())
+    throw Error("a scheme that is to be calculated every so many steps is none of the simulation's; add it first");
+  std::erase_if(slow_, [&](auto const& one) { return one.first == &scheme; });
+  if (steps > 1) slow_.emplace_back(&scheme, steps);
+  checked_ = false;
+}
+
+std::int64_t Simulation::every(Scheme const& scheme) const {
+  for (auto const& [slow, steps] : slow_)
+    if (slow == &scheme) return steps;
+  return 1;
+}
+
 void Simulation::add(Dissipation& dissipation) {
   dissipation.number(static_cast<std::uint32_t>(dissipations_.size()));
   dissipations_.push_back(&dissipation);
@@ -314,6 +329,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (direction < 0 && !barostats_.empty()) throw Error("a run whose box is stretched can't go backwards");
   if (direction < 0 && !events_.empty()) throw Error("a run with events can't go backwards");
   if (!begun_) {
+    if (minimisation_) minimise(*this, *std::exchange(minimisation_, std::nullopt));
     equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
     begun_ = true;
     observe_now();
@@ -447,6 +463,8 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   base_time_ = state[1];
   work_ = state[5];
   seed_ = seed;
+  minimisation_.reset();
+  begun_ = true;  // the start is behind it
   std::size_t at = 6;
   auto const next = [&] {
     if (at >= state.size()) throw misfit();
@@ -486,7 +504,6 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   update_derived_fields();
   whole_ = {};
   influences_.restored(with_influences, dependence());
-  begun_ = true;
 }
 
 }  // namespace boltzmann

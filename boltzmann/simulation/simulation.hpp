@@ -8,6 +8,7 @@
 #include <boltzmann/simulation/adaptation.hpp>
 #include <boltzmann/simulation/barostat.hpp>
 #include <boltzmann/simulation/freshness.hpp>
+#include <boltzmann/simulation/minimise.hpp>
 #include <boltzmann/simulation/substeps.hpp>
 
 #include <array>
@@ -16,9 +17,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
+
+struct Descending;
 
 class Simulation {
  public:
@@ -35,6 +40,12 @@ class Simulation {
   /// A pressure that is held by stretching the box, every so many steps, after dissipations. All influences are those of
   /// pairs, and all ensembles are advanced by leap-frog. A run with barostats can't go backwards.
   void add(Barostat barostat);
+  /// The influences of one of several schemes are calculated every so many steps only, and count as often there: impulses
+  /// of slow forces between steps of quick ones (r-RESPA: M. Tuckerman, B. J. Berne and G. J. Martyna, J. Chem. Phys. 97,
+  /// 1990 (1992)). Velocities, and energies with them, are those of a step at multiples of `every`. All ensembles move by
+  /// leap-frog then. Error unless `every` is 1 or more and the simulation has that scheme.
+  void every(std::int64_t steps, Scheme& scheme);
+  std::int64_t every(Scheme const& scheme) const;
 
   /// How an ensemble is advanced, if not as its class usually is (usual_method). A class with equations of motion of
   /// its own has no usual method.
@@ -76,8 +87,15 @@ class Simulation {
   /// brought to a temperature. Nobody observes these steps, they are not counted, and moving walls stand still.
   void equilibrate(std::shared_ptr<Dissipation> dissipation, std::uint64_t steps);
 
+  /// Before the first step of a run that begins (not of one that is resumed), and before equilibrate(), particles are
+  /// moved to a minimum of their energy (minimise.hpp). Forces of the start may be too large until then.
+  void minimise_first(MinimiseOptions const& options);
+  /// What the last one has come to; nothing: there was none.
+  std::optional<Minimised> const& minimised() const { return minimised_; }
+
   /// Makes ready and refuses what can't run: an ensemble without an integrator, particles where they can't be,
-  /// influences that are not finite (two particles at one place). Error with one line. run() calls it once.
+  /// influences that are not finite (two particles at one place), a force that would move its particle in the first
+  /// step further than its law's length (or the box). Error with one line. run() calls it once.
   void check();
 
   /// Advances by so many steps; less if stop() is called (from an observer, a signal handler or another thread): the
@@ -170,10 +188,18 @@ class Simulation {
 
   static constexpr double max_courant = 4;  // the longest step that makes sense
 
+  // minimise.cpp
+  friend Minimised minimise(Simulation& simulation, MinimiseOptions const& options);
+  std::pair<std::vector<Descending>, double> descending(MinimiseOptions const& options) const;
+
   // checks.cpp: before the first step.
+  void make_ready();
+  void check_start();
+  std::vector<Moved> moved() const;
   Part const& ready_part(AnyEnsemble& ensemble);
   void check_methods();
   void check_substeps() const;
+  void check_slow_schemes() const;
   void check_influences() const;
   void check_dissipations();
   void check_barostats();
@@ -183,7 +209,9 @@ class Simulation {
 
   // advance.cpp: one step.
   void move_walls(double time);
-  void calculate(double time);
+  void calculate(double time) { calculate(time, step_); }
+  void calculate(double time, std::int64_t step);
+  void add_impulse(Scheme& scheme, double time, std::int64_t times);
   void advance(double dt, std::vector<Dissipation*> const& dissipations);
   void advance(double start, double dt);
   void keep_in_box(Part& part);
@@ -195,7 +223,6 @@ class Simulation {
   FusedSteps* whole_steps(double dt, Dependence const& now);
   Dependence dependence() const;
   void check_moves(Part const& part) const;
-  void note_start();
   std::string advice() const;
 
   void run(std::uint64_t steps, int direction);
@@ -216,6 +243,7 @@ class Simulation {
   void equilibrate_now();
 
   std::vector<Scheme*> schemes_;
+  std::vector<std::pair<Scheme const*, std::int64_t>> slow_;  // and steps between two calculations
   std::vector<Dissipation*> dissipations_;
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Part> parts_;
@@ -225,19 +253,20 @@ class Simulation {
   std::array<bool, 3> momentum_is_kept_{};
   std::vector<Event> events_;
   std::vector<Equilibration> equilibrations_;
+  std::optional<MinimiseOptions> minimisation_;
+  std::optional<Minimised> minimised_;
   std::vector<std::function<void(Simulation const&)>> progress_;
   GaussRadau gauss_radau_;
   std::optional<SubstepOptions> substeps_;
   SubstepCounts substep_counts_;
-  std::vector<double> before_substep_;
+  std::vector<double> before_substep_, of_others_;
   FixedPoint grid_;
   Scheme::SmallSystem small_system_;
   double step_size_;
   std::int64_t step_ = 0, base_step_ = 0;
   double base_time_ = 0, work_ = 0;
-  double collision_step_ = 0;  // of the state that check() has seen ...
-  std::int64_t start_ = 0;     // ... at this step,
-  std::string overlap_;        // and which of its particles are too near each other
+  // Of the state that check() has seen: the steps that collisions and forces allow.
+  double collision_step_ = 0, force_step_ = 0;
   std::uint64_t seed_ = 1;
   int stages_ = 0;
   Freshness influences_;

@@ -19,19 +19,19 @@ void check(SubstepOptions const& options) {
       throw Error(fmt::format("substeps: {} is {}; it must be positive", name, *value));
 }
 
-double longest_substep(SubstepOptions const& options, std::span<AnyEnsemble* const> ensembles,
-                       std::span<Scheme* const> schemes) {
+double longest_substep(SubstepOptions const& options, std::span<Moved const> moved, std::span<Scheme* const> schemes) {
   double const infinite = std::numeric_limits<double>::infinity();
   double shortest = infinite;
   if (options.courant)
     for (auto* scheme : schemes) shortest = std::min(shortest, *options.courant * scheme->longest_step());
   if (!options.distance && !options.energy) return shortest;
-  for (auto* ensemble : ensembles) {
-    Field const *mass = ensemble->find_field("mass"), *velocity = ensemble->find_field("velocity");
+  for (auto const& one : moved) {
+    AnyEnsemble const& ensemble = *one.ensemble;
+    Field const *mass = ensemble.find_field("mass"), *velocity = ensemble.find_field("velocity");
     if (!mass || !velocity) continue;
     double speed = 0, acceleration = 0, power = 0;  // the largest squares
-    for (std::size_t i = 0; i < ensemble->size(); ++i) {
-      double const *row = ensemble->row(i), *force = ensemble->influence(i);
+    one.each([&](std::size_t i) {
+      double const *row = ensemble.row(i), *force = ensemble.influence(i);
       double v2 = 0, f2 = 0;
       for (int a = 0; a < velocity->components; ++a) {
         v2 += row[velocity->offset + a] * row[velocity->offset + a];
@@ -40,7 +40,7 @@ double longest_substep(SubstepOptions const& options, std::span<AnyEnsemble* con
       speed = std::max(speed, v2);
       acceleration = std::max(acceleration, f2 / (row[mass->offset] * row[mass->offset]));
       power = std::max(power, f2 * v2);
-    }
+    });
     if (options.distance && speed > 0) shortest = std::min(shortest, *options.distance / std::sqrt(speed));
     if (options.distance && acceleration > 0)
       shortest = std::min(shortest, std::sqrt(2 * *options.distance / std::sqrt(acceleration)));

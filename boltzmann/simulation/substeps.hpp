@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/simulation/moved.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +25,6 @@ struct SubstepCounts {
 void check(SubstepOptions const& options);
 
 /// The longest substep for particles as they stand, with their influences. Infinite if nothing moves.
-double longest_substep(SubstepOptions const& options, std::span<AnyEnsemble* const> ensembles,
-                       std::span<Scheme* const> schemes);
+double longest_substep(SubstepOptions const& options, std::span<Moved const> moved, std::span<Scheme* const> schemes);
 
 }  // namespace boltzmann

@@ -4,6 +4,7 @@
 #include <boltzmann/particles/newton.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/message.hpp>
 #include <tests/seed.hpp>
 
 #include <cmath>
@@ -73,7 +74,50 @@ TEST(Filling, RefusesWhatCantBeFilled) {
   EXPECT_THROW(filling_count(Filling{Lattice::square, 1e-7, {0, 0, 0}, {1, 1, 1}}, 2), Error);
   EXPECT_THROW(filling_count(Filling{Lattice::triangular, 0.1, {0, 0, 0}, {1, 1, 1}}, 3), Error);
   EXPECT_THROW(filling_count(Filling{Lattice::triangular, 0.1, {0, 0, 0}, {1, 1, 1}}, 1), Error);
-  EXPECT_THROW(filling_count(Filling{Lattice::fcc, 0.1, {0, 0, 0}, {1, 1, 1}}, 3), Error);
+}
+
+// Every site has its neighbours at the spacing, across the edges, too, where the box fits.
+TEST(Filling, CrystalsOfSeveralSitesFillBoxes) {
+  struct Case {
+    Lattice kind;
+    double edge;  // of a cube of 3 x 3 x 3 cells, in spacings
+    std::size_t neighbours, sites;
+  };
+  for (auto const& [kind, edge, neighbours, sites] :
+       {Case{Lattice::fcc, 3 * std::sqrt(2), 12, 108}, Case{Lattice::bcc, 6 / std::sqrt(3), 8, 54}}) {
+    Filling const filling{kind, 1.02, {-1, -1, -1}, {edge - 1, edge - 1, edge - 1}};
+    ASSERT_EQ(filling_count(filling, 3), sites);
+    EXPECT_NEAR(site_volume(filling, 3), edge * edge * edge / static_cast<double>(sites), 1e-12);
+    auto const places = filling_sites(filling, 3);
+    Box const box({-1, -1, -1}, {edge - 1, edge - 1, edge - 1}, Boundary::periodic);
+    for (auto const& p : places) {
+      std::size_t near = 0;
+      for (int a = 0; a < 3; ++a) EXPECT_TRUE(p[a] > -1 && p[a] < edge - 1);
+      for (auto const& q : places) {
+        std::array<double, 3> d{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+        box.nearest_image(d.data());
+        near += std::abs(std::hypot(d[0], d[1], d[2]) - 1) < 1e-9;
+      }
+      EXPECT_EQ(near, neighbours);
+    }
+  }
+}
+
+TEST(Filling, KnowsTheSpacingOfANumber) {
+  auto const count = [](Lattice kind, int dimension, std::array<double, 3> high, std::size_t number) {
+    Filling filling{kind, 1, {0, 0, 0}, high};
+    filling.spacing = spacing_for_number(filling, dimension, number);
+    return filling_count(filling, dimension);
+  };
+  EXPECT_EQ(count(Lattice::fcc, 3, {7, 7, 7}, 864), 864U);
+  EXPECT_EQ(count(Lattice::bcc, 3, {4, 4, 8}, 2 * 5 * 5 * 10), 500U);
+  EXPECT_EQ(count(Lattice::square, 1, {3, 0, 0}, 17), 17U);
+  EXPECT_EQ(count(Lattice::square, 2, {3, 2, 0}, 24), 24U);
+  EXPECT_EQ(count(Lattice::triangular, 2, {10, 10, 0}, 10 * 12), 120U);
+  EXPECT_EQ(message([&] {
+              count(Lattice::fcc, 3, {7, 7, 7}, 1000);
+            }),
+            "lattice: no number of fcc cells that fills this block has 1000 sites; 864 or 1372 would do");
 }
 
 TEST(Jitter, MovesEachParticleByItsOwnNumbers) {

@@ -94,6 +94,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
        {start + atoms + "[barostat]\npressure = 1\ntemperature = 1\ncompressibility = 1\nrate = 1\n" + wrong}},
       {"events", {start + atoms + "[[events]]\nat = 1\nscale = 2\n" + wrong}},
       {"relaxation", {start + "[relaxation]\nevery = 1\n" + wrong + atoms}},
+      {"minimise", {start + "[minimise]\n" + wrong + atoms}},
       {"equilibrate", {start + "[equilibrate]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
       {"classes", {start + "[[classes]]\nname = \"A\"\nbase = \"Newton\"\n" + wrong + atoms}},
       {"classes.fields",

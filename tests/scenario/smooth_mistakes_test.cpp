@@ -249,7 +249,7 @@ std::vector<Mistake> const rows{
     {"fill with another lattice",
      load("{ kind = \"fill\", spacing = 0.1, lattice = \"fcc\" }"),
      "22:50",
-     {"unknown lattice 'fcc'", "square, triangular"}},
+     {"lattice fcc exists in 3D only"}},
     {"fill upside down",
      load("{ kind = \"fill\", spacing = 0.1, high = [1, -1] }"),
      "22:47",

@@ -531,30 +531,42 @@ TEST(Simulation, AdvisesTheStepThatItsWarningAdvises) {
   EXPECT_EQ(run(std::stod(advised)).second, "no error");
 }
 
-TEST(Simulation, OverlapAtTheStartIsToldAsThat) {
-  auto const failure = [](Boundary boundary, double distance) {
+TEST(Simulation, ForcesThatAreTooLargeAtTheStartAreRefused) {
+  auto const failure = [](double distance, double step, Method method = Method::leap_frog) {
     Ensemble<Newton<2>> atoms("atoms", 3);
     atoms[0].position = {2, 2};
     atoms[1].position = {5, 5};
     atoms[2].position = {5 + distance, 5};
-    PairScheme scheme(Box(Vector{0., 0.}, Vector{10., 10.}, boundary));
+    PairScheme scheme(Box(Vector{0., 0.}, Vector{10., 10.}, Boundary::reflecting));
     scheme.internal(atoms, [](auto const& p, auto const& q) {  // it states no length
       auto const r = q.position - p.position;
       return r * (-1.0 / cube(dot(r, r)));
     });
-    Simulation simulation(scheme, 0.01);
+    Simulation simulation(scheme, step);
+    simulation.integrate(atoms, method);
     simulation.speak_in(UnitSystem(10 * units::angstrom, 1 * units::amu, 1000 * units::femtosecond));
-    return message_of<PhysicsFailure>(simulation);
+    return message([&] { simulation.run(3); });
   };
-  auto const text = failure(Boundary::reflecting, 0.05);
-  EXPECT_NE(text.find("escaped: x = "), std::string::npos) << text;
-  EXPECT_NE(text.find(" nm is further out of the box, 0 nm to 10 nm, than"), std::string::npos) << text;
-  EXPECT_NE(
-      text.find("; particle 2 of 'atoms' and particle 1 of 'atoms' began only 0.05 nm apart: a shorter step is no "
-                "cure, load them further apart (minimum_distance)"),
-      std::string::npos)
+  // 1 / 0.05^5 = 3.2e6; times 0.01^2 / 2 is 160.
+  EXPECT_EQ(
+      failure(0.05, 0.01),
+      "particle 2 of 'atoms' and particle 1 of 'atoms' are only 0.05 nm apart at the start: their force would move "
+      "the first by 160 nm in one step, further than the box is wide, 10 nm; let [minimise] push them apart "
+      "(minimise() in C++), or load them further apart (minimum_distance)");
+  EXPECT_EQ(failure(1.5, 0.01), "no error");
+  // A force of 1 / 3.2 moves 10 in a step of 8, and 1 in 2.5.
+  auto const text = failure(1.26, 8);
+  EXPECT_TRUE(
+      text.starts_with("the step 8 ps is too long for the forces of the start: particle 2 of 'atoms' would move "
+                       "by 10"))
       << text;
-  EXPECT_EQ(failure(Boundary::reflecting, 1.5), "no error");
+  EXPECT_NE(text.find("(particle 1 of 'atoms' is nearest, 1.26 nm away); take a step below 2.5 ps, or let [minimise]"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(failure(1.26, 2.5), "no error");
+  // Steps of its own, and nobody that moves.
+  EXPECT_EQ(failure(0.5, 1, Method::gauss_radau), "no error");
+  EXPECT_EQ(failure(0.05, 0.01, Method::deactivate), "no error");
 }
 
 TEST(Simulation, AnEnergyThatShouldStayAndGoesIsToldOf) {

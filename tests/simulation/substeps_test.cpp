@@ -170,6 +170,20 @@ TEST(Substeps, ThatWereTooLongLeaveNothingBehind) {
   }
 }
 
+TEST(Substeps, WhatIsHeldDoesNotShortenThem) {
+  // A heavy comet moves as a light one does, but pulls a million times as hard at the sun, which is held.
+  Comet light(step), heavy(step);
+  heavy.comet[0].mass = 1e3;
+  for (auto* one : {&light, &heavy}) {
+    one->simulation.divide_steps({.distance = 0.01});
+    one->simulation.run(20);
+  }
+  EXPECT_GT(light.simulation.substeps().done, 100U);
+  EXPECT_NEAR(
+      static_cast<double>(heavy.simulation.substeps().done) / static_cast<double>(light.simulation.substeps().done), 1,
+      0.02);
+}
+
 TEST(Substeps, MistakesAreNamed) {
   Comet comet(step);
   EXPECT_EQ(message([&] { comet.simulation.divide_steps({}); }),

@@ -26,6 +26,10 @@ OptionTable const& multipole_options() {
                  "none");
     all.add("background", &MultipoleOptions::background, flag(),
             "a uniform background makes a box that is periodic along all axes neutral");
+    all.add(
+        "every", &MultipoleOptions::every, whole(1, 1e6),
+        "so many steps from one calculation to the next, which then counts as often (r-RESPA); energies are right at "
+        "multiples of it");
     all.add_said("grid", "a whole number, or a list with one for each axis",
                  "cells of a grid with the potential and the field (or velocity) on its nodes, for pictures and files",
                  "none");
