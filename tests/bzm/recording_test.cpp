@@ -257,7 +257,8 @@ TEST(Recording, TrajectoriesOfAtomsAreInUnitsThatReadersKnow) {
             "fs angstrom angstrom/ps");
   EXPECT_EQ(unit_of(UnitSystem(1 * units::bohr, 1 * units::amu, 1 * units::picosecond), "bohr", 0.2 * bohr),
             "ps angstrom angstrom/ps");
-  EXPECT_EQ(unit_of(UnitSystem(1 * units::nanometer, 1 * units::amu, 1 * units::picosecond), "nm", 0.2), "ps nm nm/ps");
+  EXPECT_EQ(unit_of(UnitSystem(1 * units::nanometer, 1 * units::amu, 1 * units::picosecond), "nm", 0.2 * 10),
+            "ps nm angstrom/ps");
 }
 
 }  // namespace

@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace boltzmann::tail_correction_test {
 namespace {
@@ -148,6 +150,30 @@ TEST(TailCorrection, IsAKeyOfScenarios) {
     for (std::size_t i = 0; i < 256; ++i)
       for (int c = 0; c < 3; ++c) ASSERT_EQ(a->ensembles[0]->row(i)[c], b->ensembles[0]->row(i)[c]);
   }
+}
+
+// The same bits for any number of threads, and where a run goes on.
+TEST(TailCorrection, ChangesNoBit) {
+  auto const at_end = [&](int threads, bool in_two_parts) {
+    auto const text = scenario_of("shifted = false\nthreads = " + std::to_string(threads), shipped + "tail = true");
+    auto first = parse_scenario(text, "t.toml");
+    first->simulation->run(in_two_parts ? 4 : 10);
+    if (in_two_parts) {
+      auto next = parse_scenario(text, "t.toml");
+      auto const &from = *first->ensembles[0], &to = *next->ensembles[0];
+      for (std::size_t i = 0; i < from.size(); ++i) std::copy_n(from.row(i), from.stride(), next->ensembles[0]->row(i));
+      EXPECT_EQ(from.size(), to.size());
+      next->simulation->restore(4, 0.002, 1, first->simulation->state());
+      next->simulation->run(6);
+      std::swap(first, next);
+    }
+    auto const measured = first->simulation->measure();
+    return std::pair(measured.potential, measured.virial[1][2]);
+  };
+  auto const one = at_end(1, false);
+  EXPECT_EQ(at_end(2, false), one);
+  EXPECT_EQ(at_end(3, false), one);
+  EXPECT_EQ(at_end(2, true), one);
 }
 
 TEST(TailCorrection, ShippedLawsEndAtTheCutOffAsTypedOnesDo) {
