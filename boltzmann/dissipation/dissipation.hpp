@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -18,6 +19,7 @@ struct Surroundings {
   std::vector<AnyEnsemble const*> massive;    ///< all ensembles that carry momentum
   std::array<bool, 3> momentum_is_kept = {};  ///< in total along this axis, by forces, walls and other dissipations
   bool equilibrates = false;                  ///< velocities are still to be brought to a temperature
+  std::vector<std::pair<AnyEnsemble const*, std::size_t>> rigid = {};  ///< who has how many rigid bonds
 };
 
 /// One part of a split equation of motion. After every step of the integrators (kick, drift, kick) a simulation lets
@@ -51,6 +53,8 @@ class Dissipation {
   virtual void settle(Surroundings const&) {}
   /// The box has been stretched. PhysicsFailure if it has become too small.
   virtual void box_changed() {}
+  /// Distances that it keeps in its ensembles: each takes a degree of freedom.
+  virtual std::size_t rigid_bonds() const { return 0; }
   /// What it is, for `bzm show`: its word in scenarios.
   virtual std::string kind() const { return "dissipation"; }
   /// What one should know before a run with such steps; warnings begin with "warning: ".

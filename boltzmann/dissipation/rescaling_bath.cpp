@@ -34,6 +34,12 @@ void RescalingBath::settle(Surroundings const& surroundings) {
     return std::find(own.begin(), own.end(), one) != own.end();
   });
   for (std::size_t a = 0; a < 3; ++a) kept_[a] = takes_all_ && surroundings.momentum_is_kept[a];
+  rigid_ = 0;
+  for (auto const& [ensemble, bonds] : surroundings.rigid)
+    if (std::find(own.begin(), own.end(), ensemble) != own.end()) rigid_ += bonds;
+  if (block() && rigid_ > 0)
+    throw Error("the heat bath of '" + own.front()->name() +
+                "' scales velocities in a block, which would cut rigid bonds at its faces; let it act everywhere");
   if (block() || own.empty()) return;
   Motion const now = motion();
   if (!(degrees(now) > 0))
@@ -81,7 +87,7 @@ RescalingBath::Motion RescalingBath::motion() const {
 double RescalingBath::degrees(Motion const& motion) const {
   if (ensembles().empty()) return 0;
   int const dimension = ensembles().front()->dimension();
-  double degrees = motion.particles * dimension;
+  double degrees = motion.particles * dimension - static_cast<double>(rigid_);
   for (int a = 0; a < dimension; ++a) degrees -= kept_[a] ? 1 : 0;
   return degrees;
 }

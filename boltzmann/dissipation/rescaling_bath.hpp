@@ -9,7 +9,8 @@
 namespace boltzmann {
 
 /// Where the total momentum along an axis is kept by everything else, and all particles with mass are in the bath, it is
-/// kept by the bath, too: velocities are those relative to the common one, and a degree of freedom less counts.
+/// kept by the bath, too: velocities are those relative to the common one, and a degree of freedom less counts. So it
+/// does for each rigid bond.
 class RescalingBath : public HeatBath {
  public:
   using HeatBath::HeatBath;
@@ -37,6 +38,7 @@ class RescalingBath : public HeatBath {
   double degrees(Motion const& motion) const;
 
   bool takes_all_ = false;
+  std::size_t rigid_ = 0;  // bonds of its particles
   std::array<bool, 3> kept_{};
 };
 

@@ -241,6 +241,10 @@ void Simulation::settle_dissipations() {
   around.equilibrates = equilibrates();
   for (auto const* ensemble : ensembles_)
     if (carries_momentum(*ensemble) && method(*ensemble) != Method::deactivate) around.massive.push_back(ensemble);
+  for (auto const* dissipation : all)
+    if (dissipation->rigid_bonds() > 0)
+      for (auto const* ensemble : dissipation->ensembles())
+        around.rigid.emplace_back(ensemble, dissipation->rigid_bonds());
   for (auto* dissipation : all) dissipation->settle(around);
   around.momentum_is_kept = momentum_is_kept_ = kept_momentum();
   for (auto* dissipation : all) dissipation->settle(around);
@@ -257,6 +261,8 @@ void Simulation::check_barostats() {
           fmt::format("barostat: ensemble '{}' needs leap-frog for all its particles, not {}", ensemble->name(),
                       part.integrator->same_for_all() ? to_string(part.integrator->method()) : "some that are frozen"));
   }
+  for (auto const* dissipation : dissipations_)
+    if (dissipation->rigid_bonds() > 0) throw Error("barostat: rigid bonds can't be stretched");
   for (auto const& barostat : barostats_) barostat->check(stretched_system());
 }
 

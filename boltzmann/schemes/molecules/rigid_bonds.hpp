@@ -86,6 +86,8 @@ class RigidVelocities final : public Dissipation {
   void advance(StepContext const&) override { heat_ += bonds_->correct_velocities(threads()); }
   double heat() const override { return heat_; }
   bool keeps_momentum() const override { return true; }
+  std::size_t rigid_bonds() const override { return bonds_->size(); }
+  std::string kind() const override { return "rigid bonds"; }
   std::vector<double> state() const override { return {heat_}; }
   void restore(std::span<double const> state) override;
 
