@@ -37,6 +37,7 @@
 #include <boltzmann/laws/by_energy.hpp>
 #include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/embedded_atoms.hpp>
+#include <boltzmann/laws/fene.hpp>
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>

@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/body_forces.hpp>
 #include <boltzmann/diagnoses/bond_order.hpp>
 #include <boltzmann/diagnoses/box_measures.hpp>
+#include <boltzmann/diagnoses/chains.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
@@ -23,6 +24,7 @@
 #include <boltzmann/diagnoses/unknown.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/vortices/vortex_flow.hpp>
 
 #include <fmt/format.h>
@@ -224,7 +226,7 @@ class AngularMomentum final : public SystemDiagnosis {
 class TemperatureDiagnosis final : public SystemDiagnosis {
  public:
   explicit TemperatureDiagnosis(DiagnosisParameters const& parameters)
-      : SystemDiagnosis(parameters), subtract_drift_(parameters.subtract_drift) {
+      : SystemDiagnosis(parameters), subtract_drift_(parameters.subtract_drift), rigid_bonds_(parameters.rigid_bonds) {
     for (auto const& name : parameters.ensembles)
       if (AnyEnsemble const& ensemble = ensemble_named(parameters.available, name); !carries_momentum(ensemble))
         throw Error(fmt::format("ensemble '{}' of class {} has no temperature: it needs a mass and a velocity", name,
@@ -238,13 +240,24 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
     return columns;
   }
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
-    Temperature const t = temperature(of, sample.boltzmann_constant, {.subtract_drift = subtract_drift_});
+    Temperature t = temperature(of, sample.boltzmann_constant, {.subtract_drift = subtract_drift_});
+    double const lost = subtract_drift_ ? dimension() : 0;
+    double const all = dimension() * static_cast<double>(number_of_particles(of)) - lost;
+    // Each rigid bond takes a degree of freedom, alike of all axes.
+    double kept = 0;
+    for (auto const& [name, count] : rigid_bonds_)
+      for (auto const* ensemble : of) kept += ensemble->name() == name ? static_cast<double>(count) : 0;
+    if (kept > 0) {
+      t.total *= all / (all - kept);
+      for (double& component : t.component) component *= all / (all - kept);
+    }
     values.push_back(t.total);
     if (dimension() > 1) values.insert(values.end(), t.component.begin(), t.component.begin() + dimension());
   }
 
  private:
   bool subtract_drift_;
+  std::vector<std::pair<std::string, std::size_t>> rigid_bonds_;
 };
 
 /// Energies of the whole system; of named ensembles the kinetic energy besides.
@@ -850,6 +863,14 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
           "ratio; the run's last lines tell them, average.csv has the error by the length of blocks",
           told({{"columns"}, {"label", "of the file", "none"}, first_look})},
          make_average},
+        {{"chains",
+          "of chains of particles, one behind the other: mean squares of the distance from end to end and of the "
+          "radius "
+          "of gyration, and the root of the mean square bond",
+          told({each, {"count", "particles of a chain", "", "20"}})},
+         [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
+           return std::make_unique<Chains>(parameters.available, parameters.ensembles, parameters.count);
+         }},
         {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", told(group_and_quantity)},
          make<ExtremesDiagnosis>},
         {{"formula",
@@ -916,6 +937,13 @@ std::vector<DiagnosisKind> const& diagnosis_kinds() {
 void find_vortices(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes) {
   parameters.vortices = vortex_sources(schemes);
   if (!schemes.empty()) VortexFlow::refuse_images(schemes.front()->box());
+}
+
+void find_rigid_bonds(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes) {
+  for (auto const* scheme : schemes)
+    if (auto const* molecules = dynamic_cast<MoleculeScheme const*>(scheme))
+      for (auto const& bonds : molecules->rigid_bonds())
+        parameters.rigid_bonds.emplace_back(bonds->ensemble().name(), bonds->size());
 }
 
 std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters) {

@@ -146,6 +146,9 @@ std::vector<LoadKind> make_kinds() {
            {"layers"},
            {"sections"},
            {"overlap"}})},
+      {"path",
+       "a lattice that fills the box, in the order of a random path from neighbour to neighbour: chains of a melt",
+       false, of({{"counts", "sites along each axis"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file",
        "a file of another program: XYZ, LAMMPS data or dump, PDB, GRO, POSCAR; its lattice has to be the box along "

@@ -41,7 +41,10 @@ class Loader {
   static Way const& way_of(std::string_view kind);
 
   void read_spacing(std::optional<std::size_t> number, Place const& number_place);
+  double read_counts();
   double read_block();
+  double read_way();
+  void load_way(AnyEnsemble& particles);
   void refuse_overlapping_ends(std::array<double, 3> const& lengths);
   void load_block(AnyEnsemble& particles);
   void read_corners();

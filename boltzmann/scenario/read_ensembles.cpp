@@ -44,6 +44,7 @@ class EnsembleReader {
     read_velocities();
     if (variant_ && loadable_ && reading_.box && right()) make_particles();
     for (Item const* set : find_tables(section_, "set")) read_set(*set);
+    read_bonds(section_, particles_, ensemble_.molecules, reading_);
     if (kind_) section_.finish();
     if (variant_) make_integrator();
     if (particles_ && ensemble_.state) find_temperatures(*particles_, *ensemble_.state);

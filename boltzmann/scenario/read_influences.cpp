@@ -75,7 +75,7 @@ class InfluenceReader {
     typed_item_ = section_.has("influence") ? section_.find("influence") : nullptr;
     if (section_.has("energy")) typed_item_ = section_.find("energy");
     if (typed_item_) return read_typed();
-    for (char const* key : {"energy", "influence", "parameters", "from_outside", "changes"}) {
+    for (char const* key : {"energy", "influence", "parameters", "from_outside", "changes", "angles", "dihedrals"}) {
       if (section_.has(key))
         reading_.mistake(section_.place(key),
                          fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
@@ -135,6 +135,7 @@ class InfluenceReader {
     read_ensembles();
     read_every();
     read_end();
+    read_tuples();
     read_tail();
     if (!from_outside_)
       read_pairs();
@@ -148,11 +149,16 @@ class InfluenceReader {
       reading_.mistake(law_place_, "typed laws don't act on smooth particles yet, which are moved by their 'material'");
     bool const there = a_ && b_ && a_->particles && b_->particles && pairs_;
     if (reading_.context.mistakes.count() != before_ || !there) return;
-    double const reach = from_outside_ || connect_ ? no_cutoff : reach_of_pairs();
+    double const reach = from_outside_ || connect_ || tuples() ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
     try {
-      if (from_outside_)
+      BondedFactors const bonded(*pairs_, *a_, factors_);
+      if (angles_)
+        molecule_scheme(reading_).angles(a, angle_members_, typed_);
+      else if (dihedrals_)
+        molecule_scheme(reading_).dihedrals(a, dihedral_members_, typed_);
+      else if (from_outside_)
         pairs_->external(a, typed_, only_ ? &*only_ : nullptr);
       else if (connect_)
         pairs_->connect(a, connections_, typed_);
@@ -162,7 +168,7 @@ class InfluenceReader {
         pairs_->between(a, b, typed_, reach);
       else
         pairs_->internal(a, typed_, reach);
-      if (moves && !from_outside_)
+      if (moves && !from_outside_ && !tuples())
         reading_.result->typed_laws.push_back(
             {fmt::format("influences.{}.{}", number_, by_energy ? "energy" : "influence"), typed_, &a, &b, reach});
       add_tail(typed_, reach);
@@ -172,6 +178,26 @@ class InfluenceReader {
     } catch (Error const& error) {
       reading_.mistake(law_place_, error.what());
     }
+  }
+  bool tuples() const { return angles_ || dihedrals_; }
+  /// angles, dihedrals: who is meant, and keys that mean nothing there.
+  void read_tuples() {
+    angles_ = section_.find("angles");
+    dihedrals_ = section_.find("dihedrals");
+    if (!tuples()) return;
+    std::string const key = angles_ ? "angles" : "dihedrals";
+    if (angles_ && dihedrals_)
+      reading_.mistake(dihedrals_->place, "dihedrals: there are angles already; write two tables of [[influences]]");
+    if (typed_.gives != FormulaLaw::Gives::energy)
+      reading_.mistake(section_.place(key), fmt::format("{}: the law is an energy, not an influence", key));
+    if (between_ || by_)
+      reading_.mistake(section_.place(key), fmt::format("{}: they are within one ensemble; write 'on'", key));
+    for (char const* other :
+         {"cutoff", "connect", "at_cutoff", "switch_from", "tail", "precision", "bonded_factors", "from_outside"})
+      if (section_.has(other))
+        reading_.mistake(section_.place(other), fmt::format("{}: it means nothing beside {}", other, key));
+    if (angles_) angle_members_ = read_angles(*angles_, a_, reading_);
+    if (dihedrals_) dihedral_members_ = read_dihedrals(*dihedrals_, a_, reading_);
   }
   /// Of which field of those that it acts on it gives the rate.
   void read_changes() {
@@ -369,12 +395,46 @@ class InfluenceReader {
                   : std::nullopt;
     single_ = word == "single";
     connect_ = section_.find("connect");
+    read_bonded_factors();
     if (!connect_) return;
     if (single_) reading_.mistake(precision->place, "precision: connections have full precision only");
-    connections_ = read_connections(*connect_, a_ ? a_->particles : nullptr, reading_);
+    if (connect_->is(Item::Kind::text)) {
+      if (connects_bonds(*connect_, a_, reading_) && a_) connections_ = connections_of(a_->molecules.bonds);
+    } else {
+      connections_ = read_connections(*connect_, a_ ? a_->particles : nullptr, reading_);
+    }
     if (between_ || by_) reading_.mistake(connect_->place, "connect: connections are within one ensemble; write 'on'");
     if (section_.has("cutoff")) reading_.mistake(section_.place("cutoff"), "cutoff: connections have none");
   }
+
+  void read_bonded_factors() {
+    Item const* item = section_.find("bonded_factors");
+    if (!item) return;
+    auto const wrong = [&](char const* what) {
+      reading_.mistake(item->place, fmt::format("bonded_factors: {}", what));
+    };
+    factors_ = boltzmann::read_bonded_factors(section_, reading_);
+    if (connect_) wrong("connections are fixed pairs already; leave it out");
+    if (between_ || by_) wrong("particles of two ensembles are not bonded; write 'on'");
+    if (a_ && a_->particles && a_->molecules.bonds.empty())
+      wrong("the ensemble has no bonds; its [[ensembles]] gives them, bonds = \"chain\" or [[0, 1], [0, 2]]");
+  }
+  /// What a law that is installed meanwhile does between bonded particles.
+  struct BondedFactors {
+    BondedFactors(PairScheme& scheme, ReadEnsemble const& of, std::vector<double> const& factors)
+        : scheme(scheme), of(of), given(!factors.empty()) {
+      if (given) scheme.bonded_factors(*of.particles, of.molecules.bonds, factors);
+    }
+    ~BondedFactors() {
+      if (given) scheme.bonded_factors(*of.particles, {}, {});
+    }
+    BondedFactors(BondedFactors const&) = delete;
+    BondedFactors& operator=(BondedFactors const&) = delete;
+
+    PairScheme& scheme;
+    ReadEnsemble const& of;
+    bool given;
+  };
 
   void install(ParameterValues const& parameters) {
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
@@ -387,6 +447,8 @@ class InfluenceReader {
     double const reach = smooth || external() || connect_ ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
     catch_errors(reading_, law_place_, [&] {
+      std::optional<BondedFactors> bonded;
+      if (!factors_.empty()) bonded.emplace(*pairs_, *a_, factors_);
       if (smooth)
         install_external(*smooth_, *law_, parameters, a);
       else if (external())
@@ -507,6 +569,10 @@ class InfluenceReader {
   bool single_ = false;
   std::optional<std::vector<std::uint32_t>> only_;
   std::vector<Connection> connections_;
+  std::vector<double> factors_;
+  Item const *angles_ = nullptr, *dihedrals_ = nullptr;
+  std::vector<AngleMembers> angle_members_;
+  std::vector<DihedralMembers> dihedral_members_;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Reads load = { kind = ... }: where the particles of an ensemble are.
 #include <boltzmann/loaders/jitter.hpp>
+#include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/ring_load.hpp>
@@ -88,6 +89,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
       Way{"disc", &Loader::read_disc, &Loader::load_disc},
       Way{"ring", &Loader::read_ring, &Loader::load_ring},
       Way{"ring-tube", &Loader::read_vortex_ring, &Loader::load_vortex_ring},
+      Way{"path", &Loader::read_way, &Loader::load_way},
       Way{"positions", &Loader::read_positions, &Loader::load_places},
       Way{"file", &Loader::read_file, &Loader::load_file},
   };
@@ -288,7 +290,8 @@ FrameOptions Loader::frame_options() const {
           .units = reading_.context.units};
 }
 
-double Loader::read_block() {
+/// How many cells there are along each axis, into block_.counts; their product.
+double Loader::read_counts() {
   int const dimension = reading_.dimension;
   double count = 1;
   if (Item const* counts = section_.find("counts")) {
@@ -307,6 +310,18 @@ double Loader::read_block() {
         }
     }
   }
+  return count;
+}
+
+double Loader::read_way() { return read_counts(); }
+
+void Loader::load_way(AnyEnsemble& particles) {
+  path_load(particles, *reading_.box, {.counts = block_.counts, .seed = reading_.run.seed});
+}
+
+double Loader::read_block() {
+  int const dimension = reading_.dimension;
+  double count = read_counts();
   if (Item const* origin = section_.find("origin")) {
     if (origin->is(Item::Kind::text)) {
       centred_ = read_word(*origin, "origin", {"centred"}, reading_.context).has_value();

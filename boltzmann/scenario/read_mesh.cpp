@@ -107,12 +107,15 @@ void read_mesh(Item const& table, Reading& reading) {
   if (section.has("accuracy")) {
     for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"})
       section.refuse(key, "with 'accuracy' it is chosen by the scheme; leave it out");
+    reading.mesh.bonded_place = section.place("bonded_factors");
+    reading.mesh.bonded_factors = read_bonded_factors(section, reading);
     section.finish();
     if (law && options.accuracy && reading.box)
       catch_errors(reading, section.place("accuracy"), [&] {
         reading.result->schemes.push_back(std::make_unique<P3MScheme>(*reading.box, *law, *options.accuracy));
       });
   } else {
+    section.refuse("bonded_factors", "it belongs to 'accuracy': a mesh alone does not know single pairs");
     if (law && reading.box) read_plain_mesh(section, options, *law, reading);
     section.finish();
   }
@@ -120,11 +123,49 @@ void read_mesh(Item const& table, Reading& reading) {
   reading.mesh.usable = reading.context.mistakes.count() == before;
 }
 
+namespace {
+
+/// What two charges at the distance r do to each other, less than all of it by a part.
+FormulaLaw less_by(double part, double constant, int dimension) {
+  double const turns = dimension == 3 ? 4 * pi : dimension == 2 ? 2 * pi : 2;
+  char const* const energy = dimension == 3   ? "k*p.charge*q.charge/r"
+                             : dimension == 2 ? "-k*p.charge*q.charge*log(r)"
+                                              : "-k*p.charge*q.charge*r";
+  return FormulaLaw::energy(energy, {{"k", -part * constant / turns}});
+}
+
+/// What charges that are bonded do to each other by the mesh and its pairs (the nearest images) is taken away again, all
+/// of it or a part.
+void add_bonded_factors(MeshScheme& mesh, Reading& reading) {
+  auto const& factors = reading.mesh.bonded_factors;
+  bool bonded = false;
+  for (auto const& ensemble : reading.ensembles) {
+    if (!ensemble.particles || ensemble.molecules.bonds.empty()) continue;
+    bonded = true;
+    catch_errors(reading, reading.mesh.bonded_place, [&] {
+      if (!ensemble.particles->find_field("charge"))
+        throw Error(fmt::format("bonded_factors: class {} has no charge", ensemble.particles->class_name()));
+      for (std::size_t k = 0; k < factors.size(); ++k) {
+        auto const pairs = pairs_apart(ensemble.molecules.bonds, k + 1);
+        if (factors[k] == 1 || pairs.empty()) continue;
+        mesh.pairs().connect(*ensemble.particles, connections_of(pairs),
+                             less_by(1 - factors[k], mesh.constant(), ensemble.particles->dimension()));
+      }
+    });
+  }
+  if (!factors.empty() && !bonded && all_loaded(reading))
+    reading.mistake(reading.mesh.bonded_place,
+                    "bonded_factors: no ensemble has bonds; [[ensembles]] give them, bonds = \"chain\"");
+}
+
+}  // namespace
+
 void add_to_mesh(Item const& table, Reading& reading) {
   auto* const mesh = reading.result->scheme<MeshScheme>();
   if (!mesh) return;
   auto const add = [&](AnyEnsemble& ensemble, SourceKind const& kind) { mesh->add(ensemble, kind); };
   if (!add_sources(table, "[mesh]", LaplaceLaw{mesh->constant()}, add, reading)) reading.mesh.usable = false;
+  add_bonded_factors(*mesh, reading);
 }
 
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what) {

@@ -129,11 +129,10 @@ void read_diagnosis(Item const& table, Reading& reading) {
     place = section.has("mode") ? section.place("mode") : section.has("axis") ? section.place("axis") : word->place;
   }
   auto const make = [&] {
-    if (kind.of_flow) {
-      std::vector<Scheme*> schemes;
-      for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
-      find_vortices(parameters, schemes);
-    }
+    std::vector<Scheme*> schemes;
+    for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
+    if (kind.of_flow) find_vortices(parameters, schemes);
+    find_rigid_bonds(parameters, schemes);
     parameters.columns_before = columns_of(*reading.result);
     auto diagnosis = make_diagnosis(*name, parameters);
     if (reading.box) diagnosis->check(*reading.box);

@@ -12,6 +12,7 @@
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/panels/panel_scheme.hpp>
 #include <boltzmann/schemes/smooth/rezone.hpp>
@@ -41,6 +42,12 @@ struct ReadClass {
   Place place;
 };
 
+/// Which particles of an ensemble are bonded, and how many of them make a molecule (0: they are all one).
+struct ReadMolecules {
+  std::size_t length = 0;
+  std::vector<BondMembers> bonds = {};
+};
+
 /// An ensemble of the file; `particles` is null if it could not be loaded.
 struct ReadEnsemble {
   std::string name;
@@ -50,6 +57,7 @@ struct ReadEnsemble {
   std::unique_ptr<Integrator> integrator;
   std::optional<BoundMaterial> material;  ///< of smooth particles
   std::optional<StateLaw> state;          ///< of internal energies
+  ReadMolecules molecules = {};
 
   bool smooth() const { return kind && kind->matter != Matter::none; }
 };
@@ -69,6 +77,8 @@ struct ReadRun {
 };
 
 struct ReadMesh {
+  std::vector<double> bonded_factors = {};
+  Place bonded_place = {};
   bool usable = true;      ///< false: there is a [mesh], but mistakes in it; what needs a mesh is not to be checked
   Place background_place;  ///< or that of the table
   std::vector<MeshField const*> fields;  ///< once somebody has asked for them
@@ -151,7 +161,9 @@ struct Reading {
   std::vector<Place> diagnosis_places = {};                 ///< of each in the result
   bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
-  std::vector<std::function<void(Simulation&)>> adaptations = {};  ///< what changes particles between steps
+  std::vector<std::function<void(Simulation&)>> adaptations = {};   ///< what changes particles between steps
+  std::vector<std::shared_ptr<RigidBonds>> rigid = {};              ///< one for each ensemble that has some
+  std::vector<std::function<void(Simulation&)>> behind_baths = {};  ///< what follows dissipations
   std::unique_ptr<PanelScheme> bodies = {};  ///< until it stands behind the other schemes; null: there are none
   std::vector<std::pair<std::size_t, std::pair<std::string, Place>>> sticky_bodies =
       {};  ///< by number, and what they shed
@@ -271,6 +283,19 @@ void read_bodies(Section& document, Reading& reading);
 void load_bodies(Reading& reading);
 void add_bodies(Reading& reading);
 void keep_out_of_bodies(Reading const& reading);
+/// Reads `molecule` and `bonds` of [[ensembles]]; without particles only the form is checked.
+void read_bonds(Section& section, AnyEnsemble const* particles, ReadMolecules& molecules, Reading& reading);
+/// Whether connect = "bonds": a mistake if there are none.
+bool connects_bonds(Item const& item, ReadEnsemble const* of, Reading& reading);
+/// `bonded_factors` of a table: one for each number of bonds, nothing if there is no such key or it is wrong.
+std::vector<double> read_bonded_factors(Section& section, Reading& reading);
+/// Of an influence on this ensemble (it may be null): "bonds", a list, or a file.
+std::vector<AngleMembers> read_angles(Item const& item, ReadEnsemble const* of, Reading& reading);
+std::vector<DihedralMembers> read_dihedrals(Item const& item, ReadEnsemble const* of, Reading& reading);
+/// Reads [[rigid_bonds]]; gives their ensembles integrators that keep them, and lets velocities follow behind baths.
+void read_rigid_bonds(Section& document, Reading& reading);
+/// That of the scenario, made when it is first asked for.
+MoleculeScheme& molecule_scheme(Reading& reading);
 void read_influences(Section& document, Reading& reading);
 /// parameters = { depth = "0.1 eV" } and where = { s = "(sigma/r)^6" }, which formulas of a table may use.
 std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading);

@@ -43,6 +43,7 @@ void build(Item& document, Reading& reading) {
   load_rates(reading);
   read_dyes(top, reading);
   read_influences(top, reading);
+  read_rigid_bonds(top, reading);
   load_bodies(reading);
   read_adaptations(top, reading);
   settle_run(document, reading);
@@ -81,6 +82,7 @@ void build(Item& document, Reading& reading) {
   for (auto& ensemble : reading.ensembles)
     result.simulation->integrate(*ensemble.particles, std::move(ensemble.integrator));
   add_dissipations(reading);
+  for (auto const& follow : reading.behind_baths) follow(*result.simulation);
   add_barostats(reading);
   add_events(reading);
   add_rezoners(reading);

@@ -287,6 +287,7 @@ std::string scenario_schema() {
       {"bodies", tables(closed("bodies"))},
       {"dye", tables(closed("dye"))},
       {"influences", influences()},
+      {"rigid_bonds", tables(closed("rigid_bonds"))},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
       {"barostat", one_or_tables(closed("barostat"))},

@@ -168,6 +168,14 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
                "where the particles are: a [loader](#load) (`bzm list loaders`)");
   all.add("number", &EnsembleOptions::number, whole(1, std::numeric_limits<double>::infinity()),
           "how many, for loaders that don't know", "what the loader knows");
+  all.add_said("molecule", "a whole number",
+               "particles that make a molecule, one behind the other: numbers of `bonds`, `angles` and `dihedrals` are "
+               "those within one, and hold for all",
+               "the ensemble is one");
+  all.add_said("bonds", "`\"chain\"`, `[[0, 1], [0, 2]]` or `{ file = \"bonds.txt\" }`",
+               "which particles of a [molecule](#molecules) are bonded: each to the next one, or the pairs of numbers "
+               "in a list, or on the lines of a file",
+               "none");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
   all.add("temperature", &EnsembleOptions::temperature, number(dimensions::temperature, not_negative),
           "velocities from Maxwell's distribution", "none");
@@ -282,10 +290,21 @@ OptionTable make_influence_options() {
                "in which the law is summed over all pairs; single is right to some 1e-6 and twice as fast, and for "
                "`biot-savart` and `biot-savart-algebraic`",
                "`\"full\"`");
-  all.add_said("connect", "`[[first, last, interval]]`",
+  all.add_said("connect", "`[[first, last, interval]]` or `\"bonds\"`",
                "with `on`: only between fixed pairs, (first, first + interval), (first + interval, first + 2 "
-               "interval), ... up to last",
+               "interval), ... up to last; or those that are bonded (`bonds` of `[[ensembles]]`)",
                "all pairs");
+  all.add_said("bonded_factors", "a list of numbers, `[0, 0, 0.5]`",
+               "with `on` and a cut-off: of pairs 1, 2, 3, ... bonds apart; 0 leaves them out", "1: as of all others");
+  all.add_said("angles", "`\"bonds\"`, `[[0, 1, 2]]` or `{ file = \"angles.txt\" }`",
+               "with `on`, of an `energy` in `angle`: on each three particles of a [molecule](#molecules) that two "
+               "bonds join, or on those of the list, by the angle at the second",
+               "it acts on pairs");
+  all.add_said(
+      "dihedrals", "`\"bonds\"`, `[[0, 1, 2, 3]]` or `{ file = \"dihedrals.txt\" }`",
+      "with `on`, of an `energy` in `dihedral`: on each four that three bonds join, or on those of the list, by "
+      "the turn about the line from the second to the third",
+      "it acts on pairs");
   all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`",
                "laws from outside: only on these, written as in `[[ensembles.set]]`", "on all");
   all.add_said("margin", "a length", "with `particles = \"edge\"`", "0");
@@ -314,6 +333,20 @@ OptionTable make_influence_options() {
                "false");
   all.add_said("from_outside", "`true` or `false`", "a typed law that acts from outside", "false");
   all.at("law").needed = "\"lennard-jones\"";
+  return all;
+}
+
+OptionTable make_rigid_bond_options() {
+  OptionTable all;
+  all.add_said("on", "the name of an ensemble", "whose bonds they are, moved by the leap-frog");
+  all.add_said("pairs", "`\"bonds\"`, `[[0, 1], [0, 2]]` or `{ file = \"bonds.txt\" }`",
+               "which particles: those that are bonded, or others, as `bonds` of `[[ensembles]]` are written",
+               "`\"bonds\"`");
+  all.add_said("length", "a length, positive", "of all of them");
+  all.add_said("tolerance", "a number between 0 and 0.1", "how exactly they keep it, in parts of the length",
+               "`1e-10`");
+  all.at("on").needed = "\"water\"";
+  all.at("length").needed = "\"1 angstrom\"";
   return all;
 }
 
@@ -425,6 +458,7 @@ OptionTable const& run_options() { return once<make_run_options>(); }
 OptionTable const& box_options() { return once<make_box_options>(); }
 OptionTable const& ensemble_options() { return once<make_ensemble_options>(); }
 OptionTable const& influence_options() { return once<make_influence_options>(); }
+OptionTable const& rigid_bond_options() { return once<make_rigid_bond_options>(); }
 OptionTable const& class_options() { return once<make_class_options>(); }
 OptionTable const& class_field_options() { return once<make_class_field_options>(); }
 OptionTable const& output_options() { return once<make_output_options>(); }
@@ -475,6 +509,7 @@ std::vector<ScenarioTable> make_tables() {
         &set_options(), &set},
        {"bodies", "[[bodies]]", "a solid body in a plane flow, which flows around its outline", &body_options(), &body},
        {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
+       {"rigid_bonds", "[[rigid_bonds]]", "bonds of a fixed length", &rigid_bond_options(), nullptr},
        {"remesh", "[[remesh]]", "vortices that are replaced by others on a lattice while the run goes on",
         &remesh_options(), &remesh},
        {"split_cores", "[[split_cores]]", "vortices whose cores have grown wide are split while the run goes on",

@@ -85,6 +85,8 @@ OptionTable const& output_options();
 /// influences have parameters.
 OptionTable const& box_options();
 OptionTable const& influence_options();
+/// [[rigid_bonds]], read by code, too.
+OptionTable const& rigid_bond_options();
 /// Of [[dissipation]] between pairs, beside the keys of its kind.
 OptionTable const& dissipation_pair_options();
 

@@ -4,6 +4,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/laws/drag.hpp>
+#include <boltzmann/laws/fene.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/laws/morse.hpp>
@@ -100,6 +101,13 @@ struct SoftCase : CaseBase<D, Newton> {
   static constexpr AtZero at_zero = AtZero::regular;
   static auto law() { return Soft{.repulsion = 25, .range = 3.5}; }
   static auto wrong_laws() { return std::vector<Soft>{{-1, 1}, {1, 0}, {1, -1}, {nan_value, 1}, {1, infinity}}; }
+};
+template <int D>
+struct FeneCase : CaseBase<D, Newton> {
+  static constexpr char const* name = "fene";
+  static constexpr AtZero at_zero = AtZero::regular;
+  static auto law() { return Fene{.stiffness = 3.1, .max_length = 9}; }
+  static auto wrong_laws() { return std::vector<Fene>{{-1, 1}, {1, 0}, {1, -1}, {nan_value, 1}, {1, infinity}}; }
 };
 template <int D>
 struct SlackSpringCase : SpringCase<D> {
@@ -302,7 +310,7 @@ std::vector<PairLaw> in_every_dimension() {
 }
 std::vector<PairLaw> pair_laws() {
   return in_every_dimension<LennardJonesCase, MorseCase, RydbergCase, CubicRydbergCase, SpringCase, SlackSpringCase,
-                            SoftCase, CoulombCase, SoftCoulombCase, GravityCase, SoftGravityCase>();
+                            SoftCase, FeneCase, CoulombCase, SoftCoulombCase, GravityCase, SoftGravityCase>();
 }
 
 class PairLawOf : public testing::TestWithParam<PairLaw> {

@@ -98,11 +98,12 @@ std::vector<Class> classes_among(LawInfo const& law, int dimension) {
 ParameterValues parameters_of(LawInfo const& law) {
   ParameterValues values;
   for (auto const& parameter : law.parameters)
-    values.push_back({std::string(parameter.name), parameter.name == "rates"      ? std::vector{0.7, -0.7, 0.0}
-                                                   : parameter.name == "gradient" ? std::vector{0.6, -0.7, 0.0}
-                                                   : parameter.vector             ? std::vector{0.7, 0.6, 0.9}
-                                                   : parameter.name == "range"    ? std::vector{20.0}
-                                                                                  : std::vector{0.7}});
+    values.push_back({std::string(parameter.name), parameter.name == "rates"        ? std::vector{0.7, -0.7, 0.0}
+                                                   : parameter.name == "gradient"   ? std::vector{0.6, -0.7, 0.0}
+                                                   : parameter.vector               ? std::vector{0.7, 0.6, 0.9}
+                                                   : parameter.name == "range"      ? std::vector{20.0}
+                                                   : parameter.name == "max_length" ? std::vector{20.0}
+                                                                                    : std::vector{0.7}});
   return values;
 }
 

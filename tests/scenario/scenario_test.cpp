@@ -253,7 +253,8 @@ TEST(Scenario, EveryLawOfTheCatalogueCanBeNamed) {
               (parameter.name == "rates"      ? "[1, -1, 0]"  // their sum, and the gradient along the direction, are 0
                : parameter.name == "gradient" ? "[0, 1, 0]"
                : parameter.vector             ? "[1" + rest + "]"
-                                              : "0.9") +
+               : parameter.name == "max_length" ? "3"  // they are 2 apart
+                                                : "0.9") +
               "\n";
     std::unique_ptr<ScenarioSimulation> scenario;
     EXPECT_NO_THROW(scenario = parse_scenario(text, "law.toml")) << law.name;

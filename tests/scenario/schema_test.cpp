@@ -75,6 +75,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"run", {start + wrong + atoms}},
       {"mesh",
        {start + "[mesh]\nlaw = \"coulomb\"\nk = 1\ncells = 8\n" + wrong + ensemble("Coulomb"),
+        start + "[mesh]\nlaw = \"coulomb\"\nk = 1\naccuracy = 0.01\n" + wrong + ensemble("Coulomb"),
         start + "[mesh]\nlaw = \"gravity\"\nG = 1\ncells = 8\n" + wrong + ensemble("Kepler")}},
       {"multipole",
        {start + "[multipole]\nlaw = \"coulomb\"\nk = 1\n" + wrong + ensemble("Coulomb"),
@@ -113,6 +114,7 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
         start + atoms +
             "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1\nat_cutoff = \"switch\"\n" + wrong,
         start + atoms + "[[influences]]\nlaw = \"drag\"\non = \"a\"\nfriction = 1\n" + wrong}},
+      {"rigid_bonds", {start + atoms + "[[rigid_bonds]]\non = \"a\"\npairs = [[0, 1]]\nlength = 1.4\n" + wrong}},
       {"remesh", {start + ensemble("Vortex") + "[[remesh]]\nevery = 1\nspacing = 1\n" + wrong}},
       {"outflow", {start + ensemble("Vortex") + "[[outflow]]\nfrom = [1, 0]\ndirection = [1, 0]\n" + wrong}},
       {"split_cores", {start + ensemble("Spreading") + "[[split_cores]]\nevery = 1\nabove = 1\n" + wrong}},

@@ -17,8 +17,8 @@ inline Pack<double, W> atan2(Pack<double, W> y, Pack<double, W> x) {
   return angle;
 }
 
-/// sin^2 below which an angle counts as straight: there the direction in which it changes is not known.
-inline constexpr double straight = 1e-24;
+/// sin^2 below which an angle counts as straight, or folded: the direction in which it changes is lost to rounding there.
+inline constexpr double straight = 1e-12;
 
 /// W tuples of N particles: an angle, its derivative by the position of each, and where each is seen from the second.
 template <int N, int D, class Real>
