@@ -189,7 +189,7 @@ std::size_t filling_count(Filling const& filling, int dimension) {
   double const count =
       cells[0] * cells[1] * cells[2] * static_cast<double>(cell_of(filling.kind, dimension).sites.size());
   if (count > std::numeric_limits<std::uint32_t>::max())
-    throw Error(fmt::format("lattice: a block of {:.0f} sites has too many", count));
+    throw Error(fmt::format("lattice: a block of {:.0f} cells has too many sites", count));
   return static_cast<std::size_t>(count);
 }
 
@@ -229,6 +229,7 @@ double spacing_for_number(Filling filling, int dimension, std::size_t number) {
   double volume = 1;
   for (int a = 0; a < dimension; ++a) volume *= filling.high[a] - filling.low[a];
   double const even = spacing_for_density(filling.kind, dimension, static_cast<double>(number) / volume);
+  if (dimension == 1) return even;  // any number fits
   Cell const cell = cell_of(filling.kind, dimension);
   // Between two of these no count of cells changes.
   double const from = even / 1.5, to = even * 1.5;

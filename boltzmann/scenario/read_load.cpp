@@ -135,26 +135,26 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
 
 /// Of a lattice: as it says, or as its density does, or the number of those that fill a block.
 void Loader::read_spacing(std::optional<std::size_t> number, Place const& number_place) {
-  bool const fills = kind_->name == "fill";
   block_.spacing = 1;
   if (options_.spacing) {
     block_.spacing = *options_.spacing;
+    spacing_known_ = true;
     section_.refuse("number_density", "'spacing' says it, too; leave one out");
   } else if (options_.number_density) {
-    catch_errors(reading_, section_.place("number_density"), [&] {
-      if (reading_.dimension > 0)
-        block_.spacing = spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
+    if (reading_.dimension == 0) return;
+    spacing_known_ = catch_errors(reading_, section_.place("number_density"), [&] {
+      block_.spacing = spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
     });
-  } else if (fills && number) {
+  } else if (kind_->name == "fill" && number) {
     read_corners();
-    if (reading_.box && *number > 0)
-      catch_errors(reading_, number_place, [&] {
-        block_.spacing = spacing_for_number({block_.kind, 1, low_, high_}, reading_.dimension, *number);
-      });
+    if (!reading_.box || *number == 0) return;
+    if (variant_ && !fits_memory(static_cast<double>(*number), *variant_, number_place, reading_)) return;
+    spacing_known_ = catch_errors(reading_, number_place, [&] {
+      block_.spacing = spacing_for_number({block_.kind, 1, low_, high_}, reading_.dimension, *number);
+    });
   } else if (!section_.has("spacing") && !section_.has("number_density")) {
     section_.need("spacing", reading_.context.units.is_reduced() ? "spacing = 1" : "spacing = \"2.551 angstrom\"");
   }
-  spacing_known_ = options_.spacing || options_.number_density || (fills && number);
 }
 
 void Loader::load(AnyEnsemble& particles) {

@@ -40,7 +40,7 @@ std::string const chain =
     "on = \"beads\"\n"                                                                    // 21
     "connect = [[0, 5, 1]]\n"                                                             // 22
     "[[influences]]\n"                                                                    // 23
-    "influence = \"[-3*mass]\"\n"                                                       // 24
+    "influence = \"[-3*mass]\"\n"                                                         // 24
     "from_outside = true\n"                                                               // 25
     "on = \"beads\"\n";                                                                   // 26
 
