@@ -188,6 +188,12 @@ void RadialDistribution::count_pairs(Sample const& sample) {
     counted_.assign(options_.count, 0.0);
     expected_.assign(options_.count, 0.0);
   }
+  for (int a = 0; a < box.dimension(); ++a)  // a box may shrink
+    if (reach_ > (box.periodic(a) ? 0.5 : 1.0) * box.length(a) * (1 + 1e-12))
+      throw Error(
+          fmt::format("radial-distribution: the box has become too short along axis {} for pairs up to {}; say "
+                      "less by 'to'",
+                      "xyz"[a], box.spoken_units().text(reach_, dimensions::length, 6)));
   auto const& names = options_.ensembles;
   bool const within = partners_each_ == 2;
   std::vector<double> first, second;
