@@ -17,8 +17,8 @@ namespace {
 
 constexpr double hartree_bohr = 27.2 * 0.529;  // eV angstrom: rounded as the writers of such files have it
 constexpr double most_points = 1e6;
-constexpr std::size_t most_elements = 10, finest_of_files = 4096;
-constexpr double spline_error = 1e-6;  // error of splines through splines
+constexpr std::size_t most_elements = 10, finest_of_files = 1024;
+constexpr double spline_error = 1e-5;  // error of splines through splines
 
 /// Reads the words of a text file, one after the other.
 class WordReader {

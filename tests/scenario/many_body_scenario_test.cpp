@@ -67,6 +67,27 @@ TEST(ManyBodyScenario, AddsToWhatPairsDo) {
   both->simulation->run(5);
 }
 
+TEST(ManyBodyScenario, ReadsFormulas) {
+  std::string const
+      cutoff = "cutoff = \"6 angstrom\"\n",
+      shipped =
+          "[embedded_atoms]\npotential = \"gupta\"\nA = \"85.5 meV\"\nxi = \"1.224 eV\"\np = 10.96\nq = "
+          "2.278\nr0 = \"2.556 angstrom\"\n" +
+          cutoff,
+      typed =
+          "[embedded_atoms]\npotential = \"formulas\"\npair = \"2*A*exp(-p*(r/r0 - 1))\"\ndensity = "
+          "\"exp(-2*q*(r/r0 - 1))\"\nembedding = \"-xi*sqrt(rho)\"\nparameters = { A = \"85.5 meV\", xi = "
+          "\"1.224 eV\", p = 10.96, q = 2.278, r0 = \"2.556 angstrom\" }\n" +
+          cutoff;
+  auto const a = read(head + shipped + atoms), b = read(head + typed + atoms);
+  double const energy = a->simulation->measure().potential;
+  EXPECT_NEAR(b->simulation->measure().potential / energy, 1, 1e-5);
+  EXPECT_NEAR(energy / eV() / 256, -3.5, 0.1);  // copper, but for what is beyond the cut-off
+  auto const lines = mistakes_of(head + replaced(typed, "-xi*sqrt(rho)", "-A*sqrt(r)") + atoms);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].find("test.toml:17:"), 0u) << lines[0];
+}
+
 TEST(ManyBodyScenario, TakesClassesOfItsOwnAndSeveralEnsembles) {
   std::string const marked = "[[classes]]\nname = \"Marked\"\nbase = \"Newton\"\n[[classes.fields]]\nname = \"mark\"\n";
   auto const run = read(head + marked + semiconductor + replaced(atoms, "\"Newton\"", "\"Marked\"") +

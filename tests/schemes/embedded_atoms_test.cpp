@@ -207,6 +207,28 @@ TEST(EmbeddedAtoms, AreOfAnyClassOfForcesAndInAnyEnsembles) {
   EXPECT_NEAR(scheme.measure().potential, one.scheme.measure().potential, 1e-9);
 }
 
+TEST(EmbeddedAtoms, FollowABoxThatIsStretched) {
+  Crystal one;
+  one.scheme.calculate();
+  std::array<double, 3> const factor{1.02, 0.97, 1.05};
+  auto const stretched = one.sample.scaled(factor);
+  auto edges = one.scheme.box().edges();
+  for (std::size_t a = 0; a < 3; ++a) edges[a] *= factor[a], edges[3 + a] *= factor[a];
+  ASSERT_TRUE(one.scheme.follows_box());
+  one.scheme.box().edges(edges);
+  take(one.atoms, stretched.places);
+  one.scheme.box_changed();
+  Ensemble<Newton<3>> fresh("fresh");
+  take(fresh, stretched.places);
+  EmbeddedAtomScheme scheme(stretched.box, metal());
+  scheme.add(fresh);
+  EXPECT_NEAR(one.scheme.measure().potential, scheme.measure().potential, 1e-9);
+  one.scheme.calculate();
+  scheme.calculate();
+  for (std::size_t i = 0; i < fresh.size(); ++i)
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(one.atoms.influence_on(i)[k], fresh.influence_on(i)[k], 1e-11);
+}
+
 TEST(EmbeddedAtoms, AloneTheyFeelNothing) {
   Ensemble<Newton<3>> atoms("atoms", 2);
   atoms[1].position = {3 * reach, 0, 0};
@@ -236,11 +258,11 @@ TEST(EmbeddedAtoms, RefuseWhatTheyCannotBe) {
             "'tracers' is of class Tracer, which no force moves; atoms are of class Newton or derived from it");
   scheme.add(atoms, "A");
   EXPECT_EQ(message([&] { scheme.add(atoms, "B"); }), "ensemble 'atoms' is added twice");
-  EXPECT_EQ(
-      message([&] {
-        EmbeddedAtoms(repulsion, density, embedding, {4, 5});
-      }),
-      "embedded atoms: first = 0.2, switch_from = 5, cutoff = 4: the first must be positive, each no more than the next");
+  EXPECT_EQ(message([&] {
+              EmbeddedAtoms(repulsion, density, embedding, {4, 5});
+            }),
+            "embedded atoms: first = 0.2, switch_from = 5, cutoff = 4: the first must be positive, each no more than "
+            "the next");
   EXPECT_EQ(message([&] { EmbeddedAtoms(SuttonChen{1, 1, 9, -6, 3}, {2}); }), "Sutton-Chen: m = -6 must be positive");
   atoms[1].position[2] = std::nan("");
   EXPECT_EQ(message<PhysicsFailure>([&] { scheme.calculate(); }),

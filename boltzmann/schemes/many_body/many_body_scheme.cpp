@@ -51,6 +51,15 @@ void ManyBodyScheme::skin(double length) {
   changed();
 }
 
+void ManyBodyScheme::box_changed() {
+  for (int a = 0; a < box().dimension(); ++a)
+    if (box().periodic(a) && cutoff_ > box().length(a))
+      throw PhysicsFailure(fmt::format("the box has shrunk to {} along {}, less than the cut-off {} of the atoms",
+                                       spoken_units().text(box().length(a), dimensions::length), "xyz"[a],
+                                       spoken_units().text(cutoff_, dimensions::length)));
+  hood_.stale();
+}
+
 /// Copies all places into the points. PhysicsFailure if one is not finite.
 void ManyBodyScheme::copy_places() {
   std::size_t count = 0;

@@ -23,6 +23,8 @@ class ManyBodyScheme : public Scheme {
   /// How far atoms may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
   void skin(double length);
 
+  bool follows_box() const override { return true; }
+  void box_changed() override;
   void add_influences(double time) override;
   std::optional<std::uint64_t> revision() const override { return revision_with({}); }
   EnergyAndVirial measure(double time = 0) override;
