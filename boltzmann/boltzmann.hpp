@@ -31,6 +31,7 @@
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/nose_hoover.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/dissipation/velocity_rescaling.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/laws/angular.hpp>

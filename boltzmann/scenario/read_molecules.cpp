@@ -1,5 +1,6 @@
 // Reads molecules: which particles are bonded, and tuples of them.
 #include <boltzmann/core/input_file.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
 

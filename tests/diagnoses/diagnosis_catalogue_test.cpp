@@ -192,7 +192,8 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
       "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, "
       "vortex-energy, body-forces, temperature, pressure, number, entropy, heat-flux, slab, shock, mean-velocity, "
       "velocity-diffusion, diffusion, radial-distribution, structure-factor, bond-order, "
-      "velocity-autocorrelation, mean-square-displacement, green-kubo, mean-profile, average, extremes, formula, "
+      "velocity-autocorrelation, mean-square-displacement, green-kubo, mean-profile, average, chains, extremes, "
+      "formula, "
       "histogram, field-energy, field-mode, wave-spectrum, "
       "box, energy-balance; "
       "did you mean 'energies'?");
@@ -225,7 +226,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 32U);
+  EXPECT_EQ(diagnosis_kinds().size(), 33U);
   Ensemble<Smooth<2>> gas("gas");
   Ensemble<Vortex<2>> vortices("vortices");
   Ensemble<Panel<2>> body("body");
@@ -241,6 +242,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
     }
     if (kind.name == "extremes") any.quantity = "speed";
     if (kind.name == "bond-order") any.range = 1;
+    if (kind.name == "chains") any.count = 2;
     if (kind.name == "green-kubo") any.quantity = "viscosity";
     if (kind.name == "average") any.columns_before = {{"temperature", dimensions::temperature}};
     say_formula(kind.name, any);
@@ -295,6 +297,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     DiagnosisParameters with{.available = {of}};
     if (kind.name == "extremes") with.quantity = "speed";
     if (kind.name == "bond-order") with.range = 1;
+    if (kind.name == "chains") with.count = 2;
     if (kind.name == "green-kubo") with.quantity = "viscosity";
     say_formula(kind.name, with);
     if (kind.of_flow) with.vortices = {{&vortices, BiotSavart{}}};
@@ -306,7 +309,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
                          kind.name == "velocity-diffusion" || kind.name == "diffusion" || kind.name == "extremes" ||
                          kind.name == "entropy" || kind.name == "formula" || kind.name == "histogram" ||
                          kind.name == "velocity-autocorrelation" || kind.name == "mean-square-displacement" ||
-                         kind.name == "green-kubo" || kind.name == "bond-order";
+                         kind.name == "green-kubo" || kind.name == "bond-order" || kind.name == "chains";
     for (double const value : values) EXPECT_EQ(std::isnan(value), is_mean) << kind.name;
   }
 }

@@ -108,7 +108,7 @@ TEST_P(Fuzz, WhateverIsReadIsTakenOrRefused) {
     }
   Mutator mutator(pool, what.words, test_seed(1));
   char const* told = std::getenv("BOLTZMANN_FUZZ_SECONDS");
-  double const seconds = told ? std::atof(told) : 20;
+  double const seconds = told ? std::atof(told) : 10;
   auto const start = Clock::now();
   std::size_t cases = 0;
   auto const read = [&](std::string const& bytes) {

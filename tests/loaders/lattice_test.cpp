@@ -179,7 +179,7 @@ TEST(Lattice, RefusesWhatDoesNotFit) {
   Ensemble<Newton<2>> none("none");
   EXPECT_EQ(block_load(none, {Lattice::triangular, 1, {0, 5, 1}}), 0U);
   EXPECT_THROW(block_load(atoms, {Lattice::hcp, 1, {3, 1, 1}}), Error);
-  EXPECT_THROW(filling_count(Filling{Lattice::hcp, 0.1, {0, 0, 0}, {1, 1, 1}}, 3), Error);
+  EXPECT_THROW(filling_count(Filling{Lattice::hcp, 0.1, {0, 0, 0}, {1, 1, 1}}, 2), Error);  // it has three dimensions
   EXPECT_EQ(lattice_words().named("bcc"), Lattice::bcc);
   EXPECT_EQ(lattice_words().named("hcp"), Lattice::hcp);
   EXPECT_THROW(lattice_words().named("hexagonal"), Error);

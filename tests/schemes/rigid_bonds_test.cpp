@@ -1,5 +1,6 @@
 // Rigid bonds: rotors and pendulums whose motion is known, energy, momentum, virial, temperature, bits.
 #include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/particles/newton.hpp>

@@ -3,8 +3,6 @@
 
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/vector.hpp>
-#include <boltzmann/dissipation/dissipation.hpp>
-#include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/neighbours/bonds.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
@@ -72,28 +70,6 @@ class RigidBonds {
   std::vector<double> length_;
   std::vector<std::size_t> start_;  // of each molecule, in the order of its bonds
   std::vector<Vector<3>> before_;
-};
-
-/// Leap-frog with rigid bonds, in place of the ensemble's own.
-std::unique_ptr<Integrator> with_rigid_bonds(std::shared_ptr<RigidBonds> bonds, std::unique_ptr<Integrator> inner);
-
-/// What follows baths: velocities lose again what stretches bonds. Add it behind them; its heat is what it takes.
-class RigidVelocities final : public Dissipation {
- public:
-  explicit RigidVelocities(std::shared_ptr<RigidBonds> bonds) : bonds_(std::move(bonds)) {}
-  std::vector<AnyEnsemble*> ensembles() const override { return {&bonds_->ensemble()}; }
-  void check() override {}
-  void advance(StepContext const&) override { heat_ += bonds_->correct_velocities(threads()); }
-  double heat() const override { return heat_; }
-  bool keeps_momentum() const override { return true; }
-  std::size_t rigid_bonds() const override { return bonds_->size(); }
-  std::string kind() const override { return "rigid bonds"; }
-  std::vector<double> state() const override { return {heat_}; }
-  void restore(std::span<double const> state) override;
-
- private:
-  std::shared_ptr<RigidBonds> bonds_;
-  double heat_ = 0;
 };
 
 }  // namespace boltzmann

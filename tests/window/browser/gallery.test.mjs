@@ -62,7 +62,7 @@ test("every shipped scenario has a card with its picture, and can be searched fo
 
   const visible = () => cards.evaluateAll((all) => all.filter((card) => card.offsetParent).map((card) => card.dataset.scenario));
   await page.fill("#gallery-search", "Copper RADIATION");
-  assert.deepEqual((await visible()).sort(), ["copper", "copper-10000"]);
+  assert.deepEqual((await visible()).sort(), ["copper", "copper-10000", "copper-cascade"]);
   await page.fill("#gallery-search", "zzz");
   assert.deepEqual(await visible(), []);
   assert.match(await page.textContent(".gallery-none"), /zzz/);
