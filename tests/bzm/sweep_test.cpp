@@ -203,11 +203,11 @@ INSTANTIATE_TEST_SUITE_P(Signals, Stopped, testing::Values(SIGINT, SIGKILL),
 TEST_F(Sweep, GoesOnWhereOneRunFails) {
   std::string text = gas + sweep;
   auto const from = text.find("ensembles.atoms.temperature = "), to = text.find('\n', from);
-  text.replace(from, to - from, "run.step = [\"10 fs\", \"1 ns\", \"5 fs\"]");
+  text.replace(from, to - from, "ensembles.atoms.temperature = [\"100 K\", \"1e12 K\", \"200 K\"]");
   write(text);
   auto const done = run({"run", "gas.toml", "--out", "all"});
   EXPECT_EQ(done.status, 3) << done.err;
-  EXPECT_NE(done.err.find("run 4 of 9 (step 1 ns, seed 5) failed: "), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("run 4 of 9 (temperature 1e12 K, seed 5) failed: "), std::string::npos) << done.err;
   EXPECT_NE(done.err.find("3 of 9 runs failed"), std::string::npos) << done.err;
   auto const table = read_csv(path("all/sweep.csv"));
   EXPECT_EQ(table.column("runs"), (std::vector<double>{3, 0, 3}));
@@ -215,10 +215,10 @@ TEST_F(Sweep, GoesOnWhereOneRunFails) {
   EXPECT_TRUE(std::isnan(table.column("temperature (K)")[1]));
   auto const again = run({"resume", "all"});
   EXPECT_EQ(again.status, 3);
-  EXPECT_NE(again.err.find("run 4 of 9 (step 1 ns, seed 5) failed: "), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("run 4 of 9 (temperature 1e12 K, seed 5) failed: "), std::string::npos) << again.err;
   EXPECT_NE(again.out.find("9 done before"), std::string::npos) << again.out;
   // DissipatingPair away, it is tried again.
-  fs::remove_all(folder / "all/04-step-1-ns-seed-5");
+  fs::remove_all(folder / "all/04-temperature-1e12-K-seed-5");
   auto const third = run({"resume", "all"});
   EXPECT_EQ(third.status, 3);
   EXPECT_NE(third.out.find("8 done before"), std::string::npos) << third.out;

@@ -101,7 +101,7 @@ void expect_canonical(double rate, std::string const& what) {
     Bath bath(temperature[k], rate, 1);
     bath.on(fluid.atoms);
     fluid.simulation.add(bath);
-    fluid.run(1600, 40);
+    fluid.run(2400, 40);
     energies[k] = fluid.energies;
   }
   expect_slope(energies[0], energies[1], 1 / temperature[0] - 1 / temperature[1], what);
@@ -122,7 +122,7 @@ TEST(Ensembles, TwoPressures) {
     fluid.simulation.add(bath);
     fluid.simulation.add(Barostat(
         {.pressure = pressure[k], .temperature = temperature, .compressibility = 0.3, .rate = 5, .every = 5}, 1));
-    fluid.run(1200, 50);
+    fluid.run(2400, 50);
     volumes[k] = fluid.volumes;
   }
   expect_slope(volumes[0], volumes[1], (pressure[0] - pressure[1]) / temperature, "volumes");
