@@ -57,8 +57,8 @@
 #include <boltzmann/laws/rydberg.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/spring.hpp>
-#include <boltzmann/laws/stillinger_weber.hpp>
 #include <boltzmann/laws/state_law.hpp>
+#include <boltzmann/laws/stillinger_weber.hpp>
 #include <boltzmann/laws/stream.hpp>
 #include <boltzmann/laws/table.hpp>
 #include <boltzmann/laws/tether.hpp>

@@ -9,8 +9,8 @@
 #include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/parameters.hpp>
-#include <boltzmann/scenario/typed_law.hpp>
 #include <boltzmann/scenario/sweep.hpp>
+#include <boltzmann/scenario/typed_law.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cstdint>

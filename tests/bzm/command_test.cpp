@@ -572,7 +572,8 @@ TEST(Completion, IsABashScriptThatKnowsTheCommands) {
   auto const bash = Process({"/bin/bash", "complete.sh"}, folder.string()).wait();
   EXPECT_EQ(bash.status, 0);
   EXPECT_EQ(bash.out,
-            "resume render\n--set --steps --seed --seeds\ncopper copper-10000 copper-3d copper-cascade\nresults\nmine.cpp\nscenarios\n")
+            "resume render\n--set --steps --seed --seeds\ncopper copper-10000 copper-3d "
+            "copper-cascade\nresults\nmine.cpp\nscenarios\n")
       << bash.err;
   expect_one_line(bzm({"completion", "fihs"}, folder.string()), 2, {"bash, zsh, fish", "did you mean 'fish'?"});
 }
@@ -693,7 +694,8 @@ TEST(Bzm, TellsWhatTolerancesCost) {
 TEST(Command, ShowsLawsAsTheyAreTyped) {
   test::Folder folder;
   std::string const head =
-      "[units]\nbase = \"si\"\n[box]\nlow = [0, 0, 0]\nhigh = [90, 90, 90]\nboundary = \"periodic\"\n[run]\nstep = 0.01\n"
+      "[units]\nbase = \"si\"\n[box]\nlow = [0, 0, 0]\nhigh = [90, 90, 90]\nboundary = \"periodic\"\n[run]\nstep = "
+      "0.01\n"
       "steps = 2\ncutoff = CUTOFF\n[[ensembles]]\nname = \"atoms\"\nclass = \"CLASS\"\nnumber = 9\nload = { kind = "
       "\"random\", minimum_distance = 5 }\nmass = 1\n";
   for (auto const& law : scenario_laws()) {

@@ -840,7 +840,8 @@ TEST(Mistakes, OfTheFileSystem) {
   // A lattice that is not the box.
   std::ofstream(path) << load("{ kind = \"file\", path = \"boltzmann_mistakes_test.xyz\" }");
   std::ofstream(folder + "/boltzmann_mistakes_test.xyz") << "2\nLattice=\"19 0 0 0 20 0 0 0 1\"\nCu 1 1 0\nCu 5 1 0\n";
-  EXPECT_NE(message(path).find("path: the file's lattice is 19 angstrom long along x, the periodic box 20"), std::string::npos)
+  EXPECT_NE(message(path).find("path: the file's lattice is 19 angstrom long along x, the periodic box 20"),
+            std::string::npos)
       << message(path);
   std::filesystem::remove(path);
   std::filesystem::remove(folder + "/boltzmann_mistakes_test.xyz");

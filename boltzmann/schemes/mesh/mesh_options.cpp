@@ -31,10 +31,11 @@ OptionTable make_mesh_options() {
           "P3M: mesh plus near pairs, forces to this part of their rms; `cells`, `assignment`, `poisson`, `boundary` "
           "and `precision` are then chosen for you",
           "a mesh alone");
-  all.add_said("bonded_factors", "a list of numbers, `[0, 0, 0.5]`",
-               "with `accuracy`: of charges 1, 2, 3, ... bonds apart (`bonds` of `[[ensembles]]`); 0: they don't act on "
-               "each other",
-               "1: as all others");
+  all.add_said(
+      "bonded_factors", "a list of numbers, `[0, 0, 0.5]`",
+      "with `accuracy`: of charges 1, 2, 3, ... bonds apart (`bonds` of `[[ensembles]]`); 0: they don't act on "
+      "each other",
+      "1: as all others");
   return all;
 }
 
