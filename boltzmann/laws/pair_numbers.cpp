@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t distances = 400;  // of the samples
 constexpr std::size_t pairs = 6;        // of particles
+constexpr double rounding = 1e-9;       // of forces
 constexpr double out_of_range = 1e100;  // a force that is on its way to infinity
 
 /// The law between two particles of these, at some distance in some direction.
@@ -73,9 +74,14 @@ double width_of_well(Curve const& curve) {
     if (!(curve.forces[k] > 0 && curve.forces[k + 1] <= 0)) continue;
     double const stiffness = (curve.forces[k] - curve.forces[k + 1]) / curve.step;
     // The work from the bottom outwards, as far as it is attracted.
-    double depth = 0;
-    for (std::size_t j = k + 1; j < curve.forces.size() && curve.forces[j] <= 0; ++j)
+    double depth = 0, strongest = 0, of_all = 0;
+    for (std::size_t j = k + 1; j < curve.forces.size() && curve.forces[j] <= 0; ++j) {
       depth -= curve.forces[j] * curve.step;
+      strongest = std::max(strongest, -curve.forces[j]);
+    }
+    for (std::size_t j = curve.forces.size() / 2; j < curve.forces.size(); ++j)
+      of_all = std::max(of_all, std::fabs(curve.forces[j]));
+    if (strongest < rounding * of_all) return 0;  // a force that has been switched off, but for rounding
     return depth > 0 ? std::sqrt(2 * depth / stiffness) : 0;
   }
   return 0;

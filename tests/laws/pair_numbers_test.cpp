@@ -50,6 +50,17 @@ TEST(TypedLaw, WithoutAWellChangesAsItsForceDoes) {
   EXPECT_EQ(Gas<2>().length(FormulaLaw::energy("1/r^12")), 3);
 }
 
+// One that has been switched off is zero at the cut-off but for rounding, which is no well.
+TEST(TypedLaw, HasNoWellAtItsCutoff) {
+  for (auto const end : {AtCutoff::switched, AtCutoff::shift}) {
+    auto law = FormulaLaw::energy("p.charge*q.charge*exp(-r/2)/r");
+    law.at_cutoff = end;
+    EXPECT_EQ(Gas<3>().length(law), 3);
+    EXPECT_EQ(Gas<2>().length(law), 3);
+    EXPECT_EQ(Gas<1>().length(law), 3);
+  }
+}
+
 TEST(TypedLaw, IsToldToBeNoNumberOrToJump) {
   auto const told = [](FormulaLaw const& law) {
     Gas<2> gas;

@@ -22,7 +22,7 @@ low = [0, 0]
 high = [40, 40]
 boundary = "periodic"
 [run]
-step = "1e-8 fs"
+step = "1 fs"
 steps = 100
 cutoff = 8.5
 stop = "mean speed > 100 angstrom/ps"
