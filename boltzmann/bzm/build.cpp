@@ -128,7 +128,7 @@ int build(BuildOptions const& options) {
   line.emplace_back("-o");
   line.push_back(out);
   line.push_back("-L" + fs::path(place.library).parent_path().string());
-  for (auto const* word : {"-lboltzmann", "-lfmt", "-pthread"}) line.emplace_back(word);
+  for (auto const* word : {"-lboltzmann", "-lfmt", "-lpthread"}) line.emplace_back(word);
   for (auto const& word : dependencies()) line.push_back(word);
   fmt::print("{}\n", shell_line(line));
   std::fflush(stdout);
