@@ -83,8 +83,8 @@ void DerivedEnsemble::resize(std::size_t size) {
   std::size_t const blocks = new_row_.size(), first_new = std::min(size, this->size());
   rows_.resize((size + padding) * blocks);
   for (std::size_t i = first_new; i < size + padding; ++i)
-    std::copy(new_row_.begin(), new_row_.end(), rows_.begin() + static_cast<std::ptrdiff_t>(i * blocks));
-  attach(rows_.front().number, size);
+    std::copy(new_row_.begin(), new_row_.end(), rows_.data() + i * blocks);
+  attach(rows_[0].number, size);
 }
 
 }  // namespace boltzmann

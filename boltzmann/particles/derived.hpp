@@ -41,13 +41,14 @@ class DerivedEnsemble final : public AnyEnsemble {
 
   void resize(std::size_t size) override;
   std::size_t bytes() const override { return rows_.capacity() * sizeof(Block) + influence_bytes(); }
+  std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
 
  private:
   struct alignas(32) Block {
     double number[row_block] = {0, 0, 0, 0};
   };
 
-  std::vector<Block> rows_;
+  HeldArray<Block> rows_;
   std::vector<Block> new_row_;
 };
 

@@ -3,12 +3,14 @@
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/field.hpp>
+#include <boltzmann/particles/held_array.hpp>
 #include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <string>
 #include <typeinfo>
@@ -58,7 +60,7 @@ class AnyEnsemble {
   double const* influence(std::size_t i) const { return influence_.data() + i * influence_size_; }
   std::size_t influence_size() const { return influence_size_; }
   void clear_influence() {
-    for (double& x : influence_) x = 0;
+    for (double& x : influences()) x = 0;
   }
 
   /// The fields that have rates of their own.
@@ -73,8 +75,8 @@ class AnyEnsemble {
   double const* rate(std::size_t k) const { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
   std::size_t rate_stride() const { return static_cast<std::size_t>(dimension_); }
   /// Influences and rates of all particles, whatever their meaning.
-  std::span<double> influences() { return influence_; }
-  std::span<double const> influences() const { return influence_; }
+  std::span<double> influences() { return {influence_.data(), influence_.size()}; }
+  std::span<double const> influences() const { return {influence_.data(), influence_.size()}; }
 
   std::vector<Field> const& fields() const { return fields_; }
   /// The descriptor of a field, or nullptr if the class has none of that name.
@@ -89,6 +91,11 @@ class AnyEnsemble {
   virtual void resize(std::size_t size) = 0;
   /// Memory of rows and influences.
   virtual std::size_t bytes() const = 0;
+
+  /// For whoever looks at rows or influences without a copy: their memory stays while it is held. A resize takes other
+  /// memory then, and what is held becomes NaN.
+  virtual std::shared_ptr<void const> hold_rows() const = 0;
+  std::shared_ptr<void const> hold_influences() const { return influence_.hold(); }
 
   Appearance appearance;
 
@@ -105,7 +112,7 @@ class AnyEnsemble {
   int dimension_;
   std::size_t stride_, doubles_, influence_size_, size_ = 0;
   double* data_ = nullptr;
-  std::vector<double> influence_;
+  HeldArray<double> influence_;
   std::vector<Field> fields_;
   std::vector<DrivenField> driven_;
   std::vector<int> vectors_;  // where fields stand of one component that are vectors
@@ -153,14 +160,15 @@ class Ensemble final : public AnyEnsemble {
     std::memset(static_cast<void*>(rows_.data() + first_new), 0, (rows_.size() - first_new) * sizeof(Row<P>));
     if constexpr (requires(P p) { p.mass; })
       for (std::size_t i = first_new; i < rows_.size(); ++i) rows_[i].mass = 1;
-    attach(rows_.empty() ? nullptr : &rows_[0].position[0], size);
+    attach(&rows_[0].position[0], size);
   }
 
   std::size_t bytes() const override { return rows_.capacity() * sizeof(Row<P>) + influence_bytes(); }
+  std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
 
  private:
   static constexpr std::size_t padding = 16;  // packs may read past the last particle, and mask what they read
-  std::vector<Row<P>> rows_;
+  HeldArray<Row<P>> rows_;
 };
 
 }  // namespace boltzmann

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -109,10 +108,9 @@ struct Watch {
   std::optional<ProgressLine> line;
   std::optional<TimeLimit> limit;
   std::optional<double> particle_steps;
-  bool out_of_time = false, ended = false;
+  bool out_of_time = false;
 
   void look(Simulation& simulation) {
-    if (ended) return;
     if (line) line->look(simulation.step());
     if (particle_steps)
       for (auto const* ensemble : simulation.ensembles()) *particle_steps += static_cast<double>(ensemble->size());
@@ -120,8 +118,7 @@ struct Watch {
     out_of_time = true;
     simulation.pause();
   }
-  void end() {
-    ended = true;
+  void end() const {
     if (line) line->clear();
   }
 };
@@ -153,18 +150,18 @@ std::string duration_text(double seconds) {
 
 RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions const& options,
                    Interrupt const& interrupt, std::function<double()> const& seconds_at_end) {
-  // The observer stays with the simulation, without effect once the loop is done.
-  auto const watch = std::make_shared<Watch>();
-  if (options.seconds > 0) watch->limit.emplace(options.seconds, seconds_at_end);
+  Watch watch;
+  if (options.seconds > 0) watch.limit.emplace(options.seconds, seconds_at_end);
   simulation.check();
   RunReport report;
   for (auto const* ensemble : simulation.ensembles()) report.particles += static_cast<std::int64_t>(ensemble->size());
   std::int64_t const first = simulation.step();
   print_warnings(simulation, options);
-  if (!options.quiet) watch->line.emplace(first, first + static_cast<std::int64_t>(steps), options.planned);
-  if (numbers_change(simulation.adaptations())) watch->particle_steps = 0;
-  if (watch->line || watch->limit || watch->particle_steps)
-    simulation.observe_progress([watch, &simulation](Simulation const&) { watch->look(simulation); });
+  if (!options.quiet) watch.line.emplace(first, first + static_cast<std::int64_t>(steps), options.planned);
+  if (numbers_change(simulation.adaptations())) watch.particle_steps = 0;
+  std::optional<Attending> attending;
+  if (watch.line || watch.limit || watch.particle_steps)
+    attending.emplace(simulation, simulation.observe_progress([&](Simulation const&) { watch.look(simulation); }));
   auto const start = Clock::now();
   try {
     if (options.drive)
@@ -172,18 +169,18 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
     else
       simulation.run(steps);
   } catch (...) {
-    watch->end();
+    watch.end();
     throw;
   }
-  watch->end();
+  watch.end();
   report.seconds = seconds_since(start);
   report.steps = simulation.step() - first;
   report.particle_steps =
-      watch->particle_steps.value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
+      watch.particle_steps.value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
   report.signalled = interrupt.seen();
   bool const early = report.steps < static_cast<std::int64_t>(steps);
   report.interrupted = report.signalled && early;
-  report.out_of_time = watch->out_of_time && early && !report.interrupted;
+  report.out_of_time = watch.out_of_time && early && !report.interrupted;
   return report;
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 
 namespace boltzmann {
 namespace {
@@ -59,10 +58,11 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   Interrupt const interrupt(simulation);
   steps = recording.resume_if_asked(steps);
   simulation.check();
-  // What the run begins with is known only when it has been equilibrated. The observer stays with the simulation.
-  auto const start = std::make_shared<Conserved>(conserved(simulation));
-  simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
-                          [start](Simulation const& now) { *start = conserved(now); });
+  // What the run begins with is known only when it has been equilibrated.
+  Conserved start = conserved(simulation);
+  Attending const observer(
+      simulation, simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
+                                          [&start](Simulation const& now) { start = conserved(now); }));
   double const before = recording.seconds();
   RunReport report;
   try {
@@ -86,8 +86,8 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   if (!report.condition.empty() && recording.ended_step() == simulation.step())
     report.interrupted = report.out_of_time = false;
   Conserved const end = conserved(simulation);
-  if (!options.quiet) print_summary(recording, report, *start, end, recorded);
-  for (auto const& line : drift_warnings(*start, end, recording.units()))
+  if (!options.quiet) print_summary(recording, report, start, end, recorded);
+  for (auto const& line : drift_warnings(start, end, recording.units()))
     fmt::print(stderr, "{}{}\n", options.warnings ? "" : recording.folder() + ": ", line);
   if (auto const& minimised = simulation.minimised(); minimised && !minimised->converged)
     fmt::print(stderr, "{}warning: the minimum before the run was not reached: {}\n",

@@ -26,15 +26,16 @@ class StoredEnsemble final : public AnyEnsemble {
   }
   void resize(std::size_t size) override {
     rows_.resize((size + 1) * (stride() / row_block));
-    attach(rows_.front().numbers, size);
+    attach(rows_[0].numbers, size);
   }
   std::size_t bytes() const override { return rows_.capacity() * sizeof(Block); }
+  std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
 
  private:
   struct alignas(32) Block {  // as rows of every class are
     double numbers[row_block] = {};
   };
-  std::vector<Block> rows_;
+  HeldArray<Block> rows_;
 };
 
 /// Knows the box and whose particles are in it, and none of the laws.

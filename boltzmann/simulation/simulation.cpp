@@ -99,33 +99,50 @@ Simulation::Part* Simulation::part_of(AnyEnsemble const& ensemble) {
   return part == parts_.end() ? nullptr : &*part;
 }
 
-void Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
+Attendant Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
   if (every == 0) throw Error("an observer looks every 1 or more steps, not every 0");
-  observe_when([every](std::int64_t step) { return step % static_cast<std::int64_t>(every) == 0; },
-               std::move(observer));
+  return observe_when([every](std::int64_t step) { return step % static_cast<std::int64_t>(every) == 0; },
+                      std::move(observer));
 }
 
-void Simulation::observe_when(std::function<bool(std::int64_t)> due, std::function<void(Simulation const&)> observer) {
-  observations_.push_back({std::move(due), std::move(observer)});
+Attendant Simulation::observe_when(std::function<bool(std::int64_t)> due,
+                                   std::function<void(Simulation const&)> observer) {
+  observations_.push_back({Attendant{++attendants_}, std::move(due), std::move(observer)});
+  return observations_.back().attendant;
 }
 
-void Simulation::observe_progress(std::function<void(Simulation const&)> observer) {
-  progress_.push_back(std::move(observer));
+Attendant Simulation::observe_progress(std::function<void(Simulation const&)> observer) {
+  progress_.push_back({Attendant{++attendants_}, std::move(observer)});
+  return progress_.back().attendant;
 }
 
-void Simulation::adapt(std::uint64_t every, std::unique_ptr<Adaptation> adaptation) {
+Attendant Simulation::adapt(std::uint64_t every, std::unique_ptr<Adaptation> adaptation) {
   if (every == 0) throw Error("an adaptation changes particles every 1 or more steps, not every 0");
-  changes_.push_back({static_cast<std::int64_t>(every), std::move(adaptation)});
   checked_ = false;
+  changes_.push_back({Attendant{++attendants_}, static_cast<std::int64_t>(every), std::move(adaptation)});
+  return changes_.back().attendant;
 }
 
-void Simulation::adapt(std::uint64_t every, std::function<void()> change) {
+Attendant Simulation::adapt(std::uint64_t every, std::function<void()> change) {
   struct Call final : Adaptation {
     explicit Call(std::function<void()> what) : function(std::move(what)) {}
     void change() override { function(); }
     std::function<void()> function;
   };
-  adapt(every, std::unique_ptr<Adaptation>(std::make_unique<Call>(std::move(change))));
+  return adapt(every, std::unique_ptr<Adaptation>(std::make_unique<Call>(std::move(change))));
+}
+
+void Simulation::forget(Attendant attendant) {
+  auto const mark = [&](auto& all) {
+    for (auto& one : all) one.forgotten = one.forgotten || one.attendant == attendant;
+  };
+  mark(observations_), mark(changes_), mark(progress_);
+  if (!running_) drop_forgotten();
+}
+
+void Simulation::drop_forgotten() {
+  auto const drop = [](auto& all) { std::erase_if(all, [](auto const& one) { return one.forgotten; }); };
+  drop(observations_), drop(changes_), drop(progress_);
 }
 
 std::vector<Adaptation const*> Simulation::adaptations() const {
@@ -234,7 +251,7 @@ void Simulation::adapt_now() {
   };
   bool completed = false;
   for (auto const& change : changes_) {
-    if (step_ % change.every != 0) continue;
+    if (step_ % change.every != 0 || change.forgotten) continue;
     if (!completed) update_derived_fields();
     auto const before = rows_checksum(ensembles_);
     auto const sizes_before = sizes();
@@ -277,14 +294,15 @@ void Simulation::happen_now() {
 
 bool Simulation::observation_due() const {
   return std::any_of(observations_.begin(), observations_.end(),
-                     [&](Observation const& observation) { return observation.due(step_); });
+                     [&](Observation const& one) { return !one.forgotten && one.due(step_); });
 }
 
 void Simulation::observe_now() const {
   if (!observation_due()) return;
   update_derived_fields();
-  for (auto const& observation : observations_)
-    if (observation.due(step_)) observation.observer(*this);
+  std::size_t const count = observations_.size();  // others may come
+  for (std::size_t k = 0; k < count; ++k)
+    if (auto const& one = observations_[k]; !one.forgotten && one.due(step_)) one.observer(*this);
 }
 
 void Simulation::equilibrate_now() {
@@ -323,6 +341,14 @@ void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
 void Simulation::run(std::uint64_t steps, int direction) {
   pause_ = false;
   check();
+  struct Running {
+    explicit Running(Simulation& of) : simulation(of) { simulation.running_ = true; }
+    ~Running() {
+      simulation.running_ = false;
+      simulation.drop_forgotten();
+    }
+    Simulation& simulation;
+  } const running_now(*this);
   if (direction < 0 && !changes_.empty())
     throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
   if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
@@ -359,7 +385,8 @@ void Simulation::run(std::uint64_t steps, int direction) {
       if (last && observation_due()) calculate(time());
       observe_now();
     }
-    for (auto const& observer : progress_) observer(*this);
+    for (auto const& one : progress_)
+      if (!one.forgotten) one.observer(*this);
   }
   if (whole) {
     whole->store();

@@ -15,6 +15,7 @@
 #include <atomic>
 #include <concepts>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,6 +25,9 @@
 namespace boltzmann {
 
 struct Descending;
+
+/// Who looks at a run, or changes particles during it: for Simulation::forget.
+enum class Attendant : std::uint64_t {};
 
 class Simulation {
  public:
@@ -58,21 +62,24 @@ class Simulation {
 
   /// Calls the observer at step 0 (when the run starts) and whenever the step number is a multiple of `every`.
   /// Observers change nothing.
-  void observe(std::uint64_t every, std::function<void(Simulation const&)> observer);
+  Attendant observe(std::uint64_t every, std::function<void(Simulation const&)> observer);
   /// The same at the steps for which due(step) is true.
-  void observe_when(std::function<bool(std::int64_t step)> due, std::function<void(Simulation const&)> observer);
+  Attendant observe_when(std::function<bool(std::int64_t step)> due, std::function<void(Simulation const&)> observer);
   /// Calls the observer after every step, for its number and time only: whatever it costs to bring particles up to date
   /// (see FusedSteps) is not spent.
-  void observe_progress(std::function<void(Simulation const&)> observer);
+  Attendant observe_progress(std::function<void(Simulation const&)> observer);
 
   /// Lets something change particles, or their number, after every step whose number is a multiple of `every`, before
   /// observers look. A run with adaptations can't go backwards, nor by the reversible leap-frog.
-  void adapt(std::uint64_t every, std::unique_ptr<Adaptation> adaptation);
+  Attendant adapt(std::uint64_t every, std::unique_ptr<Adaptation> adaptation);
   template <std::derived_from<Adaptation> A>
-  void adapt(std::uint64_t every, A adaptation) {
-    adapt(every, std::unique_ptr<Adaptation>(std::make_unique<A>(std::move(adaptation))));
+  Attendant adapt(std::uint64_t every, A adaptation) {
+    return adapt(every, std::unique_ptr<Adaptation>(std::make_unique<A>(std::move(adaptation))));
   }
-  void adapt(std::uint64_t every, std::function<void()> change);
+  Attendant adapt(std::uint64_t every, std::function<void()> change);
+  /// An observer or an adaptation is not called any more. Nothing happens if there is none such. Observers may forget
+  /// themselves, and each other, and may bring others.
+  void forget(Attendant attendant);
   /// In the order in which they are called.
   std::vector<Adaptation const*> adaptations() const;
 
@@ -166,13 +173,23 @@ class Simulation {
     std::vector<double> time_after;  // of each stage
     Scheme* home;                    // the first that supervises the ensemble: its box keeps the particles
   };
+  // Those that are forgotten during a run go when it ends.
   struct Observation {
+    Attendant attendant;
     std::function<bool(std::int64_t step)> due;
     std::function<void(Simulation const&)> observer;
+    bool forgotten = false;
   };
   struct Change {
+    Attendant attendant;
     std::int64_t every;
     std::unique_ptr<Adaptation> adaptation;
+    bool forgotten = false;
+  };
+  struct Progress {
+    Attendant attendant;
+    std::function<void(Simulation const&)> observer;
+    bool forgotten = false;
   };
 
   struct Event {
@@ -240,6 +257,7 @@ class Simulation {
   void stretch_box(double dt);
   bool observation_due() const;
   void observe_now() const;
+  void drop_forgotten();
   void equilibrate_now();
 
   std::vector<Scheme*> schemes_;
@@ -247,15 +265,17 @@ class Simulation {
   std::vector<Dissipation*> dissipations_;
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Part> parts_;
-  std::vector<Observation> observations_;
-  std::vector<Change> changes_;
+  // Places that stay when others come.
+  std::deque<Observation> observations_;
+  std::deque<Change> changes_;
+  std::deque<Progress> progress_;
+  std::uint64_t attendants_ = 0;
   std::vector<std::unique_ptr<Barostat>> barostats_;
   std::array<bool, 3> momentum_is_kept_{};
   std::vector<Event> events_;
   std::vector<Equilibration> equilibrations_;
   std::optional<MinimiseOptions> minimisation_;
   std::optional<Minimised> minimised_;
-  std::vector<std::function<void(Simulation const&)>> progress_;
   GaussRadau gauss_radau_;
   std::optional<SubstepOptions> substeps_;
   SubstepCounts substep_counts_;
@@ -275,9 +295,22 @@ class Simulation {
     double dt = 0;
     Dependence are_for = {};  // as they were stored
   } whole_;
-  bool checked_ = false, begun_ = false;
+  bool checked_ = false, begun_ = false, running_ = false;
   mutable bool stop_ = false;  // read and written as an atomic one: a signal or another thread may set it
   bool pause_ = false;
+};
+
+/// Somebody who attends a simulation as long as this lives.
+class Attending {
+ public:
+  Attending(Simulation& simulation, Attendant attendant) : simulation_(simulation), attendant_(attendant) {}
+  ~Attending() { simulation_.forget(attendant_); }
+  Attending(Attending const&) = delete;
+  Attending& operator=(Attending const&) = delete;
+
+ private:
+  Simulation& simulation_;
+  Attendant attendant_;
 };
 
 }  // namespace boltzmann

@@ -121,8 +121,8 @@ TEST(Ensembles, TwoPressures) {
     bath.on(fluid.atoms);
     fluid.simulation.add(bath);
     fluid.simulation.add(Barostat(
-        {.pressure = pressure[k], .temperature = temperature, .compressibility = 0.3, .rate = 5, .every = 5}, 1));
-    fluid.run(2400, 50);
+        {.pressure = pressure[k], .temperature = temperature, .compressibility = 0.3, .rate = 20, .every = 5}, 1));
+    fluid.run(3200, 50);
     volumes[k] = fluid.volumes;
   }
   expect_slope(volumes[0], volumes[1], (pressure[0] - pressure[1]) / temperature, "volumes");

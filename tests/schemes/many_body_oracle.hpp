@@ -3,9 +3,11 @@
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/laws/stillinger_weber.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
+#include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
@@ -149,6 +151,42 @@ template <int D>
 void take(Ensemble<Newton<D>>& atoms, std::vector<Vector<D>> const& places) {
   atoms.resize(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) atoms[i].position = places[i];
+}
+
+/// A system of atoms, their scheme and rows(), of so many cells: the same for 1, 2 and 3 threads.
+template <class System>
+void same_bits_for_any_threads(std::size_t cells, double step) {
+  auto const run = [&](int threads) {
+    System many(cells);
+    many.scheme.threads(threads);
+    Simulation simulation(many.scheme, step);
+    simulation.run(8);
+    auto bits = many.rows();
+    bits.push_back(simulation.measure().potential);
+    return bits;
+  };
+  auto const one = run(1);
+  EXPECT_EQ(one, run(2));
+  EXPECT_EQ(one, run(3));
+}
+
+/// Its energy stays, to a part of that of its motion; in two pieces a run has the bits of one.
+template <class System>
+void keeps_its_energy_and_goes_on(double part) {
+  System one, half, rest;
+  Simulation simulation(one.scheme, 0.005);
+  double const start = kinetic_energy(one.atoms) + simulation.measure().potential;
+  simulation.run(150);
+  double const motion = kinetic_energy(one.atoms);
+  EXPECT_NEAR(motion + simulation.measure().potential, start, part * motion);
+  Simulation before(half.scheme, 0.005);
+  before.run(70);
+  auto const state = before.state();
+  for (std::size_t i = 0; i < half.atoms.size(); ++i) rest.atoms[i] = half.atoms[i];
+  Simulation after(rest.scheme, 0.005);
+  after.restore(70, 0.005, before.seed(), state);
+  after.run(80);
+  EXPECT_EQ(rest.rows(), one.rows());
 }
 
 }  // namespace boltzmann::many_body_oracle

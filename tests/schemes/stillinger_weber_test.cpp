@@ -90,35 +90,12 @@ struct Silicon {
 };
 
 TEST(StillingerWeber, HasTheSameBitsForAnyThreads) {
-  auto const run = [](int threads) {
-    Silicon many(11);  // 10648 atoms: every loop is shared
-    many.scheme.threads(threads);
-    Simulation simulation(many.scheme, 0.005);
-    simulation.run(8);
-    auto bits = many.rows();
-    bits.push_back(simulation.measure().potential);
-    return bits;
-  };
-  auto const one = run(1);
-  EXPECT_EQ(one, run(2));
-  EXPECT_EQ(one, run(3));
+  many_body_oracle::same_bits_for_any_threads<Silicon>(11, 0.005);  // 10648 atoms: every loop is shared
 }
 
 TEST(StillingerWeber, KeepsTheEnergyGoesOnAndBack) {
-  Silicon one, half, rest, back;
-  Simulation simulation(one.scheme, 0.005);
-  double const start = kinetic_energy(one.atoms) + simulation.measure().potential;
-  simulation.run(150);
-  double const motion = kinetic_energy(one.atoms);
-  EXPECT_NEAR(motion + simulation.measure().potential, start, 1e-3 * motion);
-  Simulation before(half.scheme, 0.005);
-  before.run(70);
-  auto const state = before.state();
-  for (std::size_t i = 0; i < half.atoms.size(); ++i) rest.atoms[i] = half.atoms[i];
-  Simulation after(rest.scheme, 0.005);
-  after.restore(70, 0.005, before.seed(), state);
-  after.run(80);
-  EXPECT_EQ(rest.rows(), one.rows());
+  many_body_oracle::keeps_its_energy_and_goes_on<Silicon>(1e-3);
+  Silicon back;
   Simulation there(back.scheme, 0.01);
   there.integrate(back.atoms, Method::reversible_leap_frog);
   there.run(1);

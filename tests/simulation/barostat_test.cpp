@@ -124,7 +124,7 @@ struct Fluid {
 
 TEST(Barostat, AFluidHasThePressureThatIsHeld) {
   // In the mean over volumes of exp(-(H + P V) / kT) the pressure is P exactly.
-  Fluid<3> fluid(4, 1.25, {.pressure = 1.3, .temperature = 1.5, .compressibility = 0.2, .rate = 2, .every = 5}, 2);
+  Fluid<3> fluid(4, 1.25, {.pressure = 1.3, .temperature = 1.5, .compressibility = 0.2, .rate = 8, .every = 5}, 2);
   fluid.simulation.run(3000);
   std::vector<double> pressures, volumes;
   fluid.simulation.observe(5, [&](Simulation const& now) {
