@@ -69,9 +69,8 @@ struct WindowCommand {
 };
 int window(WindowCommand const& command);
 
-/// `kind` empty: all kinds of names; or one of listed_kinds().
+/// `kind` empty: all kinds of names; or one of listed_kinds() (scenario/catalogue_pages.hpp).
 int list(std::string const& kind, bool names_only);
-std::vector<std::string> listed_kinds();
 /// Error if there is no name, or, of the schema, if there is one.
 int show(std::string const& name);
 int show_schema(std::string const& name);

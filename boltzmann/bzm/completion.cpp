@@ -2,6 +2,7 @@
 // the parser's; only how a shell is told is written here.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/scenario/catalogue_pages.hpp>
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 #include <boltzmann/files/standard_streams.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/recording/recording.hpp>
+#include <boltzmann/scenario/catalogue_pages.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 
 #include <fmt/format.h>

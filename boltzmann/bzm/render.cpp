@@ -1,24 +1,18 @@
 // bzm render: pictures and movies of a finished (or running) run, from its trajectory.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
-#include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/pictures/figure.hpp>
-#include <boltzmann/pictures/figure_layout.hpp>
 #include <boltzmann/recording/run_file.hpp>
+#include <boltzmann/scenario/stored_pictures.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
-#include <optional>
 
 namespace boltzmann::bzm {
 namespace {
@@ -59,92 +53,14 @@ class TemporaryFolder {
   std::string path_;
 };
 
-class Frames {
- public:
-  Frames(RenderOptions const& options, ScenarioSimulation& scenario)
-      : scenario_(scenario),
-        folder_(options.folder),
-        title_(!scenario.title.empty() ? scenario.title
-                                       : fs::absolute(options.folder + "/").parent_path().filename().string()),
-        reader_(options.folder + "/trajectory.h5") {
-    if (reader_.frames() == 0) throw Error("'" + folder_ + "/trajectory.h5' has no frames");
-    picture_ = picture_by_words(scenario, options.picture);
-    if (picture_.drawing == "wave-spectrum")
-      throw Error(
-          "a wave spectrum can't be drawn from a trajectory: it is drawn when the run ends, from what its diagnosis "
-          "has recorded; --drawing chooses another picture");
-    for (auto const& diagnosis : scenario.diagnoses) diagnoses_.push_back(diagnosis.get());
-    paper_.scale = options.scale;
-    paper_.dark = options.dark;
-  }
-
-  std::int64_t count() const { return static_cast<std::int64_t>(reader_.frames()); }
-  std::int64_t step(std::int64_t frame) const { return reader_.steps()[static_cast<std::size_t>(frame)]; }
-
-  Canvas canvas(std::int64_t number) {
-    auto const frame = static_cast<std::size_t>(number);
-    for (auto& ensemble : scenario_.ensembles) reader_.load(frame, *ensemble);
-    for (auto& scheme : scenario_.schemes) reader_.load(frame, scheme->box());
-    Canvas drawn = draw(picture_, {*scenario_.simulation, scenario_.units, title_, reader_.steps()[frame],
-                                   reader_.times()[frame], folder_, diagnoses_});
-    if (!axes_) return drawn;
-    Axis x = drawn.x_axis(), y = drawn.y_axis();
-    x.low = (*axes_)[0].low, x.high = (*axes_)[0].high;
-    y.low = (*axes_)[1].low, y.high = (*axes_)[1].high;
-    drawn.axes(x, y);
-    return drawn;
-  }
-  void write(std::int64_t frame, std::string const& path) { write_picture(canvas(frame), path, paper_); }
-
-  /// One scale of colours and of axes for all frames of a movie.
-  void fix_scales() {
-    double const infinity = std::numeric_limits<double>::infinity();
-    double low = infinity, high = -infinity;
-    Canvas all;  // the corners of what each frame shows
-    std::array<Axis, 2> axes;
-    // What shows the past has most to show at the end.
-    bool const past = picture_.drawing == "time-series" || (picture_.drawing == "spectrum" && picture_.x == "time");
-    bool first = true, with_axes = true;
-    for (std::int64_t frame = past ? count() - 1 : 0; frame < count(); ++frame) {
-      Canvas const drawn = canvas(frame);
-      for (auto const& bar : drawn.colour_bars()) low = std::min(low, bar.low), high = std::max(high, bar.high);
-      with_axes = with_axes && drawn.frame();
-      if (auto const corners = content_corners(drawn))
-        for (auto const& [x, y] : *corners) all.point(x, y, ink);
-      std::array<Axis, 2> const now{drawn.x_axis(), drawn.y_axis()};
-      if (first) axes = now;
-      first = false;
-      for (std::size_t a = 0; a < 2; ++a) {  // those of the drawing itself, NaN if it leaves them open
-        axes[a].low = std::isnan(now[a].low) ? now[a].low : std::min(axes[a].low, now[a].low);
-        axes[a].high = std::isnan(now[a].high) ? now[a].high : std::max(axes[a].high, now[a].high);
-      }
-    }
-    if (low <= high && !std::isfinite(picture_.low)) picture_.low = low;
-    if (low <= high && !std::isfinite(picture_.high)) picture_.high = high;
-    all.axes(axes[0], axes[1]);
-    if (with_axes && !all.points().empty()) axes_ = axis_ranges(all, 4.0 / 3);
-  }
-
-  /// Pictures 000000.png, 000001.png, ... of all frames.
-  void write_all(std::string const& folder) {
-    fix_scales();
-    bool const terminal = isatty(STDERR_FILENO) == 1;
-    for (std::int64_t frame = 0; frame < count(); ++frame) {
-      write(frame, fmt::format("{}/{:06d}.png", folder, frame));
-      if (terminal) fmt::print(stderr, "\rframe {} of {}", frame + 1, count());
-    }
-    if (terminal) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  ScenarioSimulation& scenario_;
-  std::string folder_, title_;
-  TrajectoryReader reader_;
-  Picture picture_;
-  std::vector<Diagnosis const*> diagnoses_;  // what they have gathered is in files
-  FigureOptions paper_;
-  std::optional<std::array<AxisRange, 2>> axes_;  // of a movie
-};
+/// All frames, with a line on a terminal that counts them.
+void write_frames(StoredPictures& pictures, std::string const& folder, FigureOptions const& paper) {
+  bool const terminal = isatty(STDERR_FILENO) == 1;
+  pictures.write_all(folder, paper, [&](std::int64_t done) {
+    if (terminal) fmt::print(stderr, "\rframe {} of {}", done, pictures.count());
+  });
+  if (terminal) fmt::print(stderr, "\r\033[K");
+}
 
 }  // namespace
 
@@ -168,28 +84,27 @@ int render(RenderOptions const& options) {
                 "' has no trajectory.h5 to draw: the run was not asked for one; trajectory = 10 in [output], or --set "
                 "output.trajectory=10, stores a frame every 10 steps");
   auto const scenario = load_stored_run(options.folder);
-  Frames frames(options, *scenario);
+  StoredPictures pictures(*scenario, options.folder, options.picture);
+  FigureOptions paper;
+  paper.scale = options.scale;
+  paper.dark = options.dark;
 
   if (kind == Output::picture) {
-    std::int64_t const chosen = options.frame.value_or(-1);
-    std::int64_t const frame = chosen < 0 ? chosen + frames.count() : chosen;
-    if (frame < 0 || frame >= frames.count())
-      throw Error(fmt::format("there is no frame {}; the trajectory has frames 0 to {} (or -1 to -{} from the end)",
-                              chosen, frames.count() - 1, frames.count()));
-    frames.write(frame, options.out);
-    fmt::print("{}: frame {} (step {})\n", options.out, frame, frames.step(frame));
+    std::int64_t const frame = pictures.frame(options.frame.value_or(-1));
+    write_picture(pictures.canvas(frame), options.out, paper);
+    fmt::print("{}: frame {} (step {})\n", options.out, frame, pictures.step(frame));
     return 0;
   }
   if (kind == Output::numbered) {
     std::error_code error;
     fs::create_directories(options.out, error);
     if (error) throw Error("the folder '" + options.out + "' can't be made: " + error.message());
-    frames.write_all(options.out.substr(0, options.out.size() - 1));
-    fmt::print("{}: {} pictures\n", options.out, frames.count());
+    write_frames(pictures, options.out.substr(0, options.out.size() - 1), paper);
+    fmt::print("{}: {} pictures\n", options.out, pictures.count());
     return 0;
   }
   TemporaryFolder const folder;
-  frames.write_all(folder.path());
+  write_frames(pictures, folder.path(), paper);
   std::vector<std::string> words{ffmpeg,       "-y",
                                  "-loglevel",  "error",
                                  "-framerate", std::to_string(options.frames_per_second),
@@ -198,7 +113,7 @@ int render(RenderOptions const& options) {
   if (extension == ".mp4") words.insert(words.end(), {"-c:v", "libx264", "-pix_fmt", "yuv420p"});
   words.push_back(options.out);
   if (run_program(words) != 0) throw Error("ffmpeg could not write '" + options.out + "' (its message is above)");
-  fmt::print("{}: {} frames\n", options.out, frames.count());
+  fmt::print("{}: {} frames\n", options.out, pictures.count());
   return 0;
 }
 

@@ -383,6 +383,7 @@ class LatticePoint final : public AnyEnsemble {
     attach(row_, 1);
   }
   void resize(std::size_t) override {}
+  std::shared_ptr<void const> hold_rows() const override { return nullptr; }
   std::size_t bytes() const override { return sizeof(row_); }
 
  private:

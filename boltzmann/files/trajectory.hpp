@@ -104,6 +104,9 @@ class TrajectoryReader {
   std::string const& time_unit() const { return time_unit_; }
   std::vector<StoredEnsemble> const& ensembles() const { return ensembles_; }
 
+  /// One of them; Error naming all if there is none of that name.
+  StoredEnsemble const& find(std::string const& ensemble) const;
+
   /// How many of the first frames are of steps up to this one.
   std::size_t frames_until(std::int64_t last_step) const;
 
@@ -121,12 +124,13 @@ class TrajectoryReader {
   /// Fills the ensemble (resizing it) with the stored ensemble of the same name: every field of its class that the file
   /// has. Error if the file has no such ensemble, or it is of another class or dimension.
   void load(std::size_t frame, AnyEnsemble& ensemble) const;
+  /// The same of a stored ensemble of another name, and of any class: the fields that both have.
+  void load(std::size_t frame, std::string const& stored, AnyEnsemble& ensemble) const;
   /// Puts the ends of periodic axes where they were: of a box that was stretched.
   void load(std::size_t frame, Box& box) const;
 
  private:
   struct State;
-  StoredEnsemble const& find(std::string const& ensemble) const;
   StoredField const& find(StoredEnsemble const& ensemble, std::string const& field) const;
   std::size_t checked(std::size_t frame) const;
 

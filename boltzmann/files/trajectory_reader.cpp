@@ -304,6 +304,11 @@ void TrajectoryReader::load(std::size_t frame, AnyEnsemble& ensemble) const {
     throw Error(fmt::format("{}: its ensemble '{}' is of class {} in {}D, not {} in {}D", state_->file->path(),
                             stored.name, stored.class_name, stored.dimension, ensemble.class_name(),
                             ensemble.dimension()));
+  load(frame, stored.name, ensemble);
+}
+
+void TrajectoryReader::load(std::size_t frame, std::string const& name, AnyEnsemble& ensemble) const {
+  StoredEnsemble const& stored = find(name);
   ensemble.resize(size(frame, stored.name));
   for (auto const& field : stored.fields) {
     Field const* target = ensemble.find_field(field.name);

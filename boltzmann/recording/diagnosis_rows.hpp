@@ -6,6 +6,7 @@
 #include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/recording/instruments.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <cstdint>
@@ -33,17 +34,15 @@ class DiagnosisRows {
   std::int64_t every = 0;  ///< steps; 0: never
   End end;
 
-  DiagnosisRows(Simulation& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
+  DiagnosisRows(Simulation& simulation, UnitSystem const& units)
+      : simulation_(simulation), instruments_(simulation, units) {}
 
   void add(std::int64_t interval, std::unique_ptr<Diagnosis> diagnosis);
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
   /// Error if two columns have one name, or a diagnosis can't be measured in this simulation.
   void check() const;
 
-  std::vector<Diagnosis const*> instruments() const;
-  std::vector<Column> columns() const;
-  std::vector<std::string> header() const;
-  bool follow_steps() const;
+  Instruments const& instruments() const { return instruments_; }
   /// What diagnoses have gathered so far: the names of its files, "NAME.csv", and the files in this folder.
   std::vector<std::string> gathered_files() const;
   void write_gathered(std::string const& folder) const;
@@ -51,8 +50,6 @@ class DiagnosisRows {
   void begin(std::string const& path);
   /// Goes on behind the rows of the run that was saved.
   void go_on(std::string const& path, Checkpoint const& saved);
-  /// Lets diagnoses see the present step that follow every one.
-  void follow();
   /// Measures the present step, and writes what it is. True if the condition is met by it, for the first time.
   bool write();
   /// What a run that goes on needs, once the table is on the disk, and back. Error if it is another's.
@@ -61,14 +58,10 @@ class DiagnosisRows {
   void close() { csv_.reset(); }
 
  private:
-  Sample sample(std::span<AnyEnsemble* const> ensembles) const;
-
   Simulation& simulation_;
-  UnitSystem const& units_;
-  std::vector<std::unique_ptr<Diagnosis>> list_;
+  Instruments instruments_;
   std::vector<Listener> listeners_;
   std::optional<CsvFile> csv_;
-  std::vector<double> factors_;  // from the simulation's units to those of the header
 };
 
 }  // namespace boltzmann

@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 // A handler has no argument of its own, so what it acts on has to be found without one.
 std::atomic<Simulation*> stopped_by_signal{nullptr};
 std::atomic<int> signals_seen{0};
+std::atomic<bool> left_alone{false};
+thread_local Interrupt* present = nullptr;
 static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 std::array<int, 3> constexpr signals{SIGINT, SIGTERM, SIGHUP};
 std::array<struct sigaction, 3> before;
@@ -26,7 +29,19 @@ extern "C" void on_signal(int) {
 
 }  // namespace
 
-Interrupt::Interrupt(Simulation& simulation) {
+void Interrupt::leave_signals_alone() { left_alone = true; }
+
+void Interrupt::stop() {
+  if (!present) return;
+  present->told_ = true;
+  present->simulation_.stop();
+}
+
+Interrupt::Interrupt(Simulation& simulation) : simulation_(simulation) {
+  if (left_alone) {
+    before_ = std::exchange(present, this);
+    return;
+  }
   Simulation* nobody = nullptr;
   if (!stopped_by_signal.compare_exchange_strong(nobody, &simulation))
     throw Error("two simulations can't both be stopped by Ctrl-C: one Interrupt at a time");
@@ -42,10 +57,14 @@ Interrupt::Interrupt(Simulation& simulation) {
 }
 
 Interrupt::~Interrupt() {
+  if (left_alone) {
+    present = before_;
+    return;
+  }
   for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
   stopped_by_signal = nullptr;
 }
 
-bool Interrupt::seen() const { return signals_seen > 0; }
+bool Interrupt::seen() const { return left_alone ? told_ : signals_seen > 0; }
 
 }  // namespace boltzmann

@@ -12,11 +12,22 @@ class Interrupt {
  public:
   explicit Interrupt(Simulation& simulation);
   ~Interrupt();
+
+  /// In a program that handles signals itself (an interpreter): from now on nobody's handlers are touched, and each
+  /// thread may have an Interrupt.
+  static void leave_signals_alone();
+  /// What the first signal does, to the Interrupt of this thread in such a program.
+  static void stop();
   Interrupt(Interrupt const&) = delete;
   Interrupt& operator=(Interrupt const&) = delete;
 
   /// Whether a signal has come.
   bool seen() const;
+
+ private:
+  Simulation& simulation_;
+  bool told_ = false;            // by stop()
+  Interrupt* before_ = nullptr;  // of this thread
 };
 
 }  // namespace boltzmann

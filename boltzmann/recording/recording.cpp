@@ -75,6 +75,7 @@ struct Recording::State {
   std::int64_t checkpoint_step = -1;
   std::optional<RecordedState> last;
   double seconds = 0, checkpoint_seconds = 0;
+  Attendant observer{};
 
   std::string checkpoint_path() const { return folder.path("checkpoint.h5"); }
 
@@ -87,7 +88,7 @@ struct Recording::State {
     parameters.units = units;
     auto const all = ensembles();
     parameters.available.assign(all.begin(), all.end());
-    parameters.columns_before = rows.columns();
+    parameters.columns_before = rows.instruments().columns();
     find_rigid_bonds(parameters, simulation.schemes());
     for (auto const& known : diagnosis_kinds()) {
       if (known.name != kind) continue;
@@ -102,13 +103,13 @@ struct Recording::State {
     if (every_mesh > 0 && mesh_fields_of(simulation.schemes()).empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     std::vector<std::string> columns;
-    for (auto& column : rows.columns()) columns.push_back(std::move(column.name));
+    for (auto& column : rows.instruments().columns()) columns.push_back(std::move(column.name));
     std::set<std::string> files;
     for (auto const& picture : pictures) {
       boltzmann::check(
           picture, ensembles(), columns,
           {picture.drawing == "mesh" ? mesh_fields_of(simulation.schemes()) : std::vector<MeshField const*>{},
-           rows.instruments(), &units});
+           rows.instruments().list(), &units});
       if (!files.insert(picture.file).second) throw Error("two pictures are called '" + picture.file + "'");
       if (picture.trace) check_tracks(simulation);
       if (picture.trace && frames.every == 0)
@@ -164,7 +165,9 @@ struct Recording::State {
                                     ensembles(), pictures));
   }
 
-  bool due(std::int64_t step) const { return !finished && (!open || step >= next || rows.follow_steps()); }
+  bool due(std::int64_t step) const {
+    return !finished && (!open || step >= next || rows.instruments().follow_steps());
+  }
 
   void look() {
     std::int64_t const step = simulation.step();
@@ -180,7 +183,7 @@ struct Recording::State {
   void write_due(std::int64_t step, bool first) {
     auto const due = [&](std::int64_t every) { return every > 0 && step % every == 0; };
     try {
-      rows.follow();
+      rows.instruments().follow();
       if (step < next) return;
       last.emplace(simulation);
       if (due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
@@ -231,7 +234,7 @@ struct Recording::State {
   }
 
   void resume() {
-    if (open) throw Error("a run that has begun can't be resumed");
+    if (open && !finished) throw Error("a run that has begun can't be resumed");
     folder.lock();
     check_what();
     auto const saved = read_checkpoint(checkpoint_path());
@@ -251,13 +254,14 @@ struct Recording::State {
     if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder.name(), saved.step));
     checkpoint_step = saved.step;
     open = true;
+    finished = false;
     last.emplace(simulation);
     next = next_look(saved.step);
   }
 
   void draw_pictures(std::int64_t step, double time, std::string const& note) const {
     for (auto const& picture : pictures) {
-      Canvas canvas = draw(picture, {simulation, units, title, step, time, folder.name(), rows.instruments()});
+      Canvas canvas = draw(picture, {simulation, units, title, step, time, folder.name(), rows.instruments().list()});
       if (!note.empty()) canvas.note(note);
       write_picture(canvas, folder.path(picture.file));
     }
@@ -309,11 +313,11 @@ struct Recording::State {
 
 Recording::Recording(Simulation& simulation, UnitSystem const& units, std::string folder,
                      RecordingOptions const& options)
-    : state_(std::make_shared<State>(simulation, units, std::move(folder), options.overwrite)) {
+    : state_(std::make_unique<State>(simulation, units, std::move(folder), options.overwrite)) {
   open_standard_streams();
   simulation.speak_in(units);
-  simulation.observe_when([state = state_](std::int64_t step) { return state->due(step); },
-                          [state = state_](Simulation const&) { state->look(); });
+  state_->observer = simulation.observe_when([state = state_.get()](std::int64_t step) { return state->due(step); },
+                                             [state = state_.get()](Simulation const&) { state->look(); });
 }
 
 Recording::~Recording() {
@@ -325,7 +329,7 @@ Recording::~Recording() {
   } catch (std::exception const& error) {
     fmt::print(stderr, "{}\n", error.what());
   }
-  state_->finished = true;
+  state_->simulation.forget(state_->observer);
 }
 
 void Recording::diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis) {
@@ -393,11 +397,11 @@ UnitSystem const& Recording::units() const { return state_->units; }
 std::string const& Recording::folder() const { return state_->folder.name(); }
 std::string const& Recording::title() const { return state_->title; }
 std::vector<std::string> Recording::header() const {
-  return state_->rows.every > 0 ? state_->rows.header() : std::vector<std::string>{};
+  return state_->rows.every > 0 ? state_->rows.instruments().header() : std::vector<std::string>{};
 }
-std::vector<Column> Recording::columns() const { return state_->rows.columns(); }
+std::vector<Column> Recording::columns() const { return state_->rows.instruments().columns(); }
 std::vector<Picture> const& Recording::pictures() const { return state_->pictures; }
-std::vector<Diagnosis const*> Recording::instruments() const { return state_->rows.instruments(); }
+std::vector<Diagnosis const*> Recording::instruments() const { return state_->rows.instruments().list(); }
 std::int64_t Recording::diagnoses_every() const { return state_->rows.every; }
 std::int64_t Recording::checkpoint_step() const { return state_->checkpoint_step; }
 double Recording::seconds() const { return state_->seconds; }

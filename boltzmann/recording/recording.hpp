@@ -93,8 +93,8 @@ class Recording {
   void check();
 
   /// Continues the run in the folder: takes rows, state and diagnoses from its checkpoint, and cuts off what was
-  /// written after it. Then run on: the files become what they would be without a stop, to the last bit. Error if there
-  /// is no checkpoint or it belongs to another simulation.
+  /// written after it. Then run on: the files become what they would be without a stop, to the last bit. A recording that
+  /// has finished goes on so, too. Error if there is no checkpoint or it belongs to another simulation.
   void resume();
 
   /// The same if the environment says BOLTZMANN_RESUME=1 and the folder has a checkpoint of a program: so any program
@@ -145,7 +145,7 @@ class Recording {
   std::vector<AnyEnsemble const*> ensembles() const;
 
   struct State;
-  std::shared_ptr<State> state_;
+  std::unique_ptr<State> state_;
 };
 
 /// Runs and records with a progress line, and prints a table: what was conserved, how fast it was, where the results

@@ -50,6 +50,7 @@ OptionTable make_members() {
   all.add_said("path", "a text", "of a file, from the scenario's folder");
   all.add("format", &L::format, word(particle_file_names()), "of the file", "what its ending says");
   all.add("frame", &L::frame, whole(0, unlimited), "of the file, from 0");
+  all.add("ensemble", &L::ensemble, text(), "of the stored run", "the one of this name");
   all.add("species", &L::species, text(), "only these: an element, a name, the number of a type", "all");
   all.add("units", &L::units, word(unit_style_names()), "the file's units, by LAMMPS' words",
           "what the file says, else the base's");
@@ -155,6 +156,10 @@ std::vector<LoadKind> make_kinds() {
        "axes "
        "that are periodic in both",
        false, of({{"path"}, {"format"}, {"frame"}, {"species"}, {"units"}, {"style"}, {"length"}, {"velocity"}})},
+      {"frame", "a frame of the trajectory of another run, with all fields that both have", false,
+       of({{"path", "of a trajectory.h5, from the scenario's folder", "", "\"results/melt/trajectory.h5\""},
+           {"ensemble"},
+           {"frame", "from 0 on; negative: from the end", "the last one", "", whole(-unlimited, unlimited)}})},
   };
 }
 

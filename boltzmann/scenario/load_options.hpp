@@ -27,7 +27,7 @@ struct LoadOptions {
   bool quiet = false;
   double temperature = 1, acceleration = 0;
   std::int64_t frame = 0;
-  std::string species, format, units, style;
+  std::string species, format, units, style, ensemble;
   std::optional<double> length, velocity;
   double mass = 1, radius = 1;
   std::optional<double> G;

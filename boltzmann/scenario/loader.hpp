@@ -1,6 +1,7 @@
 // Loader: reads the table that says where the particles of an ensemble are, and puts them there. Private to this room.
 #pragma once
 
+#include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
@@ -19,8 +20,12 @@ namespace boltzmann {
 /// How the particles of one ensemble are put in their places.
 class Loader {
  public:
-  Loader(Item const& table, Reading& reading, ClassVariant const* variant)
-      : reading_(reading), variant_(variant), section_(table, "load", reading.context), place_(table.place) {}
+  Loader(Item const& table, std::string ensemble, Reading& reading, ClassVariant const* variant)
+      : ensemble_(std::move(ensemble)),
+        reading_(reading),
+        variant_(variant),
+        section_(table, "load", reading.context),
+        place_(table.place) {}
 
   /// Reads the table. `number` is what the ensemble says (0: what can't be read); afterwards count() particles are to
   /// be made.
@@ -72,7 +77,10 @@ class Loader {
   double read_file();
   FrameOptions frame_options() const;
   void load_file(AnyEnsemble& particles);
+  double read_frame();
+  void load_frame(AnyEnsemble& particles);
 
+  std::string ensemble_;  // what it is called
   Reading& reading_;
   ClassVariant const* variant_;
   bool spacing_known_ = false, corners_read_ = false;
@@ -90,6 +98,8 @@ class Loader {
   Wave wave_;
   std::vector<double> positions_;
   ParticleFrame frame_;
+  std::optional<TrajectoryReader> stored_;
+  std::size_t stored_frame_ = 0;
 };
 
 /// A wave to be added to the velocities.

@@ -106,7 +106,7 @@ class EnsembleReader {
     if (!item->is(Item::Kind::table))
       return mistake(item->place,
                      fmt::format("load: a table is needed, {{ kind = \"block\", ... }}, not {}", describe(*item)));
-    loader_.emplace(*item, reading_, variant_);
+    loader_.emplace(*item, ensemble_.name, reading_, variant_);
     loadable_ =
         loader_->read(section_.has("number") ? std::optional(options_.number) : std::nullopt, section_.place("number"));
     if (loadable_) count_ = loader_->count();

@@ -92,6 +92,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
       Way{"path", &Loader::read_way, &Loader::load_way},
       Way{"positions", &Loader::read_positions, &Loader::load_places},
       Way{"file", &Loader::read_file, &Loader::load_file},
+      Way{"frame", &Loader::read_frame, &Loader::load_frame},
   };
   auto const found = std::find_if(all.begin(), all.end(), [&](Way const& way) { return way.kind == kind; });
   if (found == all.end()) throw std::logic_error(fmt::format("nothing loads '{}'", kind));
@@ -499,5 +500,30 @@ double Loader::read_file() {
                [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
   return count;
 }
+
+double Loader::read_frame() {
+  Item const* item = section_.find("path");
+  auto const path = item ? read_path(*item, "path", reading_.context) : std::nullopt;
+  if (!path) return 0;
+  double count = 0;
+  catch_errors(reading_, item->place, [&] {
+    stored_.emplace(*path);
+    if (options_.ensemble.empty()) options_.ensemble = ensemble_;
+    auto const frames = static_cast<std::int64_t>(stored_->frames());
+    std::int64_t const frame = section_.has("frame") ? options_.frame : -1;
+    if (frame >= frames || frame < -frames)
+      throw Error(fmt::format("path: '{}' has {} frames, there is none of number {}", *path, frames, frame));
+    stored_frame_ = static_cast<std::size_t>(frame < 0 ? frame + frames : frame);
+    auto const& stored = stored_->find(options_.ensemble);
+    if (reading_.dimension > 0 && stored.dimension != reading_.dimension)
+      throw Error(fmt::format("path: '{}' is in {}D, the box in {}D", *path, stored.dimension, reading_.dimension));
+    count = static_cast<double>(stored_->size(stored_frame_, options_.ensemble));
+    if (count == 0)
+      throw Error(fmt::format("path: that frame of '{}' has no particles of '{}'", *path, options_.ensemble));
+  });
+  return count;
+}
+
+void Loader::load_frame(AnyEnsemble& particles) { stored_->load(stored_frame_, options_.ensemble, particles); }
 
 }  // namespace boltzmann

@@ -189,6 +189,40 @@ Place place_of(std::string const& message, Reading const& reading) {
   return reading.run.place;
 }
 
+void add_diagnosis(std::unique_ptr<ScenarioSimulation>& scenario, ScenarioText const& text) {
+  Mistakes mistakes(text.file);
+  Item const document = parse_document(text.text, mistakes);
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
+  Reading reading{{mistakes, scenario->units, text.folder}, std::move(scenario), true, 0, {}, {}, {}, {}, {}, {}};
+  struct GiveBack {
+    Reading& reading;
+    std::unique_ptr<ScenarioSimulation>& owner;
+    ~GiveBack() { owner = std::move(reading.result); }
+  } const give_back{reading, scenario};
+  ScenarioSimulation& result = *reading.result;
+  reading.dimension = result.box().dimension();
+  reading.box = result.box();
+  for (auto const& ensemble : result.ensembles) {
+    ReadEnsemble known;
+    known.name = ensemble->name();
+    known.kind = reading.find_class(ensemble->class_name());
+    known.particles = ensemble.get();
+    reading.ensembles.push_back(std::move(known));
+  }
+  std::size_t const before = result.diagnoses.size();
+  Section top(document, "the scenario", reading.context);
+  read_diagnoses(top, reading);
+  top.finish();
+  if (mistakes.none()) {
+    auto const lines = refusals(*result.simulation, result.diagnoses);
+    for (std::size_t d = before; d < lines.size(); ++d)
+      if (!lines[d].empty()) reading.mistake(reading.diagnosis_places[d - before], lines[d]);
+  }
+  if (mistakes.none()) return;
+  result.diagnoses.resize(before);
+  throw ScenarioErrors(mistakes.lines());
+}
+
 ScenarioErrors::ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> keys)
     : Error(all_lines(all)), lines(std::move(all)), absent(std::move(keys)) {}
 

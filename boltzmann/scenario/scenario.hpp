@@ -104,6 +104,10 @@ std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overr
 std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name,
                                                    Overrides const& overrides = {});
 
+/// One more diagnosis for a simulation that is there: the last of its `diagnoses`. The text holds one table [[diagnoses]].
+/// ScenarioErrors, and nothing has changed, if it can't be measured.
+void add_diagnosis(std::unique_ptr<ScenarioSimulation>& scenario, ScenarioText const& text);
+
 /// The folder of shipped scenarios, and the names in it ("copper", ...), sorted.
 std::string scenario_folder();
 std::vector<std::string> shipped_scenarios();

@@ -1,5 +1,6 @@
 // A program's run is ensembles that know their fields, and a scheme that knows their box.
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/particles/stored_ensemble.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/document.hpp>
@@ -14,29 +15,6 @@ namespace boltzmann {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Particles of a class that is known by its fields alone.
-class StoredEnsemble final : public AnyEnsemble {
- public:
-  StoredEnsemble(std::string name, std::string class_name, int dimension, std::size_t doubles,
-                 std::vector<Field> fields)
-      : AnyEnsemble(std::move(name), std::move(class_name), typeid(void), dimension,
-                    (doubles + row_block - 1) / row_block * row_block, doubles, 0, std::move(fields)) {
-    resize(0);
-  }
-  void resize(std::size_t size) override {
-    rows_.resize((size + 1) * (stride() / row_block));
-    attach(rows_[0].numbers, size);
-  }
-  std::size_t bytes() const override { return rows_.capacity() * sizeof(Block); }
-  std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
-
- private:
-  struct alignas(32) Block {  // as rows of every class are
-    double numbers[row_block] = {};
-  };
-  HeldArray<Block> rows_;
-};
 
 /// Knows the box and whose particles are in it, and none of the laws.
 class StoredScheme final : public Scheme {

@@ -339,7 +339,7 @@ void Simulation::run(std::uint64_t steps) { run(steps, 1); }
 void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
 
 void Simulation::run(std::uint64_t steps, int direction) {
-  pause_ = false;
+  std::atomic_ref(pause_).store(false, std::memory_order_relaxed);
   check();
   struct Running {
     explicit Running(Simulation& of) : simulation(of) { simulation.running_ = true; }
@@ -366,7 +366,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   double const dt = direction * step_size_;
   bool const last = any_comes_last(schemes_);
   FusedSteps* const whole = steps > 0 ? whole_steps(dt, now) : nullptr;
-  for (std::uint64_t n = 0; n < steps && !stopped() && !pause_; ++n) {
+  for (std::uint64_t n = 0; n < steps && !stopped() && !paused(); ++n) {
     try {
       if (whole)
         whole->step(time());

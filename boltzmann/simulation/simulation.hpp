@@ -115,7 +115,9 @@ class Simulation {
   void stop() { std::atomic_ref(stop_).store(true, std::memory_order_relaxed); }
   bool stopped() const { return std::atomic_ref(stop_).load(std::memory_order_relaxed); }
   /// The same for this run() alone: the next one goes on.
-  void pause() { pause_ = true; }
+  void pause() { std::atomic_ref(pause_).store(true, std::memory_order_relaxed); }
+  /// Runs go on again after a stop().
+  void clear_stop() { std::atomic_ref(stop_).store(false, std::memory_order_relaxed); }
 
   /// Laws read variables of the program, and these have changed since the last run(): influences are calculated anew.
   /// What particles, schemes, boxes and laws with numbers of their own hold need not be told of.
@@ -247,6 +249,7 @@ class Simulation {
   UnitSystem const& units() const;
   std::string told_time(double number) const;
   void update_derived_fields() const;
+  bool paused() const { return std::atomic_ref(pause_).load(std::memory_order_relaxed); }
   void take_lengths();
   void accept_particles();
   void take_particles();
@@ -296,8 +299,8 @@ class Simulation {
     Dependence are_for = {};  // as they were stored
   } whole_;
   bool checked_ = false, begun_ = false, running_ = false;
-  mutable bool stop_ = false;  // read and written as an atomic one: a signal or another thread may set it
-  bool pause_ = false;
+  mutable bool stop_ = false;   // read and written as an atomic one: a signal or another thread may set it
+  mutable bool pause_ = false;  // the same
 };
 
 /// Somebody who attends a simulation as long as this lives.

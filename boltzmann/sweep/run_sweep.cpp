@@ -212,10 +212,12 @@ void warn(Simulation& simulation, std::string const& name, std::vector<std::stri
   for (auto* dissipation : simulation.dissipations()) tell(dissipation->warnings(simulation.step_size()));
 }
 
+using Attend = std::function<void(Simulation& simulation)>;
+
 /// Does one run, or the rest of it.
 RunReport do_run(std::string const& folder, SweepRun const& run, std::size_t number, std::string const& name,
                  std::optional<int> threads, WallTime const& wall, SweepProgress& progress,
-                 std::vector<std::string>& told) {
+                 std::vector<std::string>& told, Attend const& attend) {
   std::string const place = folder + "/" + run.folder, stored = place + "/checkpoint.h5";
   std::unique_ptr<ScenarioSimulation> scenario;
   std::unique_ptr<Recording> recording;
@@ -236,6 +238,7 @@ RunReport do_run(std::string const& folder, SweepRun const& run, std::size_t num
     recording = make_recording(*scenario, place, {.overwrite = true});
   }
   progress.follow(*scenario->simulation, first, scenario->steps);
+  if (attend) attend(*scenario->simulation);
   warn(*scenario->simulation, name, told);
   auto const steps = static_cast<std::uint64_t>(ended ? 0 : std::max<std::int64_t>(scenario->steps - first, 0));
   return run_with_progress(*recording, steps,
@@ -248,7 +251,7 @@ std::string one_line(std::string text) {
 }
 
 SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title,
-                    std::optional<int> threads, bool quiet, WallTime const& wall) {
+                    std::optional<int> threads, bool quiet, WallTime const& wall, Attend const& attend = {}) {
   auto runs = runs_of(plan);
   read_states(folder, runs);
   check_runs_before(folder, runs);
@@ -272,7 +275,7 @@ SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::strin
       progress.begin(r);
       bool stopped = false, out_of_time = false;
       try {
-        auto const report = do_run(folder, run, r, run_name(plan, r), threads, wall, progress, told);
+        auto const report = do_run(folder, run, r, run_name(plan, r), threads, wall, progress, told, attend);
         progress.clear();
         if (!report.interrupted && !report.out_of_time) run.state = RunState::done;
         out_of_time = report.out_of_time;
@@ -398,7 +401,7 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
   if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
   FolderLock const lock = lock_folder(folder);
   write_whole(folder + "/sweep.toml", plan.text);
-  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall);
+  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall, options.attend);
 }
 
 SweepReport resume_sweep(std::string const& place, std::optional<int> threads, bool quiet, WallTime const& wall) {

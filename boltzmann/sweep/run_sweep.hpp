@@ -5,6 +5,7 @@
 #include <boltzmann/scenario/scenario.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@ struct SweepOptions {
   Overrides overrides;
   std::string folder;  ///< for the results
   bool quiet = false, force = false;
+  /// Called with the simulation of each run before it begins: it may observe it.
+  std::function<void(Simulation& simulation)> attend = {};
 };
 
 /// Loads every value once, so that mistakes are told before anything runs. ScenarioErrors with all of them.

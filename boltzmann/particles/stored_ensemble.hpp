@@ -1,0 +1,36 @@
+// StoredEnsemble: particles of a class that is known by its fields alone, as files have them.
+#pragma once
+
+#include <boltzmann/particles/ensemble.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+
+/// Nothing moves them, and they have no influences.
+class StoredEnsemble final : public AnyEnsemble {
+ public:
+  /// `doubles` of each particle; the fields stand where they say.
+  StoredEnsemble(std::string name, std::string class_name, int dimension, std::size_t doubles,
+                 std::vector<Field> fields)
+      : AnyEnsemble(std::move(name), std::move(class_name), typeid(void), dimension,
+                    (doubles + row_block - 1) / row_block * row_block, doubles, 0, std::move(fields)) {
+    resize(0);
+  }
+  void resize(std::size_t size) override {
+    rows_.resize((size + 1) * (stride() / row_block));
+    attach(rows_[0].numbers, size);
+  }
+  std::size_t bytes() const override { return rows_.capacity() * sizeof(Block); }
+  std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
+
+ private:
+  struct alignas(32) Block {  // as rows of every class are
+    double numbers[row_block] = {};
+  };
+  HeldArray<Block> rows_;
+};
+
+}  // namespace boltzmann

@@ -1,0 +1,154 @@
+"""A scenario as Python says it: tables of keywords that become TOML, each line of which knows where it was said."""
+
+from __future__ import annotations
+
+import keyword
+import math
+import os
+import re
+
+import numpy as np
+
+from .errors import Error, ScenarioErrors
+
+_bare = re.compile(r"^[A-Za-z0-9_-]+$")
+
+
+def key(name: str) -> str:
+    """A key as TOML has it."""
+    return name if _bare.match(name) else text(name)
+
+
+def text(value: str) -> str:
+    """A text in quotation marks."""
+    escapes = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r", "\b": "\\b", "\f": "\\f"}
+    return '"' + "".join(escapes.get(c, c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}") for c in value) + '"'
+
+
+def number(value: float) -> str:
+    if math.isnan(value):
+        return "nan"
+    if math.isinf(value):
+        return "inf" if value > 0 else "-inf"
+    return repr(value)
+
+
+def value(given, name: str) -> str:
+    """A Python value as TOML: numbers, texts, lists, dicts, arrays of numpy, quantities with .magnitude and .units."""
+    if isinstance(given, (bool, np.bool_)):
+        return "true" if given else "false"
+    if isinstance(given, str):
+        return text(given)
+    if isinstance(given, os.PathLike):
+        return text(os.fspath(given))
+    if isinstance(given, (int, np.integer)):
+        return str(int(given))
+    if isinstance(given, (float, np.floating)):
+        return number(float(given))
+    if hasattr(given, "magnitude") and hasattr(given, "units"):
+        return quantity(given, name)
+    if isinstance(given, dict):
+        inside = ", ".join(f"{key(plain(k))} = {value(v, k)}" for k, v in given.items() if v is not None)
+        return "{ " + inside + " }" if inside else "{}"
+    if isinstance(given, np.ndarray):
+        if given.dtype.kind not in "biuf":
+            raise Error(f"{name}: an array of numbers is needed, not one of {given.dtype}")
+        given = given.tolist()
+        if not isinstance(given, list):
+            return value(given, name)
+    if isinstance(given, (list, tuple, range)):
+        return "[" + ", ".join(value(one, name) for one in given) + "]"
+    raise Error(
+        f"{name}: a number, a text, a list, a dict or an array is needed, not {type(given).__name__}"
+        + (" (the law or formula stands in a text)" if callable(given) else "")
+    )
+
+
+def quantity(given, name: str) -> str:
+    """Of a library of units, such as pint."""
+    try:
+        unit = format(given.units, "~C")
+    except (ValueError, TypeError):
+        unit = str(given.units)
+    unit = unit.replace("**", "^").replace("*", " ")
+    magnitude = np.asarray(given.magnitude)
+    if magnitude.ndim == 0:
+        return text(f"{number(float(magnitude))} {unit}".strip())
+
+    def each(numbers):
+        return [each(one) if isinstance(one, list) else f"{number(float(one))} {unit}".strip() for one in numbers]
+
+    return value(each(magnitude.tolist()), name)
+
+
+def plain(name: str) -> str:
+    """``class_`` and ``from_`` say what Python keeps for itself."""
+    return name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name
+
+
+class Document:
+    """The tables so far, on top of the text of a file, if there is one."""
+
+    def __init__(self, source: str = "", file: str = "python"):
+        self.source, self.file = source, file
+        self._lines: list[tuple[str, str | None]] = []  # behind the source: a line, and where it was said
+        self._top: list[tuple[str, str | None]] = []
+        self._names: set[str] = set()
+
+    def top(self, name: str, given, place: str) -> None:
+        """A key outside of all tables: the title."""
+        self._top.append((f"{key(name)} = {value(given, name)}", place))
+
+    def table(self, name: str, keys: dict, place: str) -> None:
+        """[name], once."""
+        if name in self._names:
+            raise Error(f"{place}: there is a table [{name}] already")
+        self._names.add(name)
+        self._add(f"[{name}]", keys, place)
+
+    def append(self, name: str, keys: dict, place: str) -> None:
+        """One more [[name]]."""
+        self._add(f"[[{name}]]", keys, place)
+
+    def _add(self, heading: str, keys: dict, place: str) -> None:
+        lines = [(heading, place)]
+        for name, given in keys.items():
+            if given is not None:
+                lines.append((f"{key(plain(name))} = {value(given, plain(name))}", place))
+        self._lines += lines
+
+    def text(self) -> str:
+        top = "".join(line + "\n" for line, _ in self._top)
+        source = self.source if not self.source or self.source.endswith("\n") else self.source + "\n"
+        return top + source + "".join(line + "\n" for line, _ in self._lines)
+
+    def _place(self, line: int) -> str | None:
+        """Where a line of text() was said; None: it stands in the file, and so many lines down there."""
+        if line <= len(self._top):
+            return self._top[line - 1][1]
+        line -= len(self._top) + len(self.source.splitlines())
+        if 1 <= line <= len(self._lines):
+            return self._lines[line - 1][1]
+        return None
+
+    def located(self, errors: ScenarioErrors, set_place: str = "") -> ScenarioErrors:
+        """The same mistakes, at their places in Python."""
+        pattern = re.compile(rf"^{re.escape(self.file)}:(\d+):(\d+): (.*)$", re.S)
+        lines = []
+        for one in errors.lines:
+            if one.startswith("--") and set_place:
+                lines.append(f"{set_place}: {re.sub(r'^--(set )?', '', one)}")
+                continue
+            found = pattern.match(one)
+            if not found:
+                lines.append(one)
+                continue
+            place = self._place(int(found[1]))
+            below = int(found[1]) - len(self._top)
+            lines.append(f"{place}: {found[3]}" if place else f"{self.file}:{below}:{found[2]}: {found[3]}")
+        return ScenarioErrors(lines)
+
+    def copy(self) -> "Document":
+        other = Document(self.source, self.file)
+        other._lines, other._top, other._names = list(self._lines), list(self._top), set(self._names)
+        return other

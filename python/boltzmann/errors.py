@@ -1,0 +1,54 @@
+"""What goes wrong, by kinds. Nothing here ever ends the interpreter."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+_here = os.path.dirname(os.path.abspath(__file__))
+
+
+class Error(ValueError):
+    """Input that can't be used. One line: what was found, where, what is allowed, the nearest right word."""
+
+
+class ScenarioErrors(Error):
+    """All mistakes of a scenario; ``lines`` has one line each, with the place of each in Python or in its file."""
+
+    def __init__(self, lines):
+        self.lines = [lines] if isinstance(lines, str) else list(lines)
+        super().__init__("\n".join(self.lines))
+
+    def __reduce__(self):
+        return (type(self), (self.lines,))
+
+
+class PhysicsFailure(RuntimeError):
+    """The physics failed during a run: something is not finite, a particle escaped, a step is too large. The line names
+    the step and the particle."""
+
+
+class RecordingFailure(OSError):
+    """A file of a run could not be written. The line says which, and what is intact."""
+
+
+def caller() -> str:
+    """``file:line`` of the call into this package; in a notebook the number of the cell's line."""
+    frame = sys._getframe(1)
+    while frame is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == _here:
+        frame = frame.f_back
+    if frame is None:
+        return "python"
+    file = frame.f_code.co_filename
+    if "ipykernel" in file or file.startswith("<ipython"):
+        return f"cell:{frame.f_lineno}"
+    return f"{os.path.basename(file)}:{frame.f_lineno}"
+
+
+def unknown(kind: str, name: str, names) -> str:
+    """One line for a name that is not there."""
+    from . import _core
+
+    names = list(names)
+    listed = ", ".join(names) if names else "none"
+    return f"there is no {kind} '{name}'; there {'is' if len(names) == 1 else 'are'} {listed}" + _core.nearest(name, names)

@@ -1,0 +1,958 @@
+"""A simulation: said by keywords, run, looked at."""
+
+from __future__ import annotations
+
+import inspect
+import math
+import os
+import shutil
+import sys
+import tempfile
+import threading
+import time as clock
+import warnings as python_warnings
+import weakref
+
+import numpy as np
+
+from . import _core
+from .document import Document, plain, text, value
+from .ensemble import Ensemble
+from .errors import Error, ScenarioErrors, caller, unknown
+from .table import Picture, Table, from_rows, words
+
+# Arrays up to so many numbers stand in the scenario's text; longer ones in a file beside it.
+_numbers_in_text = 3000
+
+
+class Units:
+    """The simulation's base units, in which all arrays are."""
+
+    def __init__(self, simulation):
+        self._sim = simulation
+
+    def __call__(self, quantity) -> float:
+        """The plain number of "5 fs"."""
+        if isinstance(quantity, (int, float, np.number)):
+            return float(quantity)
+        if not isinstance(quantity, str):
+            raise Error(f"a quantity is a number or a text such as '5 fs', not {type(quantity).__name__}")
+        return _core.quantity(self._sim._core, quantity)
+
+    def to(self, unit: str, numbers):
+        """Numbers of the base in another unit: ``sim.units.to("km/s", sim.atoms.velocity)``."""
+        return np.asarray(numbers) / _core.base_of_unit(self._sim._core, unit)
+
+    def of(self, unit: str, numbers):
+        """And back: numbers that are in this unit, as the base counts."""
+        return np.asarray(numbers) * _core.base_of_unit(self._sim._core, unit)
+
+
+class Report:
+    """How a run went; it shows what was conserved."""
+
+    def __init__(self, simulation, told: dict):
+        self.steps: int = told["steps"]
+        self.step: int = told["step"]
+        self.seconds: float = told["seconds"]
+        self.stopped: bool = told["stopped"]
+        self.out_of_time: bool = told["out_of_time"]
+        self.condition: str = told["condition"]
+        self._sim = weakref.ref(simulation)
+
+    def __repr__(self) -> str:
+        sim = self._sim()
+        lines = [f"{self.steps} steps to step {self.step} in {self.seconds:.3g} s"]
+        if self.condition:
+            lines.append(f"ended by its condition: {self.condition}")
+        elif self.stopped or self.out_of_time:
+            lines.append("out of time" if self.out_of_time else "stopped before its last step")
+        if sim is not None and sim._built is not None and sim.step == self.step and not sim._built.running():
+            lines += sim._built.conserved()
+            if sim._built.folder():
+                lines.append(f"results in {sim._built.folder()}")
+        return "\n".join(lines)
+
+
+class Diagnosis:
+    """What is measured: columns over time, ``rdf.table``, and functions that are gathered, ``rdf.r, rdf.g``."""
+
+    def __init__(self, simulation, kind: str, number: int | None, titles=()):
+        self._sim, self.kind, self._number, self._titles = simulation, kind, number, list(titles)
+
+    @property
+    def table(self) -> Table:
+        if self._number is None:
+            return self._sim.table
+        return from_rows(*self._sim._core.watched(self._number))
+
+    @property
+    def gathered(self) -> dict[str, Table]:
+        """Functions of a distance, a time lag, ... that it has gathered from all looks so far, by their names."""
+        core = self._sim._core
+        all_of = core.gathered() if self._number is None else core.watched_gathered(self._number)
+        return {name: _gathered_table(columns) for name, columns in all_of.items()}
+
+    def stop(self) -> None:
+        """It measures no more."""
+        if self._number is not None:
+            self._sim._core.unwatch(self._number)
+
+    def __getattr__(self, name: str):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        tables = self.gathered if self._number is not None or self._sim._built else {}
+        for one in tables.values():
+            try:
+                return getattr(one, name)
+            except AttributeError:
+                continue
+        names = [column for one in tables.values() for column in one.names]
+        raise AttributeError(unknown(f"column of '{self.kind}' called", name, names))
+
+    def __repr__(self) -> str:
+        return f"<diagnosis {self.kind}>"
+
+
+def _gathered_table(columns: dict) -> Table:
+    return Table(list(columns), [np.frombuffer(numbers, dtype=np.float64) for numbers in columns.values()])
+
+
+class Record:
+    """Copies of one field at steps of a run: shape (looks, N, D). ``.step``, ``.time``; numpy takes it as an array."""
+
+    def __init__(self):
+        self._copies: list[np.ndarray] = []
+        self._steps: list[int] = []
+        self._times: list[float] = []
+
+    def __array__(self, dtype=None, copy=None):
+        stacked = np.array(self._copies)
+        return stacked if dtype is None else stacked.astype(dtype)
+
+    @property
+    def step(self) -> np.ndarray:
+        return np.array(self._steps)
+
+    @property
+    def time(self) -> np.ndarray:
+        return np.array(self._times)
+
+    @property
+    def T(self) -> np.ndarray:
+        return np.asarray(self).T
+
+    @property
+    def shape(self):
+        return np.asarray(self).shape
+
+    def __getitem__(self, which):
+        return np.asarray(self)[which]
+
+    def __len__(self) -> int:
+        return len(self._copies)
+
+
+class Simulation:
+    """A simulation that is said table by table, as a scenario file says it: keywords are the guide's keys.
+
+    ``Simulation(units="reduced", run=dict(step=0.005), box=dict(low=[0], high=[1]))`` gives top-level tables;
+    ``ensemble``, ``influence``, ``dissipation``, ``diagnosis``, ``wall``, ``event``, ``view`` and ``add`` one more of a
+    kind. Nothing is made before it is needed; then all mistakes are told at once, each at its line."""
+
+    def __init__(self, title: str | None = None, **tables):
+        self._start(Document())
+        place = caller()
+        if title is not None:
+            self._document.top("title", title, place)
+        units = tables.get("units")
+        if isinstance(units, str):
+            tables["units"] = {"base": units}
+        self._box_given = "box" in tables
+        run = tables.get("run", {})
+        if isinstance(run, dict) and "steps" not in run and "time" not in run:
+            tables["run"] = {**run, "steps": 0}
+            self._planned = False
+        if "step" in tables:
+            raise Error(f"{place}: step: it stands in run = dict(step = ...)")
+        for name, given in tables.items():
+            self._table(plain(name), given, place)
+
+    def _start(self, document: Document, **overrides) -> None:
+        put = object.__setattr__
+        put(self, "_document", document)
+        put(self, "_overrides", {"set": [], "steps": None, "seed": None, "threads": None, **overrides})
+        put(self, "_name", "python")
+        put(self, "_folder", "")
+        put(self, "_set_place", "")
+        put(self, "_box_given", True)
+        put(self, "_planned", True)
+        put(self, "_built", None)
+        put(self, "_built_digest", "")
+        put(self, "_begun", False)
+        put(self, "_places", [])  # of arrays, for a box
+        put(self, "_files", {})  # of arrays that are too long for a text: name and path
+        put(self, "_temporary", None)
+        put(self, "_functions", {})  # number: (function, kind, every, how many arguments)
+        put(self, "_attendants", {})  # number: what the core calls it
+        put(self, "_next_function", 0)
+        put(self, "_ensembles", {})
+        put(self, "_looking", False)
+        put(self, "_changing", False)
+        put(self, "_thread", None)
+        put(self, "_thread_failure", None)
+        put(self, "_progress_line", None)
+
+    # ---- what is said ----
+
+    def _table(self, name: str, given, place: str) -> None:
+        if isinstance(given, dict):
+            self._document.table(name, given, place)
+        elif isinstance(given, (list, tuple)) and given and all(isinstance(one, dict) for one in given):
+            for one in given:
+                self._document.append(name, one, place)
+        else:
+            self._document.top(name, given, place)
+
+    def _say(self, table: str, keys: dict) -> None:
+        if self._begun:
+            raise Error(
+                f"{caller()}: the run has begun; what acts is said before its first step (diagnoses and observers may "
+                "come at any time)"
+            )
+        self._document.append(table, keys, caller())
+        self._make_anew()
+
+    def _make_anew(self) -> None:
+        """What was made of the tables so far is old; what has been written into its rows is kept."""
+        if self._built is not None and self._built.running():
+            raise Error("tables can't be added while the simulation runs")
+        old, digest = self._built, self._built_digest
+        self._built = None
+        if old is None:
+            return
+        rows = {}
+        if old.digest() != digest:
+            for name in old.ensembles():
+                rows[name] = (_core.layout(old, name), _core.size(old, name), bytes(_core.rows(old, name, True)))
+        self._kept_rows = rows
+        for name in old.ensembles():
+            _core.resize(old, name, 0, False)  # views of it become NaN
+
+    _kept_rows: dict = {}
+
+    def ensemble(self, name: str, class_: str, *, position=None, load=None, **fields) -> Ensemble:
+        """[[ensembles]]: particles of a class, by ``load=dict(kind=...)`` or ``position=`` (N, D) numbers of the base;
+        fields are one value for all, or an array with one for each."""
+        place = caller()
+        if not isinstance(name, str) or not isinstance(class_, str):
+            raise Error(f"{place}: ensemble: a name and a class are texts, \"atoms\", \"Newton\"")
+        keys = {"name": name, "class": class_}
+        if position is not None:
+            if load is not None:
+                raise Error(f"{place}: position, load: one of both says where the particles are")
+            load, fields = self._given_places(name, class_, position, fields, place)
+        for field, given in fields.items():
+            if isinstance(given, np.ndarray) and not np.isfinite(given).all():
+                raise Error(f"{place}: {field}: some of its numbers are not finite")
+        self._say("ensembles", {**keys, "load": load, **fields})
+        return self[name]
+
+    def _given_places(self, name: str, class_: str, position, fields: dict, place: str):
+        if isinstance(position, (list, tuple)) and _has_texts(position):
+            return {"kind": "positions", "positions": position}, fields
+        try:
+            places = np.asarray(position, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise Error(f"{place}: position: an array of numbers, one row for each particle, is needed") from None
+        if places.ndim == 1 and places.size:
+            places = places.reshape(-1, 1)
+        if places.ndim != 2 or not 1 <= places.shape[1] <= 3 or not len(places):
+            raise Error(f"{place}: position: an array of shape (N, 1), (N, 2) or (N, 3) is needed, not {np.shape(position)}")
+        if not np.isfinite(places).all():
+            raise Error(f"{place}: position: some of its numbers are not finite")
+        self._places.append(places)
+        arrays = {"position": places}
+        others = {}
+        for field, given in fields.items():
+            array = given if isinstance(given, np.ndarray) else None
+            if array is not None and array.ndim >= 1 and len(array) == len(places) and array.dtype.kind in "fiu":
+                arrays[field] = np.ascontiguousarray(array, dtype=np.float64).reshape(len(places), -1)
+            else:
+                others[field] = given
+        if sum(a.size for a in arrays.values()) <= _numbers_in_text:
+            return {"kind": "positions", "positions": places}, fields
+        path = os.path.join(self._temporary_folder(), f"{name}-{len(self._files)}.h5")
+        _core.write_frame(
+            path,
+            name,
+            places.shape[1],
+            len(places),
+            [(plain(f), a.shape[1], np.ascontiguousarray(a)) for f, a in arrays.items()],
+        )
+        self._files[path] = f"{name}-start.h5"
+        return {"kind": "frame", "path": path}, others
+
+    def _temporary_folder(self) -> str:
+        if self._temporary is None:
+            self._temporary = tempfile.TemporaryDirectory(prefix="boltzmann-")
+        return self._temporary.name
+
+    def influence(self, law: str | None = None, **keys) -> None:
+        """[[influences]]: a shipped law by its name, or ``energy="..."`` (or ``influence="..."``) as a formula. Keys that
+        are no keys of the table are parameters of a typed law."""
+        if law is None:
+            keys = _typed_law(keys)
+        self._say("influences", {"law": law, **keys})
+
+    def dissipation(self, kind: str, **keys) -> None:
+        """[[dissipation]]: friction and noise, thermostats."""
+        self._say("dissipation", {"kind": kind, **keys})
+
+    def wall(self, **keys) -> None:
+        """[[box.walls]]."""
+        self._say("box.walls", keys)
+
+    def event(self, at, **keys) -> None:
+        """[[events]]: something happens once, at a time."""
+        self._say("events", {"at": at, **keys})
+
+    def view(self, name: str, drawing: str = "cartesian", **keys) -> None:
+        """[[views]]: a drawing that the window offers by its name."""
+        self._say("views", {"name": name, "drawing": drawing, **keys})
+
+    def add(self, table: str, **keys) -> None:
+        """One more table of any kind: ``sim.add("rigid_bonds", on="water", ...)`` says [[rigid_bonds]]."""
+        kinds = {name: heading for name, heading, _ in _core.tables()}
+        name = plain(table)
+        if name in kinds and not kinds[name].startswith("[["):
+            if self._begun:
+                raise Error(f"{caller()}: the run has begun; what acts is said before its first step")
+            self._document.table(name, keys, caller())
+            self._make_anew()
+            return
+        self._say(name, keys)
+
+    def diagnosis(self, kind: str, every: int | None = None, **keys) -> Diagnosis:
+        """[[diagnoses]]: something is measured. Before the run it is a part of the scenario, and of its table; with
+        ``every``, or once the run has begun, it looks every so many steps and has a table of its own."""
+        place = caller()
+        if every is None and not self._begun:
+            self._say("diagnoses", {"kind": kind, **keys})
+            return Diagnosis(self, kind, None)
+        document = Document()
+        document.append("diagnoses", {"kind": kind, **keys}, place)
+        every = 1 if every is None else every
+        if not isinstance(every, (int, np.integer)) or every < 1:
+            raise Error(f"{place}: every: a whole number of steps, 1 or more, is needed, not {every!r}")
+        core = self._core
+        number = self._located(document, lambda: core.watch(self._source(document), int(every)))
+        return Diagnosis(self, kind, number)
+
+    # ---- making it ----
+
+    def _source(self, document: Document):
+        return _core.Source(document.text(), document.file, self._name, self._folder)
+
+    def _located(self, document: Document, function):
+        try:
+            return function()
+        except ScenarioErrors as errors:
+            located = document.located(errors, self._set_place)
+        raise located
+
+    @property
+    def _core(self):
+        built = self._built
+        if built is None:
+            built = self._build()
+        return built
+
+    def _build(self):
+        document = self._document
+        if not self._box_given and not self._begun:
+            document = document.copy()
+            document.table("box", _box_around(self._places), caller())
+        o = self._overrides
+        core = self._located(
+            document, lambda: _core.Core(self._source(document), o["set"], o["steps"], o["seed"], o["threads"])
+        )
+        digest = core.digest()
+        for name, (layout, count, rows) in self._kept_rows.items():
+            if name in core.ensembles() and _core.layout(core, name) == layout and _core.size(core, name) == count:
+                if count:
+                    np.frombuffer(_core.rows(core, name, False), dtype=np.uint8)[:] = np.frombuffer(rows, dtype=np.uint8)
+        self._kept_rows = {}
+        core.owner(self)
+        self._attendants = {}
+        for number, (_, kind, every, _) in self._functions.items():
+            self._attendants[number] = core.attend(every, number, kind == "change")
+        self._built_digest, self._built = digest, core
+        return core
+
+    def check(self) -> "Simulation":
+        """Makes it: ScenarioErrors with all mistakes. Warnings are Python's."""
+        for line in self._core.warnings():
+            if line.startswith("warning: "):
+                python_warnings.warn(line.removeprefix("warning: "), stacklevel=3 if sys._getframe(1).f_globals is globals() else 2)
+        return self
+
+    @property
+    def toml(self) -> str:
+        """The scenario as text: what ``bzm run`` would take."""
+        return self._core.resolved()
+
+    def save(self, path) -> None:
+        """Writes the scenario to a file; arrays that are too long for a text stand beside it."""
+        path = os.fspath(path)
+        if not path.endswith(".toml"):
+            raise Error(f"'{path}': a scenario's file ends in .toml")
+        written = self.toml
+        for file, name in self._files.items():
+            beside = f"{os.path.splitext(os.path.basename(path))[0]}-{name}"
+            shutil.copyfile(file, os.path.join(os.path.dirname(path) or ".", beside))
+            written = written.replace(file, beside)
+        with open(path, "w", encoding="utf-8") as out:
+            out.write(written)
+
+    # ---- running ----
+
+    def run(
+        self,
+        steps: int | None = None,
+        time=None,
+        hours: float | None = None,
+        out=None,
+        overwrite: bool = False,
+        progress: bool | None = None,
+    ) -> Report:
+        """So many steps, or a time (a number, or "5 ps"); else as many as are planned. ``out``: a folder for the files
+        that ``bzm run`` writes, from now on. ``hours`` of wall time end it early. Ctrl-C finishes the step and raises
+        KeyboardInterrupt; run() goes on from there."""
+        core = self._core
+        if steps is None:
+            steps = self._steps_of(core, time)
+        elif time is not None:
+            raise Error("steps, time: one of both says how long the run is")
+        elif type(steps) is not int:
+            steps = _whole(steps, "steps")
+        if steps < 0:
+            raise Error(f"steps: 0 or more, not {steps}; rewind() goes back")
+        return self._go(core, steps, hours, out, overwrite, progress)
+
+    def _steps_of(self, core, time) -> int:
+        if time is None:
+            if not self._planned or core.planned() == 0:
+                raise Error("run: say how many steps, or a time: nothing is planned in run = dict(steps=...)")
+            return max(core.planned() - core.step(), 0)
+        length = self.units(time)
+        if not length >= 0 or not math.isfinite(length):
+            raise Error(f"time: a finite time, 0 or more, not {time!r}")
+        return math.ceil(length / abs(core.step_size()) * (1 - 1e-12))
+
+    def rewind(self, steps: int | None = None) -> Report:
+        """The same with the negative step; without a number back to step 0."""
+        core = self._core
+        steps = core.step() if steps is None else _whole(steps, "steps")
+        if steps < 0:
+            raise Error(f"steps: 0 or more, not {steps}")
+        return self._go(core, -steps, None, None, False, None)
+
+    def _go(self, core, steps: int, hours, out, overwrite: bool, progress) -> Report:
+        folder = ""
+        if out is not None:
+            folder = self._prepare(core, os.fspath(out), overwrite)
+        if hours is not None and not hours > 0:
+            raise Error(f"hours: a positive number, not {hours!r}")
+        if progress is None:
+            progress = _wants_progress()
+        if progress:
+            self._progress_line = ProgressLine(core.step(), steps)
+        self._begun = True
+        try:
+            return Report(self, core.run(steps, folder, overwrite, 3600 * hours if hours else 0.0, progress))
+        finally:
+            if progress:
+                self._progress_line.end()
+
+    def _prepare(self, core, folder: str, overwrite: bool) -> str:
+        """Arrays go where the results are, so that the stored scenario finds them."""
+        if core.folder() or not self._files:
+            return folder
+        os.makedirs(folder, exist_ok=True)
+        for file, name in self._files.items():
+            stored = os.path.join(os.path.abspath(folder), name)
+            shutil.copyfile(file, stored)
+            core.moved(file, stored)
+        return folder
+
+    def _progress(self, step: int, seconds: float) -> None:
+        self._progress_line.show(step, seconds)
+
+    def stop(self) -> None:
+        """Ends the present run after its step; from an observer, or from another thread."""
+        if self._built is not None:
+            self._built.stop()
+
+    def start(self, steps: int | None = None, **options) -> "Simulation":
+        """run() in the background. Arrays are copies meanwhile, taken between two steps. wait() ends it."""
+        if self._thread is not None and self._thread.is_alive():
+            raise Error("start: the simulation runs already; wait() waits for its end")
+        self._core  # mistakes are told here
+        options.setdefault("progress", False)
+
+        def go():
+            try:
+                self.run(steps, **options)
+            except BaseException as failure:  # told by wait()
+                self._thread_failure = failure
+
+        self._thread_failure = None
+        self._thread = threading.Thread(target=go, daemon=True)
+        self._thread.start()
+        while self._thread.is_alive() and not self._built.running():
+            clock.sleep(0.0005)
+        return self
+
+    def wait(self) -> "Simulation":
+        """Until the run in the background ends; raises what has ended it."""
+        if self._thread is not None:
+            while self._thread.is_alive():
+                self._thread.join(0.1)
+            self._thread = None
+        failure, self._thread_failure = self._thread_failure, None
+        if failure is not None:
+            raise failure
+        return self
+
+    @property
+    def running(self) -> bool:
+        return self._built is not None and self._built.running()
+
+    # ---- observers ----
+
+    def every(self, steps: int, function=None):
+        """Calls a function at finished steps that are multiples of this: ``@sim.every(20)``. It may take the simulation
+        as its argument; its views are read only. One of the same name replaces the former. An exception ends the run
+        after its step and comes out of run()."""
+        return self._attend("look", steps, function)
+
+    def change(self, steps: int, function=None):
+        """The same for a function that changes particles, or their number, between steps. Such a run can't go back."""
+        return self._attend("change", steps, function)
+
+    def _attend(self, kind: str, steps, function):
+        steps = _whole(steps, "every" if kind == "look" else "change")
+        if steps < 1:
+            raise Error(f"a function is called every 1 or more steps, not every {steps}")
+        if function is None:
+            return lambda given: self._attend(kind, steps, given)
+        if not callable(function):
+            raise Error(f"a function is needed, not {type(function).__name__}")
+        name = getattr(function, "__name__", "<lambda>")
+        if name != "<lambda>":
+            for number, (old, *_) in list(self._functions.items()):
+                if getattr(old, "__name__", "") == name and getattr(old, "__module__", "") == function.__module__:
+                    self._forget(number)
+        number = self._next_function
+        self._next_function += 1
+        self._functions[number] = (function, kind, steps, _takes_argument(function))
+        if self._built is not None:
+            self._attendants[number] = self._built.attend(steps, number, kind == "change")
+        return function
+
+    def forget(self, function) -> None:
+        """An observer is called no more."""
+        for number, (known, *_) in list(self._functions.items()):
+            if known is function:
+                self._forget(number)
+                return
+        raise Error("forget: this function does not observe the simulation")
+
+    def _forget(self, number: int) -> None:
+        del self._functions[number]
+        attendant = self._attendants.pop(number, None)
+        if attendant is not None and self._built is not None:
+            self._built.forget(attendant)
+
+    def _called(self, number: int) -> None:
+        known = self._functions.get(number)
+        if known is None:
+            return
+        function, kind, _, takes = known
+        before = self._looking, self._changing
+        self._looking, self._changing = kind == "look", kind == "change"
+        try:
+            function(self) if takes else function()
+        finally:
+            self._looking, self._changing = before
+
+    def record(self, what: str, every: int = 1) -> Record:
+        """Keeps copies of a field, "bodies.position", or of one of its components, "bodies.position.x"."""
+        if not isinstance(what, str) or what.count(".") not in (1, 2):
+            raise Error(f"record: a field is 'ensemble.field', such as 'bodies.position', not {what!r}")
+        name, field, *component = what.split(".")
+        ensemble = self[name]
+        if field not in ensemble.fields and field != "influence":
+            raise Error(unknown(f"field of '{name}' called", field, ensemble.fields))
+        if component and component[0] not in ("x", "y", "z")[: ensemble.dimension]:
+            raise Error(unknown("component", component[0], ("x", "y", "z")[: ensemble.dimension]))
+        kept = Record()
+
+        def look():
+            array = getattr(ensemble, field)
+            kept._copies.append((array[:, "xyz".index(component[0])] if component else array).copy())
+            kept._steps.append(self.step)
+            kept._times.append(self.time)
+
+        look.__name__ = "<lambda>"
+        self.every(every, look)
+        return kept
+
+    # ---- what is there ----
+
+    def __getitem__(self, name: str) -> Ensemble:
+        if not isinstance(name, str):
+            raise Error(f"an ensemble is named by a text, not by {type(name).__name__}")
+        if name not in self._ensembles:
+            self._ensembles[name] = Ensemble(self, name)
+        return self._ensembles[name]
+
+    def __getattr__(self, name: str) -> Ensemble:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            names = self._core.ensembles()
+        except ScenarioErrors as errors:
+            raise Error(str(errors)) from None
+        if name in names:
+            return self[name]
+        raise AttributeError(unknown("ensemble", name, names))
+
+    def __setattr__(self, name: str, given) -> None:
+        if name.startswith("_") or isinstance(getattr(type(self), name, None), property):
+            object.__setattr__(self, name, given)
+            return
+        settable = [n for n in dir(type(self)) if isinstance(getattr(type(self), n), property)
+                    and getattr(type(self), n).fset is not None]
+        raise Error(f"a simulation has no '{name}' that can be set; there are {', '.join(settable)}"
+                    + _core.nearest(name, settable))
+
+    @property
+    def ensembles(self) -> dict[str, Ensemble]:
+        return {name: self[name] for name in self._core.ensembles()}
+
+    @property
+    def step(self) -> int:
+        return self._core.step()
+
+    @property
+    def time(self) -> float:
+        return self._core.time()
+
+    @property
+    def step_size(self) -> float:
+        """Of the steps to come, in the base; texts have units: ``sim.step_size = "5 fs"``."""
+        return self._core.step_size()
+
+    @step_size.setter
+    def step_size(self, size) -> None:
+        self._core.set_step_size(self.units(size))
+
+    @property
+    def threads(self) -> int:
+        """No bit depends on it."""
+        return self._core.threads()
+
+    @threads.setter
+    def threads(self, count: int) -> None:
+        self._core.set_threads(_whole(count, "threads"))
+
+    @property
+    def seed(self) -> int:
+        return self._core.seed()
+
+    @property
+    def title(self) -> str:
+        return self._core.title()
+
+    @property
+    def description(self) -> str:
+        return self._core.description()
+
+    @property
+    def box(self) -> "BoxEdges":
+        return BoxEdges(*self._core.box())
+
+    @property
+    def units(self) -> Units:
+        return Units(self)
+
+    @property
+    def folder(self) -> str:
+        """Where files are written; empty: nowhere."""
+        return self._core.folder()
+
+    @property
+    def table(self) -> Table:
+        """What the scenario's diagnoses have measured so far, over time."""
+        core = self._core
+        return from_rows(*core.between_steps(core.rows))
+
+    def measure(self, what: str, **keys) -> "Measured":
+        """A diagnosis of the present state, by its kind and keys: ``sim.measure("energies")["total energy"]``,
+        ``float(sim.measure("temperature"))``. In the units of ``sim.table``."""
+        place = caller()
+        document = Document()
+        document.append("diagnoses", {"kind": what, **keys}, place)
+        core = self._core
+        header, numbers = core.between_steps(
+            lambda: self._located(document, lambda: core.measure(self._source(document)))
+        )
+        return Measured(from_rows(header, numbers))
+
+    @property
+    def conserved(self) -> str:
+        """What was conserved since the first step, and by how much not."""
+        return "\n".join(self._core.conserved())
+
+    def picture(self, drawing: str | None = None, **keys) -> Picture:
+        """A drawing of the present state; keys are those of [[output.pictures]]."""
+        options = {plain(name): given for name, given in keys.items() if given is not None}
+        if drawing is not None:
+            options = {"drawing": drawing, **options}
+        core = self._core
+        place = caller()
+        try:
+            return Picture(core.between_steps(lambda: core.picture(words(options))))
+        except ScenarioErrors as errors:
+            located = ScenarioErrors([f"{place}: {line.removeprefix('--')}" for line in errors.lines])
+        raise located
+
+    def digest(self) -> str:
+        """A checksum of step and particles: equal for equal bits."""
+        core = self._core
+        return core.between_steps(core.digest)
+
+    def copy(self) -> "Simulation":
+        """A twin in memory, which goes on with the same bits. Observers and files are not copied."""
+        core = self._core
+        core.refuse_running("a simulation can't be copied") if hasattr(core, "refuse_running") else None
+        twin = Simulation.__new__(Simulation)
+        twin._start(Document(core.resolved(), self._document.file))
+        twin._name, twin._folder, twin._planned = self._name, self._folder, self._planned
+        twin._files, twin._temporary = dict(self._files), self._temporary
+        twin._core.copy_state(core)
+        twin._begun = self._begun
+        return twin
+
+    def __getstate__(self):
+        core = self._core
+        if core.running():
+            raise Error("a simulation can't be pickled while it runs")
+        files = {}
+        for path, name in self._files.items():
+            with open(path, "rb") as file:
+                files[path] = (name, file.read())
+        return (core.resolved(), self._name, self._planned, self._begun, files, core.save())
+
+    def __setstate__(self, state) -> None:
+        resolved, name, planned, begun, files, saved = state
+        self._start(Document(resolved, name))
+        self._name, self._planned = name, planned
+        for path, (file, content) in files.items():
+            here = os.path.join(self._temporary_folder(), file)
+            with open(here, "wb") as out:
+                out.write(content)
+            self._files[here] = file
+            self._document.source = self._document.source.replace(path, here)
+        self._core.restore(saved)
+        self._begun = begun
+
+    def __dir__(self):
+        names = list(super().__dir__())
+        try:
+            names += self._core.ensembles()
+        except Error:
+            pass
+        return [name for name in names if not name.startswith("_")]
+
+    def __repr__(self) -> str:
+        try:
+            core = self._core
+        except ScenarioErrors as errors:
+            return f"<simulation with {len(errors.lines)} mistakes: check() tells them>"
+        what = ", ".join(f"{_core.size(core, name)} {name}" for name in core.ensembles())
+        return f"<simulation {core.title() or core.name()!r}: {what}; step {core.step()}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        core = self._core
+        rows = "".join(
+            f"<tr><td>{escape(name)}</td><td>{escape(_core.layout(core, name)[3])}</td>"
+            f"<td>{_core.size(core, name)}</td></tr>"
+            for name in core.ensembles()
+        )
+        return (
+            f"<p><b>{escape(core.title() or core.name())}</b>, step {core.step()}</p><table><thead><tr><th>ensemble</th>"
+            f"<th>class</th><th>particles</th></tr></thead><tbody>{rows}</tbody></table>"
+        )
+
+
+class Measured(dict):
+    """Numbers by the names of their columns, of one moment; as a float it is the first of them."""
+
+    def __init__(self, table: Table):
+        super().__init__((name, float(table[name][0])) for name in table.names[2:])
+        self.units = {name: table.units[name] for name in self}
+
+    def __float__(self) -> float:
+        return next(iter(self.values()))
+
+    def __missing__(self, name):
+        raise Error(unknown("column", str(name), self))
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{name}  {number:.6g} {self.units[name]}".rstrip() for name, number in self.items())
+
+
+class BoxEdges:
+    """The box: ``low``, ``high``, ``length`` are arrays, ``boundary`` has a word for each axis."""
+
+    def __init__(self, low, high, boundary):
+        self.low, self.high, self.boundary = np.array(low), np.array(high), list(boundary)
+
+    @property
+    def length(self) -> np.ndarray:
+        return self.high - self.low
+
+    @property
+    def volume(self) -> float:
+        return float(np.prod(self.length))
+
+    def __repr__(self) -> str:
+        axes = ", ".join(
+            f"{axis} {low:.6g} to {high:.6g} ({kind})"
+            for axis, low, high, kind in zip("xyz", self.low, self.high, self.boundary)
+        )
+        return f"<box: {axes}>"
+
+
+class ProgressLine:
+    """How far a run is: one line that is rewritten, on a terminal or in a notebook's cell."""
+
+    def __init__(self, first: int, steps: int):
+        self._first, self._steps, self._shown, self._handle = first, steps, False, None
+
+    def show(self, step: int, seconds: float) -> None:
+        done = abs(step - self._first)
+        rate = done / max(seconds, 1e-9)
+        left = (abs(self._steps) - done) / max(rate, 1e-9)
+        line = f"{100 * done // max(abs(self._steps), 1):3d} %  step {step}, {rate:.3g} steps/s, {left:.0f} s left"
+        self._shown = True
+        if _in_notebook():
+            from IPython.display import display
+
+            content = {"text/plain": line}
+            if self._handle is None:
+                self._handle = display(content, raw=True, display_id=True)
+            else:
+                self._handle.update(content, raw=True)
+        else:
+            print(f"\r{line}\033[K", end="", file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        if self._shown and not _in_notebook():
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+def _in_notebook() -> bool:
+    shell = sys.modules.get("IPython")
+    return shell is not None and type(shell.get_ipython()).__name__ == "ZMQInteractiveShell"
+
+
+def _wants_progress() -> bool:
+    return (sys.stderr is not None and sys.stderr.isatty()) or _in_notebook()
+
+
+def _whole(given, name: str) -> int:
+    if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
+        if isinstance(given, float) and given.is_integer():
+            return int(given)
+        raise Error(f"{name}: a whole number is needed, not {given!r}")
+    return int(given)
+
+
+def _takes_argument(function) -> bool:
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return True
+    return any(p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD, p.VAR_POSITIONAL) and p.default is p.empty
+               for p in parameters)
+
+
+def _has_texts(given) -> bool:
+    return any(isinstance(one, str) or (isinstance(one, (list, tuple)) and _has_texts(one)) for one in given)
+
+
+def _box_around(places) -> dict:
+    """An open box for pictures, where nothing is bounded."""
+    if not places:
+        return {"low": [0.0, 0.0, 0.0], "high": [1.0, 1.0, 1.0]}
+    everything = np.concatenate([p for p in places if p.shape[1] == places[0].shape[1]])
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    half = max(float((high - low).max()), 1e-300) * 0.75 or 1.0
+    middle = (low + high) / 2
+    return {"low": middle - half, "high": middle + half}
+
+
+def _typed_law(keys: dict) -> dict:
+    """Keys that are none of the table's are numbers with names in the formula."""
+    told = _core.keys("influences")
+    known = {plain(name): given for name, given in keys.items() if plain(name) in told}
+    numbers = {name: given for name, given in keys.items() if plain(name) not in told}
+    if numbers:
+        known["parameters"] = {**known.get("parameters", {}), **numbers}
+    return known
+
+
+def load(what, set: dict | None = None, steps: int | None = None, seed: int | None = None, threads: int | None = None):
+    """A Simulation from the name of a shipped scenario, the path of a file, the text of one, or a dict of its tables.
+
+    ``set``: other values of keys, by their paths, {"run.step": "5 fs"}. Nothing runs yet."""
+    place = caller()
+    sim = Simulation.__new__(Simulation)
+    assignments = [f"{path}={value(given, path)}" for path, given in (set or {}).items()]
+    overrides = {
+        "set": assignments,
+        "steps": None if steps is None else _whole(steps, "steps"),
+        "seed": None if seed is None else _whole(seed, "seed"),
+        "threads": None if threads is None else _whole(threads, "threads"),
+    }
+    if isinstance(what, dict):
+        document = Document()
+        sim._start(document, **overrides)
+        for name, given in what.items():
+            sim._table(name, given, place)
+    elif isinstance(what, str) and "\n" in what:
+        sim._start(Document(what, "text"), **overrides)
+    elif isinstance(what, (str, os.PathLike)):
+        try:
+            path = _core.find_scenario(os.fspath(what))
+        except Error as error:
+            raise Error(f"{place}: {error}") from None
+        try:
+            with open(path, encoding="utf-8", newline="") as file:
+                source = file.read()
+        except (OSError, UnicodeDecodeError) as error:
+            raise Error(f"{place}: '{path}' can't be read: {error}") from None
+        sim._start(Document(source, os.fspath(what) if os.path.exists(os.fspath(what)) else os.path.basename(path)), **overrides)
+        sim._name = os.path.splitext(os.path.basename(path))[0]
+        sim._folder = os.path.dirname(os.path.abspath(path))
+    else:
+        raise Error(f"{place}: load: a name, a path, a text or a dict is needed, not {type(what).__name__}")
+    sim._set_place = place
+    sim.check()
+    return sim

@@ -1,0 +1,103 @@
+"""One scenario for several values and seeds: ``bz.sweep``."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+
+import numpy as np
+
+from . import _core
+from .document import value
+from .errors import Error, ScenarioErrors, caller, unknown
+from .simulation import Simulation, load
+from .stored import StoredRun, read_table
+from .table import Table
+
+
+class Sweep:
+    """The table of means over the seeds, ``s["shock speed"]``, with their standard errors, ``s.error("shock speed")``."""
+
+    def __init__(self, folder: str, failed: int, keep=None):
+        self.folder, self.failed, self._keep = folder, failed, keep
+        self.table = read_table(os.path.join(folder, "sweep.csv"))
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.table[name]
+
+    def error(self, name: str) -> np.ndarray:
+        """The standard error of a column's mean over the seeds."""
+        for column in (f"{name} error", f"error of {name}", f"{name} +-"):
+            if column in self.table:
+                return self.table[column]
+        raise Error(f"there is no error of '{name}': " + unknown("column", name, self.table.names))
+
+    @property
+    def fits(self) -> str:
+        """fits.csv: straight lines through the points, where the scenario's pictures ask for one."""
+        path = os.path.join(self.folder, "fits.csv")
+        if not os.path.exists(path):
+            return ""
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    @property
+    def series(self) -> Table:
+        """Means over the seeds over time, of all values."""
+        return read_table(os.path.join(self.folder, "series.csv"))
+
+    @property
+    def runs(self) -> list[StoredRun]:
+        folders = sorted(f for f in os.listdir(self.folder) if f[:1].isdigit())
+        return [StoredRun(os.path.join(self.folder, f)) for f in folders]
+
+    def __repr__(self) -> str:
+        return repr(self.table)
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_()
+
+
+def sweep(
+    what,
+    vary: dict | None = None,
+    seeds: int | None = None,
+    table: list[str] | None = None,
+    set: dict | None = None,
+    threads: int | None = None,
+    out=None,
+    overwrite: bool = False,
+    quiet: bool = True,
+) -> Sweep:
+    """Runs a scenario (a name, a path, a text or a Simulation) for values of its keys, {"run.step": [0.1, 0.2]}, which go
+    together, each with several seeds. ``table``: the columns of its table. Results stay in ``out``; without it they go
+    when the Sweep does."""
+    place = caller()
+    sim = what if isinstance(what, Simulation) else load(what)
+    if sim._begun:
+        raise Error(f"{place}: sweep: this simulation has run; a sweep starts from the beginning")
+    assignments = list(sim._overrides["set"]) + [f"{path}={value(given, path)}" for path, given in (set or {}).items()]
+    if table is not None:
+        assignments.append(f"sweep.table={value(list(table), 'table')}")
+    varied = []
+    for path, values in (vary or {}).items():
+        if isinstance(values, str) or not hasattr(values, "__len__"):
+            raise Error(f"{place}: vary: {path}: a list of values is needed, not {values!r}")
+        varied.append(f"{path}={value(values, path)}")
+    keep = None
+    if out is None:
+        keep = tempfile.TemporaryDirectory(prefix="boltzmann-sweep-")
+        folder = os.path.join(keep.name, "sweep")
+    else:
+        folder = os.fspath(out)
+    try:
+        failed, interrupted = _core.sweep(
+            sim._source(sim._document), assignments, varied, seeds, threads, folder, overwrite, quiet
+        )
+    except ScenarioErrors as errors:
+        located = sim._document.located(errors, place)
+    else:
+        if interrupted:
+            raise KeyboardInterrupt
+        return Sweep(folder, failed, keep)
+    raise located
