@@ -79,4 +79,5 @@ PYBIND11_MODULE(_core, module) {
   bind_ensembles(module);
   bind_results(module);
   bind_catalogue(module);
+  bind_exact(module);
 }

@@ -1,4 +1,5 @@
 // Methods for few bodies against exact and published motion: Gauss-Radau and the symplectic method of fourth order.
+#include <boltzmann/exact/kepler.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/laws/magnetic.hpp>
@@ -65,10 +66,8 @@ double kepler_error(Method method, int steps, double tolerance) {
   auto const system = kepler(e, time / steps, method);
   system->simulation.tolerance(tolerance);
   system->simulation.run(static_cast<std::uint64_t>(steps));
-  double anomaly = time;
-  for (int k = 0; k < 100; ++k) anomaly = time + e * std::sin(anomaly);
-  Vector<3> const exact{std::cos(anomaly) - e, std::sqrt(1 - e * e) * std::sin(anomaly), 0};
-  return magnitude(system->bodies[1].position - system->bodies[0].position - exact);
+  auto const exact = exact::orbit_state({.semi_major_axis = 1, .eccentricity = e, .mean_anomaly = time}, 1);
+  return magnitude(system->bodies[1].position - system->bodies[0].position - exact.position);
 }
 
 TEST(FewBodies, OrdersOnAKeplerOrbit) {

@@ -1,6 +1,8 @@
 // The Sun and its giant planets: a bounded error of the energy, and the long waves of their orbits.
 #include "shipped.hpp"
 
+#include <boltzmann/exact/kepler.hpp>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,16 +14,12 @@ namespace {
 
 /// Of a planet about the Sun, from its row and that of the Sun; masses in those of the Sun, G = 1.
 double eccentricity(double const* planet, double const* sun, double total_mass, int velocity) {
-  std::array<double, 3> x{}, v{};
-  for (int a = 0; a < 3; ++a) x[a] = planet[a] - sun[a], v[a] = planet[velocity + a] - sun[velocity + a];
-  auto const dot = [](auto const& a, auto const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  double const r = std::sqrt(dot(x, x)), radial = dot(x, v), v2 = dot(v, v);
-  double square = 0;
-  for (int a = 0; a < 3; ++a) {
-    double const e = ((v2 - total_mass / r) * x[a] - radial * v[a]) / total_mass;
-    square += e * e;
+  exact::OrbitState state;
+  for (std::size_t a = 0; a < 3; ++a) {
+    state.position[a] = planet[a] - sun[a];
+    state.velocity[a] = planet[static_cast<std::size_t>(velocity) + a] - sun[static_cast<std::size_t>(velocity) + a];
   }
-  return std::sqrt(square);
+  return exact::orbit_elements(state, total_mass).eccentricity;
 }
 
 // In 100,000 years the energy is as good at the end as at the beginning. Jupiter and Saturn

@@ -3,6 +3,7 @@
 #include <tests/physics/shipped.hpp>
 #include <tests/physics/smooth_gas.hpp>
 
+#include <boltzmann/exact/taylor_green.hpp>
 #include <boltzmann/laws/materials/newtonian.hpp>
 #include <boltzmann/laws/materials/tait.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -16,9 +17,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Vector<2> vortices(Vector<2> const& place) {
-  double const x = 2 * pi * place[0], y = 2 * pi * place[1];
-  return {-std::cos(x) * std::sin(y), std::sin(x) * std::cos(y)};
+Vector<2> vortices(Vector<2> const& place, double viscosity = 0, double time = 0) {
+  return exact::taylor_green(place, time, 1, 1, viscosity).velocity;
 }
 
 struct Decay {
@@ -48,12 +48,12 @@ Decay decay(std::size_t n, double viscosity, double end_time) {
   double const expected = std::exp(-8 * pi * pi * viscosity * end_time);
   double along = 0, of_wave = 0, square_of_speed = 0, apart = 0, size = 0;
   for (auto const& p : fluid) {
-    Vector<2> const wave = vortices(p.position);
+    Vector<2> const wave = vortices(p.position), exact = vortices(p.position, viscosity, end_time);
     along += dot(p.velocity, wave);
     of_wave += dot(wave, wave);
     square_of_speed += norm2(p.velocity);
-    apart += magnitude(p.velocity - wave * expected);
-    size += magnitude(wave) * expected;
+    apart += magnitude(p.velocity - exact);
+    size += magnitude(exact);
   }
   Decay result{};
   result.amplitude = along / of_wave / expected;

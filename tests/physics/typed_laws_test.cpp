@@ -1,6 +1,7 @@
 // Scenarios whose laws are typed, against the theory of small waves in them.
-#include "riemann.hpp"
 #include "shipped.hpp"
+
+#include <boltzmann/exact/riemann.hpp>
 
 #include <gtest/gtest.h>
 
@@ -88,7 +89,7 @@ TEST(DenseGas, HasTheWavesOfSodWithRoomAdded) {
   auto& simulation = *run->simulation;
   while (simulation.time() < 0.2) simulation.run(20);
   double const time = simulation.time();
-  Riemann const ideal({1, 0, 1}, {0.125, 0, 0.1}, 1.4);
+  exact::Riemann const ideal = exact::sod();
   auto const dense = [](double density) { return 1 / (1 / density + 1); };
   auto const& gas = *run->ensembles[0];
   double const contact = ideal.star_velocity() * time, shock = ideal.shock_speed() * 0.125 / dense(0.125) * time;
