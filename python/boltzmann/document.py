@@ -146,7 +146,7 @@ class Document:
             place = self._place(int(found[1]))
             below = int(found[1]) - len(self._top)
             lines.append(f"{place}: {found[3]}" if place else f"{self.file}:{below}:{found[2]}: {found[3]}")
-        return ScenarioErrors(lines)
+        return ScenarioErrors(list(dict.fromkeys(lines)))  # several of one array may be told alike
 
     def copy(self) -> "Document":
         other = Document(self.source, self.file)

@@ -13,7 +13,7 @@ class Ensemble:
     them the next run takes. They stay valid memory for ever; when the number of particles changes, they turn into NaN.
     ``atoms.velocity = a`` copies into the rows. While another thread runs the simulation they are copies."""
 
-    __slots__ = ("_sim", "_name", "_made", "_fields", "_layout")
+    __slots__ = ("_sim", "_name", "_made", "_fields", "_layout", "_particles", "_places")
 
     def __init__(self, simulation, name: str):
         put = object.__setattr__
@@ -28,6 +28,8 @@ class Ensemble:
             put = object.__setattr__
             put(self, "_layout", _core.layout(core, self._name))
             put(self, "_fields", {f[0]: f for f in _core.fields(core, self._name)})
+            put(self, "_particles", _core.Particles(core, self._name))
+            put(self, "_places", {name: self._place(f) for name, f in self._fields.items()})
             put(self, "_made", core)
         return core
 
@@ -63,40 +65,49 @@ class Ensemble:
     def __bool__(self) -> bool:
         return True
 
-    def _array(self, name: str) -> np.ndarray:
-        core = self._core()
-        sim = self._sim
-        if core.running_elsewhere():
-            copied = core.between_steps(lambda: self._view(core, name, True).copy())
-            copied.flags.writeable = False
-            return copied
-        return self._view(core, name, sim._looking)
+    def _place(self, field) -> tuple:
+        """Of a field in the rows: the shape behind the number of particles, offset, and strides, in bytes."""
+        dimension, stride, *_ = self._layout
+        _, offset, components, vector, *_ = field
+        if components == 1 and not vector:
+            return (), 8 * offset, (8 * stride,)
+        if components == dimension * dimension and dimension > 1 and not vector:
+            return (dimension, dimension), 8 * offset, (8 * stride, 8 * dimension, 8)
+        return (components,), 8 * offset, (8 * stride, 8)
 
-    def _view(self, core, name: str, readonly: bool) -> np.ndarray:
-        dimension, stride, influences, _ = self._layout
-        if name == "influence":
-            memory = _core.influences(core, self._name)
-            shape = (_core.size(core, self._name), influences)
-            return np.ndarray(shape, np.float64, memory) if shape[0] else np.empty(shape)
-        field = self._fields[name]
-        memory = _core.rows(core, self._name, readonly)
-        count = _core.size(core, self._name)
-        offset, components = 8 * field[1], field[2]
-        if components == 1 and not field[3]:
-            shape, strides = (count,), (8 * stride,)
-        elif components == dimension * dimension and dimension > 1 and not field[3]:
-            shape, strides = (count, dimension, dimension), (8 * stride, 8 * dimension, 8)
-        else:
-            shape, strides = (count, components), (8 * stride, 8)
+    def _view(self, name: str, readonly: bool) -> np.ndarray | None:
+        """None while another thread runs the simulation."""
+        looked = self._particles.look(readonly)
+        if looked is None:
+            return None
+        memory, count = looked
+        shape, offset, strides = self._places[name]
         if count == 0:
-            return np.empty(shape)
-        return np.ndarray(shape, np.float64, memory, offset, strides)
+            return np.empty((0, *shape))
+        return np.ndarray((count, *shape), np.float64, memory, offset, strides)
+
+    def _influence(self, core) -> np.ndarray:
+        shape = (_core.size(core, self._name), self._layout[2])
+        return np.ndarray(shape, np.float64, _core.influences(core, self._name)) if shape[0] else np.empty(shape)
+
+    def _array(self, name: str) -> np.ndarray:
+        view = self._view(name, self._sim._looking) if name != "influence" else None
+        if view is not None:
+            return view
+        core = self._made
+        if name == "influence" and not core.running_elsewhere():
+            return self._influence(core)
+        look = (lambda: self._influence(core)) if name == "influence" else (lambda: self._view(name, True))
+        copied = core.between_steps(lambda: look().copy())
+        copied.flags.writeable = False
+        return copied
 
     def __getattr__(self, name: str) -> np.ndarray:
         if name.startswith("__"):
             raise AttributeError(name)
-        self._core()
-        if name in self._fields or (name == "influence" and self._layout[2] > 0):
+        if self._made is None or self._made is not self._sim._built:
+            self._core()
+        if name in self._places or (name == "influence" and self._layout[2] > 0):
             return self._array(name)
         raise AttributeError(unknown(f"field of '{self._name}' (class {self._layout[3]}) called", name, self._fields))
 
@@ -117,7 +128,7 @@ class Ensemble:
         numbers = self._numbers(core, name, given)
 
         def put():
-            view = self._view(core, name, False)
+            view = self._view(name, False)
             try:
                 view[...] = numbers
             except ValueError:
@@ -197,10 +208,10 @@ class Ensemble:
         values = {name: self._numbers(core, name, given) for name, given in fields.items()}
         first = len(self)
         self.resize(first + len(places))
-        self._view(core, "position", False)[first:] = places
+        self._view("position", False)[first:] = places
         try:
             for name, numbers in values.items():
-                self._view(core, name, False)[first:] = numbers
+                self._view(name, False)[first:] = numbers
         except ValueError:
             self.resize(first)
             raise Error(f"{name}: one value for all, or one for each of {len(places)} particles, is needed") from None

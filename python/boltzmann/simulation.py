@@ -434,7 +434,7 @@ class Simulation:
             steps = self._steps_of(core, time)
         elif time is not None:
             raise Error("steps, time: one of both says how long the run is")
-        elif type(steps) is not int:
+        else:
             steps = _whole(steps, "steps")
         if steps < 0:
             raise Error(f"steps: 0 or more, not {steps}; rewind() goes back")
@@ -445,10 +445,10 @@ class Simulation:
             if not self._planned or core.planned() == 0:
                 raise Error("run: say how many steps, or a time: nothing is planned in run = dict(steps=...)")
             return max(core.planned() - core.step(), 0)
-        length = self.units(time)
+        length = self._time(time)
         if not length >= 0 or not math.isfinite(length):
             raise Error(f"time: a finite time, 0 or more, not {time!r}")
-        return math.ceil(length / abs(core.step_size()) * (1 - 1e-12))
+        return _whole(math.ceil(length / abs(core.step_size()) * (1 - 1e-12)), "time")
 
     def rewind(self, steps: int | None = None) -> Report:
         """The same with the negative step; without a number back to step 0."""
@@ -657,7 +657,10 @@ class Simulation:
 
     @step_size.setter
     def step_size(self, size) -> None:
-        self._core.set_step_size(self.units(size))
+        self._core.set_step_size(self._time(size))
+
+    def _time(self, given) -> float:
+        return _core.time_of(self._core, given) if isinstance(given, str) else self.units(given)
 
     @property
     def threads(self) -> int:
@@ -877,11 +880,19 @@ def _wants_progress() -> bool:
 
 
 def _whole(given, name: str) -> int:
+    if isinstance(given, float) and given.is_integer():
+        given = int(given)
     if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
-        if isinstance(given, float) and given.is_integer():
-            return int(given)
         raise Error(f"{name}: a whole number is needed, not {given!r}")
+    if not -(2**62) <= given <= 2**62:
+        raise Error(f"{name}: at most 2^62, not {given}")
     return int(given)
+
+
+def _from_zero(given, name: str) -> int | None:
+    if given is not None and (given := _whole(given, name)) < 0:
+        raise Error(f"{name}: 0 or more, not {given}")
+    return given
 
 
 def _takes_argument(function) -> bool:
@@ -927,9 +938,9 @@ def load(what, set: dict | None = None, steps: int | None = None, seed: int | No
     assignments = [f"{path}={value(given, path)}" for path, given in (set or {}).items()]
     overrides = {
         "set": assignments,
-        "steps": None if steps is None else _whole(steps, "steps"),
-        "seed": None if seed is None else _whole(seed, "seed"),
-        "threads": None if threads is None else _whole(threads, "threads"),
+        "steps": _from_zero(steps, "steps"),
+        "seed": _from_zero(seed, "seed"),
+        "threads": _from_zero(threads, "threads"),
     }
     if isinstance(what, dict):
         document = Document()

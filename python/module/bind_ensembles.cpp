@@ -23,6 +23,23 @@ Memory influences_memory(Core& core, std::string const& name) {
           ensemble.size() * ensemble.influence_size() * sizeof(double), true};
 }
 
+/// What Python keeps of an ensemble, so that a view costs one call.
+class Particles {
+ public:
+  Particles(Core& core, std::string const& name) : core_(core), ensemble_(core.ensemble(name)) {}
+  /// The rows and how many there are; None while another thread runs the simulation.
+  py::object look(bool readonly) {
+    if (core_.running_elsewhere()) return py::none();
+    return py::make_tuple(Memory{ensemble_.hold_rows(), ensemble_.row(0),
+                                 ensemble_.size() * ensemble_.stride() * sizeof(double), readonly},
+                          ensemble_.size());
+  }
+
+ private:
+  Core& core_;
+  AnyEnsemble& ensemble_;
+};
+
 py::buffer_info buffer_of(Memory const& memory) {
   return {memory.first, 1, py::format_descriptor<std::uint8_t>::format(), 1, {static_cast<py::ssize_t>(memory.bytes)},
           {1},          memory.readonly};
@@ -91,6 +108,9 @@ void write_frame(std::string const& path, std::string const& name, int dimension
 
 void bind_ensembles(py::module_& module) {
   py::class_<Memory>(module, "Memory", py::buffer_protocol()).def_buffer(&buffer_of);
+  py::class_<Particles>(module, "Particles")
+      .def(py::init<Core&, std::string const&>(), py::keep_alive<1, 2>())
+      .def("look", &Particles::look);
   module.def("rows", rows_memory);
   module.def("influences", influences_memory);
   module.def("layout", [](Core& core, std::string const& name) {
@@ -107,6 +127,9 @@ void bind_ensembles(py::module_& module) {
     return core.scenario().units.is_reduced() && quantity.has_unit
                ? throw Error("the simulation counts in pure numbers: '" + text + "' has a unit")
                : core.scenario().units.from_si(quantity.si, quantity.dimension);
+  });
+  module.def("time_of", [](Core& core, std::string const& text) {
+    return in_units(text, dimensions::time, core.scenario().units);
   });
   module.def("write_frame", write_frame);
 }
