@@ -19,14 +19,21 @@ namespace {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t), "HDF5 1.10 or later");
 
-// Keeps HDF5 from printing its error stack while one of our calls runs; the user's own setting comes back afterwards.
+Neighbour neighbour;
+
+// Around each of our calls: the neighbour waits, and HDF5 does not print its error stack; the user's own setting comes
+// back afterwards.
 class Silence {
  public:
   Silence() {
+    if (neighbour.enter) neighbour.enter();
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  ~Silence() {
+    H5Eset_auto2(H5E_DEFAULT, function_, data_);
+    if (neighbour.leave) neighbour.leave();
+  }
   Silence(Silence const&) = delete;
   Silence& operator=(Silence const&) = delete;
 
@@ -122,6 +129,8 @@ bool transfer_block(hid_t dataset, Extents const& start, Extents const& count, T
 }  // namespace
 
 void leave_without_words() { H5dont_atexit(); }
+
+void share_with(Neighbour other) { neighbour = other; }
 
 Dataset::~Dataset() {
   Silence const silence;

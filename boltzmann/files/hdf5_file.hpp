@@ -16,6 +16,15 @@ class File;
 /// damaged file it would complain there of what it has left open itself. Without effect once HDF5 has been used.
 void leave_without_words();
 
+/// Somebody else who uses the same HDF5 in this program, from other threads: HDF5 itself knows nothing of threads. Each
+/// is called around all that we ask of it, by the same thread, and nested at times.
+struct Neighbour {
+  void (*enter)() = nullptr;
+  void (*leave)() = nullptr;
+};
+/// From now on, and before the first file is opened.
+void share_with(Neighbour neighbour);
+
 using Extents = std::vector<std::uint64_t>;
 
 enum class Number { real, integer };  ///< double, or std::int64_t

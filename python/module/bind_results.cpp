@@ -25,6 +25,7 @@ class Stored {
   ScenarioSimulation& scenario() { return *scenario_; }
   std::string const& folder() const { return folder_; }
   TrajectoryReader& trajectory() {
+    look_for_h5py();
     if (!reader_) {
       std::string const path = folder_ + "/trajectory.h5";
       if (!std::filesystem::exists(path))

@@ -133,6 +133,7 @@ void Core::start_recording(RunOptions const& options) {
 
 Core::Report Core::run(std::int64_t steps, RunOptions const& options) {
   refuse_while_running("run() can't be called");
+  look_for_h5py();
   start_recording(options);
   if (!start_) {
     simulation().check();
@@ -200,6 +201,7 @@ void Core::look_at_clock(double now) {
   last_look_ = now;
   if (took < seconds_between_looks / 4) return;  // not yet, and never of a short run
   py::gil_scoped_acquire const lock;
+  look_for_h5py();
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (options_.progress && now - last_progress_ >= seconds_between_progress) {

@@ -172,6 +172,11 @@ void bind_results(py::module_& module);
 void bind_catalogue(py::module_& module);
 void bind_exact(py::module_& module);
 
+/// From now on h5py and we wait for each other, wherever look_for_h5py() has found it.
+void share_hdf5();
+/// Asked for where the interpreter's lock is held: before a run, during it now and then, before stored files are read.
+void look_for_h5py();
+
 /// Bytes of doubles, for numpy.frombuffer.
 py::bytes bytes_of(std::span<double const> numbers);
 py::dict table_of(CsvTable const& table);

@@ -68,6 +68,7 @@ void bind_catalogue(py::module_& module) {
 PYBIND11_MODULE(_core, module) {
   using namespace boltzmann::python;
   boltzmann::Interrupt::leave_signals_alone();
+  share_hdf5();
   module.attr("version") = boltzmann::program_version;
   // The classes of exceptions are Python's own, so that they can say more; they are told once.
   module.def("exceptions", [](py::object error, py::object scenario, py::object physics, py::object recording) {
