@@ -32,7 +32,7 @@ void AnyEnsemble::attach(double* data, std::size_t size) {
   size_ = size;
   std::size_t const numbers = size * (influence_size_ + rates_ * rate_stride());
   if (rates_ > 0 && numbers != influence_.size()) influence_.clear();  // whose places depend on the size
-  influence_.resize(numbers, 0.0);
+  influence_.resize(numbers);
 }
 
 bool AnyEnsemble::is_vector(Field const& field) const {
