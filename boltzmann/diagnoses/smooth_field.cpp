@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace boltzmann {
@@ -380,13 +382,14 @@ namespace {
 class LatticePoint final : public AnyEnsemble {
  public:
   explicit LatticePoint(int dimension) : AnyEnsemble("lattice", "lattice point", typeid(void), dimension, 4, 3, 0, {}) {
-    attach(row_, 1);
+    attach(row_->data(), 1);
   }
   void resize(std::size_t) override {}
-  std::size_t bytes() const override { return sizeof(row_); }
+  std::size_t bytes() const override { return sizeof(*row_); }
+  std::shared_ptr<void const> hold_rows() const override { return row_; }
 
  private:
-  double row_[4] = {0, 0, 0, 0};
+  std::shared_ptr<std::array<double, 4>> row_ = std::make_shared<std::array<double, 4>>();
 };
 
 /// Goes uphill (sign 1) or downhill from a point, along the axes and diagonals, in ever smaller steps.
