@@ -5,6 +5,7 @@
 #include <boltzmann/scenario/overrides.hpp>
 #include <boltzmann/scenario/picture_words.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -63,9 +64,18 @@ int export_run(ExportRun const& options);
 /// What stands below the options in its help: the formats.
 std::string export_help();
 
+/// The page of a stored run as a file, in place of a window.
+struct PageFile {
+  std::string out;                 ///< empty: none
+  std::vector<std::string> views;  ///< empty: those of the run
+  std::size_t frames = 100;        ///< at most
+  double megabytes = 8;            ///< at most
+};
+
 struct WindowCommand {
   std::string folder;  ///< of a stored run; empty: the gallery
   std::uint16_t port = 0;
+  PageFile page;
 };
 int window(WindowCommand const& command);
 

@@ -223,7 +223,24 @@ class CommandLine {
         command("window", "watch a stored run on a page; without a folder: choose a scenario, change it and run it",
                 [this] { return window(window_command_); });
     sub->add_option("folder", window_command_.folder, "the folder of a run [none: the gallery of scenarios]");
-    sub->add_option("--port", window_command_.port, "of the page [a free one]")->check(CLI::Range(0, 65535));
+    auto* const port = sub->add_option("--port", window_command_.port, "of the page [a free one]");
+    port->check(CLI::Range(0, 65535));
+    PageFile& page = window_command_.page;
+    auto* const out =
+        sub->add_option("-o,--out", page.out, "write the page with its frames into an .html file that plays anywhere")
+            ->type_name("FILE")
+            ->excludes(port);
+    sub->add_option("--view", page.views, "in the file: a view or picture, by name (may be given again) [the run's]")
+        ->type_name("NAME")
+        ->allow_extra_args(false)
+        ->needs(out);
+    sub->add_option("--frames", page.frames, "in the file: so many at most, evenly chosen")
+        ->transform(CLI::Validator(whole_number, "N"))
+        ->capture_default_str()
+        ->needs(out);
+    sub->add_option("--megabytes", page.megabytes, "of the file at most: else fewer particles and frames")
+        ->capture_default_str()
+        ->needs(out);
   }
 
   void add_render() {

@@ -1,12 +1,15 @@
 // bzm window, and bzm run --window: the gallery, a stored run, a run that goes on, on a page.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
+#include <boltzmann/sweep/run_sweep.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/gallery_source.hpp>
 #include <boltzmann/window/live_run.hpp>
-#include <boltzmann/window/replay.hpp>
+#include <boltzmann/window/replay_page.hpp>
 #include <boltzmann/window/run_list.hpp>
+#include <boltzmann/window/stored_replay.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -78,20 +81,10 @@ int gallery(std::uint16_t port) {
 
 /// Shows a stored run, and announces it if told; true if a signal ended it.
 bool show_run(std::string const& folder, Clients& clients, bool announced = false) {
-  if (!fs::exists(folder + "/trajectory.h5"))
-    throw Error("'" + folder +
-                "' has no trajectory.h5 to show: the run was not asked for one (trajectory = 10 in "
-                "[output] stores a frame every 10 steps)");
-  auto const scenario = load_stored_run(folder);
-  auto const recording = make_recording(*scenario, folder, {.overwrite = true});  // only asked what it would draw
-  Views views(*scenario->simulation, scenario->units, title_of(*scenario, folder), folder);
-  add_views(views, *scenario);
-  views.take(*recording);
-  Replay show(views, clients, scenario->name, scenario->description);
-  views.add_usual();
+  StoredReplay stored(folder);
   std::optional<Announcement> announcement;
   if (announced) announcement.emplace("window", clients.address());
-  return show.run();
+  return stored.replay().run(clients);
 }
 
 int stored_runs(std::string const& folder, std::uint16_t port) {
@@ -129,9 +122,24 @@ int stored_runs(std::string const& folder, std::uint16_t port) {
   return stopped ? 130 : 0;
 }
 
+int write_page(WindowCommand const& command) {
+  std::string const& out = command.page.out;
+  if (!out.ends_with(".html") && !out.ends_with(".htm"))
+    throw Error("'" + out + "' is no page: its name ends in .html (bzm render makes pictures and movies)");
+  if (command.folder.empty()) throw Error("say which run the page shows: bzm window results/copper -o " + out);
+  if (holds_sweep(command.folder))
+    throw Error("'" + command.folder + "' holds a sweep; show one of its runs, whose folders begin with their numbers");
+  auto const page = replay_page(command.folder, {command.page.views, command.page.frames, command.page.megabytes});
+  write_whole(out, page.html);
+  std::string const what = page.message.empty() ? fmt::format("{} frames", page.frames) : page.message;
+  say(fmt::format("{}: {:.1f} MB, {}", out, static_cast<double>(page.html.size()) / 1e6, what));
+  return 0;
+}
+
 }  // namespace
 
 int window(WindowCommand const& command) {
+  if (!command.page.out.empty()) return write_page(command);
   return command.folder.empty() ? gallery(command.port) : stored_runs(command.folder, command.port);
 }
 

@@ -379,17 +379,6 @@ class Drawings {
   std::map<std::string, Drawn> drawn_;
 };
 
-/// The rows of the table from `first` on.
-json rows_of(ShownTable const& table, std::int64_t first, BinaryMessage& message) {
-  auto const from = static_cast<std::size_t>(std::max<std::int64_t>(first, 0));
-  std::vector<double> rows(table.values.begin() + static_cast<std::ptrdiff_t>(from * table.columns),
-                           table.values.end());
-  return {{"number", table.number},
-          {"from", from},
-          {"rows", table.rows() - from},
-          {"values", message.array(std::move(rows))}};
-}
-
 }  // namespace
 
 bool Clients::send_updates() {
@@ -407,8 +396,8 @@ bool Clients::send_updates() {
     head["type"] = "update";
     head["viewers"] = viewers;
     head["selected"] = turn.selected ? show->particle(turn.selected->first, turn.selected->second) : json();
-    if (table && static_cast<std::int64_t>(table->rows()) > std::max<std::int64_t>(turn.rows, 0))
-      head["table"] = rows_of(*table, turn.rows, message);
+    auto const known = static_cast<std::size_t>(std::max<std::int64_t>(turn.rows, 0));
+    if (table && table->rows() > known) head["table"] = table_json(*table, known, message);
     json& views = head["views"] = json::array();
     for (auto const& view : turn.views)
       if (json one = drawings.of(view, message); !one.is_null()) views.push_back(std::move(one));

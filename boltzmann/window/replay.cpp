@@ -3,6 +3,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/recording/interrupt.hpp>
+#include <boltzmann/window/clients.hpp>
 #include <boltzmann/window/replay.hpp>
 
 #include <fmt/format.h>
@@ -22,9 +23,8 @@ constexpr auto steps_between_clocks = std::chrono::seconds(1);  // at the file, 
 
 }  // namespace
 
-Replay::Replay(Views& views, Clients& clients, std::string name, std::string description)
+Replay::Replay(Views& views, std::string name, std::string description)
     : views_(views),
-      clients_(clients),
       name_(std::move(name)),
       description_(std::move(description)),
       path_(views.folder() + "/trajectory.h5") {
@@ -35,8 +35,6 @@ Replay::Replay(Views& views, Clients& clients, std::string name, std::string des
   read_table();
   go_to(0);
 }
-
-Replay::~Replay() { clients_.close(); }
 
 void Replay::read_table() {
   std::string const path = views_.folder() + "/diagnoses.csv";
@@ -113,12 +111,16 @@ void Replay::take(std::unique_ptr<TrajectoryReader> reader) {
   times_ = reader_->times();
 }
 
-bool Replay::run() {
+bool Replay::run(Clients& clients) {
   Interrupt const interrupt(views_.simulation());
-  clients_.open(*this);
+  struct Shown {
+    Clients& clients;
+    Shown(Clients& all, Source& source) : clients(all) { clients.open(source); }
+    ~Shown() { clients.close(); }
+  } const shown(clients, *this);
   auto next_frame = Clock::now(), next_look = Clock::now() + steps_between_clocks;
   while (!quit_ && !interrupt.seen()) {
-    clients_.handle_requests();
+    clients.handle_requests();
     auto const now = Clock::now();
     if (now >= next_look) {
       look_for_more();
@@ -140,13 +142,13 @@ bool Replay::run() {
         next_frame = std::max(next_frame + clock_time(1 / frames_per_second_), now);
       }
     }
-    clients_.send_updates();
+    clients.send_updates();
     double const idle = direction_ == 0 ? 0.1 : seconds_between(Clock::now(), next_frame);
-    if (idle > 0) clients_.wait(std::min(idle, 0.1));
+    if (idle > 0) clients.wait(std::min(idle, 0.1));
     if (direction_ == 0) next_frame = Clock::now();
   }
   ++notice_;
-  clients_.send_updates();
+  clients.send_updates();
   return interrupt.seen();
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <boltzmann/files/trajectory.hpp>
-#include <boltzmann/window/clients.hpp>
+#include <boltzmann/window/source.hpp>
 #include <boltzmann/window/views.hpp>
 
 #include <cstdint>
@@ -13,17 +13,18 @@
 
 namespace boltzmann {
 
+class Clients;
+
 class Replay final : public Source {
  public:
   /// Shows the frames of folder/trajectory.h5 in the ensembles of the views, and the table of folder/diagnoses.csv.
   /// Error if there are none.
-  Replay(Views& views, Clients& clients, std::string name, std::string description);
-  ~Replay() override;
+  Replay(Views& views, std::string name, std::string description);
   Replay(Replay const&) = delete;
   Replay& operator=(Replay const&) = delete;
 
-  /// Does what the clients wants until it quits, or a signal comes (then it returns true).
-  bool run();
+  /// Does what the clients want until one of them quits, or a signal comes (then it returns true).
+  bool run(Clients& clients);
 
   nlohmann::json hello() const override;
   nlohmann::json status() const override;
@@ -45,7 +46,6 @@ class Replay final : public Source {
   void look_for_more();
 
   Views& views_;
-  Clients& clients_;
   std::string name_, description_, path_;
   std::unique_ptr<TrajectoryReader> reader_;  // null while the file can't be read
   std::vector<std::int64_t> steps_;

@@ -293,6 +293,15 @@ json canvas_json(std::shared_ptr<Canvas const> const& canvas, BinaryMessage& mes
   return Encoder(canvas, message).encode();
 }
 
+json table_json(ShownTable const& table, std::size_t from, BinaryMessage& message) {
+  std::vector<double> rows(table.values.begin() + static_cast<std::ptrdiff_t>(from * table.columns),
+                           table.values.end());
+  return {{"number", table.number},
+          {"from", from},
+          {"rows", table.rows() - from},
+          {"values", message.array(std::move(rows))}};
+}
+
 std::string colour_text(Colour colour) {
   std::uint32_t const rgba = packed(colour);
   std::string text = fmt::format("#{:02x}{:02x}{:02x}", rgba & 255U, rgba >> 8 & 255U, rgba >> 16 & 255U);

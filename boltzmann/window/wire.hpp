@@ -2,10 +2,12 @@
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
+#include <boltzmann/window/source.hpp>
 #include <boltzmann/window/web_server.hpp>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -35,6 +37,9 @@ class BinaryMessage {
 
 /// A canvas as the page wants it: its arrays go into the message. Clouds are not copied, so the canvas is shared.
 nlohmann::json canvas_json(std::shared_ptr<Canvas const> const& canvas, BinaryMessage& message);
+
+/// The rows of a table from `from` on, which go into the message, as an update has them.
+nlohmann::json table_json(ShownTable const& table, std::size_t from, BinaryMessage& message);
 
 /// "#rrggbb", or "#rrggbbaa" where it is not opaque; ink is #010101.
 std::string colour_text(Colour colour);

@@ -76,6 +76,30 @@ TEST(Bzm, EveryCommandHasHelp) {
   }
 }
 
+TEST(Bzm, WindowWritesAStoredRunIntoAFile) {
+  Folder folder;
+  auto const run = [&](std::vector<std::string> const& words) { return bzm(words, folder.string()); };
+  ASSERT_EQ(run({"run", "copper", "--steps", "40", "--set", "output.trajectory=2", "--out", "run", "--quiet"}).status,
+            0);
+  auto const written = run({"window", "run", "-o", "run.html"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_TRUE(has(written.out, "run.html: ") && has(written.out, " MB, 21 frames")) << written.out;
+  EXPECT_TRUE(has(text_of(folder / "run.html"), "id=\"recording\""));
+  auto const few = run({"window", "run", "-o", "few.html", "--frames", "3", "--view", "Histogram"});
+  EXPECT_TRUE(has(few.out, "a recording with 3 of 21 frames")) << few.out << few.err;
+  expect_one_line(run({"window", "run", "-o", "run.png"}), 2, {"'run.png' is no page", ".html", "bzm render"});
+  expect_one_line(run({"window", "-o", "run.html"}), 2, {"say which run"});
+  expect_one_line(run({"window", "run", "--frames", "3"}), 2, {"--frames requires --out"});
+  expect_one_line(run({"window", "run", "-o", "x.html", "--view", "Partcles"}), 2, {"did you mean 'Particles'?"});
+  expect_one_line(run({"window", "run", "-o", "x.html", "--megabytes", "0.01"}), 2, {"0.01 MB has no room"});
+  expect_one_line(run({"window", "missing", "-o", "x.html"}), 2, {"there is no folder 'missing'"});
+  expect_one_line(run({"window", "run", "-o", "no/x.html"}), 2, {"no/x.html"});
+  ASSERT_EQ(run({"run", "copper", "--steps", "4", "--set", "output.trajectory=0", "--out", "bare", "--quiet"}).status,
+            0);
+  expect_one_line(run({"window", "bare", "-o", "x.html"}), 2, {"'bare' has no trajectory.h5 to show"});
+  EXPECT_FALSE(fs::exists(folder / "x.html"));
+}
+
 TEST(Bzm, UnknownWordsGetTheNearestKnownOne) {
   Folder folder;
   expect_one_line(bzm({"rnu"}, folder.string()), 2, {"unknown command 'rnu'", "did you mean 'run'?"});

@@ -4,6 +4,7 @@
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/window/address_file.hpp>
+#include <boltzmann/window/clients.hpp>
 #include <boltzmann/window/replay.hpp>
 
 #include <unistd.h>
@@ -57,10 +58,10 @@ class ReplayTest : public testing::Test {
     Replay replay;
     std::thread thread;
     explicit Shown(std::string const& folder)
-        : views(stored.simulation, UnitSystem::reduced(), "balls", folder), replay(views, clients, "balls", "") {
+        : views(stored.simulation, UnitSystem::reduced(), "balls", folder), replay(views, "balls", "") {
       stored.simulation.check();
       views.add_usual();
-      thread = std::thread([this] { replay.run(); });
+      thread = std::thread([this] { replay.run(clients); });
     }
     ~Shown() { thread.join(); }
   };
@@ -197,9 +198,8 @@ TEST_F(ReplayTest, StopsBeforeADamagedFrame) {
 
 TEST_F(ReplayTest, NeedsFrames) {
   Balls stored;
-  Clients clients;
   Views nowhere(stored.simulation, UnitSystem::reduced(), "", folder_ + "-missing");
-  EXPECT_THROW(Replay(nowhere, clients, "", ""), Error);
+  EXPECT_THROW(Replay(nowhere, "", ""), Error);
 }
 
 TEST(AddressFile, TellsOfAWindowOnlyWhileItLives) {

@@ -1,5 +1,7 @@
 // Makes one file of the page, ../page.html: the script and the style stand in it, so that nothing is fetched at run time,
-// and the digest of its source, by which tests/window/page_test.cpp sees whether it is fresh.
+// the digest of its source, by which tests/window/page_test.cpp sees whether it is fresh, and that of its script, by which a
+// browser that is given the page as a file knows it (../replay_page.cpp).
+import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -45,7 +47,10 @@ function oneFile(): Plugin {
         let tag: RegExp, content: string;
         if (file.type === "chunk") {
           tag = new RegExp(`[ \\t]*<script [^>]*src="[^"]*${escaped}"[^>]*></script>\\n?`);
-          content = `<script type="module">${file.code.trim().replace(/<(?=\/script|!--)/gi, "\\x3c")}</script>\n`;
+          const code = file.code.trim().replace(/<(?=\/script|!--)/gi, "\\x3c");
+          const sum = `sha256-${createHash("sha256").update(code).digest("base64")}`;
+          html = html.replace("<head>", () => `<head>\n<meta name="boltzmann-script" content="${sum}">`);
+          content = `<script type="module">${code}</script>\n`;
         } else if (name.endsWith(".css")) {
           tag = new RegExp(`[ \\t]*<link [^>]*href="[^"]*${escaped}"[^>]*>\\n?`);
           content = `<style>${file.source.toString().trim()}</style>\n`;

@@ -143,10 +143,11 @@ export async function open(t, chromium, address, { width = 960, height = 640, da
     if (message.type() === "error") complaints.push(`console: ${message.text()} (${message.location().url})`);
   });
   page.on("pageerror", (error) => complaints.push(`exception: ${error.stack ?? error}`));
-  const { origin } = new URL(address);
+  const { origin, protocol } = new URL(address);
+  const own = protocol === "file:" ? address : origin;
   page.on("request", (request) => {
     const url = request.url();
-    if (![origin, "blob:", "data:"].some((start) => url.startsWith(start))) complaints.push(`fetched ${url}`);
+    if (![own, "blob:", "data:"].some((start) => url.startsWith(start))) complaints.push(`fetched ${url}`);
   });
   page.wire = listen(page);
   atEnd(t, async (failed) => {

@@ -46,6 +46,7 @@ export function makeBar(session: Session, actions: Actions): HTMLElement {
   session.on("link", refresh);
   session.on("hello", (hello) => {
     document.body.dataset.kind = hello.kind;
+    document.body.toggleAttribute("data-recording", hello.recording === true);
     name.textContent = name.title = hello.title || hello.name;
     refresh();
   });

@@ -14,9 +14,20 @@ export interface ConnectionEvents {
 
 export type Words = { do: string; [more: string]: unknown };
 
+/** Who answers a page: a window behind a socket, or a recording in the page. */
+export interface Link {
+  readonly connected: boolean;
+  /** Says something and waits for the answer; an error in it is a "no", or that there is nobody. */
+  say(words: Words): Promise<Reply>;
+  /** Asks for the next update, with so many rows of the table of this number known; nothing if one is under way. */
+  next(rows: number, table: number): void;
+  /** Tries to connect now instead of after a pause. */
+  retry(): void;
+}
+
 const longest_pause = 8; // seconds
 
-export class Connection {
+export class Connection implements Link {
   private socket: WebSocket | null = null;
   private number = 0;
   private waiting = new Map<number, (reply: Reply) => void>();
@@ -33,7 +44,6 @@ export class Connection {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Says something and waits for the answer; an error in it is the window's "no", or that there is no window. */
   say(words: Words): Promise<Reply> {
     const id = ++this.number;
     if (!this.connected) return Promise.resolve({ type: "reply", id, error: "there is no connection to the window" });
@@ -43,14 +53,12 @@ export class Connection {
     });
   }
 
-  /** Asks for the next update; nothing if one is under way. */
   next(rows: number, table: number): void {
     if (this.asked || !this.connected) return;
     this.asked = true;
     this.socket?.send(JSON.stringify({ do: "next", rows, table }));
   }
 
-  /** Tries now instead of after the pause. */
   retry(): void {
     if (!this.socket && !this.over) this.open();
   }

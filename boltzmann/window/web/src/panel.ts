@@ -193,6 +193,9 @@ export class Panel {
       this.view,
       h("h3", {}, this.panes.list.length > 1 ? `${pane.diagnosis} (pane ${pane.id})` : pane.diagnosis),
       ...options.map((option) => this.control(pane, option)),
+      !!this.session.hello?.recording &&
+        !pane.plot &&
+        h("p", { class: "quiet" }, "This is a recording: how it is drawn can't be changed."),
       pane.drawing === "installed" &&
         h("p", { class: "quiet" }, "Drawn by a function of the program: nothing of it can be changed here."),
       pane.plot !== null &&
@@ -472,7 +475,7 @@ export class Panel {
       h("h3", {}, "Particles"),
       check("track", "Track: keep what was drawn", session.tracking, (tracking) => session.choose({ tracking })),
       check("follow", "Follow the selected particle", session.following, (following) => session.choose({ following })),
-      line("Points at most", most),
+      !session.hello?.recording && line("Points at most", most),
     );
   }
 
@@ -480,19 +483,22 @@ export class Panel {
     const { session, panes } = this;
     const shade = choice.dark === undefined ? "page" : choice.dark ? "dark" : "light";
     const why = session.hello?.can.checkpoint ?? "";
+    const recording = session.hello?.recording === true;
     const act = (id: string) => () => this.actions().run(id);
     fill(
       this.saving,
       h("h3", {}, "Save"),
-      line(
-        "Picture",
-        select("save-format", [["png", "PNG"], ["svg", "SVG"], ["pdf", "PDF"]], choice.format, (value) => (choice.format = value as PictureChoice["format"])), // prettier-ignore
-        select("save-scale", [["1", "1 ×"], ["2", "2 ×"], ["3", "3 ×"], ["4", "4 ×"]], String(choice.scale), (value) => (choice.scale = Number(value))), // prettier-ignore
-      ),
-      line(
-        "Colours",
-        select("save-dark", [["page", "as the page"], ["light", "light"], ["dark", "dark"]], shade, (value) => (choice.dark = value === "page" ? undefined : value === "dark")), // prettier-ignore
-      ),
+      !recording &&
+        line(
+          "Picture",
+          select("save-format", [["png", "PNG"], ["svg", "SVG"], ["pdf", "PDF"]], choice.format, (value) => (choice.format = value as PictureChoice["format"])), // prettier-ignore
+          select("save-scale", [["1", "1 ×"], ["2", "2 ×"], ["3", "3 ×"], ["4", "4 ×"]], String(choice.scale), (value) => (choice.scale = Number(value))), // prettier-ignore
+        ),
+      !recording &&
+        line(
+          "Colours",
+          select("save-dark", [["page", "as the page"], ["light", "light"], ["dark", "dark"]], shade, (value) => (choice.dark = value === "page" ? undefined : value === "dark")), // prettier-ignore
+        ),
       h(
         "div",
         { class: "row pair" },
@@ -503,18 +509,19 @@ export class Panel {
           icon("record"),
           panes.active.recorder.running ? "End movie" : "Record movie",
         ),
-        h(
-          "button",
-          {
-            type: "button",
-            id: "checkpoint",
-            "aria-disabled": String(why !== ""),
-            title: why || "the whole state, to go on from",
-            click: act("checkpoint"),
-          },
-          icon("save"),
-          "Save checkpoint",
-        ),
+        !recording &&
+          h(
+            "button",
+            {
+              type: "button",
+              id: "checkpoint",
+              "aria-disabled": String(why !== ""),
+              title: why || "the whole state, to go on from",
+              click: act("checkpoint"),
+            },
+            icon("save"),
+            "Save checkpoint",
+          ),
       ),
     );
     this.saving.querySelector("#save-scale")?.setAttribute("aria-label", "size of the picture");

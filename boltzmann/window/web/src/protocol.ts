@@ -146,6 +146,8 @@ export interface Hello {
   kind: "live" | "replay" | "gallery";
   /** The gallery is one of stored runs. */
   runs?: boolean;
+  /** A stored run that stands in the page: what is shown of it can't be changed. */
+  recording?: boolean;
   title: string;
   description: string;
   name: string;

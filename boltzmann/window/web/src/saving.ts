@@ -16,7 +16,7 @@ const width = 1200;
 
 export async function savePicture(session: Session, pane: Pane): Promise<void> {
   const name = `${pane.fileName()}.${choice.format}`;
-  if (pane.plot || !session.link.connected) {
+  if (pane.plot || !session.link.connected || session.hello?.recording) {
     const why = pane.plot
       ? "Curves of the table are saved as PNG here"
       : "Without the window only what is on the screen can be saved, as PNG";

@@ -1,8 +1,9 @@
 // What the page knows: the last words of the window, what the user has chosen, and who wants to be told of changes.
-import { Connection, type Words } from "./connection";
+import { Connection, type ConnectionEvents, type Link, type Words } from "./connection";
 import { remember, remembered } from "./elements";
 import type { Notices } from "./notices";
 import type { Hello, Reply, Update } from "./protocol";
+import { Recording, recordingInPage } from "./recording";
 import { Rows } from "./rows";
 
 export type Theme = "light" | "dark" | "system";
@@ -57,7 +58,7 @@ export class Session {
   hello: Hello | null = null;
   update: Update | null = null;
   readonly rows = new Rows();
-  readonly link: Connection;
+  readonly link: Link;
   /** The window has said goodbye. */
   over = false;
 
@@ -83,7 +84,8 @@ export class Session {
     this.most = Number(remembered("most")) || 0;
     this.darkSystem.addEventListener("change", () => this.chosen());
     this.dress();
-    this.link = new Connection({
+    const recording = recordingInPage();
+    const events: ConnectionEvents = {
       hello: (hello) => this.greeted(hello),
       update: (update) => this.updated(update),
       bye: ({ message }) => {
@@ -107,7 +109,8 @@ export class Session {
         notices.set("reply", `A message of the window was damaged: ${error}`, "error");
         this.ask();
       },
-    });
+    };
+    this.link = recording === null ? new Connection(events) : new Recording(recording, events);
   }
 
   on<K extends keyof Changes>(what: K, listener: (what: Changes[K]) => void): void {
