@@ -56,6 +56,9 @@ target_compile_options(python_module PRIVATE -Wall -Wextra -Wno-psabi $<$<CONFIG
 target_include_directories(python_module PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(python_module PRIVATE $<TARGET_FILE:boltzmann> fmt::fmt PkgConfig::FFTW PkgConfig::CAIRO ${HDF5_LIBRARIES} Threads::Threads ${CMAKE_DL_LIBS})
 add_dependencies(python_module boltzmann)
+if(BOLTZMANN_WINDOW)
+  target_compile_definitions(python_module PRIVATE BOLTZMANN_WITH_WINDOW)
+endif()
 
 # What is plain Python is linked, not copied: a change is there at once.
 file(GLOB package_sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/python/boltzmann python/boltzmann/*.py python/boltzmann/*.pyi python/boltzmann/py.typed)

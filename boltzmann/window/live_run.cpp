@@ -81,7 +81,7 @@ struct LiveRun::State {
   RunStart start;
   ShownTable table;
   std::exception_ptr failure;
-  bool here = true;          // the LiveRun still is
+  Attendant observer{};
   bool inside = false;       // within run() or rewind() of the simulation
   bool begun = false;        // one of them has been called
   bool told_of_end = false;  // that a condition of the recording has ended the run
@@ -91,7 +91,7 @@ struct LiveRun::State {
   bool wants_start(std::int64_t step) const { return !start.kept() && step == plan.first; }
 
   // Called after every step, often more than once.
-  bool look(std::int64_t step) { return here && inside && pace.due(step, wants_start(step), hurried()); }
+  bool look(std::int64_t step) { return inside && pace.due(step, wants_start(step), hurried()); }
 
   // A finished step that somebody looks at.
   void observe() {
@@ -150,7 +150,10 @@ struct LiveRun::State {
     ++told.scene;
   }
 
-  bool over() const { return simulation.stopped() || wanted.quit; }
+  bool over() {
+    if (options.between_steps && !options.between_steps()) wanted.quit = true;
+    return simulation.stopped() || wanted.quit;
+  }
 
   // One turn of the run: what is wanted now, as far as it goes.
   void turn() {
@@ -231,12 +234,13 @@ LiveRun::LiveRun(Views& views, Clients& clients, Recording* recording, LiveOptio
       row.insert(row.end(), values.begin(), values.end());
       state->table.add(row);
     });
-  views.simulation().observe_when([state = state_](std::int64_t step) { return state->look(step); },
-                                  [state = state_](Simulation const&) { state->observe(); });
+  state_->observer =
+      views.simulation().observe_when([state = state_.get()](std::int64_t step) { return state->look(step); },
+                                      [state = state_.get()](Simulation const&) { state->observe(); });
 }
 
 LiveRun::~LiveRun() {
-  state_->here = false;
+  state_->simulation.forget(state_->observer);
   state_->clients.close();
 }
 

@@ -6,6 +6,7 @@
 #include <boltzmann/window/views.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 namespace boltzmann {
@@ -16,12 +17,13 @@ struct LiveOptions {
   bool play = false;                  ///< begins at once, at full speed, and ends with its last step when nobody looks
   std::int64_t steps_per_frame = -1;  ///< 0: full speed; -1: so that all steps take some ten seconds
   std::string name = {}, description = {};
+  /// Called ten times a second while no steps are done; the run ends when it returns false.
+  std::function<bool()> between_steps = {};
 };
 
 class LiveRun final : public Source {
  public:
-  /// Adds an observer to the simulation of the views, which stays there without effect when the run is gone.
-  /// `recording` may be null.
+  /// Observes the simulation of the views, which must outlive it. `recording` may be null.
   LiveRun(Views& views, Clients& clients, Recording* recording, LiveOptions const& options = {});
   ~LiveRun() override;
   LiveRun(LiveRun const&) = delete;

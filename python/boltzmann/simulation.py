@@ -732,6 +732,21 @@ class Simulation:
             located = ScenarioErrors([f"{place}: {line.removeprefix('--')}" for line in errors.lines])
         raise located
 
+    def window(self, steps: int | None = None, port: int = 0, height: int = 600, play: bool = False, out=None):
+        """A live page in the notebook's cell, or at ``.address`` for a browser. ``steps`` are planned; ``out`` is a folder
+        for files. ``close()`` ends it."""
+        from .notebook import Window, check_port
+
+        core = self._core
+        core.refuse_while_running("a window can't be opened")
+        if steps is None:
+            steps = max(core.planned() - core.step(), 0) or 10**9
+        steps, port = _from_zero(steps, "steps"), check_port(port)
+        if out is not None:
+            core.record(self._prepare(core, os.fspath(out), False))
+        self._begun = True
+        return Window(self, steps, port, height, play)
+
     def digest(self) -> str:
         """A checksum of step and particles: equal for equal bits."""
         core = self._core
@@ -740,7 +755,7 @@ class Simulation:
     def copy(self) -> "Simulation":
         """A twin in memory, which goes on with the same bits. Observers and files are not copied."""
         core = self._core
-        core.refuse_running("a simulation can't be copied") if hasattr(core, "refuse_running") else None
+        core.refuse_while_running("a simulation can't be copied")
         twin = Simulation.__new__(Simulation)
         twin._start(Document(core.resolved(), self._document.file))
         twin._name, twin._folder, twin._planned = self._name, self._folder, self._planned

@@ -169,6 +169,13 @@ class StoredRun:
         if done.returncode != 0:
             raise Error(f"ffmpeg could not write '{path}': {done.stderr.strip()}")
 
+    def replay(self, views=(), frames: int = 100, megabytes: float = 8, height: int = 600):
+        """The run as one page that plays by itself: in a notebook, on a site, from a file. ``views``: names of pictures
+        and views of the run; at most so many frames and megabytes."""
+        from .notebook import Replay
+
+        return Replay(self.folder, list(views), int(frames), float(megabytes), height)
+
     def resume(self) -> Simulation:
         return resume(self.folder)
 

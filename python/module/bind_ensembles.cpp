@@ -41,8 +41,13 @@ class Particles {
 };
 
 py::buffer_info buffer_of(Memory const& memory) {
-  return {memory.first, 1, py::format_descriptor<std::uint8_t>::format(), 1, {static_cast<py::ssize_t>(memory.bytes)},
-          {1},          memory.readonly};
+  return {memory.first,
+          1,
+          py::format_descriptor<std::uint8_t>::format(),
+          1,
+          {static_cast<py::ssize_t>(memory.bytes)},
+          {1},
+          memory.readonly};
 }
 
 /// name, offset, components, whether it is a vector, doc, dimension in words, unit as it is shown.

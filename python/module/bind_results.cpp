@@ -29,7 +29,8 @@ class Stored {
     if (!reader_) {
       std::string const path = folder_ + "/trajectory.h5";
       if (!std::filesystem::exists(path))
-        throw Error("'" + folder_ + "' has no trajectory.h5: the run was not asked for one (trajectory = 10 in [output])");
+        throw Error("'" + folder_ +
+                    "' has no trajectory.h5: the run was not asked for one (trajectory = 10 in [output])");
       reader_.emplace(path);
     }
     return *reader_;
@@ -76,8 +77,9 @@ std::vector<double> doubles_of(py::buffer const& buffer) {
 
 /// Curves over one axis, each (label, x, y).
 std::unique_ptr<Canvas> curves(std::vector<std::tuple<std::string, py::buffer, py::buffer>> const& all,
-                               std::pair<std::string, std::string> const& x, std::pair<std::string, std::string> const& y,
-                               bool logarithmic, std::string const& title) {
+                               std::pair<std::string, std::string> const& x,
+                               std::pair<std::string, std::string> const& y, bool logarithmic,
+                               std::string const& title) {
   std::vector<std::vector<double>> numbers;
   for (auto const& [label, xs, ys] : all) numbers.push_back(doubles_of(xs)), numbers.push_back(doubles_of(ys));
   std::vector<Series> series;

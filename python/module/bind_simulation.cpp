@@ -27,8 +27,7 @@ Overrides overrides_of(std::vector<std::string> const& set, std::optional<std::i
 py::dict report_of(Core::Report const& report) {
   using py::literals::operator""_a;
   return py::dict("steps"_a = report.steps, "step"_a = report.step, "seconds"_a = report.seconds,
-                  "out_of_time"_a = report.out_of_time, "stopped"_a = report.stopped,
-                  "condition"_a = report.condition);
+                  "out_of_time"_a = report.out_of_time, "stopped"_a = report.stopped, "condition"_a = report.condition);
 }
 
 /// A file that goes away.
@@ -119,6 +118,8 @@ void bind_simulation(py::module_& module) {
            [](Core& core, std::int64_t steps, std::string folder, bool overwrite, double seconds, bool progress) {
              return report_of(core.run(steps, {std::move(folder), overwrite, seconds, progress}));
            })
+      .def("record", [](Core& core, std::string folder) { core.record({.folder = std::move(folder)}); })
+      .def("refuse_while_running", &Core::refuse_while_running)
       .def("stop", &Core::stop)
       .def("running", &Core::running)
       .def("running_elsewhere", &Core::running_elsewhere)

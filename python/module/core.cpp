@@ -113,7 +113,7 @@ void Core::refuse_while_running(char const* what) const {
   if (running_) throw Error(fmt::format("{} while the simulation runs", what));
 }
 
-void Core::start_recording(RunOptions const& options) {
+void Core::record(RunOptions const& options) {
   if (recording_) {
     if (!options.folder.empty() && options.folder != recording_->folder())
       throw Error(fmt::format("this simulation records in '{}'; a copy() of it can record in '{}'",
@@ -131,10 +131,10 @@ void Core::start_recording(RunOptions const& options) {
   recording_->check();
 }
 
-Core::Report Core::run(std::int64_t steps, RunOptions const& options) {
+void Core::begin(RunOptions const& options) {
   refuse_while_running("run() can't be called");
   look_for_h5py();
-  start_recording(options);
+  record(options);
   if (!start_) {
     simulation().check();
     start_ = conserved(simulation());
@@ -147,14 +147,39 @@ Core::Report Core::run(std::int64_t steps, RunOptions const& options) {
   countdown_ = between_looks_ = 1;
   last_look_ = last_progress_ = 0;
   began_ = Clock::now();
+}
+
+/// With the lock: whoever comes now is served here, whoever comes later finds no run.
+struct Core::Ended {
+  Core& core;
+  ~Ended() {
+    core.running_ = false;
+    core.serve_requests();
+  }
+};
+
+void Core::rethrow_failure() {
+  if (!failure_) return;
+  py::error_already_set failure = std::move(*failure_);
+  failure_.reset();
+  throw failure;
+}
+
+void Core::attended(std::function<void(Recording* recording)> const& what) {
+  begin({});
+  {
+    Ended const ended{*this};
+    py::gil_scoped_release const others;
+    what(recording_.get());
+    recorded_ = recording_ != nullptr;
+  }
+  simulation().clear_stop();
+  rethrow_failure();
+}
+
+Core::Report Core::run(std::int64_t steps, RunOptions const& options) {
+  begin(options);
   std::int64_t const first = simulation().step();
-  struct Ended {
-    Core& core;
-    ~Ended() {  // with the lock: whoever comes now is served here, whoever comes later finds no run
-      core.running_ = false;
-      core.serve_requests();
-    }
-  };
   {
     Ended const ended{*this};
     try {
@@ -169,11 +194,7 @@ Core::Report Core::run(std::int64_t steps, RunOptions const& options) {
       throw;
     }
   }
-  if (failure_) {
-    py::error_already_set failure = std::move(*failure_);
-    failure_.reset();
-    throw failure;
-  }
+  rethrow_failure();
   std::int64_t const done = simulation().step() - first;
   std::string condition;
   if (recording_ && recording_->ended_step() == simulation().step()) condition = recording_->ended_by();
@@ -215,16 +236,16 @@ void Core::look_at_clock(double now) {
 }
 
 void Core::watch_signals(Simulation& simulation) {
-  simulation.observe_progress([count = std::int64_t{1}, each = std::int64_t{1}, last = Clock::now()](
-                                  Simulation const&) mutable {
-    if (--count > 0) return;
-    double const took = seconds_since(last);
-    last = Clock::now();
-    count = each = next_look(each, took);
-    if (took < seconds_between_looks / 4) return;
-    py::gil_scoped_acquire const lock;
-    if (PyErr_CheckSignals() != 0) Interrupt::stop();  // whoever runs the sweep finds Python's error
-  });
+  simulation.observe_progress(
+      [count = std::int64_t{1}, each = std::int64_t{1}, last = Clock::now()](Simulation const&) mutable {
+        if (--count > 0) return;
+        double const took = seconds_since(last);
+        last = Clock::now();
+        count = each = next_look(each, took);
+        if (took < seconds_between_looks / 4) return;
+        py::gil_scoped_acquire const lock;
+        if (PyErr_CheckSignals() != 0) Interrupt::stop();  // whoever runs the sweep finds Python's error
+      });
 }
 
 void Core::serve_requests() {
@@ -326,9 +347,8 @@ Canvas Core::picture(PictureWords const& words) {
   simulation().check();
   Picture const picture = picture_by_words(*scenario_, words);
   for (auto* scheme : simulation().schemes()) scheme->complete(simulation().time());
-  return draw(picture, {simulation(), scenario_->units,
-                        scenario_->title.empty() ? scenario_->name : scenario_->title, simulation().step(),
-                        simulation().time(), folder(), instruments()});
+  return draw(picture, {simulation(), scenario_->units, scenario_->title.empty() ? scenario_->name : scenario_->title,
+                        simulation().step(), simulation().time(), folder(), instruments()});
 }
 
 Checkpoint Core::save() {
@@ -367,7 +387,7 @@ void Core::restore(Checkpoint const& saved, std::string const& where) {
 }
 
 std::int64_t Core::resume(std::string const& folder) {
-  start_recording({.folder = folder, .overwrite = true});
+  record({.folder = folder, .overwrite = true});
   recording_->resume();
   start_ = conserved(simulation());
   return scenario_->steps;

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -76,7 +77,7 @@ class Core {
   void forget(std::uint64_t attendant);
 
   struct RunOptions {
-    std::string folder;     ///< where files are written from now on; empty: where they were, or nowhere
+    std::string folder;  ///< where files are written from now on; empty: where they were, or nowhere
     bool overwrite = false;
     double seconds = 0;     ///< of wall time; 0: no limit
     bool progress = false;  ///< owner._progress(step, seconds) five times a second
@@ -89,6 +90,10 @@ class Core {
   };
   /// Runs; backwards if `steps` is negative. Rethrows what Python's functions have raised; the step is finished then.
   Report run(std::int64_t steps, RunOptions const& options);
+  /// Files are written from the next run on.
+  void record(RunOptions const& options);
+  /// Does something that runs the simulation by itself, with its recording if it has one, as run() would.
+  void attended(std::function<void(Recording* recording)> const& what);
   /// Ends a run after its step, from wherever it is called.
   void stop() { simulation().pause(); }
   bool running() const { return running_; }
@@ -132,12 +137,14 @@ class Core {
   static void watch_signals(Simulation& simulation);
 
  private:
+  void begin(RunOptions const& options);
+  void rethrow_failure();
   void call(int number);
   void serve_requests();
   void look_at_clock(double now);
-  void start_recording(RunOptions const& options);
   std::vector<Diagnosis const*> instruments();
 
+  struct Ended;
   struct Request {
     py::function function;
     py::object result = {};
@@ -171,6 +178,7 @@ void bind_ensembles(py::module_& module);
 void bind_results(py::module_& module);
 void bind_catalogue(py::module_& module);
 void bind_exact(py::module_& module);
+void bind_window(py::module_& module);
 
 /// From now on h5py and we wait for each other, wherever look_for_h5py() has found it.
 void share_hdf5();

@@ -1,0 +1,93 @@
+"""The window in a notebook's cell: live, or a stored run as one page."""
+
+from __future__ import annotations
+
+import html
+import threading
+
+from . import _core
+from .errors import Error
+
+
+class Window:
+    """A page on a simulation: PLAY, STEP, REWD, STOP and QUIT are on it. In a notebook it shows itself in the cell;
+    elsewhere ``address`` is for a browser. While it is open, arrays of the simulation are copies, and what is assigned to
+    them comes between two steps."""
+
+    def __init__(self, simulation, steps: int, port: int, height: int, play: bool):
+        self._sim, self._height, self._failure = simulation, height, None
+        self._window = _core.LiveWindow(simulation._core, port)
+        self.address: str = self._window.address()
+        started = threading.Event()
+
+        def serve():
+            started.set()
+            try:
+                self._window.serve(steps, play)
+            except BaseException as failure:  # told by wait()
+                self._failure = failure
+
+        self._thread = threading.Thread(target=serve, daemon=True)
+        self._thread.start()
+        started.wait()
+
+    @property
+    def open(self) -> bool:
+        return self._thread.is_alive()
+
+    def wait(self) -> None:
+        """Until somebody presses QUIT; raises what has ended the run."""
+        while self._thread.is_alive():
+            self._thread.join(0.1)
+        failure, self._failure = self._failure, None
+        if failure is not None:
+            raise failure
+
+    def close(self) -> None:
+        """Ends the run after its step, and the page with it."""
+        while self._thread.is_alive():
+            self._window.close()
+            self._thread.join(0.05)
+        self.wait()
+
+    def __enter__(self) -> "Window":
+        return self
+
+    def __exit__(self, *failure) -> None:
+        self.close()
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe src="{html.escape(self.address)}" width="100%" height="{self._height}" style="border:0"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<window: {self.address}>" if self.open else "<window, closed>"
+
+
+class Replay:
+    """A stored run as one HTML text, which plays without a port in any frontend. ``save("run.html")`` writes it."""
+
+    def __init__(self, folder: str, views, frames: int, megabytes: float, height: int):
+        self.html, self.frames, self.stored_frames, self.message = _core.replay_page(folder, views, frames, megabytes)
+        self._height = height
+
+    def save(self, path) -> None:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.html)
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="{self._height}" style="border:0" '
+            'sandbox="allow-scripts allow-downloads"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        said = f"; {self.message}" if self.message else ""
+        return f"<replay of {self.frames} of {self.stored_frames} frames, {len(self.html) / 1e6:.2g} MB{said}>"
+
+
+def check_port(port) -> int:
+    if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535:
+        raise Error(f"port: a whole number from 0 (a free one) to 65535, not {port!r}")
+    return port
