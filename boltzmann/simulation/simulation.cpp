@@ -527,6 +527,11 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     }
   for (auto const& change : changes_) change.adaptation->restore(next());
   if (!gauss_radau_.parts().empty()) gauss_radau_.restore(next());
+  if (at != state.size())
+    throw Error(
+        "the checkpoint does not fit this simulation: what changed particles between its steps is not there; the "
+        "program "
+        "that has it can go on");
   take_lengths();
   update_derived_fields();
   whole_ = {};

@@ -688,6 +688,12 @@ class Simulation:
         return BoxEdges(*self._core.box())
 
     @property
+    def mesh(self) -> "Mesh":
+        """What the mesh has on its nodes now: ``sim.mesh.potential``, ``sim.mesh.x``."""
+        core = self._core
+        return Mesh(core.between_steps(lambda: _core.mesh_fields(core)))
+
+    @property
     def units(self) -> Units:
         return Units(self)
 
@@ -753,13 +759,19 @@ class Simulation:
         return core.between_steps(core.digest)
 
     def copy(self) -> "Simulation":
-        """A twin in memory, which goes on with the same bits. Observers and files are not copied."""
+        """A twin in memory, which goes on with the same bits. Functions that change particles change the twin's;
+        observers, diagnoses that came later, and files are not copied."""
         core = self._core
+        changes = [known for known in self._functions.values() if known[1] == "change"]
+        if not all(takes for *_, takes in changes):
+            raise Error("copy: a function of @sim.change without an argument changes the original; let it take the simulation")
         core.refuse_while_running("a simulation can't be copied")
         twin = Simulation.__new__(Simulation)
         twin._start(Document(core.resolved(), self._document.file))
         twin._name, twin._folder, twin._planned = self._name, self._folder, self._planned
         twin._files, twin._temporary = dict(self._files), self._temporary
+        for function, _, every, _ in changes:
+            twin.change(every, function)
         twin._core.copy_state(core)
         twin._begun = self._begun
         return twin
@@ -768,6 +780,8 @@ class Simulation:
         core = self._core
         if core.running():
             raise Error("a simulation can't be pickled while it runs")
+        if any(known[1] == "change" for known in self._functions.values()):
+            raise Error("a simulation can't be pickled with functions that change its particles; forget() them")
         files = {}
         for path, name in self._files.items():
             with open(path, "rb") as file:
@@ -855,6 +869,43 @@ class BoxEdges:
             for axis, low, high, kind in zip("xyz", self.low, self.high, self.boundary)
         )
         return f"<box: {axes}>"
+
+
+class Mesh:
+    """Fields on the nodes of a mesh, as they were when it was asked for: ``density`` and ``potential`` of shape (nx, ny, nz)
+    as far as space has axes, ``field`` with the components behind them; ``x``, ``y``, ``z`` are the places of the nodes,
+    ``units`` the base units of the fields."""
+
+    def __init__(self, fields: list):
+        self._arrays: dict[str, np.ndarray] = {}
+        self.units: dict[str, str] = {}
+        for name, components, dimension, nodes, low, spacing, unit in fields:
+            shape = tuple(reversed(nodes[:dimension]))
+            arrays = [np.frombuffer(one, dtype=np.float64).reshape(shape).T for one in components]
+            self._arrays[name] = arrays[0] if len(arrays) == 1 and name != "field" else np.stack(arrays, axis=-1)
+            self.units[name] = unit
+            for axis in range(dimension):
+                self._arrays["xyz"[axis]] = low[axis] + spacing[axis] * np.arange(nodes[axis])
+
+    @property
+    def names(self) -> list[str]:
+        return list(self.units)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._arrays:
+            raise Error(unknown("field on the mesh called", str(name), self._arrays))
+        return self._arrays[name]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name.startswith("_") or name not in self._arrays:
+            raise AttributeError(unknown("field on the mesh called", name, () if name.startswith("_") else self._arrays))
+        return self._arrays[name]
+
+    def __dir__(self):
+        return list(super().__dir__()) + list(self._arrays)
+
+    def __repr__(self) -> str:
+        return "<mesh: " + ", ".join(f"{name} {self._arrays[name].shape}" for name in self.units) + ">"
 
 
 class ProgressLine:

@@ -191,9 +191,10 @@ def open_run(folder) -> StoredRun:
     return StoredRun(folder)
 
 
-def resume(folder) -> Simulation:
+def resume(folder, change: dict | None = None) -> Simulation:
     """Goes on with a run of a scenario from its checkpoint, after Ctrl-C, a kill, in a new session: with the same bits,
-    and with its files. ``run()`` goes to the planned end."""
+    and with its files. ``run()`` goes to the planned end. What changed particles between steps is not stored: ``change``
+    has it, {100: cool} for ``@sim.change(100)``."""
     folder = os.fspath(folder)
     path = os.path.join(folder, "scenario.toml")
     if not os.path.exists(os.path.join(folder, "checkpoint.h5")) or not os.path.exists(path):
@@ -203,6 +204,8 @@ def resume(folder) -> Simulation:
     sim = Simulation.__new__(Simulation)
     sim._start(Document(text, path))
     sim._name, sim._folder = os.path.basename(os.path.abspath(folder)), os.path.abspath(folder)
+    for every, function in (change or {}).items():
+        sim.change(every, function)
     sim._core.resume(folder)
     sim._begun = True
     return sim

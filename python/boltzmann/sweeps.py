@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import tempfile
 
@@ -13,6 +14,13 @@ from .errors import Error, ScenarioErrors, caller, unknown
 from .simulation import Simulation, load
 from .stored import StoredRun, read_table
 from .table import Table
+
+
+def _number(cell: str):
+    try:
+        return float(cell)
+    except (TypeError, ValueError):
+        return cell
 
 
 class Sweep:
@@ -33,13 +41,13 @@ class Sweep:
         raise Error(f"there is no error of '{name}': " + unknown("column", name, self.table.names))
 
     @property
-    def fits(self) -> str:
-        """fits.csv: straight lines through the points, where the scenario's pictures ask for one."""
+    def fits(self) -> list[dict]:
+        """Straight lines through the points, where the scenario's pictures ask for one: the rows of fits.csv."""
         path = os.path.join(self.folder, "fits.csv")
         if not os.path.exists(path):
-            return ""
-        with open(path, encoding="utf-8") as file:
-            return file.read()
+            return []
+        with open(path, encoding="utf-8", newline="") as file:
+            return [{key: _number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
 
     @property
     def series(self) -> Table:

@@ -109,6 +109,21 @@ void write_frame(std::string const& path, std::string const& name, int dimension
   file.close();
 }
 
+/// What a mesh has on its nodes now: name, components (each an array, x fastest), nodes, low ends, spacings, unit.
+py::list mesh_fields(Core& core) {
+  core.simulation().check();
+  auto const fields = mesh_fields_of(core.simulation().schemes());
+  if (fields.empty()) throw Error("there is no mesh in this simulation");
+  py::list all;
+  for (auto const* field : fields) {
+    py::list components;
+    for (auto const& one : field->components) components.append(bytes_of(one));
+    all.append(py::make_tuple(field->name, components, field->grid.dimension, field->grid.nodes, field->grid.low,
+                              field->grid.spacing, core.scenario().units.unit_name(field->dimension)));
+  }
+  return all;
+}
+
 }  // namespace
 
 void bind_ensembles(py::module_& module) {
@@ -133,6 +148,7 @@ void bind_ensembles(py::module_& module) {
                ? throw Error("the simulation counts in pure numbers: '" + text + "' has a unit")
                : core.scenario().units.from_si(quantity.si, quantity.dimension);
   });
+  module.def("mesh_fields", mesh_fields);
   module.def("time_of", [](Core& core, std::string const& text) {
     return in_units(text, dimensions::time, core.scenario().units);
   });

@@ -70,10 +70,12 @@ def test_sweep_over_values_and_seeds():
     sim.diagnosis("temperature")
     temperatures = [1, 2, 4]
     s = bz.sweep(sim, vary={"dissipation.0.temperature": temperatures}, seeds=4, table=["temperature"],
-                 set={"sweep.from": 2})  # fmt: skip
+                 set={"sweep.from": 2, "sweep.pictures": [dict(x="dissipation.0.temperature", y="temperature", fit="line")]})  # fmt: skip
     assert len(s.runs) == 12 and s.failed == 0
     # Of 800 degrees of freedom, some 20 times independent: 0.8 % an average, 0.4 % the mean of four.
     assert s["temperature"] == pytest.approx(temperatures, rel=0.03)
+    line = s.fits[0]
+    assert any(isinstance(v, float) and abs(v - 1) < 0.03 for v in line.values()), line  # the slope
     assert (s.error("temperature") > 0).all() and (s.error("temperature") < 0.03 * s["temperature"]).all()
 
 

@@ -114,6 +114,27 @@ def test_changes_act_between_steps():
         sim.rewind(5)
 
 
+def test_a_run_with_changes_goes_on_only_with_them(tmp_path):
+    def cool(sim):
+        sim.atoms.velocity *= 0.9
+
+    sim, straight = gas(), gas()
+    for one in (sim, straight):
+        one.change(10, cool)
+    sim.run(80, out=tmp_path / "run")
+    twin = sim.copy()
+    with pytest.raises(bz.Error, match="what changed particles between its steps is not there"):
+        bz.resume(tmp_path / "run")
+    told = subprocess.run([BZM, "resume", str(tmp_path / "run")], capture_output=True, text=True, check=False)
+    assert told.returncode == 2 and "what changed particles" in told.stderr
+    with pytest.raises(bz.Error, match="pickled"):
+        pickle.dumps(sim)
+    again = bz.resume(tmp_path / "run", change={10: cool})
+    for one in (again, straight, twin):
+        one.run(200 - one.step)
+    assert again.digest() == straight.digest() == twin.digest()
+
+
 def test_particles_may_come_and_go_in_a_change():
     sim = gas()
 

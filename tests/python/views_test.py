@@ -207,3 +207,25 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     # 800 simulations of 2000 particles hold 170 MB.
     assert int(done.stdout) < 4000, done.stdout
+
+
+def test_fields_on_a_mesh():
+    sim = bz.Simulation(
+        units="reduced", run=dict(step=0.1), box=dict(low=[0, 0], high=[2 * np.pi, 4 * np.pi], boundary="periodic"),
+        mesh=dict(law="coulomb", k=1 / (4 * np.pi), cells=[32, 64], assignment="cic", background=True),
+    )  # fmt: skip
+    n = np.arange(128) * 2 * np.pi / 128
+    x, y = np.meshgrid(n, np.arange(256) * 4 * np.pi / 256, indexing="ij")
+    places = np.stack([x.ravel(), y.ravel()], axis=-1)
+    cell = (2 * np.pi / 128) ** 2
+    sim.ensemble("e", "Coulomb", position=places, charge=(1 + 0.1 * np.cos(places[:, 0])) * cell)
+    mesh = sim.mesh
+    assert mesh.potential.shape == (32, 64) and mesh.field.shape == (32, 64, 2) and mesh.names
+    # div E = rho: phi = 0.1 cos x, E = 0.1 sin x along x, to the mesh's second order.
+    assert np.abs(mesh.potential - 0.1 * np.cos(mesh.x)[:, None]).max() < 0.002
+    assert np.abs(mesh.field[..., 0] - 0.1 * np.sin(mesh.x)[:, None]).max() < 0.002
+    assert np.abs(mesh.field[..., 1]).max() < 1e-12
+    with pytest.raises(AttributeError, match="did you mean 'potential'"):
+        mesh.potental
+    with pytest.raises(bz.Error, match="no mesh"):
+        gas().mesh
