@@ -6,7 +6,7 @@ CORES := $(shell nproc)
 BZM_SECONDS := 460
 NINJA := NINJA_STATUS='[%p of %t, %e s] ' cmake --build $(BUILD)
 
-.PHONY: run test build all-sets install dependencies test-dependencies page bench format clean
+.PHONY: run python test build all-sets install dependencies test-dependencies page bench format clean
 
 # Kernels for this machine only, and nothing but the command.
 run: | $(BUILD)/build.ninja
@@ -14,6 +14,13 @@ run: | $(BUILD)/build.ninja
 	@$(NINJA) --target bzm
 	$(BUILD)/bzm run copper --out results/copper --force
 	@echo "Results are in $(CURDIR)/results/copper (start with picture.png)"
+
+# import boltzmann, for Debian's Python or that of an active virtual environment.
+python: | $(BUILD)/build.ninja
+	@packaging/need.sh $$(cat packaging/python.txt)
+	@cmake $(BUILD) -DBOLTZMANN_PYTHON=ON > $(BUILD)/python.log || { cat $(BUILD)/python.log; false; }
+	@[ -e $(BUILD)/libboltzmann.a ] || echo "Building the library: about $$(( ($(BZM_SECONDS) / $(CORES) + 59) / 60 )) minutes on $(CORES) cores, once."
+	@$(NINJA) --target python
 
 test: test-dependencies build
 	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $$(( $(CORES) + 2 ))  # browsers, servers and what is killed wait much of their time
