@@ -6,7 +6,7 @@ CORES := $(shell nproc)
 BZM_SECONDS := 460
 NINJA := NINJA_STATUS='[%p of %t, %e s] ' cmake --build $(BUILD)
 
-.PHONY: run python test build all-sets install dependencies test-dependencies page bench format clean
+.PHONY: run python docs test build all-sets install dependencies test-dependencies page bench format clean
 
 # Kernels for this machine only, and nothing but the command.
 run: | $(BUILD)/build.ninja
@@ -21,6 +21,13 @@ python: | $(BUILD)/build.ninja
 	@cmake $(BUILD) -DBOLTZMANN_PYTHON=ON > $(BUILD)/python.log || { cat $(BUILD)/python.log; false; }
 	@[ -e $(BUILD)/libboltzmann.a ] || echo "Building the library: about $$(( ($(BZM_SECONDS) / $(CORES) + 59) / 60 )) minutes on $(CORES) cores, once."
 	@$(NINJA) --target python
+
+# The documentation as a site, in build/site; notebooks are run for it.
+docs: python
+	@packaging/need.sh mkdocs-material python3-nbclient python3-ipykernel python3-matplotlib
+	PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 -B docs/site/make.py build/site-pages --execute
+	BOLTZMANN_PAGES=$(CURDIR)/build/site-pages /usr/bin/mkdocs --quiet build --strict -f docs/site/mkdocs.yml -d $(CURDIR)/build/site
+	@echo "The site is in $(CURDIR)/build/site (start with index.html; python3 -m http.server -d build/site, and it can be searched)"
 
 test: test-dependencies build
 	cd $(BUILD) && ctest --output-on-failure --no-tests=error -j $$(( $(CORES) + 2 ))  # browsers, servers and what is killed wait much of their time

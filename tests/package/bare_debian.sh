@@ -79,11 +79,12 @@ awk -v time="$time" -v limit="$limit" 'BEGIN { exit !(time < limit) }' || fail "
 cmp -s "$root/home/user/results/copper/diagnoses.csv" "$root/home/user/from-tarball/diagnoses.csv" || fail "tarball and package have other numbers"
 [ "$(user 'bzm --version')" = "$(user "$unpacked/bin/bzm --version")" ] || fail "tarball and package have other versions"
 user "bzm doctor" | tail -n 1 | grep -qx 'all is well' || fail "bzm doctor"
+listed=$(inside dpkg -L boltzmann)
 for file in man/man1/bzm.1.gz bash-completion/completions/bzm zsh/vendor-completions/_bzm fish/vendor_completions.d/bzm.fish \
   boltzmann/gallery/copper.png boltzmann/scenarios/copper.toml doc/boltzmann/copyright; do
-  [ -s "$root/usr/share/$file" ] || [ -s "$root/usr/share/${file%.gz}" ] || ! inside dpkg -L boltzmann | grep -q "/$file" ||
+  [ -s "$root/usr/share/$file" ] || [ -s "$root/usr/share/${file%.gz}" ] || ! grep -q "/$file" <<< "$listed" ||
     fail "/usr/share/$file is missing"
-  inside dpkg -L boltzmann | grep -q "/usr/share/${file%.gz}" || fail "/usr/share/$file is not in the package"
+  grep -q "/usr/share/${file%.gz}" <<< "$listed" || fail "/usr/share/$file is not in the package"
 done
 user 'bash -c "source /usr/share/bash-completion/completions/bzm; COMP_WORDS=(bzm resu); COMP_CWORD=1; _bzm; echo \${COMPREPLY[@]}"' | grep -qx resume ||
   fail "completion of bash"
