@@ -35,9 +35,10 @@ test: test-dependencies build
 build: all-sets
 	$(NINJA)
 
-# Kernels for every x86-64, and the tests; what is compiled already stays.
+# Kernels for every x86-64, and the tests; what is compiled already stays. Configured again, too, if pybind11 has come since.
 all-sets: | $(BUILD)/build.ninja
-	@grep -q 'BOLTZMANN_SETS:STRING=all' $(BUILD)/CMakeCache.txt && grep -q 'BOLTZMANN_TESTS:BOOL=ON' $(BUILD)/CMakeCache.txt || \
+	@grep -q 'BOLTZMANN_SETS:STRING=all' $(BUILD)/CMakeCache.txt && grep -q 'BOLTZMANN_TESTS:BOOL=ON' $(BUILD)/CMakeCache.txt && \
+	{ ! [ -e /usr/include/pybind11/pybind11.h ] || grep -q 'PYBIND11_HEADERS:PATH=/' $(BUILD)/CMakeCache.txt; } || \
 	cmake --preset release -DBOLTZMANN_SETS=all -DBOLTZMANN_TESTS=ON
 
 $(BUILD)/build.ninja:

@@ -1,6 +1,8 @@
 # What is compiled, python/module: for readers and type checkers. Users meet the classes of the package instead.
-from collections.abc import Buffer, Callable
+from collections.abc import Callable
 from typing import Any
+
+from typing_extensions import Buffer
 
 version: str
 exact_: Any  # the functions behind boltzmann.exact
