@@ -1,5 +1,8 @@
 # What each kind of package holds; read by cpack.
 set(CPACK_COMPONENTS_ALL program data library)
+if(CPACK_BOLTZMANN_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 if(CPACK_GENERATOR STREQUAL "TGZ")
   set(CPACK_COMPONENTS_ALL portable data)

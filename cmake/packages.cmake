@@ -30,6 +30,9 @@ endforeach()
 add_custom_target(completions ALL DEPENDS ${completions})
 # All that `cmake --install` wants.
 add_custom_target(installable DEPENDS bzm boltzmann completions)
+if(BOLTZMANN_HAS_PYTHON)
+  add_dependencies(installable python_module)
+endif()
 
 # What libboltzmann.a needs: Debian's packages, and the same as pkg-config's. The config files for CMake and pkg-config are made
 # from this.
@@ -44,7 +47,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/boltzmann-config-ve
 configure_file(${CMAKE_CURRENT_LIST_DIR}/boltzmann.pc.in ${CMAKE_CURRENT_BINARY_DIR}/boltzmann.pc @ONLY)
 
 # Installed: <prefix>/bin/bzm, lib/libboltzmann.a, include/boltzmann, share/boltzmann/scenarios, the man page. Components:
-# program, data (the same in every package), library, and portable (the tarball's program in place of program).
+# program, data (the same in every package), library, python (in python.cmake), and portable (the tarball's program in place of program).
 install(TARGETS bzm COMPONENT program)
 install(TARGETS boltzmann COMPONENT library)
 install(DIRECTORY boltzmann DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library FILES_MATCHING PATTERN "*.hpp"
@@ -80,7 +83,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 0)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/cpack.cmake)
 
-# Debian: boltzmann (program, data) and libboltzmann-dev (library). Versions are 0.1.0+79.g1159b0a.
+# Debian: boltzmann (program, data), libboltzmann-dev (library) and python3-boltzmann (python). Versions are 0.1.0+79.g1159b0a.
 string(REGEX REPLACE "^([^-]*)-" "\\1+" debian_version "${CPACK_PACKAGE_VERSION}")
 string(REPLACE "-" "." CPACK_DEBIAN_PACKAGE_VERSION "${debian_version}")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -105,19 +108,36 @@ set(CPACK_DEBIAN_DEV_DESCRIPTION "particle simulations from a C++ program: libra
 Particle classes and laws are plain functions, compiled into vectorised
 loops; with schemes, integrators, diagnoses, files and pictures. For CMake's
 find_package, for pkg-config and for the command bzm build.")
+set(CPACK_BOLTZMANN_PYTHON ${BOLTZMANN_HAS_PYTHON})
+math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-boltzmann)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "boltzmann (= ${CPACK_DEBIAN_PACKAGE_VERSION}), python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, jupyter-notebook, ffmpeg")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_SOURCE_DIR}/packaging/python/postinst;${CMAKE_CURRENT_SOURCE_DIR}/packaging/python/prerm")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "particle simulations from Python
+The scenarios, laws and speed of Boltzmann with import boltzmann: particles
+are arrays of numpy, measurements are tables, pictures show themselves in a
+notebook; observers, sweeps, stored runs, laws by formula.")
 
 include(${CMAKE_CURRENT_LIST_DIR}/portable.cmake)
 include(CPack)
 cpack_add_component_group(command)
 cpack_add_component_group(dev)
+cpack_add_component_group(python)
 cpack_add_component(program GROUP command)
 cpack_add_component(data GROUP command)
 cpack_add_component(library GROUP dev)
+cpack_add_component(python GROUP python)
 cpack_add_component(portable)
 
 if(BOLTZMANN_TESTS)
   add_test(NAME package_scripts COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/package/scripts.sh)
+  if(BOLTZMANN_HAS_PYTHON)
+    set(installed_python ${Python_EXECUTABLE})
+  endif()
   if(NOT BOLTZMANN_SANITIZE)  # programs of CMake and pkg-config know nothing of sanitizers
-    add_test(NAME package_installed COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/package/installed.sh ${CMAKE_CURRENT_BINARY_DIR})
+    add_test(NAME package_installed COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/package/installed.sh ${CMAKE_CURRENT_BINARY_DIR} ${installed_python})
   endif()
 endif()

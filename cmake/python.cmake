@@ -66,3 +66,17 @@ file(MAKE_DIRECTORY ${package})
 foreach(source ${package_sources})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/python/boltzmann/${source} ${package}/${source} SYMBOLIC)
 endforeach()
+
+# `make python`: built and tried.
+add_custom_target(python VERBATIM USES_TERMINAL COMMENT "" DEPENDS python_module COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_BINARY_DIR}/python
+                  ${Python_EXECUTABLE} -c "import boltzmann; sim = boltzmann.load('three-body'); print(sim.run(10))"
+                  COMMAND ${CMAKE_COMMAND} -E echo export PYTHONPATH=${CMAKE_CURRENT_BINARY_DIR}/python)
+
+# Installed where this Python looks, if that is under the prefix: /usr/local/lib/python3.11/dist-packages on Debian 12. Else, and in
+# Debian's package, <prefix>/lib/python3/dist-packages. The prefix is known when it is installed.
+install(CODE "execute_process(COMMAND \"${Python_EXECUTABLE}\" \"${CMAKE_CURRENT_LIST_DIR}/python_folder.py\" \"\${CMAKE_INSTALL_PREFIX}\"
+                OUTPUT_VARIABLE BOLTZMANN_PYTHON_FOLDER OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)" COMPONENT python)
+install(TARGETS python_module LIBRARY DESTINATION "\${BOLTZMANN_PYTHON_FOLDER}/boltzmann" COMPONENT python)
+list(TRANSFORM package_sources PREPEND python/boltzmann/)
+install(FILES ${package_sources} DESTINATION "\${BOLTZMANN_PYTHON_FOLDER}/boltzmann" COMPONENT python)
+install(FILES packaging/copyright DESTINATION share/doc/python3-boltzmann COMPONENT python)

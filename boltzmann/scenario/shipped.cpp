@@ -4,25 +4,45 @@
 
 #include <fmt/format.h>
 
+#include <dlfcn.h>
+#include <link.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 namespace boltzmann {
 
+namespace {
+namespace fs = std::filesystem;
+
+/// Where this code is installed: <prefix> of <prefix>/bin/bzm; of <prefix>/lib/.../_core.so, if a module holds it that another
+/// program, Python, has loaded. Empty, if that can't be told.
+fs::path install_prefix() {
+  static int const here = 0;
+  Dl_info info;
+  link_map* object = nullptr;
+  std::error_code failure;
+  bool const known = dladdr1(&here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0 && object;
+  if (!known || !*object->l_name) return fs::read_symlink("/proc/self/exe", failure).parent_path().parent_path();
+  for (fs::path folder = fs::canonical(object->l_name, failure).parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    if (folder.filename() == "lib") return folder.parent_path();
+  return {};
+}
+
+}  // namespace
+
 std::string scenario_folder() {
-  namespace fs = std::filesystem;
   if (char const* chosen = std::getenv("BOLTZMANN_SCENARIOS"); chosen && *chosen) return chosen;
   std::error_code failure;
-  fs::path const program = fs::read_symlink("/proc/self/exe", failure);
-  // Installed: <prefix>/bin/bzm and <prefix>/share/boltzmann/scenarios. Else the source tree.
-  fs::path const installed = program.parent_path().parent_path() / "share" / "boltzmann" / "scenarios";
-  if (!failure && fs::is_directory(installed, failure)) return installed.string();
+  // Installed: <prefix>/share/boltzmann/scenarios. Else the source tree.
+  fs::path const installed = install_prefix() / "share" / "boltzmann" / "scenarios";
+  if (installed.is_absolute() && fs::is_directory(installed, failure)) return installed.string();
   return (fs::path(__FILE__).parent_path().parent_path().parent_path() / "scenarios").string();
 }
 
 std::vector<std::string> shipped_scenarios() {
-  namespace fs = std::filesystem;
   std::vector<std::string> names;
   std::error_code failure;
   for (fs::directory_iterator entry(scenario_folder(), failure), end; !failure && entry != end;
@@ -33,7 +53,6 @@ std::vector<std::string> shipped_scenarios() {
 }
 
 std::string find_scenario(std::string const& file_or_name) {
-  namespace fs = std::filesystem;
   if (file_or_name == "-") return file_or_name;
   std::error_code failure;
   if (fs::is_regular_file(file_or_name, failure)) return file_or_name;

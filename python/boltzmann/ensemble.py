@@ -35,15 +35,18 @@ class Ensemble:
 
     @property
     def name(self) -> str:
+        """What the scenario calls it."""
         return self._name
 
     @property
     def class_name(self) -> str:
+        """Of its particles."""
         self._core()
         return self._layout[3]
 
     @property
     def dimension(self) -> int:
+        """Of its space: 1, 2 or 3."""
         self._core()
         return self._layout[0]
 

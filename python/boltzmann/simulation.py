@@ -82,6 +82,7 @@ class Diagnosis:
 
     @property
     def table(self) -> Table:
+        """Its columns over time."""
         if self._number is None:
             return self._sim.table
         return from_rows(*self._sim._core.watched(self._number))
@@ -132,18 +133,22 @@ class Record:
 
     @property
     def step(self) -> np.ndarray:
+        """Of each look."""
         return np.array(self._steps)
 
     @property
     def time(self) -> np.ndarray:
+        """Of each look, in the base."""
         return np.array(self._times)
 
     @property
     def T(self) -> np.ndarray:
+        """The axes in reverse order: components first, looks last."""
         return np.asarray(self).T
 
     @property
     def shape(self):
+        """Looks, particles, components."""
         return np.asarray(self).shape
 
     def __getitem__(self, which):
@@ -527,6 +532,7 @@ class Simulation:
 
     @property
     def running(self) -> bool:
+        """Whether a run goes on, in this or another thread."""
         return self._built is not None and self._built.running()
 
     # ---- observers ----
@@ -640,14 +646,17 @@ class Simulation:
 
     @property
     def ensembles(self) -> dict[str, Ensemble]:
+        """All of them by their names."""
         return {name: self[name] for name in self._core.ensembles()}
 
     @property
     def step(self) -> int:
+        """How many steps have been done."""
         return self._core.step()
 
     @property
     def time(self) -> float:
+        """In the base."""
         return self._core.time()
 
     @property
@@ -673,18 +682,22 @@ class Simulation:
 
     @property
     def seed(self) -> int:
+        """Of its random numbers."""
         return self._core.seed()
 
     @property
     def title(self) -> str:
+        """Of the scenario."""
         return self._core.title()
 
     @property
     def description(self) -> str:
+        """Of the scenario."""
         return self._core.description()
 
     @property
     def box(self) -> "BoxEdges":
+        """The box as it is now."""
         return BoxEdges(*self._core.box())
 
     @property
@@ -695,6 +708,7 @@ class Simulation:
 
     @property
     def units(self) -> Units:
+        """Numbers of the base from texts, and in other units."""
         return Units(self)
 
     @property
@@ -857,10 +871,12 @@ class BoxEdges:
 
     @property
     def length(self) -> np.ndarray:
+        """Along each axis."""
         return self.high - self.low
 
     @property
     def volume(self) -> float:
+        """The product of the lengths: an area in 2D."""
         return float(np.prod(self.length))
 
     def __repr__(self) -> str:

@@ -62,10 +62,12 @@ class StoredEnsemble:
 
     @property
     def fields(self) -> list[str]:
+        """The names of what was stored of it."""
         return list(self._fields)
 
     @property
     def units(self) -> dict[str, str]:
+        """Of each field the unit of the base in which its numbers are."""
         return {name: field[3] for name, field in self._fields.items()}
 
     def __len__(self) -> int:
@@ -92,14 +94,17 @@ class Trajectory:
 
     @property
     def steps(self) -> np.ndarray:
+        """Of its frames."""
         return np.array(self._stored.steps())
 
     @property
     def times(self) -> np.ndarray:
+        """Of its frames, in the base."""
         return np.array(self._stored.times())
 
     @property
     def ensembles(self) -> list[str]:
+        """Their names."""
         return list(self._ensembles)
 
     def __len__(self) -> int:
@@ -120,6 +125,7 @@ class StoredRun:
 
     @property
     def title(self) -> str:
+        """Of its scenario."""
         return self._stored.title()
 
     @property
@@ -138,6 +144,7 @@ class StoredRun:
 
     @property
     def trajectory(self) -> Trajectory:
+        """The frames of trajectory.h5."""
         return Trajectory(self._stored)
 
     def picture(self, drawing: str | None = None, frame: int = -1, **keys) -> Picture:
@@ -177,6 +184,7 @@ class StoredRun:
         return Replay(self.folder, list(views), int(frames), float(megabytes), height)
 
     def resume(self) -> Simulation:
+        """``bz.resume`` of its folder."""
         return resume(self.folder)
 
     def __repr__(self) -> str:

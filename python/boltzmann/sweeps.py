@@ -56,6 +56,7 @@ class Sweep:
 
     @property
     def runs(self) -> list[StoredRun]:
+        """Each run, in the order of their folders."""
         folders = sorted(f for f in os.listdir(self.folder) if f[:1].isdigit())
         return [StoredRun(os.path.join(self.folder, f)) for f in folders]
 

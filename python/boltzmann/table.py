@@ -39,6 +39,7 @@ class Table:
 
     @property
     def names(self) -> list[str]:
+        """Of the columns, without their units."""
         return list(self._columns)
 
     def __len__(self) -> int:
@@ -117,12 +118,15 @@ class Picture:
         self._canvas = canvas
 
     def png(self, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> bytes:
+        """The bytes of a PNG, so many pixels wide and high, times the scale."""
         return self._canvas.bytes("png", width, height, scale, dark)
 
     def svg(self, width: int = 1200, height: int = 900, dark: bool = False) -> str:
+        """The text of an SVG."""
         return self._canvas.bytes("svg", width, height, 1, dark).decode()
 
     def save(self, path, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> None:
+        """Writes PNG, SVG or PDF, as the ending says."""
         import os
 
         self._canvas.write(os.fspath(path), width, height, scale, dark)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # bare_debian.sh BUILD: do the packages of BUILD work where nothing else is? In a bare Debian 12, made by debootstrap from the
 # archive that this machine's apt uses: the tarball runs before anything is installed; boltzmann is installed by apt with what it
-# depends on, and runs copper; bzm build without libboltzmann-dev is one line; with it, a user's program is compiled by bzm build,
+# depends on, and runs copper; python3-boltzmann does, too; bzm build without libboltzmann-dev is one line; with it, a user's program is compiled by bzm build,
 # by CMake's find_package and with pkg-config, and leaves the same numbers. Times are printed. Needs root.
 # BARE=DIR keeps the bare system in DIR.tar and begins with it next time.
 set -euo pipefail
@@ -12,8 +12,8 @@ limit=15  # seconds from installed to the first picture
 fail() { echo "FAILED: $*" >&2; exit 1; }
 [ "$(id -u)" = 0 ] || fail "a bare Debian is made by root"
 command -v debootstrap >/dev/null || fail "debootstrap is not there (apt install debootstrap)"
-program=$(echo "$build"/boltzmann_*.deb) library=$(echo "$build"/libboltzmann-dev_*.deb) tarball=$(echo "$build"/boltzmann-*.tar.gz)
-for file in "$program" "$library" "$tarball"; do [ -f "$file" ] || fail "there is no $file, or there are several"; done
+program=$(echo "$build"/boltzmann_*.deb) library=$(echo "$build"/libboltzmann-dev_*.deb) python=$(echo "$build"/python3-boltzmann_*.deb) tarball=$(echo "$build"/boltzmann-*.tar.gz)
+for file in "$program" "$library" "$python" "$tarball"; do [ -f "$file" ] || fail "there is no $file, or there are several"; done
 
 mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME) $(COMPONENT)' 'Created-By: Packages' |
   awk '$2 == "bookworm" && $3 == "main" { print $1; exit }')
@@ -65,7 +65,7 @@ user "$unpacked/bin/bzm --version; $unpacked/bin/bzm list --names scenarios | gr
 user "$unpacked/bin/bzm doctor" | tail -n 1 | grep -qx 'all is well' || fail "bzm doctor of the tarball"
 
 # 2. boltzmann with what it depends on.
-cp "$program" "$library" "$root/packages/"
+cp "$program" "$library" "$python" "$root/packages/"
 apt_in update
 start=$(now)
 apt_in install -y --no-install-recommends "/packages/$(basename "$program")"
@@ -79,16 +79,26 @@ awk -v time="$time" -v limit="$limit" 'BEGIN { exit !(time < limit) }' || fail "
 cmp -s "$root/home/user/results/copper/diagnoses.csv" "$root/home/user/from-tarball/diagnoses.csv" || fail "tarball and package have other numbers"
 [ "$(user 'bzm --version')" = "$(user "$unpacked/bin/bzm --version")" ] || fail "tarball and package have other versions"
 user "bzm doctor" | tail -n 1 | grep -qx 'all is well' || fail "bzm doctor"
+listed=$(inside dpkg -L boltzmann)
 for file in man/man1/bzm.1.gz bash-completion/completions/bzm zsh/vendor-completions/_bzm fish/vendor_completions.d/bzm.fish \
   boltzmann/gallery/copper.png boltzmann/scenarios/copper.toml doc/boltzmann/copyright; do
-  [ -s "$root/usr/share/$file" ] || [ -s "$root/usr/share/${file%.gz}" ] || ! inside dpkg -L boltzmann | grep -q "/$file" ||
+  [ -s "$root/usr/share/$file" ] || [ -s "$root/usr/share/${file%.gz}" ] || ! grep -q "/$file" <<< "$listed" ||
     fail "/usr/share/$file is missing"
-  inside dpkg -L boltzmann | grep -q "/usr/share/${file%.gz}" || fail "/usr/share/$file is not in the package"
+  grep -q "/usr/share/${file%.gz}" <<< "$listed" || fail "/usr/share/$file is not in the package"
 done
 user 'bash -c "source /usr/share/bash-completion/completions/bzm; COMP_WORDS=(bzm resu); COMP_CWORD=1; _bzm; echo \${COMPREPLY[@]}"' | grep -qx resume ||
   fail "completion of bash"
 
-# 3. Without the library, one line that names it.
+# 3. Python finds the package, and its scenarios, and has the numbers of bzm.
+start=$(now)
+apt_in install -y --no-install-recommends "/packages/$(basename "$python")"
+echo "python3-boltzmann installed in $(since "$start") s"
+user 'python3 -c "import boltzmann; sim = boltzmann.load(\"copper\"); sim.run(out=\"by-python\")"' || fail "import boltzmann"
+cmp -s "$root/home/user/by-python/diagnoses.csv" "$root/home/user/from-tarball/diagnoses.csv" || fail "Python and the tarball have other numbers"
+has by-python/picture.png
+[ -n "$(find "$root/usr/lib/python3/dist-packages/boltzmann" -name '*.pyc')" ] || fail "no bytecode of python3-boltzmann"
+
+# 4. Without the library, one line that names it.
 cp "$here/user.cpp" "$here/CMakeLists.txt" "$root/home/user/"
 apt_in install -y --no-install-recommends g++
 status=0
@@ -96,7 +106,7 @@ user "bzm build user.cpp" > "$build/refused" 2>&1 || status=$?
 [ $status = 2 ] && [ "$(wc -l < "$build/refused")" = 1 ] && grep -q 'apt install libboltzmann-dev' "$build/refused" ||
   fail "bzm build without libboltzmann-dev, status $status: $(cat "$build/refused")"
 
-# 4. libboltzmann-dev: three ways to one program.
+# 5. libboltzmann-dev: three ways to one program.
 start=$(now)
 apt_in install -y --no-install-recommends "/packages/$(basename "$library")"
 echo "libboltzmann-dev installed in $(since "$start") s"
@@ -125,7 +135,7 @@ start=$(now)
 user 'cmake --build build' > "$build/built.log" 2>&1 || fail "find_package: $(cat "$build/built.log")"
 built find_package build/user "$(since "$start")"
 
-# 5. And away again.
-apt_in remove -y boltzmann libboltzmann-dev
-! [ -e "$root/usr/bin/bzm" ] && ! [ -e "$root/usr/include/boltzmann" ] || fail "something stays after apt-get remove"
+# 6. And away again.
+apt_in remove -y boltzmann libboltzmann-dev python3-boltzmann
+! [ -e "$root/usr/bin/bzm" ] && ! [ -e "$root/usr/lib/python3/dist-packages/boltzmann" ] && ! [ -e "$root/usr/include/boltzmann" ] || fail "something stays after apt-get remove"
 echo "passed"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# installed.sh BUILD: what BUILD would install, put into a folder, compiles a user's program by bzm build, by CMake's find_package and
-# with pkg-config; all three leave the same numbers. tests/package/bare_debian.sh does the same with packages.
+# installed.sh BUILD [PYTHON]: what BUILD would install, put into a folder, compiles a user's program by bzm build, by CMake's
+# find_package and with pkg-config; all three leave the same numbers. PYTHON imports the package there and leaves those of bzm.
+# tests/package/bare_debian.sh does the same with packages.
 set -euo pipefail
 build=$(realpath "$1")
 here=$(dirname "$(realpath "$0")")
@@ -16,6 +17,18 @@ for shell in bash zsh fish; do
 done
 mkdir "$folder/user"
 cd "$folder/user"
+if [ -n "${2:-}" ]; then
+  cat > program.py <<'END'
+import boltzmann, sys
+assert boltzmann.__file__.startswith(sys.argv[1]), boltzmann.__file__
+assert boltzmann._core.find_scenario("copper") == sys.argv[1] + "/share/boltzmann/scenarios/copper.toml"
+boltzmann.load("copper", steps=100).run(out="from-python")
+END
+  PYTHONPATH=$folder/there/lib/python3/dist-packages "$2" -B program.py "$(realpath "$folder/there")" > "$folder/log" 2>&1 || fail "python: $(cat "$folder/log")"
+  "$bzm" run copper --steps 100 --out from-bzm --quiet > "$folder/log" 2>&1 || fail "bzm run: $(cat "$folder/log")"
+  cmp -s from-python/diagnoses.csv from-bzm/diagnoses.csv || fail "Python has other numbers than bzm"
+  echo "python: imports and runs"
+fi
 cp "$here/user.cpp" "$here/CMakeLists.txt" .
 ran() {  # NAME PROGRAM
   rm -rf results
