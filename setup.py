@@ -1,4 +1,4 @@
-"""The Python package for pip: CMake compiles the module, scenarios go to share/boltzmann beside it. All else is in pyproject.toml."""
+"""The Python package for pip: CMake compiles the module; scenarios go to share/boltzmann of the environment."""
 
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Prints where under a prefix a Python package goes: where this Python looks, if that is there, else lib/python3/dist-packages."""
+"""Where a package goes under a prefix: where this Python looks, if that is there, else lib/python3/dist-packages."""
 
 import os
 import site

@@ -1,7 +1,7 @@
 """make.py OUT [--execute]: the pages of the documentation's site, for mkdocs, in OUT.
 
-The guide with links that hold there, a gallery of the scenarios, a reference of what `bzm show` and docstrings tell, and the
-notebooks: with --execute as they come out of a kernel, else as they are stored."""
+The guide with links that hold there, a gallery of the scenarios, a reference of what `bzm show` and docstrings tell, and
+the notebooks: with --execute as they come out of a kernel, else as they are stored."""
 
 import base64
 import html
@@ -17,10 +17,13 @@ import tomllib
 import boltzmann
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-PAGES = {"README.md": "index.md", "docs/architecture.md": "architecture.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
+PAGES = {
+    "README.md": "index.md", "docs/architecture.md": "architecture.md", "CONTRIBUTING.md": "contributing.md",
+    "CHANGELOG.md": "changelog.md",
+}  # fmt: skip
 CATALOGUES = {
-    "laws": "Laws", "classes": "Particle classes", "materials": "Materials", "diagnoses": "Diagnoses", "drawings": "Drawings",
-    "loaders": "Loaders", "integrators": "Integrators", "dissipations": "Friction and noise", "units": "Units",
+    "laws": "Laws", "classes": "Particle classes", "materials": "Materials", "diagnoses": "Diagnoses",
+    "drawings": "Drawings", "loaders": "Loaders", "integrators": "Integrators", "dissipations": "Friction and noise", "units": "Units",
 }  # fmt: skip
 
 
@@ -72,8 +75,8 @@ class Site:
                 fenced = not fenced
             elif not fenced and not line.startswith("    "):
                 block = re.match(r"[-*] |\d+\. |\|", line)
-                same = block and re.match(r"\s|[-*] |\d+\. ", before) if not line.startswith("|") else before.startswith("|")
-                if block and before and not same and not lines[-1].startswith("<!--"):
+                goes_on = re.match(r"\|" if line.startswith("|") else r"\s|[-*] |\d+\. ", before)
+                if block and before and not goes_on and not lines[-1].startswith("<!--"):
                     lines.append("")
                 line = self.linked(line, source, page)
             lines.append(line)
@@ -97,23 +100,25 @@ def plain(text):
 
 
 def guide(site):
-    for path in ["README.md", "docs/architecture.md", "CONTRIBUTING.md", "CHANGELOG.md"]:
-        site.markdown((SOURCE / path).read_text(encoding="utf-8"), path, PAGES[path])
+    for path, page in PAGES.items():
+        site.markdown((SOURCE / path).read_text(encoding="utf-8"), path, page)
     for path in sorted((SOURCE / "docs" / "guide").glob("*.md")):
         site.markdown(path.read_text(encoding="utf-8"), f"docs/guide/{path.name}", f"guide/{path.name}")
 
 
 def gallery(site):
     """A page for each scenario, and one with the pictures of all."""
-    overview = ["# Gallery", "", "Each is a scenario that comes with Boltzmann: `bzm run NAME`, or `boltzmann.load(\"NAME\").run()`.", "", '<div class="gallery">']
+    overview = ["# Gallery", "", "Each is a scenario that comes with Boltzmann: `bzm run NAME`, or "
+                '`boltzmann.load("NAME").run()`.', "", '<div class="gallery">']  # fmt: skip
     for path in sorted((SOURCE / "scenarios").glob("*.toml")):
         name, text = path.stem, path.read_text(encoding="utf-8")
         scenario = tomllib.loads(text)
         picture = SOURCE / "docs" / "gallery" / f"{name}.png"
         (site.out / "gallery").mkdir(exist_ok=True)
         shutil.copyfile(picture, site.out / "gallery" / picture.name)
-        title = plain(scenario.get("title", name))
-        overview.append(f'<a href="{name}.html"><img src="{name}.png" alt="" loading="lazy">{html.escape(scenario.get("title", name))}</a>')
+        title = plain(scenario["title"])
+        image = f'<img src="{name}.png" alt="" loading="lazy">'
+        overview.append(f'<a href="{name}.html">{image}{html.escape(scenario["title"])}</a>')
         site.write(f"gallery/{name}.md", "\n".join([
             f"# {title}", "", f"![{title}]({name}.png)", "", plain(scenario.get("description", "")), "",
             "```sh", f"bzm run {name}", "```", "", "```python", "import boltzmann as bz", "",
@@ -144,33 +149,39 @@ def signature(name, function, method):
 
 def python_reference(site):
     """Every public name and what its docstring says."""
-    from boltzmann import ensemble, simulation, stored
+    from boltzmann import ensemble, notebook, simulation, stored
 
     lines = ["# Python, name by name", "", "Beside the [guide](../guide/python.md), which has programs.", ""]
     things = {name: getattr(boltzmann, name) for name in boltzmann.__all__ if name != "exact"}
-    others = [ensemble.Ensemble, simulation.Units, simulation.Report, simulation.Diagnosis, simulation.Record,
-              simulation.Measured, simulation.BoxEdges, stored.Trajectory, stored.StoredEnsemble]  # fmt: skip
+    others = [simulation.Units, simulation.Report, simulation.Diagnosis, simulation.Record,
+              simulation.Measured, simulation.Mesh, simulation.BoxEdges, stored.Trajectory, stored.StoredEnsemble, notebook.Window,
+              notebook.Replay]  # fmt: skip
     functions = {name: thing for name, thing in things.items() if inspect.isfunction(thing)}
-    classes = [things["Simulation"], ensemble.Ensemble] + [
-        thing for thing in [*things.values(), *others] if inspect.isclass(thing) and thing not in (things["Simulation"], ensemble.Ensemble)
-    ]
+    first = [things["Simulation"], ensemble.Ensemble]
+    classes = first + [one for one in [*things.values(), *others] if inspect.isclass(one) and one not in first]
+
+    def of_function(heading, called, function):
+        return [f"### {heading}", "", "```python", called, "```", "", documented(function), ""]
+
     lines += ["## Functions", ""]
     for name, function in functions.items():
-        lines += [f"### {name}", "", "```python", f"boltzmann.{signature(name, function, False)}", "```", "", documented(function), ""]
-    lines += ["## Catalogues", "", ", ".join(f"`boltzmann.{name}`" for name, thing in things.items() if type(thing).__name__ == "Catalogue")
-              + f": {documented(type(things['laws']))}", ""]  # fmt: skip
+        lines += of_function(name, f"boltzmann.{signature(name, function, False)}", function)
+    kind = type(things["laws"])
+    catalogues = ", ".join(f"`boltzmann.{name}`" for name, thing in things.items() if isinstance(thing, kind))
+    lines += ["## Catalogues", "", f"{catalogues}: {documented(kind)}", ""]
     for one in classes:
         lines += [f"## {one.__name__}", "", documented(one), ""]
         for name, member in vars(one).items():
             if name.startswith("_"):
                 continue
-            told = signature(name, member, True) if inspect.isfunction(member) else name
-            text = documented(member) if inspect.isfunction(member) or isinstance(member, property) else ""
-            lines += [f"### {one.__name__}.{name}", "", "```python", told, "```", "", text, ""]
+            if inspect.isfunction(member):
+                lines += of_function(f"{one.__name__}.{name}", signature(name, member, True), member)
+            elif isinstance(member, property):
+                lines += of_function(f"{one.__name__}.{name}", name, member)
     lines += ["## boltzmann.exact", "", documented(boltzmann.exact), ""]
     for name, function in vars(boltzmann.exact).items():
         if inspect.isfunction(function) and not name.startswith("_"):
-            lines += [f"### exact.{name}", "", "```python", signature(name, function, False), "```", "", documented(function), ""]
+            lines += of_function(f"exact.{name}", signature(name, function, False), function)
     site.write("reference/python.md", "\n".join(lines))
 
 
@@ -195,8 +206,8 @@ def shown(out, name, number, site):
         (site.out / "notebooks" / picture).write_bytes(base64.b64decode(data["image/png"]))
         return [f"![what the cell shows]({picture})", ""]
     text = "".join(data.get("text/plain", ""))
-    progress = re.match(r" *\d+ %  step ", text)
-    return ["```text", text, "```", ""] if text and not progress and not text.startswith(("Text(", "<matplotlib", "<Figure")) else []
+    says_nothing = not text or re.match(r" *\d+ %  step |Text\(|<matplotlib|<Figure", text)
+    return [] if says_nothing else ["```text", text, "```", ""]
 
 
 def notebooks(site, execute):
@@ -208,7 +219,8 @@ def notebooks(site, execute):
             if cell["cell_type"] == "markdown":
                 lines += [text, ""]
                 if number == 0:
-                    lines += [f"The notebook is `docs/notebooks/{path.name}`; [Python](../guide/python.md#notebooks) says how to open it.", ""]
+                    lines += [f"The notebook is `docs/notebooks/{path.name}`; "
+                              "[Python](../guide/python.md#notebooks) says how to open it.", ""]  # fmt: skip
                 continue
             lines += ["```python", text, "```", ""]
             for out in cell["outputs"]:

@@ -1,4 +1,4 @@
-"""The notebooks run from top to bottom in a kernel of this Python, print what they should, and are stored without outputs."""
+"""The notebooks run from top to bottom, print what they should, and are stored without outputs."""
 
 import json
 import pathlib
