@@ -12,6 +12,7 @@ import pathlib
 import re
 import shutil
 import sys
+import tempfile
 import tomllib
 
 import boltzmann
@@ -21,9 +22,18 @@ PAGES = {
     "README.md": "index.md", "docs/architecture.md": "architecture.md", "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
 }  # fmt: skip
+# Scenarios whose page plays them, and what makes the run short enough for that.
+PLAYED = {
+    "copper": {"output.trajectory": 20},
+    "three-body": {"run.steps": 1265, "output.trajectory": 10},
+    "cold-beams": {"output.trajectory": 12, "ensembles.0.number": 2048, "ensembles.1.number": 2048,
+                   "ensembles.0.mass": 2.5049801370348908e-3, "ensembles.1.mass": 2.5049801370348908e-3,
+                   "ensembles.0.charge": -2.5049801370348908e-3, "ensembles.1.charge": -2.5049801370348908e-3},
+}  # fmt: skip
 CATALOGUES = {
     "laws": "Laws", "classes": "Particle classes", "materials": "Materials", "diagnoses": "Diagnoses",
-    "drawings": "Drawings", "loaders": "Loaders", "integrators": "Integrators", "dissipations": "Friction and noise", "units": "Units",
+    "drawings": "Drawings", "loaders": "Loaders", "integrators": "Integrators", "dissipations": "Friction and noise",
+    "units": "Units",
 }  # fmt: skip
 
 
@@ -124,6 +134,18 @@ def gallery(site):
             "```sh", f"bzm run {name}", "```", "", "```python", "import boltzmann as bz", "",
             f'sim = bz.load("{name}")', "sim.run()", "```", "", "## The scenario", "", "```toml", text.rstrip("\n"), "```", ""]))  # fmt: skip
     site.write("gallery/index.md", "\n".join([*overview, "</div>", ""]))
+
+
+def replays(site):
+    """A run of some scenarios as a page that plays, in their pages of the gallery."""
+    for name, values in PLAYED.items():
+        with tempfile.TemporaryDirectory() as folder:
+            boltzmann.load(name, set=values).run(out=folder + "/run", progress=False)
+            boltzmann.open(folder + "/run").replay(frames=64, megabytes=3).save(site.out / "gallery" / f"{name}-run.html")
+        page = site.out / "gallery" / f"{name}.md"
+        frame = f'<iframe src="{name}-run.html" width="100%" height="560" style="border:0" sandbox="allow-scripts" loading="lazy"></iframe>'
+        text = page.read_text(encoding="utf-8")
+        page.write_text(text.replace("## The scenario", f"## A run\n\n{frame}\n\n## The scenario", 1), encoding="utf-8")
 
 
 def reference(site):
@@ -235,6 +257,7 @@ def main():
     site = Site(out)
     guide(site)
     gallery(site)
+    replays(site)
     reference(site)
     python_reference(site)
     notebooks(site, "--execute" in sys.argv[2:])
