@@ -159,7 +159,7 @@ std::vector<LoadKind> make_kinds() {
       {"frame", "a frame of the trajectory of another run, with all fields that both have", false,
        of({{"path", "of a trajectory.h5, from the scenario's folder", "", "\"results/melt/trajectory.h5\""},
            {"ensemble"},
-           {"frame", "from 0 on; negative: from the end", "the last one", "", whole(-unlimited, unlimited)}})},
+           {"frame", "from 0 on; negative: from the end", "the last one", "", whole(-1e9, 1e9)}})},
   };
 }
 

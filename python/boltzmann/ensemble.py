@@ -148,7 +148,10 @@ class Ensemble:
     def _numbers(self, core, name: str, given):
         """Plain numbers of the base: texts with units, and quantities of a library of units, are converted."""
         if isinstance(given, str):
-            return _core.number_of(core, self._name, name, given)
+            number = _core.number_of(core, self._name, name, given)
+            if self._places[name][0] not in ((), (1,)) and number != 0:
+                raise Error(f"{name}: a vector has {self._places[name][0][0]} components, such as ['{given}', 0]")
+            return number
         if hasattr(given, "magnitude") and hasattr(given, "units"):
             from .document import quantity
 
@@ -156,8 +159,11 @@ class Ensemble:
             unit = quantity(one, name).strip('"')
             factor = _core.number_of(core, self._name, name, unit)
             return np.asarray(given.magnitude) * factor if np.ndim(given.magnitude) else factor
-        if isinstance(given, (list, tuple)) and any(isinstance(one, str) for one in given):
-            return [self._numbers(core, name, one) for one in given]
+        if isinstance(given, (list, tuple)) and any(isinstance(one, (str, list, tuple)) for one in given):
+            return [
+                _core.number_of(core, self._name, name, one) if isinstance(one, str) else self._numbers(core, name, one)
+                for one in given
+            ]
         try:
             numbers = np.asarray(given, dtype=np.float64)
         except (TypeError, ValueError):

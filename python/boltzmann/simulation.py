@@ -11,7 +11,6 @@ import tempfile
 import threading
 import time as clock
 import warnings as python_warnings
-import weakref
 
 import numpy as np
 
@@ -58,16 +57,16 @@ class Report:
         self.stopped: bool = told["stopped"]
         self.out_of_time: bool = told["out_of_time"]
         self.condition: str = told["condition"]
-        self._sim = weakref.ref(simulation)
+        self._sim = simulation
 
     def __repr__(self) -> str:
-        sim = self._sim()
+        sim = self._sim
         lines = [f"{self.steps} steps to step {self.step} in {self.seconds:.3g} s"]
         if self.condition:
             lines.append(f"ended by its condition: {self.condition}")
         elif self.stopped or self.out_of_time:
             lines.append("out of time" if self.out_of_time else "stopped before its last step")
-        if sim is not None and sim._built is not None and sim.step == self.step and not sim._built.running():
+        if sim._built is not None and sim.step == self.step and not sim._built.running():
             lines += sim._built.conserved()
             if sim._built.folder():
                 lines.append(f"results in {sim._built.folder()}")
@@ -265,7 +264,8 @@ class Simulation:
 
     def _given_places(self, name: str, class_: str, position, fields: dict, place: str):
         if isinstance(position, (list, tuple)) and _has_texts(position):
-            return {"kind": "positions", "positions": position}, fields
+            places = [one if isinstance(one, (list, tuple)) else [one] for one in position]
+            return {"kind": "positions", "positions": places}, fields
         try:
             places = np.asarray(position, dtype=np.float64)
         except (TypeError, ValueError):
@@ -330,6 +330,8 @@ class Simulation:
         """One more table of any kind: ``sim.add("rigid_bonds", on="water", ...)`` says [[rigid_bonds]]."""
         kinds = {name: heading for name, heading, _ in _core.tables()}
         name = plain(table)
+        if name == "box":
+            self._box_given = True
         if name in kinds and not kinds[name].startswith("[["):
             if self._begun:
                 raise Error(f"{caller()}: the run has begun; what acts is said before its first step")
@@ -340,7 +342,8 @@ class Simulation:
 
     def diagnosis(self, kind: str, every: int | None = None, **keys) -> Diagnosis:
         """[[diagnoses]]: something is measured. Before the run it is a part of the scenario, and of its table; with
-        ``every``, or once the run has begun, it looks every so many steps and has a table of its own."""
+        ``every``, or once the run has begun, it looks every so many steps and has a table of its own. (A kind's own key
+        of that name is said by ``sim.add("diagnoses", kind=..., every=...)``.)"""
         place = caller()
         if every is None and not self._begun:
             self._say("diagnoses", {"kind": kind, **keys})
@@ -948,7 +951,11 @@ class ProgressLine:
             print(f"\r{line}\033[K", end="", file=sys.stderr, flush=True)
 
     def end(self) -> None:
-        if self._shown and not _in_notebook():
+        if not self._shown:
+            return
+        if self._handle is not None:
+            self._handle.update({"text/plain": ""}, raw=True)
+        else:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 

@@ -64,6 +64,10 @@ def test_assignment_copies_numbers_texts_and_quantities():
     assert (atoms.velocity == [3, 4]).all()
     atoms.velocity = ["1 km/s", 0]
     assert atoms.velocity[3] == pytest.approx([10, 0])  # angstrom/ps
+    atoms.velocity = [["1 km/s", 0], [0, 1], [0, "2 km/s"], [0, 0]]
+    assert (atoms.velocity[:3] == [[10, 0], [0, 1], [0, 20]]).all()
+    with pytest.raises(bz.Error, match="2 components"):
+        atoms.velocity = "1 km/s"
     atoms["mass"] = "63.5 amu"
     assert atoms["mass"][3] == pytest.approx(63.5)
 
@@ -229,3 +233,11 @@ def test_fields_on_a_mesh():
         mesh.potental
     with pytest.raises(bz.Error, match="no mesh"):
         gas().mesh
+
+
+def test_places_on_a_line_need_no_brackets():
+    sim = bz.Simulation(units=dict(base="custom", length="1 nm", mass="1 amu", time="1 ps"), run=dict(step="1 fs"))
+    sim.add("box", low=[0], high=[10])
+    sim.ensemble("a", "Newton", position=["1 nm", "20 angstrom", 3])
+    sim.ensemble("b", "Newton", position=[1.0, 2.0])
+    assert sim.a.position[:, 0] == pytest.approx([1, 2, 3]) and sim.b.position.shape == (2, 1)
