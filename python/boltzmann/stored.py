@@ -147,6 +147,10 @@ class StoredRun:
         """The frames of trajectory.h5."""
         return Trajectory(self._stored)
 
+    def frame(self, number: int = -1) -> dict:
+        """A frame as a start: ``load=`` of an ensemble of the same name, or a value of "ensembles.NAME.load"."""
+        return {"kind": "frame", "path": os.path.abspath(os.path.join(self.folder, "trajectory.h5")), "frame": int(number)}
+
     def picture(self, drawing: str | None = None, frame: int = -1, **keys) -> Picture:
         """A frame, the last unless told, as ``bzm render`` draws it."""
         options = {plain(name): given for name, given in keys.items() if given is not None}

@@ -79,7 +79,7 @@ def test_frames_are_read_when_they_are_asked_for(stored):
 
 def test_a_frame_is_a_start(stored):
     sim, run = stored
-    again = bz.load("copper", set={"ensembles.atoms.load": {"kind": "frame", "path": os.path.join(run.folder, "trajectory.h5"), "frame": 3}})
+    again = bz.load("copper", set={"ensembles.atoms.load": run.frame(3)})
     assert again.atoms.position == pytest.approx(run.trajectory["atoms"].position[3], rel=1e-14)
     others = np.arange(250) != 60  # which the scenario sets
     assert again.atoms.velocity[others] == pytest.approx(run.trajectory["atoms"].velocity[3][others], rel=1e-14)
