@@ -87,6 +87,41 @@ TEST(FlowPictures, ASliceInSpaceHasQAndVorticity) {
   EXPECT_NEAR(q.high / (bar.high * bar.high / 4), 1, 0.1);
 }
 
+// A straight column of Gaussian cores turns with u = Gamma (1 - exp(-t)) / (2 pi r), t = r^2 / (2 core^2); of any swirl
+// Q = (u / r) du/dr, positive inside and negative outside of 1.585 cores: each pixel of a slice has the colour of that.
+TEST(FlowPictures, ASliceOfAColumnHasTheQOfItsSwirl) {
+  double const core = 0.2, gamma = 3, spacing = 0.1;
+  Ensemble<Inviscid<3>> column("column", 401);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    column[i].position = {0, 0, spacing * (static_cast<double>(i) - 200)};
+    column[i].vorticity = {0, 0, gamma * spacing};
+    column[i].core = core;
+  }
+  PairScheme scheme(Box({-1, -1, -1}, {1, 1, 1}));
+  scheme.internal(column, GaussianBiotSavart{});
+  Simulation simulation(scheme, 0.1);
+  double const at_axis = square(gamma / (4 * pi * core * core));
+  Picture const picture{.drawing = "flow", .y = "Q", .low = -at_axis, .high = at_axis, .slice = "z", .cells = 50};
+  Canvas const canvas = draw(picture, {simulation, UnitSystem::reduced(), "", 0, 0, ""});
+  auto const& image = canvas.images().at(0);
+  double most = 0, least = 0;
+  for (int row = 0; row < image.rows; ++row)
+    for (int k = 0; k < image.columns; ++k) {
+      double const x = image.x0 + (image.x1 - image.x0) * (k + 0.5) / image.columns,
+                   y = image.y0 + (image.y1 - image.y0) * (row + 0.5) / image.rows, r = std::hypot(x, y),
+                   gone = std::exp(-r * r / (2 * core * core)), u = gamma * (1 - gone) / (2 * pi * r),
+                   slope = gamma * gone / (2 * pi * core * core) - u / r, q = u / r * slope;
+      most = std::max(most, q), least = std::min(least, q);
+      if (r > 0.9) continue;  // the ends of the column are felt
+      Colour const exact = map_colour(ColourMap::diverging, place_between(-at_axis, at_axis, q));
+      std::uint32_t const drawn = image.pixels.at(static_cast<std::size_t>(row * image.columns + k));
+      for (auto const& [part, shift] : {std::pair{exact.red, 16U}, {exact.green, 8U}, {exact.blue, 0U}})
+        EXPECT_NEAR(static_cast<double>(drawn >> shift & 255U), 255 * static_cast<double>(part), 2) << x << " " << y;
+    }
+  EXPECT_GT(most, 0.95 * at_axis);
+  EXPECT_LT(least, -0.05 * at_axis);
+}
+
 // Lines along solid rotation are circles about the middle; along a shear they are straight, and end at the walls.
 TEST(Streamlines, GoAlongTheFlow) {
   MeshGrid grid;
