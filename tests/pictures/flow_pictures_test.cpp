@@ -122,6 +122,81 @@ TEST(FlowPictures, ASliceOfAColumnHasTheQOfItsSwirl) {
   EXPECT_LT(least, -0.05 * at_axis);
 }
 
+// Dye of a shear: each place has a straight line of its own height, the oldest first, at u(y) times its age.
+TEST(Streaklines, JoinDyeInOrderOfRelease) {
+  Ensemble<Dye<2>> dye("dye", 1);
+  dye[0].position = {3, 1.5};
+  PairScheme scheme(Box({0, -2}, {8, 2}));
+  scheme.external(dye, ShearFlow<2>{.direction = {1, 0}, .gradient = {0, 0.25}, .origin = {0, -4}});
+  Simulation simulation(scheme, 0.1);
+  simulation.adapt(2, DyeSource(dye, {.from = {1, -1}, .to = std::array<double, 3>{1, 1}, .places = 3}));
+  simulation.run(21);
+  auto const drawn = [&](Picture picture) {
+    picture.streaklines = true;
+    return draw(picture, {simulation, UnitSystem::reduced(), "", 21, simulation.time(), ""});
+  };
+  Canvas const canvas = drawn({});
+  ASSERT_EQ(canvas.curves().size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    auto const& line = canvas.curves()[k];
+    ASSERT_EQ(line.x.size(), 10U);
+    EXPECT_TRUE(line.z.empty());
+    double const y = static_cast<double>(k) - 1;
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_NEAR(line.x[i], 1 + (y + 4) / 4 * (2.1 - 0.2 * static_cast<double>(i + 1)), 1e-12) << k << " " << i;
+      EXPECT_NEAR(line.y[i], y, 1e-14);
+    }
+  }
+  ASSERT_EQ(canvas.points().size(), 1U) << "what was there from the start";
+  EXPECT_EQ(canvas.clouds().at(0).count(), 0U);
+  EXPECT_EQ(drawn({.colour = "release"}).clouds().at(0).count(), 31U) << "coloured particles stay";
+  EXPECT_EQ(drawn({.drawing = "cartesian", .region = {{0, 8}, {-0.5, 2}}}).curves().size(), 2U);
+  // Neighbours are 0.15, 0.2 and 0.25 apart.
+  Canvas const far = drawn({.gap = 0.17});
+  EXPECT_EQ(far.curves().size(), 1U);
+  EXPECT_EQ(far.points().size(), 21U);
+  // The fourth of the place in the middle goes.
+  for (std::size_t i = 0; i < dye.size(); ++i)
+    if (dye[i].place == 2 && dye[i].release == 4) dye[i] = dye[dye.size() - 1];
+  dye.resize(dye.size() - 1);
+  auto const parts = drawn({});
+  ASSERT_EQ(parts.curves().size(), 4U);
+  EXPECT_EQ(parts.curves()[1].x.size(), 3U);
+  EXPECT_EQ(parts.curves()[2].x.size(), 6U);
+}
+
+// In space the same, and nothing of a line goes through a periodic wall.
+TEST(Streaklines, AreDrawnInSpaceAndEndAtPeriodicWalls) {
+  Ensemble<Dye<3>> dye("dye", 12);
+  for (std::size_t i = 0; i < 12; ++i) {
+    double const k = static_cast<double>(i);
+    dye[i].position = {0.5 * k - (i < 6 ? 0.0 : 3.0), 1, 0.1 * k};
+    dye[i].place = 1, dye[i].release = 12 - k;  // rows in any order
+  }
+  PairScheme scheme(Box({0, 0, 0}, {3, 2, 2}, Boundary::periodic));
+  scheme.external(dye, UniformFlow<3>{{1, 0, 0}});
+  Simulation simulation(scheme, 0.1);
+  Canvas const canvas = draw({.streaklines = true, .gap = 10}, {simulation, UnitSystem::reduced(), "", 0, 0, ""});
+  ASSERT_EQ(canvas.curves().size(), 2U);
+  for (auto const& line : canvas.curves()) ASSERT_EQ(line.z.size(), 6U);
+  EXPECT_EQ(canvas.curves()[0].z[0], 0.1 * 11.0);
+  EXPECT_EQ(canvas.curves()[1].z[5], 0);
+  EXPECT_TRUE(canvas.projection());
+}
+
+TEST(Streaklines, SayWhatTheyNeed) {
+  Ensemble<Vortex<2>> vortices("vortices", 1);
+  Ensemble<Dye<3>> dye("dye", 1);
+  Ensemble<Vortex<3>> space("space", 1);
+  auto const said = [](std::string const& drawing, std::vector<AnyEnsemble*> const& ensembles) {
+    return message([&] { check({.drawing = drawing, .streaklines = true}, ensembles, {}, {}); });
+  };
+  EXPECT_NE(said("cartesian", {&vortices}).find("no ensemble is of class Dye"), std::string::npos);
+  EXPECT_NE(said("flow", {&vortices}).find("no ensemble is of class Dye"), std::string::npos);
+  EXPECT_NE(said("flow", {&space, &dye}).find("'cartesian' draws streaklines"), std::string::npos);
+  EXPECT_EQ(said("cartesian", {&space, &dye}), "no error");
+}
+
 // Lines along solid rotation are circles about the middle; along a shear they are straight, and end at the walls.
 TEST(Streamlines, GoAlongTheFlow) {
   MeshGrid grid;
