@@ -76,6 +76,7 @@
 #include <boltzmann/loaders/ring_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/loaders/vortex_tube_load.hpp>
+#include <boltzmann/particles/dye.hpp>
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/newton.hpp>

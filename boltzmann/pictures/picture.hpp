@@ -60,7 +60,10 @@ struct Picture {
   std::size_t most = 0;  ///< cartesian, phase-space: one of every n particles, so that so many are drawn; 0: all
   std::vector<std::array<double, 2>> region = {};  ///< cartesian, phase-space: only particles with low <= x <= high,
                                                    ///< for each axis; empty: all
-  int streamlines = 0;               ///< flow, streamlines: so many beside each other; 0: none, and 25 of streamlines
+  int streamlines = 0;       ///< flow, streamlines: so many beside each other; 0: none, and 25 of streamlines
+  bool streaklines = false;  ///< cartesian in 2D and 3D, flow in 2D: dye as lines, one for each place of release
+  double gap = std::numeric_limits<double>::quiet_NaN();  ///< streaklines: neighbours further apart than this are not
+                                                          ///< joined; NaN: a tenth of the longest side
   std::vector<Colour> palette = {};  ///< of the ensembles that have no colour of their own; empty: species_colour()
   std::optional<int> cells = {};     ///< of the grid, along the longest side of the picture
   /// Of a profile at most, fewer if they had less than 50 particles in the mean; 300 without it. Of a histogram;

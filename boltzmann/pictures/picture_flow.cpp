@@ -77,6 +77,10 @@ void check_flow(Question const& question) {
       if (std::find(names.begin(), names.end(), name) == names.end())
         throw Error(fmt::format("a flow has no '{}'; it has {}{}", name, join(names), did_you_mean(name, names)));
     });
+  question.on("streaklines", [&] {
+    check_streaklines(picture, question.ensembles);
+    if (picture.streaklines && dimension == 3) throw Error("in 3D 'flow' is a slice; 'cartesian' draws streaklines");
+  });
   question.need_slice();
 }
 
@@ -135,6 +139,10 @@ Canvas draw_flow(Scene& scene) {
     for (std::size_t p = 0; p < grid.size(); ++p) u.push_back(found[p * width]), v.push_back(found[p * width + 1]);
     double const longest = std::max(side(0)[1] - side(0)[0], side(1)[1] - side(1)[0]);
     draw_streamlines(canvas, grid, u, v, longest / count, lines_only);
+  }
+  if (scene.picture.streaklines && D == 2) {
+    check_streaklines(scene.picture, scene.ensembles);
+    draw_streaklines(canvas, scene, shown);
   }
   if (D == 3)
     canvas.note(fmt::format("slice at {} = {}", "xyz"[normal], scene.context.units.text(at, dimensions::length, 4)));

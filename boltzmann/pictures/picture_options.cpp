@@ -66,6 +66,11 @@ OptionTable make_members() {
   all.add("cells", &Picture::cells, whole(1, 100'000), "cells along the longest side of the picture");
   all.add("streamlines", &Picture::streamlines, whole(0, 200), "2D: lines along the flow, so many beside each other",
           "none");
+  all.add("streaklines", &Picture::streaklines, flag(),
+          "particles of class Dye as lines, in order of release, one for each place; in 3D of `\"cartesian\"` alone");
+  all.add("gap", &Picture::gap, number(dimensions::length, positive),
+          "streaklines have gaps where neighbours are further apart, or one between them has been taken away",
+          "a tenth of the longest side");
   all.add("bins", &Picture::bins, whole(1, 100'000), "bins");
   all.add_of<Picture>("curve", curves_of, tables(),
                       "`{ frequency = wp, speed = c }` draws omega^2 = wp^2 + c^2 k^2; or a list of them", "none");
@@ -90,7 +95,7 @@ std::vector<Drawing> make_drawings() {  // long: a table, an entry for each draw
   std::vector<OptionKey> const ends{{"low"}, {"high"}};
   std::vector<OptionKey> const axis_ends{{"low", "the lower end of the axis of values"}, {"high", "its upper end"}};
   std::vector<OptionKey> const seen{{"trace"}, {"most"}, {"region"}};
-  std::vector<OptionKey> const slices{{"slice"}, {"at"}};
+  std::vector<OptionKey> const slices{{"slice"}, {"at"}}, dye{{"streaklines"}, {"gap"}};
   OptionKey const field{"y", "`\"density\"`, or a quantity of the particles", "`\"density\"`"};
   OptionKey const bins{"bins", "how many", "as many as fit"};
   std::vector<OptionKey> const smoothing{{"weight"}, {"range"}, {"cells", "", "`300`", "", whole(2, 4000)}};
@@ -103,7 +108,7 @@ std::vector<Drawing> make_drawings() {  // long: a table, an entry for each draw
   using namespace pictures;
   return {
       {"cartesian", "particles in space; in 1D, where space is a line, in phase space",
-       all({style, {{"vectors"}}, ends, seen, {{"azimuth"}, {"elevation"}}}), draw_particles, check_particles,
+       all({style, {{"vectors"}}, ends, seen, dye, {{"azimuth"}, {"elevation"}}}), draw_particles, check_particles,
        dimension_of_colour},
       {"phase-space", "particles by two of their quantities",
        all({{{"x", "a quantity of the particles", "`\"position.x\"`"}, {"y", "another", "`\"velocity.x\"`"}},
@@ -159,7 +164,9 @@ std::vector<Drawing> make_drawings() {  // long: a table, an entry for each draw
               "`\"vorticity\"`"}},
             slices,
             ends,
-            {{"streamlines"}, {"cells", "", "`200`", "", whole(2, 2000)}}}),
+            {{"streamlines"}},
+            dye,
+            {{"cells", "", "`200`", "", whole(2, 2000)}}}),
        draw_flow, check_flow, dimension_of_flow},
       {"streamlines", "lines along the flow of vortices in 2D",
        all({{{"streamlines", "so many beside each other", "`25`", "", whole(1, 200)},

@@ -66,6 +66,11 @@ ParticleClouds clouds_of(Scene& scene) {
   return clouds;
 }
 
+/// Leaves a cloud without particles: what is drawn of them are lines.
+void hide(Canvas::Cloud& cloud) {
+  cloud.position.clear(), cloud.value.clear(), cloud.diameter.clear(), cloud.number.clear();
+}
+
 std::uint32_t number_of(Canvas::Cloud const& cloud, std::size_t k) {
   return cloud.number.empty() ? static_cast<std::uint32_t>(k) : cloud.number[k];
 }
@@ -248,6 +253,7 @@ void check_vectors(std::string const& vectors, std::vector<AnyEnsemble*> const& 
 void check_particles(Question const& question) {
   question.known("colour", question.picture.colour);
   question.known("size", question.picture.size);
+  question.on("streaklines", [&] { check_streaklines(question.picture, question.ensembles); });
   question.on("vectors", [&] { check_vectors(question.picture.vectors, question.ensembles); });
 }
 
@@ -260,6 +266,7 @@ Canvas draw_particles(Scene& scene) {
   int const D = scene.box().dimension();
   if (D == 1) return draw_phase_space(scene, "position.x", scene.picture.colour);
   check_vectors(scene.picture.vectors, scene.ensembles);
+  check_streaklines(scene.picture, scene.ensembles);
   ParticleClouds clouds = clouds_of(scene);
   std::vector<Track> tracks;
   bool lost = false;
@@ -299,6 +306,11 @@ Canvas draw_particles(Scene& scene) {
     explain_colours(canvas, style, 0, 0, false);
   else
     explain_values(canvas, scene, clouds);
+  if (scene.picture.streaklines) {
+    draw_streaklines(canvas, scene, shown);
+    for (std::size_t e = 0; e < clouds.clouds.size(); ++e)
+      if (is_dye(*scene.ensembles[e]) && scene.picture.colour.empty()) hide(clouds.clouds[e]);
+  }
   for (auto& cloud : clouds.clouds) canvas.cloud(std::move(cloud), 0);
   canvas.not_finite(canvas.not_finite() + clouds.not_finite);
   if (!scene.picture.vectors.empty()) draw_vectors(canvas, scene, shown);

@@ -90,6 +90,14 @@ void note_shown(Canvas& canvas, ParticleClouds const& clouds, bool region);
 /// The colour bar for the values of clouds.
 void explain_values(Canvas& canvas, Scene const& scene, ParticleClouds const& clouds);
 
+/// Whether they remember where and when they were released: the fields `place` and `release` of class Dye.
+bool is_dye(AnyEnsemble const& ensemble);
+/// Error if the picture has streaklines and no ensemble is dye, or space is a line.
+void check_streaklines(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
+/// Joins the dye of each place in order of release, in the colour of its ensemble; what has no neighbour is a point.
+/// `shown` is the part of space in the picture.
+void draw_streaklines(Canvas& canvas, Scene const& scene, std::vector<std::array<double, 2>> const& shown);
+
 /// "kinetic energy (eV)" -> {"kinetic energy", "eV"}.
 struct Heading {
   std::string name, unit;

@@ -1,4 +1,5 @@
 // Classes that a flow moves: fluid particles and vortices.
+#include <boltzmann/particles/dye.hpp>
 #include <boltzmann/particles/spreading.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/scenario/class_variant.hpp>
@@ -10,6 +11,10 @@ std::vector<ParticleClass> tracer_classes() {
            "a fluid particle; its influence is the velocity of the flow",
            false,
            {variant_of<Tracer<1>>(), variant_of<Tracer<2>>(), variant_of<Tracer<3>>()}},
+          {"Dye",
+           "a tracer that [[dye]] releases, and that remembers where and when: pictures join those of one place",
+           false,
+           {variant_of<Dye<1>>(), variant_of<Dye<2>>(), variant_of<Dye<3>>()}},
           {"Vortex",
            "an element of vorticity whose vorticity stays as it is",
            false,

@@ -37,6 +37,8 @@ void read_dye(Item const& table, Reading& reading) {
                            fmt::format("dye: some particles of '{}' are frozen, by their numbers, and more are added; "
                                        "make an ensemble of those",
                                        ensemble->name));
+  for (auto const& earlier : reading.dyes)  // places are numbered through all sources of an ensemble
+    if (earlier.ensemble == ensemble->particles) options.first_place += earlier.options.places;
   catch_errors(reading, table.place, [&] { DyeSource(*ensemble->particles, options); });
   reading.dyes.push_back({ensemble->particles, options});
 }

@@ -13,7 +13,7 @@ OptionTable const& dye_options() {
   static OptionTable const all = [] {
     using namespace option;
     OptionTable all;
-    all.add_said("on", "the name of an ensemble", "of class Tracer, to which the released ones are added");
+    all.add_said("on", "the name of an ensemble", "of class Dye or Tracer, to which the released ones are added");
     all.add_said("from", "a length along each axis", "where it is released, or one end of a line of places");
     all.add_said("to", "a length along each axis", "the other end of the line", "one place");
     all.add("places", &DyeOptions::places, whole(1, 1e6), "on the line, both ends included");
@@ -34,7 +34,7 @@ DyeSource::DyeSource(AnyEnsemble& ensemble, DyeOptions const& options) : ensembl
            !ensemble.find_field("velocity") && !ensemble.find_field("mass");
   };
   if (!is_tracer())
-    throw Error(fmt::format("dye: '{}' is of class {}; what is released is of class Tracer", ensemble.name(),
+    throw Error(fmt::format("dye: '{}' is of class {}; what is released is of class Dye or Tracer", ensemble.name(),
                             ensemble.class_name()));
   if (options.places < 1) throw Error("dye: there is one place at least, not 0");
   if (options.to ? options.places < 2 : options.places > 1)
@@ -47,16 +47,22 @@ DyeSource::DyeSource(AnyEnsemble& ensemble, DyeOptions const& options) : ensembl
 }
 
 void DyeSource::change() {
+  ++changes_;
   std::size_t const before = ensemble_->size();
   if (before + options_.places > options_.limit) return;
   ensemble_->resize(before + options_.places);
   auto const dimension = static_cast<std::size_t>(ensemble_->dimension());
-  for (std::size_t k = 0; k < options_.places; ++k)
+  Field const *const place = ensemble_->find_field("place"), *const release = ensemble_->find_field("release");
+  for (std::size_t k = 0; k < options_.places; ++k) {
+    double* const row = ensemble_->row(before + k);
     for (std::size_t a = 0; a < dimension; ++a) {
       double const from = options_.from[a], to = options_.to ? (*options_.to)[a] : from;
       double const part = k == 0 ? 0 : static_cast<double>(k) / static_cast<double>(options_.places - 1);
-      ensemble_->row(before + k)[a] = (1 - part) * from + part * to;
+      row[a] = (1 - part) * from + part * to;
     }
+    if (place && place->components == 1) row[place->offset] = static_cast<double>(options_.first_place + k);
+    if (release && release->components == 1) row[release->offset] = static_cast<double>(changes_);
+  }
   released_ += options_.places;
 }
 
@@ -66,11 +72,12 @@ std::string DyeSource::report(UnitSystem const& /*units*/) const {
                      full ? ", which is the limit" : "");
 }
 
-std::vector<double> DyeSource::state() const { return {static_cast<double>(released_)}; }
+std::vector<double> DyeSource::state() const { return {static_cast<double>(released_), static_cast<double>(changes_)}; }
 
 void DyeSource::restore(std::span<double const> state) {
-  if (state.size() != 1) throw Error("the checkpoint does not fit this simulation: it has no dye");
+  if (state.size() != 2) throw Error("the checkpoint does not fit this simulation: it has no dye");
   released_ = static_cast<std::size_t>(state[0]);
+  changes_ = static_cast<std::size_t>(state[1]);
 }
 
 }  // namespace boltzmann

@@ -46,22 +46,57 @@ TEST(VortexMeasures, AreThoseOfPairsAndRings) {
   EXPECT_NEAR(of_ring.angular_impulse[2], 0, 1e-12);
 }
 
-// Two rings that are linked once: helicity 2 Gamma1 Gamma2 (H. K. Moffatt, J. Fluid Mech. 35, 117 (1969)).
-TEST(VortexMeasures, CountHowOftenRingsAreLinked) {
+/// Two rings of circulations 2 and gamma, the second turned about x and moved along it.
+double helicity_of_rings(double gamma, double moved) {
   std::size_t const count = 400;
   Ensemble<Inviscid<3>> rings("rings", 2 * count);
   add_ring(rings, 0, count, 1, 0, 2, 0.02);
-  add_ring(rings, count, count, 1, 0, 5, 0.02);
-  for (std::size_t k = count; k < 2 * count; ++k) {  // turned about x, and moved until it goes through the other
+  add_ring(rings, count, count, 1, 0, gamma, 0.02);
+  for (std::size_t k = count; k < 2 * count; ++k) {
     auto row = rings[k];
     auto const x = row.position, w = row.vorticity;
-    row.position = {x[0] + 1, -x[2], x[1]}, row.vorticity = {w[0], -w[2], w[1]};
+    row.position = {x[0] + moved, -x[2], x[1]}, row.vorticity = {w[0], -w[2], w[1]};
     rings[k] = row;
   }
   PairScheme scheme(Box({-3, -3, -3}, {3, 3, 3}));
   scheme.internal(rings, AlgebraicBiotSavart{});
   scheme.calculate();
-  EXPECT_NEAR(std::abs(vortex_measures(rings).helicity), 2 * 2 * 5, 0.01);
+  return vortex_measures(rings).helicity;
+}
+
+// 2 Gamma1 Gamma2 times the linking number (H. K. Moffatt, J. Fluid Mech. 35, 117 (1969)): the second ring goes through
+// the disc of the first once, downwards, or not at all.
+TEST(VortexMeasures, CountHowOftenRingsAreLinked) {
+  EXPECT_NEAR(helicity_of_rings(5, 1), -20, 0.01);
+  EXPECT_NEAR(helicity_of_rings(-5, 1), 20, 0.01);
+  EXPECT_NEAR(helicity_of_rings(5, 2.2), 0, 0.01);
+}
+
+// A tube without twist along a knot: Gamma^2 times the writhe of its line, which is its self-linking number, -3 of this
+// trefoil, less its torsion in turns (G. Calugareanu 1961; H. K. Moffatt and R. L. Ricca, Proc. R. Soc. A 439, 411
+// (1992)).
+TEST(VortexMeasures, KnowTheWritheOfAKnot) {
+  std::size_t const steps = 1000;
+  double turns = 0;
+  for (std::size_t k = 0; k < steps; ++k) {
+    double const t = 2 * pi * static_cast<double>(k) / static_cast<double>(steps), s = std::sin(t), c = std::cos(t),
+                 s2 = std::sin(2 * t), c2 = std::cos(2 * t), s3 = std::sin(3 * t), c3 = std::cos(3 * t);
+    Vector<3> const first{c + 4 * c2, -s + 4 * s2, -3 * c3}, second{-s - 8 * s2, -c + 8 * c2, 9 * s3},
+        third{-c - 16 * c2, s - 16 * s2, 27 * c3}, binormal = cross(first, second);
+    turns += dot(binormal, third) / norm2(binormal) * magnitude(first) / static_cast<double>(steps);
+  }
+  Ensemble<Inviscid<3>> knot("knot");
+  vortex_tube_load(
+      knot,
+      [](double u) {
+        double const t = 2 * pi * u;
+        return Vector<3>{std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)};
+      },
+      {.circulation = 1.5, .core_radius = 0.15, .layers = 1});
+  PairScheme scheme(Box({-4, -4, -2}, {4, 4, 2}));
+  scheme.internal(knot, GaussianBiotSavart{});
+  scheme.calculate();
+  EXPECT_NEAR(vortex_measures(knot).helicity / (1.5 * 1.5 * (-3 - turns)), 1, 0.01);
 }
 
 // RK4, open space: circulation to rounding, impulses as far as the step goes: 1e-8 in a turn.

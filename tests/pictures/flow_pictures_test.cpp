@@ -87,6 +87,116 @@ TEST(FlowPictures, ASliceInSpaceHasQAndVorticity) {
   EXPECT_NEAR(q.high / (bar.high * bar.high / 4), 1, 0.1);
 }
 
+// A straight column of Gaussian cores turns with u = Gamma (1 - exp(-t)) / (2 pi r), t = r^2 / (2 core^2); of any swirl
+// Q = (u / r) du/dr, positive inside and negative outside of 1.585 cores: each pixel of a slice has the colour of that.
+TEST(FlowPictures, ASliceOfAColumnHasTheQOfItsSwirl) {
+  double const core = 0.2, gamma = 3, spacing = 0.1;
+  Ensemble<Inviscid<3>> column("column", 401);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    column[i].position = {0, 0, spacing * (static_cast<double>(i) - 200)};
+    column[i].vorticity = {0, 0, gamma * spacing};
+    column[i].core = core;
+  }
+  PairScheme scheme(Box({-1, -1, -1}, {1, 1, 1}));
+  scheme.internal(column, GaussianBiotSavart{});
+  Simulation simulation(scheme, 0.1);
+  double const at_axis = square(gamma / (4 * pi * core * core));
+  Picture const picture{.drawing = "flow", .y = "Q", .low = -at_axis, .high = at_axis, .slice = "z", .cells = 50};
+  Canvas const canvas = draw(picture, {simulation, UnitSystem::reduced(), "", 0, 0, ""});
+  auto const& image = canvas.images().at(0);
+  double most = 0, least = 0;
+  for (int row = 0; row < image.rows; ++row)
+    for (int k = 0; k < image.columns; ++k) {
+      double const x = image.x0 + (image.x1 - image.x0) * (k + 0.5) / image.columns,
+                   y = image.y0 + (image.y1 - image.y0) * (row + 0.5) / image.rows, r = std::hypot(x, y),
+                   gone = std::exp(-r * r / (2 * core * core)), u = gamma * (1 - gone) / (2 * pi * r),
+                   slope = gamma * gone / (2 * pi * core * core) - u / r, q = u / r * slope;
+      most = std::max(most, q), least = std::min(least, q);
+      if (r > 0.9) continue;  // the ends of the column are felt
+      Colour const exact = map_colour(ColourMap::diverging, place_between(-at_axis, at_axis, q));
+      std::uint32_t const drawn = image.pixels.at(static_cast<std::size_t>(row * image.columns + k));
+      for (auto const& [part, shift] : {std::pair{exact.red, 16U}, {exact.green, 8U}, {exact.blue, 0U}})
+        EXPECT_NEAR(static_cast<double>(drawn >> shift & 255U), 255 * static_cast<double>(part), 2) << x << " " << y;
+    }
+  EXPECT_GT(most, 0.95 * at_axis);
+  EXPECT_LT(least, -0.05 * at_axis);
+}
+
+// Dye of a shear: each place has a straight line of its own height, the oldest first, at u(y) times its age.
+TEST(Streaklines, JoinDyeInOrderOfRelease) {
+  Ensemble<Dye<2>> dye("dye", 1);
+  dye[0].position = {3, 1.5};
+  PairScheme scheme(Box({0, -2}, {8, 2}));
+  scheme.external(dye, ShearFlow<2>{.direction = {1, 0}, .gradient = {0, 0.25}, .origin = {0, -4}});
+  Simulation simulation(scheme, 0.1);
+  simulation.adapt(2, DyeSource(dye, {.from = {1, -1}, .to = std::array<double, 3>{1, 1}, .places = 3}));
+  simulation.run(21);
+  auto const drawn = [&](Picture picture) {
+    picture.streaklines = true;
+    return draw(picture, {simulation, UnitSystem::reduced(), "", 21, simulation.time(), ""});
+  };
+  Canvas const canvas = drawn({});
+  ASSERT_EQ(canvas.curves().size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    auto const& line = canvas.curves()[k];
+    ASSERT_EQ(line.x.size(), 10U);
+    EXPECT_TRUE(line.z.empty());
+    double const y = static_cast<double>(k) - 1;
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_NEAR(line.x[i], 1 + (y + 4) / 4 * (2.1 - 0.2 * static_cast<double>(i + 1)), 1e-12) << k << " " << i;
+      EXPECT_NEAR(line.y[i], y, 1e-14);
+    }
+  }
+  ASSERT_EQ(canvas.points().size(), 1U) << "what was there from the start";
+  EXPECT_EQ(canvas.clouds().at(0).count(), 0U);
+  EXPECT_EQ(drawn({.colour = "release"}).clouds().at(0).count(), 31U) << "coloured particles stay";
+  EXPECT_EQ(drawn({.drawing = "cartesian", .region = {{0, 8}, {-0.5, 2}}}).curves().size(), 2U);
+  // Neighbours are 0.15, 0.2 and 0.25 apart.
+  Canvas const far = drawn({.gap = 0.17});
+  EXPECT_EQ(far.curves().size(), 1U);
+  EXPECT_EQ(far.points().size(), 21U);
+  // The fourth of the place in the middle goes.
+  for (std::size_t i = 0; i < dye.size(); ++i)
+    if (dye[i].place == 2 && dye[i].release == 4) dye[i] = dye[dye.size() - 1];
+  dye.resize(dye.size() - 1);
+  auto const parts = drawn({});
+  ASSERT_EQ(parts.curves().size(), 4U);
+  EXPECT_EQ(parts.curves()[1].x.size(), 3U);
+  EXPECT_EQ(parts.curves()[2].x.size(), 6U);
+}
+
+// In space the same, and nothing of a line goes through a periodic wall.
+TEST(Streaklines, AreDrawnInSpaceAndEndAtPeriodicWalls) {
+  Ensemble<Dye<3>> dye("dye", 12);
+  for (std::size_t i = 0; i < 12; ++i) {
+    double const k = static_cast<double>(i);
+    dye[i].position = {0.5 * k - (i < 6 ? 0.0 : 3.0), 1, 0.1 * k};
+    dye[i].place = 1, dye[i].release = 12 - k;  // rows in any order
+  }
+  PairScheme scheme(Box({0, 0, 0}, {3, 2, 2}, Boundary::periodic));
+  scheme.external(dye, UniformFlow<3>{{1, 0, 0}});
+  Simulation simulation(scheme, 0.1);
+  Canvas const canvas = draw({.streaklines = true, .gap = 10}, {simulation, UnitSystem::reduced(), "", 0, 0, ""});
+  ASSERT_EQ(canvas.curves().size(), 2U);
+  for (auto const& line : canvas.curves()) ASSERT_EQ(line.z.size(), 6U);
+  EXPECT_EQ(canvas.curves()[0].z[0], 0.1 * 11.0);
+  EXPECT_EQ(canvas.curves()[1].z[5], 0);
+  EXPECT_TRUE(canvas.projection());
+}
+
+TEST(Streaklines, SayWhatTheyNeed) {
+  Ensemble<Vortex<2>> vortices("vortices", 1);
+  Ensemble<Dye<3>> dye("dye", 1);
+  Ensemble<Vortex<3>> space("space", 1);
+  auto const said = [](std::string const& drawing, std::vector<AnyEnsemble*> const& ensembles) {
+    return message([&] { check({.drawing = drawing, .streaklines = true}, ensembles, {}, {}); });
+  };
+  EXPECT_NE(said("cartesian", {&vortices}).find("no ensemble is of class Dye"), std::string::npos);
+  EXPECT_NE(said("flow", {&vortices}).find("no ensemble is of class Dye"), std::string::npos);
+  EXPECT_NE(said("flow", {&space, &dye}).find("'cartesian' draws streaklines"), std::string::npos);
+  EXPECT_EQ(said("cartesian", {&space, &dye}), "no error");
+}
+
 // Lines along solid rotation are circles about the middle; along a shear they are straight, and end at the walls.
 TEST(Streamlines, GoAlongTheFlow) {
   MeshGrid grid;

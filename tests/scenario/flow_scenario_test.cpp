@@ -102,6 +102,37 @@ TEST(FlowScenario, StreaklinesAreExactAndGoOn) {
   EXPECT_EQ(second->simulation->adaptations().front()->report(UnitSystem::reduced()), "'dye': 15 released, 16 now");
 }
 
+// Two sources of one ensemble, whose places are numbered through; what leaves takes its numbers with it, and a resume
+// goes on with them.
+TEST(FlowScenario, DyeRemembersPlaceAndRelease) {
+  std::string const text = start + replaced(tracers, "Tracer", "Dye") + replaced(dye, "limit = 20\n", "") +
+                           "[[dye]]\non = \"dye\"\nfrom = [-4, 2]\nevery = 5\n"
+                           "[[influences]]\nlaw = \"uniform-flow\"\non = \"dye\"\nvelocity = [1, 0]\n"
+                           "[[outflow]]\non = \"dye\"\nfrom = [-2.5, 0]\ndirection = [1, 0]\n"
+                           "[[output.pictures]]\ndrawing = \"cartesian\"\nstreaklines = true\ngap = 0.3\n";
+  auto const whole = read(text), first = read(text), second = read(first->resolved);
+  whole->simulation->run(22);
+  first->simulation->run(10);
+  auto &from = ensemble(*first, "dye"), &to = ensemble(*second, "dye");
+  to.resize(from.size());
+  std::memcpy(to.row(0), from.row(0), from.size() * from.stride() * sizeof(double));
+  second->simulation->restore(10, 0.05, 1, first->simulation->state());
+  second->simulation->run(12);
+  auto const& all = ensemble(*whole, "dye");
+  expect_same_bits(all, to);
+  int const place = all.field("place").offset, release = all.field("release").offset;
+  std::size_t of_line = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    double const* const row = all.row(i);
+    double const number = row[place], age = 0.05 * (22 - (number == 4 ? 5 : 4) * row[release]);
+    EXPECT_NEAR(row[0], (number == 4 ? -4 : -3) + age, 1e-13) << i;
+    EXPECT_NEAR(row[1], number == 4 ? 2 : (number - 1) / 2, 1e-13) << i;
+    of_line += number < 4;
+  }
+  EXPECT_EQ(of_line, 9U) << "releases 3, 4 and 5 of three places: the others are beyond the plane";
+  EXPECT_EQ(all.size(), 13U);
+}
+
 TEST(FlowScenario, WallsAreMirrorsWithOneOpenEnd) {
   auto const walled = replaced(start, "high = [5, 5]\n", "high = [5, 5]\nboundary = [\"open\", \"mirror\"]\n");
   auto const opened = walled + "[[box.walls]]\naxis = \"y\"\nend = \"high\"\nopen = true\n";
@@ -200,7 +231,7 @@ TEST(FlowScenario, RefusesWhatCantBe) {
            {space + "[cylinder_flow]\nradius = 1\n" + in_space + "law = \"uniform-flow\"\nvelocity = [1, 0, 0]\n",
             "images in a circle are of 2D"},
            {start + vortices + replaced(dye, "on = \"dye\"", "on = \"vortices\""),
-            "what is released is of class Tracer"},
+            "what is released is of class Dye or Tracer"},
            {start + tracers + replaced(dye, "to = [-3, 1]\n", ""), "a line has both ends"},
            {start + tracers + replaced(dye, "on = \"dye\"", "on = \"die\""), "there is no ensemble 'die'"},
            {start + tracers + replaced(dye, "every = 4", "every = 0"), "every"},

@@ -255,6 +255,24 @@ test("colour, size, ends of the colours, arrows: the window draws them", async (
   await until(() => page.wire.said.findLast((words) => words.do === "views").views[0].size !== "velocity.x", "another size");
 });
 
+test("DYE AS STREAKLINES joins what was released at each place, and GAPS ABOVE says up to where", async (t) => {
+  const run = await bzm(t, ["run", "foppl", "--window", "--out", "run", "--steps", "200"]);
+  const page = await watch(t, chromium, run);
+  await toTheEnd(page, 200);
+  const curves = (wanted) => canvas(page, ({ marks }) => marks.filter(({ kind }) => kind === "curve").length === wanted, `${wanted} curves`);
+  await curves(12); // as the scenario's picture has it
+  await panel(page);
+  await page.uncheck("#view-streaklines");
+  await curves(0);
+  assert.equal(await page.locator("#view-gap").count(), 0);
+  await page.check("#view-streaklines");
+  await curves(12);
+  await commit(page, "#view-gap", "0.001");
+  await curves(0);
+  await commit(page, "#view-gap", "");
+  await curves(12);
+});
+
 test("axes of phase space, bins and logarithm of a histogram", async (t) => {
   const { page } = await copper(t);
   await page.click("#step");

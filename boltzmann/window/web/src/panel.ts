@@ -311,6 +311,13 @@ export class Panel {
         );
       case "trace":
         return hello.folder ? check(id, "Tracks through the stored frames", now === true, set) : null;
+      case "streaklines": {
+        const dye = hello.quantities.some(({ name }) => name === "release");
+        const plane = hello.dimension === 2 || (hello.dimension === 3 && pane.drawing === "cartesian");
+        return dye && plane ? check(id, "Dye as streaklines", now === true, set) : null;
+      }
+      case "gap":
+        return pane.has("streaklines") ? this.length("Gaps above", id, text, "a tenth of the side", set) : null;
       default:
         return null;
     }

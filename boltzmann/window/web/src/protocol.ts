@@ -113,6 +113,8 @@ export interface View {
   weight?: string;
   range?: number | null;
   trace?: boolean;
+  streaklines?: boolean;
+  gap?: number | null;
   vectors?: string;
   azimuth?: number;
   elevation?: number;
