@@ -197,14 +197,21 @@ template <int W>
   }
 }
 
-/// Whether the interpreter, as it is compiled here, rounds as machine code for this width does: a b + c once.
-#if defined(__FMA__) && defined(__OPTIMIZE__)
+/// Whether the interpreter, as it is compiled here, rounds as machine code for this width does: a b + c once. Checks of
+/// Clang's undefined behaviour sanitizer come between the product and the sum.
+#if defined(__has_feature)
+#if __has_feature(undefined_behavior_sanitizer)
+#define BOLTZMANN_ROUNDS_TWICE
+#endif
+#endif
+#if defined(__FMA__) && defined(__OPTIMIZE__) && !defined(BOLTZMANN_ROUNDS_TWICE)
 template <int W>
 inline constexpr bool rounds_as_machine_code = W * sizeof(double) == 32 || W * sizeof(double) == 64;
 #else
 template <int W>
 inline constexpr bool rounds_as_machine_code = false;
 #endif
+#undef BOLTZMANN_ROUNDS_TWICE
 
 /// What a program does once for a row.
 template <int W>
