@@ -62,6 +62,17 @@ std::vector<double> results_of(FormulaProgram const& program) {
   return results;
 }
 
+/// Whether the interpreter rounds a b + c once, as machine code does: that depends on how this file is optimised.
+bool rounds_once() {
+  if (!detail::rounds_as_machine_code<W>) return false;
+  auto const work = std::make_unique<detail::Workspace<W>>();
+  double const numbers[] = {1 + 0x1p-30, 1 - 0x1p-30, -1};
+  for (std::size_t k = 0; k < 3; ++k) std::fill_n(work->column(k), W, numbers[k]);
+  Step const step{Instruction::fuse, Operation::exp, {3, false}, {0, false}, {1, false}, {2, false}};
+  detail::run_steps<W>(*work, &step, 1, 1);
+  return work->column(3)[0] == -0x1p-60;
+}
+
 void need_same(std::vector<double> const& a, std::vector<double> const& b) {
   for (std::size_t k = 0; k < a.size(); ++k)
     if (std::bit_cast<std::uint64_t>(a[k]) != std::bit_cast<std::uint64_t>(b[k]) && !(a[k] != a[k] && b[k] != b[k]))
@@ -79,7 +90,8 @@ bool as_a_law(std::string const& text, UnitSystem const& units) try {
     auto program = make_program(graph, results, columns, rows);
     auto const interpreted = results_of(program);
     program.code = machine_code(program, W);
-    if (auto const results = results_of(program); detail::rounds_as_machine_code<W>) need_same(interpreted, results);
+    static bool const comparable = rounds_once();
+    if (auto const results = results_of(program); comparable) need_same(interpreted, results);
     for (auto const e : results) graph.value(e, {0.1, 0.2, 0.3, 0.14, 1, -2, 3});
   } catch (FormulaError const&) {
     throw;
