@@ -32,6 +32,7 @@
 #include <boltzmann/dissipation/nose_hoover.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
+#include <boltzmann/dissipation/typed_friction.hpp>
 #include <boltzmann/dissipation/velocity_rescaling.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/laws/angular.hpp>

@@ -34,8 +34,11 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
   std::string best;
   std::size_t best_distance = word.size() + 1000;
   for (auto const& candidate : candidates) {
+    auto const [shorter, longer] = std::minmax({word.size(), candidate.size()});
+    std::size_t const most = longer / 3 + 1;
+    if (longer - shorter > most || longer - shorter >= best_distance) continue;  // it is as far at least
     std::size_t const distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance <= std::max(word.size(), candidate.size()) / 3 + 1) {
+    if (distance < best_distance && distance <= most) {
       best = candidate;
       best_distance = distance;
     }

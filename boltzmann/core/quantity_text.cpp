@@ -382,13 +382,16 @@ std::string with_article(std::string const& noun) {
 
 std::span<NamedUnit const> unit_table() { return table; }
 
-std::vector<std::string> unit_names() {
-  std::vector<std::string> names;
-  std::set<std::string> seen;
-  for_each_name([&](std::string name, double, NamedUnit const&) {
-    if (seen.insert(name).second) names.push_back(std::move(name));
-  });
-  return names;
+std::vector<std::string> const& unit_names() {
+  static auto const all = [] {
+    std::vector<std::string> names;
+    std::set<std::string> seen;
+    for_each_name([&](std::string name, double, NamedUnit const&) {
+      if (seen.insert(name).second) names.push_back(std::move(name));
+    });
+    return names;
+  }();
+  return all;
 }
 
 TextQuantity parse_quantity(std::string_view text) {

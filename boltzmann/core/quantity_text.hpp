@@ -32,7 +32,7 @@ struct NamedUnit {
 std::span<NamedUnit const> unit_table();
 
 /// All names known to parse_quantity: symbols, singular, plural, other spellings; the prefixed ones come last.
-std::vector<std::string> unit_names();
+std::vector<std::string> const& unit_names();
 
 /// Reads "2.551 angstrom", "0.2 eV/angstrom^2", "9.81 m/s^2", "1 kcal/mol", "5 J/(kg K)", "300 K", "0.5 1/s", "5", "0.3
 /// pi", "36 degree". A number (or pi), then units joined by a blank or * (times) and / (divided by), from left to

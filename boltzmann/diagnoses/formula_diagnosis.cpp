@@ -17,7 +17,7 @@ ParticleNames names_for(AnyEnsemble const& ensemble, DiagnosisParameters const& 
   names.add_time();
   auto const need_new = [&](std::string const& name) {
     if (names.inputs.has(name))
-      throw FormulaLawError(name, 0, fmt::format("'{}' means something else in a formula already", name));
+      throw FormulaPartError(name, 0, fmt::format("'{}' means something else in a formula already", name));
   };
   for (auto const& [name, value, dimension] : parameters.formula_parameters) {
     need_new(name);
@@ -28,7 +28,7 @@ ParticleNames names_for(AnyEnsemble const& ensemble, DiagnosisParameters const& 
     try {
       names.inputs.define(name, text);
     } catch (FormulaError const& error) {
-      throw FormulaLawError(name, error.offset, error.what());
+      throw FormulaPartError(name, error.offset, error.what());
     }
   }
   return names;

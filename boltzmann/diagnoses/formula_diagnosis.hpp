@@ -9,7 +9,7 @@
 namespace boltzmann {
 
 /// parameters.formula over the particles of each ensemble (or of the group): one column, or one for each component of a
-/// vector. FormulaError, or FormulaLawError with the part, if a text is wrong.
+/// vector. FormulaError, or FormulaPartError with the part, if a text is wrong.
 std::unique_ptr<Diagnosis> formula_diagnosis(DiagnosisParameters const& parameters);
 
 /// The dimension of parameters.formula of one particle. FormulaError as above.

@@ -3,6 +3,7 @@
 #include <boltzmann/dissipation/dissipation_kernels.hpp>
 #include <boltzmann/dissipation/dissipation_point.hpp>
 #include <boltzmann/dissipation/strength.hpp>
+#include <boltzmann/formulas/evaluate.hpp>
 #include <boltzmann/neighbours/near_task.hpp>
 #include <boltzmann/particles/rows.hpp>
 
@@ -78,35 +79,85 @@ struct Exchange {
   Reals<W> loss, transfer;
 };
 
+// ---- Typed friction ----
+
+/// Results of its program for this many pairs stand behind each other.
+inline constexpr std::size_t typed_results = 3;
+
+/// Runs the program of typed friction on `count` pairs, at most block_pairs, whose points `p(lane)` and `q(lane)` give;
+/// pair k's results come to out[k], out[stride + k], ...
+template <int W, int D, class P, class Q>
+[[gnu::always_inline]] inline void run_typed(Workspace<W>& work, PairNoise const& noise, std::size_t count, P const& p,
+                                             Q const& q, double* out, std::size_t stride) {
+  FormulaProgram const& program = *noise.typed;
+  std::size_t const packs = (count + W - 1) / W;
+  for (std::size_t k = 0; k < packs; ++k) {
+    auto const a = p(k * W), b = q(k * W);
+    Reals<W> const square = norm2(a.position - b.position);
+    store_pack<W>(work.column(0) + k * W, min(max(square, Reals<W>(least_square)), Reals<W>(noise.greatest_square)));
+    store_pack<W>(work.column(1) + k * W, 2.0 / (a.inverse_temperature + b.inverse_temperature));
+  }
+  run_program<W>(work, program, packs);
+  for (std::size_t c = 0; c < typed_results; ++c) {
+    double const* const from = work.place(program.results[c]);
+    std::size_t const step = stride_of<W>(program.results[c]);
+    for (std::size_t k = 0; k < packs; ++k) store_pack<W>(out + c * stride + k * W, load_pack<W>(from + k * step));
+  }
+}
+
+template <int W>
+[[gnu::always_inline]] inline void begin_typed(Workspace<W>& work, FormulaProgram const& program) {
+  work.set_constants(program);
+  run_row<W>(work, program);
+}
+
 /// How two particles stand to each other: from the second to the first, one over the distance, and chi: zero out of
-/// range, and for projected friction at one place, where there is no line of centres.
-template <int W, int D, bool projected>
+/// range, and for projected friction at one place, where there is no line of centres. `typed`: results of the program of
+/// typed friction for these pairs, if it is typed.
+template <int W, int D, bool projected, bool is_typed>
 struct Separation {
   Vector<D, Reals<W>> line;
   Reals<W> inverse, chi;
+  Reals<W> conduction;  ///< chi of conduction
+  Reals<W> change;      ///< of friction with the temperature, times chi^2; of typed friction alone
 
   [[gnu::always_inline]] Separation(DissipationPoint<D, Reals<W>> const& p, DissipationPoint<D, Reals<W>> const& q,
-                                    PairNoise const& noise)
+                                    PairNoise const& noise, double const* typed, std::size_t stride)
       : line(p.position - q.position) {
     Reals<W> const zero = 0.0, r2 = norm2(line), safe = max(r2, Reals<W>(1e-300));
     inverse = rsqrt(safe);
-    chi = select(r2 < noise.range2, weight_of<W>(max(1.0 - safe * inverse * noise.inverse_range, zero), noise), zero);
-    if constexpr (projected) chi = select(r2 > zero, chi, zero);
+    auto const within = [&](Reals<W> x) __attribute__((always_inline)) {
+      Reals<W> const inside = select(r2 < noise.range2, x, zero);
+      return projected ? select(r2 > zero, inside, zero) : inside;
+    };
+    if constexpr (is_typed) {
+      chi = within(load_pack<W>(typed));
+      conduction = within(load_pack<W>(typed + stride));
+      change = within(load_pack<W>(typed + 2 * stride));
+    } else {
+      chi = within(weight_of<W>(max(1.0 - safe * inverse * noise.inverse_range, zero), noise));
+      conduction = chi;
+    }
   }
 };
 
-template <int W, int D, bool projected, bool conducts>
+template <int W, int D, bool projected, bool conducts, bool is_typed>
 [[gnu::always_inline]] inline Exchange<W, D> exchange(DissipationPoint<D, Reals<W>> const& p,
                                                       DissipationPoint<D, Reals<W>> const& q, Reals<W> const* normal,
-                                                      Reals<W> sign, PairNoise const& noise, double asymmetry) {
+                                                      Reals<W> sign, PairNoise const& noise, double asymmetry,
+                                                      double const* typed, std::size_t typed_stride) {
   constexpr int directions = projected ? 1 : D;
-  Separation<W, D, projected> const apart(p, q, noise);
+  Separation<W, D, projected, is_typed> const apart(p, q, noise, typed, typed_stride);
   Reals<W> const chi = apart.chi, chi2 = chi * chi;
   Vector<D, Reals<W>> const v = p.velocity - q.velocity;
   Exchange<W, D> result;
   Reals<W> const inverse_masses = p.inverse_mass + q.inverse_mass;
   Reals<W> const inverse_temperatures = p.inverse_temperature + q.inverse_temperature;
   Reals<W> const product = p.inverse_temperature * q.inverse_temperature;
+  auto const drag_of = [&](Strength<Reals<W>> const& s) __attribute__((always_inline)) {
+    if constexpr (is_typed) return s.friction * chi2 + s.by_change * apart.change;
+    return s.friction * chi2;
+  };
   auto const strength = [&](Reals<W> square) {
     return Strength<Reals<W>>(noise, inverse_temperatures, product, p.curvature + q.curvature, inverse_masses, square,
                               directions);
@@ -115,20 +166,21 @@ template <int W, int D, bool projected, bool conducts>
     Vector<D, Reals<W>> const e = apart.line * apart.inverse;
     Reals<W> const u = dot(v, e);
     auto const s = strength(u * u);
-    Reals<W> const push = s.noise * chi * normal[0] - s.friction * chi2 * u;
+    Reals<W> const push = s.noise * chi * normal[0] - drag_of(s) * u;
     result.momentum = e * push;
     result.loss = 0.5 * push * u;
     result.transfer = asymmetry * push * push * (q.inverse_mass - p.inverse_mass);
   } else {
     auto const s = strength(norm2(v));
-    Reals<W> const amplitude = s.noise * chi * sign, drag = s.friction * chi2;
+    Reals<W> const amplitude = s.noise * chi * sign, drag = drag_of(s);
     for (int a = 0; a < D; ++a) result.momentum[a] = amplitude * normal[a] - drag * v[a];
     result.loss = 0.5 * dot(result.momentum, v);
     result.transfer = asymmetry * norm2(result.momentum) * (q.inverse_mass - p.inverse_mass);
   }
   if constexpr (conducts)
-    result.transfer -= noise.conduction * chi2 * (p.inverse_temperature - q.inverse_temperature) +
-                       noise.conduction_noise * chi * sign * normal[directions];
+    result.transfer -=
+        noise.conduction * (apart.conduction * apart.conduction) * (p.inverse_temperature - q.inverse_temperature) +
+        noise.conduction_noise * apart.conduction * sign * normal[directions];
   return result;
 }
 
@@ -194,10 +246,36 @@ template <int W, int count>
   return out;
 }
 
-/// What friction and noise do between a row and its groups [first, last).
-template <int W, int D, bool projected, bool conducts>
+inline constexpr std::size_t typed_stride = noise_groups * list_padding;
+
+/// The results of typed friction's program for groups [first, last) of a row; where those of further groups come.
+template <int W, int D>
+[[gnu::noinline]] double* weigh_row(DissipationTask const& task, std::size_t i, std::size_t first, std::size_t last,
+                                    double* out) {
+  constexpr std::size_t stride = dissipation_point_stride(D), blocks = stride / 4;
+  Workspace<W> work;
+  begin_typed<W>(work, *task.noise.typed);
+  auto const p = broadcast<DissipationPoint<D>, Reals<W>>(task.target + stride * i);
+  for (std::size_t group = first; group < last; group += block_pairs / list_padding) {
+    std::size_t const left = (last - group) * list_padding, count = left < block_pairs ? left : block_pairs;
+    std::uint32_t const* const entries = task.row[i] + 2 * list_padding * group;
+    run_typed<W, D>(
+        work, task.noise, count, [&](std::size_t) { return p; },
+        [&](std::size_t k) {
+          std::uint32_t const* const j = entries + 2 * list_padding * (k / list_padding) + k % list_padding;
+          return load_rows<DissipationPoint<D>, W>([&](int lane) { return task.source + blocks * j[lane]; });
+        },
+        out, typed_stride);
+    out += count;
+  }
+  return out;
+}
+
+/// What friction and noise do between a row and its groups [first, last). `typed`: results of typed friction's program
+/// for them, if it is typed.
+template <int W, int D, bool projected, bool conducts, bool is_typed>
 [[gnu::always_inline]] inline double const* exchange_row(DissipationTask const& task, std::size_t i, std::size_t first,
-                                                         std::size_t last, double const* noise) {
+                                                         std::size_t last, double const* noise, double const* typed) {
   constexpr std::size_t stride = dissipation_point_stride(D), blocks = stride / 4;
   constexpr int count = (projected ? 1 : D) + (conducts ? 1 : 0);
   double const* const source = task.source;
@@ -216,7 +294,9 @@ template <int W, int D, bool projected, bool conducts>
       for (int n = 0; n < count; ++n, noise += W)
         normal[n] = *reinterpret_cast<typename Reals<W>::Native const*>(noise);
       Reals<W> const sign = order_of<W>(self, widened<W>(j + list_padding), task.noise);
-      auto const pair = exchange<W, D, projected, conducts>(p, q, normal, sign, task.noise, task.asymmetry);
+      auto const pair = exchange<W, D, projected, conducts, is_typed>(p, q, normal, sign, task.noise, task.asymmetry,
+                                                                      typed, typed_stride);
+      if constexpr (is_typed) typed += W;
       momentum += pair.momentum;
       loss += pair.loss + pair.transfer;
       if (!task.noise.same) continue;
@@ -237,10 +317,11 @@ template <int W, int D, bool projected, bool conducts>
   return noise;
 }
 
-template <int W, int D, bool projected, bool conducts>
+template <int W, int D, bool projected, bool conducts, bool is_typed>
 [[gnu::always_inline]] inline void simultaneous_rows(DissipationTask const& task) {
   constexpr int count = (projected ? 1 : D) + (conducts ? 1 : 0);
   alignas(64) double noise[noise_groups * list_padding * count];
+  alignas(64) double weighed[is_typed ? typed_results * typed_stride : 1];
   auto const groups = [&](std::size_t i) { return (task.length[i] + list_padding - 1) / list_padding; };
   for (std::size_t i = task.begin; i < task.end;) {
     std::size_t stop = i + 1, all = groups(i);
@@ -249,30 +330,71 @@ template <int W, int D, bool projected, bool conducts>
       for (std::size_t first = 0; first < all; first += noise_groups) {
         std::size_t const last = first + noise_groups < all ? first + noise_groups : all;
         draw_row<W, count>(task, i, first, last, noise);
-        exchange_row<W, D, projected, conducts>(task, i, first, last, noise);
+        if constexpr (is_typed) weigh_row<W, D>(task, i, first, last, weighed);
+        exchange_row<W, D, projected, conducts, is_typed>(task, i, first, last, noise, weighed);
       }
     } else {
       double* drawn = noise;
       for (std::size_t k = i; k < stop; ++k) drawn = draw_row<W, count>(task, k, 0, groups(k), drawn);
-      double const* used = noise;
-      for (std::size_t k = i; k < stop; ++k)
-        used = exchange_row<W, D, projected, conducts>(task, k, 0, groups(k), used);
+      if constexpr (is_typed) {
+        double* to = weighed;
+        for (std::size_t k = i; k < stop; ++k) to = weigh_row<W, D>(task, k, 0, groups(k), to);
+      }
+      double const *used = noise, *results = weighed;
+      for (std::size_t k = i; k < stop; ++k) {
+        used = exchange_row<W, D, projected, conducts, is_typed>(task, k, 0, groups(k), used, results);
+        if constexpr (is_typed) results += groups(k) * list_padding;
+      }
     }
     i = stop;
   }
 }
 
-template <int W, int D, bool projected>
-[[gnu::flatten]] void simultaneous(DissipationTask const& task) {
+template <int W, int D, bool projected, bool is_typed>
+[[gnu::flatten]] void simultaneous_of(DissipationTask const& task) {
   if (task.noise.conduction > 0)
-    simultaneous_rows<W, D, projected, true>(task);
+    simultaneous_rows<W, D, projected, true, is_typed>(task);
   else
-    simultaneous_rows<W, D, projected, false>(task);
+    simultaneous_rows<W, D, projected, false, is_typed>(task);
+}
+
+template <int W, int D, bool projected>
+void simultaneous(DissipationTask const& task) {
+  if (task.noise.typed)
+    simultaneous_of<W, D, projected, true>(task);
+  else
+    simultaneous_of<W, D, projected, false>(task);
+}
+
+/// The results of typed friction's program for all pairs of the task.
+template <int W, int D>
+[[gnu::noinline]] void weigh_pairs(GeometryTask const& task, double* out) {
+  constexpr std::size_t stride = dissipation_point_stride(D);
+  Workspace<W> work;
+  begin_typed<W>(work, *task.noise.typed);
+  for (std::size_t first = 0; first < task.count; first += block_pairs) {
+    std::size_t const left = task.count - first, count = left < block_pairs ? left : block_pairs;
+    auto const pair = [&](std::size_t k) { return task.pairs[first + (first + k < task.count ? k : count - 1)]; };
+    run_typed<W, D>(
+        work, task.noise, count,
+        [&](std::size_t k) {
+          return load_rows<DissipationPoint<D>, W>(
+              [&](int lane) { return task.first + stride * pair(k + static_cast<std::size_t>(lane)).first; });
+        },
+        [&](std::size_t k) {
+          return load_rows<DissipationPoint<D>, W>(
+              [&](int lane) { return task.second + stride * pair(k + static_cast<std::size_t>(lane)).seen; });
+        },
+        out + first, geometry_block);
+  }
 }
 
 template <int W, int D, bool projected>
 [[gnu::flatten]] void geometry(GeometryTask const& task) {
   constexpr std::size_t stride = dissipation_point_stride(D);
+  alignas(64) double weighed[typed_results * geometry_block];
+  bool const typed = task.noise.typed != nullptr;
+  if (typed && !task.noise.of_temperature) weigh_pairs<W, D>(task, weighed);
   constexpr int directions = projected ? 1 : D;
   auto const store = [&](std::size_t column, std::size_t k, Reals<W> x) {
     *reinterpret_cast<typename Reals<W>::Native*>(task.columns + column * geometry_block + k) = x.native;
@@ -281,8 +403,20 @@ template <int W, int D, bool projected>
     auto const pair = [&](int lane) { return task.pairs[k + lane < task.count ? k + lane : task.count - 1]; };
     auto const p = load_rows<DissipationPoint<D>, W>([&](int lane) { return task.first + stride * pair(lane).first; });
     auto const q = load_rows<DissipationPoint<D>, W>([&](int lane) { return task.second + stride * pair(lane).seen; });
-    Separation<W, D, projected> const apart(p, q, task.noise);
-    store(0, k, apart.chi);
+    Separation<W, D, projected, false> const apart(p, q, task.noise, nullptr, 0);
+    Reals<W> chi = apart.chi, conduction = apart.chi;
+    if (typed && !task.noise.of_temperature) {
+      Separation<W, D, projected, true> const by_formula(p, q, task.noise, weighed + k, geometry_block);
+      chi = by_formula.chi;
+      conduction = by_formula.conduction;
+    }
+    store(0, k, chi);
+    store(weight_column, k, conduction);
+    if (task.noise.of_temperature) {  // temperatures change from pair to pair: chi comes later
+      Reals<W> const one = 1.0, zero = 0.0, r2 = norm2(apart.line), inside = select(r2 < task.noise.range2, one, zero);
+      store(0, k, projected ? select(r2 > zero, inside, zero) : inside);
+      store(weight_column, k, r2);
+    }
     if constexpr (projected)
       for (int a = 0; a < D; ++a) store(1 + a, k, apart.line[a] * apart.inverse);
     Words<W> first{}, second{};
@@ -300,7 +434,7 @@ template <int W, int D, bool projected>
 
 template <int W, int D, bool projected>
 constexpr DissipationKernels dissipation_kernels_of() {
-  return {simultaneous<W, D, projected>, geometry<W, D, projected>};
+  return {simultaneous<W, D, projected>, geometry<W, D, projected>, rounds_as_machine_code<W> ? W : 0};
 }
 
 template <InstructionSet set>

@@ -4,6 +4,7 @@
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/core/pack_random.hpp>
 #include <boltzmann/dissipation/dissipation_law.hpp>
+#include <boltzmann/formulas/formula_program.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +21,12 @@ struct PairNoise {
   double amplitude = 0;     ///< of noise: the root of 2 gamma k dt, times T_ref where the convention has it
   double temperature = 0;   ///< T_ref
   double boltzmann_constant = 0;
-  double conduction = 0;        ///< kappa dt
-  double conduction_noise = 0;  ///< sqrt(2 k kappa dt)
-  bool same = true;             ///< a pair of one ensemble; else targets belong to the first or to the second of two
+  double conduction = 0;                  ///< kappa dt
+  double conduction_noise = 0;            ///< sqrt(2 k kappa dt)
+  FormulaProgram const* typed = nullptr;  ///< that of a TypedFriction, or null
+  bool of_temperature = false;            ///< whether its friction depends on T
+  double greatest_square = 0;             ///< as TypedFriction has it
+  bool same = true;  ///< a pair of one ensemble; else targets belong to the first or to the second of two
   bool first = true;
   std::uint64_t step = 0, tag = 0;  ///< words of the counter beside the two numbers
   PhiloxKey key;
@@ -50,22 +54,24 @@ struct DissipationPair {
   std::uint32_t first, second, seen;
 };
 
-/// Shardlow's splitting: of `count` pairs chi (zero out of range), the direction from second to first (unit vector;
+/// Shardlow's splitting: of `count` pairs chi (zero out of range; of typed friction its strength), the direction from second to first (unit vector;
 /// unprojected: not), and normals: one (projected) or as many as dimensions, and one more where heat is conducted.
 struct GeometryTask {
   double const *first = nullptr, *second = nullptr;                       ///< dissipation points
   std::uint32_t const *first_number = nullptr, *second_number = nullptr;  ///< which particle each (owned) row is
   DissipationPair const* pairs = nullptr;
   std::size_t count = 0;      ///< at most geometry_block
-  double* columns = nullptr;  ///< chi, then 3 of the direction, then 4 normals: geometry_block each
+  double* columns = nullptr;  ///< chi, 3 of the direction, 4 normals, chi of conduction: geometry_block each. Friction
+                              ///< that depends on T has no chi yet, but 1 or zero; behind it the distance's square.
   PairNoise noise;
 };
 inline constexpr std::size_t geometry_block = 256;
-inline constexpr std::size_t geometry_columns = 8;
+inline constexpr std::size_t geometry_columns = 9, weight_column = 8;
 
 struct DissipationKernels {
   void (*simultaneous)(DissipationTask const& task) = nullptr;
   void (*geometry)(GeometryTask const& task) = nullptr;
+  int code_width = 0;  ///< numbers at a time of machine code that goes with these kernels; 0: none does
 };
 
 /// In 1D, 2D, 3D; unprojected, projected.

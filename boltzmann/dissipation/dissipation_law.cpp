@@ -1,5 +1,6 @@
 // Names of conventions and methods, and what a dissipation may be.
 #include <boltzmann/dissipation/pair_dissipation.hpp>
+#include <boltzmann/dissipation/typed_friction.hpp>
 
 #include <boltzmann/core/error.hpp>
 
@@ -34,6 +35,15 @@ Words<DissipationMethod> const& dissipation_method_words() {
 }
 std::string to_string(DissipationMethod method) { return dissipation_method_words().name(method); }
 
+std::string why_no_temperature(Convention convention) {
+  std::string const why = convention == Convention::fixed_temperature ? "particles have no temperatures of their own"
+                          : convention == Convention::constant_noise
+                              ? "noise is the same at all temperatures, so that friction follows from it"
+                              : "there is no noise that could balance another friction";
+  return fmt::format("friction may depend on T with convention \"constant-friction\"; with \"{}\" {}",
+                     to_string(convention), why);
+}
+
 void DissipationLaw::check() const {
   auto const need = [](char const* name, double value, bool right, char const* allowed) {
     if (!std::isfinite(value) || !right)
@@ -51,6 +61,11 @@ void DissipationLaw::check() const {
   }
   if (convention == Convention::fixed_temperature && conduction > 0)
     throw Error("dissipation: at a fixed temperature there are no internal energies that could be conducted");
+  if (!typed) return;
+  if (typed->range() != range)
+    throw Error(fmt::format("dissipation: its formulas are of the range {}, not {}", typed->range(), range));
+  if (typed->of_temperature() && convention != Convention::constant_friction)
+    throw Error("dissipation: " + why_no_temperature(convention));
 }
 
 }  // namespace boltzmann

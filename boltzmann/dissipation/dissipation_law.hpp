@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/words.hpp>
 
+#include <memory>
 #include <string>
 
 namespace boltzmann {
@@ -17,8 +18,12 @@ enum class Convention {
   deterministic,      ///< no noise: friction gamma (T_ext - T_int) / T_ref, of either sign (section 4 of the source)
 };
 
+class TypedFriction;
+
 Words<Convention> const& convention_words();
 std::string to_string(Convention convention);
+/// Why friction can't depend on the temperature of the pair with another convention than constant_friction.
+std::string why_no_temperature(Convention convention);
 
 /// Friction, noise and heat conduction between two particles at distance r, with chi = (1 - r / range)^exponent up to
 /// the range (Eq 1 to 4 of the DPDE source, put right):
@@ -34,6 +39,8 @@ struct DissipationLaw {
   double exponent = 1;    ///< of chi, zero or more: friction falls off with twice that
   bool projected = true;  ///< along the line of centres: angular momentum is conserved as well
   double conduction = 0;  ///< kappa, energy times temperature per time; 0: no heat conduction
+  /// Formulas in place of chi and, perhaps, of the friction; null: none. with_formulas() makes such a law.
+  std::shared_ptr<TypedFriction const> typed = {};
 
   /// Error with one line if a parameter can't be, or one is given that the convention does not use.
   void check() const;

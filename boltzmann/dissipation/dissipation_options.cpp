@@ -18,7 +18,8 @@ OptionTable make_dissipation_options() {
       word(convention_words().names()), "which relation friction and noise obey");
   all.add_of<D>(
       "friction", [](D& d) -> OptionPlace { return &d.dissipation.friction; },
-      number(dimensions::friction, not_negative), "gamma; 0: none");
+      number(dimensions::friction, not_negative),
+      "gamma; 0: none. Or a formula of `r` and, with `\"constant-friction\"`, of `T`, in quotes");
   all.add_of<D>(
       "temperature", [](D& d) -> OptionPlace { return &d.dissipation.temperature; },
       number(dimensions::temperature, positive),
@@ -30,6 +31,9 @@ OptionTable make_dissipation_options() {
   all.add_of<D>(
       "exponent", [](D& d) -> OptionPlace { return &d.dissipation.exponent; }, number(dimensions::none, not_negative),
       "of chi");
+  all.add_said("weight", "a [formula](#laws-that-are-typed) of `r` and `range`, a number, zero or more",
+               "chi, instead of `exponent`: `\"(1 - r/range)^2*(1 + 2*r/range)\"`", "that of `exponent`");
+  all.add_said("parameters", "a table of quantities", "which its formulas use: `{ length = \"4 angstrom\" }`", "none");
   all.add_of<D>(
       "projected", [](D& d) -> OptionPlace { return &d.dissipation.projected; }, flag(),
       "along the line of centres, so that angular momentum is conserved, too; else in all directions");
@@ -93,7 +97,7 @@ std::vector<DissipationKind> const& dissipation_kinds() {
       {"dpd",
        "friction, noise and heat between near particles, which keep the total momentum: DPD, and DPDE with internal "
        "energies",
-       "dp = -friction chi^2 v dt + noise chi dW, chi = (1 - r / range)^exponent, v the relative velocity",
+       "dp = -friction chi^2 v dt + noise chi dW, chi = (1 - r / range)^exponent or a formula, v the relative velocity",
        dissipation_options()},
       {"langevin", "a heat bath on each particle", "dv = -rate v dt + (2 rate k temperature / m)^(1/2) dW",
        bath_options()},

@@ -43,6 +43,7 @@ struct PairDissipation::Member {
 struct PairDissipation::Coupling {
   Member *target, *source;
   DissipationLaw dissipation;
+  FormulaProgram typed;                             // of its formulas, if it has some, for the kernels in use
   std::size_t list;                                 // its number in the neighbourhood
   std::uint32_t number;                             // for random streams; the same for both directions
   bool first;                                       // whether targets are the first of the two ensembles

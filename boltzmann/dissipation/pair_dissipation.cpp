@@ -5,6 +5,8 @@
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
+#include <boltzmann/dissipation/typed_friction.hpp>
+#include <boltzmann/formulas/machine_code.hpp>
 
 #include <fmt/format.h>
 
@@ -112,6 +114,10 @@ void PairDissipation::couple(AnyEnsemble& target, AnyEnsemble& source, Dissipati
     coupling->target = &on;
     coupling->source = &of;
     coupling->dissipation = dissipation;
+    if (dissipation.typed) {
+      coupling->typed = dissipation.typed->program();
+      coupling->typed.code = machine_code(coupling->typed, dissipation_kernels_for(box.dimension(), true).code_width);
+    }
     coupling->list = scheme_.neighbourhood().add(*on.ensemble, *of.ensemble, dissipation.range);
     coupling->number = number;
     coupling->first = is_first;
@@ -176,6 +182,11 @@ PairNoise PairDissipation::Coupling::noise(StepContext const& context, double k,
   n.exponent = d.exponent;
   double const twice = 2 * d.exponent;
   n.twice_exponent = twice == std::floor(twice) && twice <= 16 ? static_cast<int>(twice) : -1;
+  if (d.typed) {
+    n.typed = &typed;
+    n.of_temperature = d.typed->of_temperature();
+    n.greatest_square = d.typed->greatest_square();
+  }
   n.friction = d.friction * context.dt;
   n.amplitude =
       std::sqrt(2 * d.friction * k * context.dt * (d.convention == Convention::constant_friction ? 1 : d.temperature));
@@ -367,9 +378,10 @@ std::vector<std::string> PairDissipation::warnings(double step_size) {
           for (int a = 0; a < m.dimension(); ++a) r2 += (p[a] - q[a]) * (p[a] - q[a]);
           double const x = 1 - std::sqrt(r2) / d.range;
           if (!(x > 0)) continue;
-          double friction = d.friction * std::pow(x, 2 * d.exponent);
-          if (d.convention == Convention::constant_noise)
-            friction *= 0.5 * d.temperature * (p[2 * m.dimension() + 1] + q[2 * m.dimension() + 1]);
+          double const inverse_temperatures = p[2 * m.dimension() + 1] + q[2 * m.dimension() + 1];
+          double const chi = d.typed ? d.typed->at(r2, 2 / inverse_temperatures).strength : std::pow(x, d.exponent);
+          double friction = d.friction * chi * chi;
+          if (d.convention == Convention::constant_noise) friction *= 0.5 * d.temperature * inverse_temperatures;
           double const own = friction * p[m.inverse_mass_at()], other = friction * q[m.inverse_mass_at()];
           rate += d.projected ? own / D : own;
           squares += own * (d.projected ? (1 - 1 / D) / D * own + other / D : other);

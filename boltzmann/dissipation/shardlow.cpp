@@ -5,6 +5,7 @@
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
 #include <boltzmann/dissipation/strength.hpp>
+#include <boltzmann/dissipation/typed_friction.hpp>
 
 #include <fmt/format.h>
 
@@ -22,15 +23,33 @@ struct End {
   StateLaw const* law;  // null likewise
 };
 
-Strength<double> strength_of(PairNoise const& n, End const& i, End const& j, double energy_i, double energy_j,
-                             double square, int directions) {
+/// How strongly a pair is weighed: chi or, where friction depends on temperatures, the square of the distance.
+struct Weighing {
+  double chi, square;
+  TypedFriction const* typed;  // null where chi is known
+};
+
+/// What multiplies v and the normal: gamma chi^2 dt, sigma chi sqrt(dt).
+struct Weighed {
+  double friction, noise;
+};
+
+Weighed strength_of(PairNoise const& n, Weighing const& weighing, End const& i, End const& j, double energy_i,
+                    double energy_j, double square, int directions) {
   double const inverse_masses = i.inverse_mass + j.inverse_mass;
-  if (!i.law) return {n, 0, 0, 0, inverse_masses, square, 1.0 * directions};
+  auto const weighed = [](Strength<double> const& s, double chi, double change) {
+    return Weighed{s.friction * chi * chi + s.by_change * change, s.noise * chi};
+  };
+  if (!i.law) return weighed({n, 0, 0, 0, inverse_masses, square, 1.0 * directions}, weighing.chi, 0);
   double const ti = i.law->temperature(energy_i), tj = j.law->temperature(energy_j);
   double const curvatures = n.convention == Convention::constant_friction
                                 ? 1 / (ti * ti * i.law->heat_capacity(ti)) + 1 / (tj * tj * j.law->heat_capacity(tj))
                                 : 0;
-  return {n, 1 / ti + 1 / tj, 1 / (ti * tj), curvatures, inverse_masses, square, 1.0 * directions};
+  Strength<double> const strength(n, 1 / ti + 1 / tj, 1 / (ti * tj), curvatures, inverse_masses, square,
+                                  1.0 * directions);
+  if (!weighing.typed) return weighed(strength, weighing.chi, 0);
+  auto const at = weighing.typed->at(weighing.square, 2 / (1 / ti + 1 / tj));
+  return weighed(strength, at.strength, at.change);
 }
 
 /// What the entropy gains with some energy: of small changes without a difference of large numbers.
@@ -50,8 +69,9 @@ class PairSteps {
  public:
   static constexpr int directions = projected ? 1 : D;
 
-  PairSteps(PairNoise const& noise, bool metropolis, StepContext const& context)
-      : noise_(noise), metropolis_(metropolis), context_(context) {}
+  /// `typed`: friction that depends on temperatures, or null.
+  PairSteps(PairNoise const& noise, TypedFriction const* typed, bool metropolis, StepContext const& context)
+      : noise_(noise), typed_(typed), metropolis_(metropolis), context_(context) {}
 
   double heat = 0;
   std::uint64_t proposed = 0, refused = 0;
@@ -76,20 +96,22 @@ class PairSteps {
     Stream chance = Stream::pair(
         context_.seed, context_.step | (noise_.tag >> 8U & 0xffU) << 48U, number_i, number_j,
         static_cast<Purpose>(static_cast<std::uint32_t>(Purpose::pair_noise) | static_cast<std::uint32_t>(kind) << 8U));
-    return exchange_momentum(chi, v, normal, i, j, columns, k, chance) &&
-           (noise_.conduction == 0 || conduct(chi, normal[directions], i, j, chance));
+    double const behind = columns[weight_column * geometry_block + k];
+    if (!exchange_momentum({chi, behind, typed_}, v, normal, i, j, columns, k, chance)) return false;
+    if (noise_.conduction == 0) return true;
+    return conduct(typed_ ? typed_->at(behind, 1).weight : behind, normal[directions], i, j, chance);
   }
 
  private:
-  bool exchange_momentum(double chi, double const* v, double const* normal, End const& i, End const& j,
+  bool exchange_momentum(Weighing const& weighing, double const* v, double const* normal, End const& i, End const& j,
                          double const* columns, std::size_t k, Stream& chance) {
     double const reduced = 1 / (i.inverse_mass + j.inverse_mass);
     double const ei = i.energy ? *i.energy : 0, ej = j.energy ? *j.energy : 0;
     double before = 0;
     for (int a = 0; a < directions; ++a) before += v[a] * v[a];
-    auto const now = strength_of(noise_, i, j, ei, ej, before, directions);
+    auto const now = strength_of(noise_, weighing, i, j, ei, ej, before, directions);
     // v' = ((1 - c) v + (s / mu) U) / (1 + c), c = a / 2mu
-    double const c = 0.5 * now.friction * chi * chi / reduced, s = now.noise * chi / reduced;
+    double const c = 0.5 * now.friction / reduced, s = now.noise / reduced;
     double const keep = (1 - c) / (1 + c), kick = s / (1 + c);
     double gained[directions], after = 0;
     for (int a = 0; a < directions; ++a) {
@@ -104,7 +126,7 @@ class PairSteps {
       double const left_i = ei - moved, left_j = ej - moved;
       if (metropolis_) {
         ++proposed;
-        if (!accepted(chi, v, gained, keep, kick, after, i, j, moved, chance)) {
+        if (!accepted(weighing, v, gained, keep, kick, after, i, j, moved, chance)) {
           ++refused;
           return true;
         }
@@ -127,14 +149,14 @@ class PairSteps {
   }
 
   /// Metropolis and Hastings: with energy and momentum given, the density of v is exp((s_i + s_j) / k).
-  bool accepted(double chi, double const* v, double const* gained, double keep, double kick, double after, End const& i,
-                End const& j, double moved, Stream& chance) const {
+  bool accepted(Weighing const& weighing, double const* v, double const* gained, double keep, double kick, double after,
+                End const& i, End const& j, double moved, Stream& chance) const {
     double const u = chance.uniform();
     double const left_i = *i.energy - moved, left_j = *j.energy - moved;
     if (!(left_i > 0 && left_j > 0)) return false;
     double const reduced = 1 / (i.inverse_mass + j.inverse_mass);
-    auto const then = strength_of(noise_, i, j, left_i, left_j, after, directions);
-    double const c = 0.5 * then.friction * chi * chi / reduced, s = then.noise * chi / reduced;
+    auto const then = strength_of(noise_, weighing, i, j, left_i, left_j, after, directions);
+    double const c = 0.5 * then.friction / reduced, s = then.noise / reduced;
     double const keep_back = (1 - c) / (1 + c), kick_back = s / (1 + c);
     double there = 0, back = 0;
     for (int a = 0; a < directions; ++a) {
@@ -183,6 +205,7 @@ class PairSteps {
   }
 
   PairNoise const& noise_;
+  TypedFriction const* typed_;
   bool metropolis_;
   StepContext const& context_;
 };
@@ -201,7 +224,8 @@ void PairDissipation::Splitting::run_in(Edge& edge, Part const& part, PairNoise 
                has_energy ? &*m.law : nullptr};
   };
   alignas(64) double columns[geometry_columns * geometry_block];
-  PairSteps<D, projected> steps(noise, metropolis, context);
+  auto const* typed = part.coupling->dissipation.typed.get();
+  PairSteps<D, projected> steps(noise, noise.of_temperature ? typed : nullptr, metropolis, context);
   for (std::size_t start = 0; start < part.pairs.size(); start += geometry_block) {
     GeometryTask task;
     task.first = first.points.data();

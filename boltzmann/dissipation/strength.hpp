@@ -5,13 +5,14 @@
 
 namespace boltzmann {
 
-/// Friction gamma_ij dt and noise sigma_ij sqrt(dt), without chi: Eq 4 of the source, put right (see Convention). With
+/// Friction gamma_ij dt and noise sigma_ij sqrt(dt), without chi, and for friction that depends on the pair's temperature
+/// what its relative change with that asks (TypedFriction::At::change), times gamma_0 dt: Eq 4 of the source, put right (see Convention). With
 /// internal temperatures Ti, Tj and heat capacities Ci, Cj it is given 1/Ti + 1/Tj, their product 1/(Ti Tj), and the
 /// `curvatures` 1/(Ti^2 Ci) + 1/(Tj^2 Cj), which only constant_friction reads; 1/mi + 1/mj, and the square of the
 /// relative velocity in so many directions, which only the deterministic convention reads.
 template <class Real>
 struct Strength {
-  Real friction, noise;
+  Real friction = 0.0, noise = 0.0, by_change = 0.0;
 
   [[gnu::always_inline]] Strength(PairNoise const& n, Real inverse_temperatures, Real product, Real curvatures,
                                   Real inverse_masses, Real square, double directions) {
@@ -22,6 +23,7 @@ struct Strength {
         break;
       case Convention::constant_friction: {
         Real const root = rsqrt(0.5 * inverse_temperatures), inverse = root * root;  // of k beta
+        by_change = n.friction * (0.25 * n.boltzmann_constant * curvatures * (inverse * inverse));
         friction = n.friction * (1.0 + 0.25 * n.boltzmann_constant * curvatures * (inverse * inverse));
         noise = n.amplitude * root;
         break;

@@ -197,14 +197,21 @@ template <int W>
   }
 }
 
-/// Whether the interpreter, as it is compiled here, rounds as machine code for this width does: a b + c once.
-#if defined(__FMA__) && defined(__OPTIMIZE__)
+/// Whether the interpreter, as it is compiled here, rounds as machine code for this width does: a b + c once. Checks of
+/// Clang's undefined behaviour sanitizer come between the product and the sum.
+#if defined(__has_feature)
+#if __has_feature(undefined_behavior_sanitizer)
+#define BOLTZMANN_ROUNDS_TWICE
+#endif
+#endif
+#if defined(__FMA__) && defined(__OPTIMIZE__) && !defined(BOLTZMANN_ROUNDS_TWICE)
 template <int W>
 inline constexpr bool rounds_as_machine_code = W * sizeof(double) == 32 || W * sizeof(double) == 64;
 #else
 template <int W>
 inline constexpr bool rounds_as_machine_code = false;
 #endif
+#undef BOLTZMANN_ROUNDS_TWICE
 
 /// What a program does once for a row.
 template <int W>
@@ -212,10 +219,32 @@ void run_row(Workspace<W>& work, FormulaProgram const& program) {
   if (program.code && program.code->row()) return program.code->row()(work.scalars);
   run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
 }
-/// The steps of a program, by its machine code where it has some.
+/// Steps at the beginning of an interpreted program that whoever writes column `which` may do at once, with lead(): the
+/// divider works while numbers are gathered.
 template <int W>
-void run_program(Workspace<W>& work, FormulaProgram const& program, std::size_t packs) {
-  if (!program.code) return run_steps<W>(work, program.steps.data(), program.steps.size(), packs);
+std::size_t leading_steps(FormulaProgram const& program, std::size_t which) {
+  std::size_t count = 0;
+  auto const leads = [&](Step const& step) {
+    bool const divides = step.instruction == Instruction::reciprocal || step.instruction == Instruction::root ||
+                         (step.instruction == Instruction::inverse_root && W != 8);
+    return divides && !step.a.scalar && step.a.index == which && !step.to.scalar;
+  };
+  if (!program.code)
+    while (count < program.steps.size() && leads(program.steps[count])) ++count;
+  return count;
+}
+/// A leading step, of this pack.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> lead(Step const& step, Pack<double, W> a) {
+  return step.instruction == Instruction::reciprocal ? Pack<double, W>(1.0 / a)
+         : step.instruction == Instruction::root     ? sqrt(a)
+                                                     : rsqrt(a);
+}
+
+/// The steps of a program from `first` on, by its machine code where it has some.
+template <int W>
+void run_program(Workspace<W>& work, FormulaProgram const& program, std::size_t packs, std::size_t first = 0) {
+  if (!program.code) return run_steps<W>(work, program.steps.data() + first, program.steps.size() - first, packs);
   for (auto const& piece : program.code->pieces()) {
     if (piece.function)
       piece.function(work.columns, work.scalars, packs);

@@ -17,7 +17,7 @@ struct AngularProgram {
 };
 
 /// Of a law whose text is an energy and may use `variable` ("angle", "dihedral"), parameters and parts; the particles
-/// are of this ensemble. FormulaLawError if it is wrong.
+/// are of this ensemble. FormulaPartError if it is wrong.
 AngularProgram angular_program(FormulaLaw const& law, AnyEnsemble const& ensemble, std::string const& variable);
 
 }  // namespace boltzmann

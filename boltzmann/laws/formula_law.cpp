@@ -24,8 +24,8 @@ template <class F>
 auto in_part(std::string const& part, F const& f) {
   try {
     return f();
-  } catch (FormulaLawError const& error) {
-    throw FormulaLawError(error.part.empty() ? part : error.part, error.offset, error.what());
+  } catch (FormulaPartError const& error) {
+    throw FormulaPartError(error.part.empty() ? part : error.part, error.offset, error.what());
   }
 }
 
@@ -35,7 +35,7 @@ class Maker {
     names_.units = law.units;
     names_.checked = !law.units.is_reduced();
     if (law.changes.empty() && target.influence_size() != static_cast<std::size_t>(dimension_))
-      throw FormulaLawError(
+      throw FormulaPartError(
           "", 0,
           fmt::format("what acts on particles of class {} is more than a vector; a formula gives a vector",
                       target.class_name()));
@@ -126,7 +126,7 @@ class Maker {
       Dimension const wanted = influence_dimension(target_);
       need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
       if (!value.is_vector && D > 1)
-        throw FormulaLawError("", 0, fmt::format("a vector is needed, [..., ...], of {} numbers", D));
+        throw FormulaPartError("", 0, fmt::format("a vector is needed, [..., ...], of {} numbers", D));
       results = value.components;
     }
     std::vector<Expression> measured = results;
@@ -143,7 +143,7 @@ class Maker {
 
   AngularProgram angular(std::string const& variable) {
     if (law_.gives != FormulaLaw::Gives::energy || !law_.changes.empty())
-      throw FormulaLawError("", 0, fmt::format("what acts by the {} is an energy", variable));
+      throw FormulaPartError("", 0, fmt::format("what acts by the {} is an energy", variable));
     next_ = 1;
     names_.values[variable] = {{graph_.input(0)}, dimension_of(dimensions::angle), false, false};
     FormulaValue const value = read();
@@ -256,8 +256,8 @@ class Maker {
 
   Field const& changed_field() const {
     if (law_.gives == FormulaLaw::Gives::energy)
-      throw FormulaLawError("", 0,
-                            "an energy moves particles; what changes a field is an influence, which gives its rate");
+      throw FormulaPartError("", 0,
+                             "an energy moves particles; what changes a field is an influence, which gives its rate");
     return target_.field(law_.changes);
   }
   /// As many components as space has.
@@ -265,15 +265,15 @@ class Maker {
     int const number = target_.number_driven(field);
     bool const sum = number >= 0 && target_.driven()[static_cast<std::size_t>(number)].sum;
     if (number < 0)
-      throw FormulaLawError(
+      throw FormulaPartError(
           "", 0,
           fmt::format("{} of class {} does not change: give it a rate in [[classes]], 0 if nothing else changes it",
                       field.name, target_.class_name()));
     bool const vector = target_.is_vector(field);
     if (value.is_vector != vector)
-      throw FormulaLawError("", 0,
-                            vector ? fmt::format("{} is a vector: its rate is one, [..., ...]", field.name)
-                                   : fmt::format("{} is a number: its rate is one, not a vector", field.name));
+      throw FormulaPartError("", 0,
+                             vector ? fmt::format("{} is a vector: its rate is one, [..., ...]", field.name)
+                                    : fmt::format("{} is a number: its rate is one, not a vector", field.name));
     std::string const what =
         fmt::format("{}{}, for {}", dimension_text(field.dimension), sum ? "" : " in a time", field.name);
     need(value, sum ? field.dimension : field.dimension / dimensions::time, what.c_str(), vector);
@@ -292,7 +292,7 @@ class Maker {
         for (auto const e : name.second.components)
           if (changes(name.first) && std::binary_search(inputs.begin(), inputs.end(), graph_.node(e).input) &&
               graph_.node(e).kind == ExpressionGraph::Kind::input)
-            throw FormulaLawError(
+            throw FormulaPartError(
                 "", 0,
                 fmt::format("'{}' changes during a step, and diffusion may not: it may use parameters, "
                             "the time, and fields that stay as they are",
@@ -313,14 +313,14 @@ class Maker {
     auto const taken = [&](std::string const& name) { return names_.values.contains(name) || name == "pi"; };
     for (auto const& parameter : law_.parameters) {
       if (taken(parameter.name))
-        throw FormulaLawError(parameter.name, 0,
-                              fmt::format("'{}' means something else in a formula already", parameter.name));
+        throw FormulaPartError(parameter.name, 0,
+                               fmt::format("'{}' means something else in a formula already", parameter.name));
       names_.values[parameter.name] = {
           {graph_.number(parameter.value)}, dimension_of(parameter.dimension), false, false};
     }
     for (auto const& part : law_.where) {
       if (taken(part.name))
-        throw FormulaLawError(part.name, 0, fmt::format("'{}' means something else in a formula already", part.name));
+        throw FormulaPartError(part.name, 0, fmt::format("'{}' means something else in a formula already", part.name));
       names_.values[part.name] = read_text(part.name, part.text);
     }
   }
@@ -330,16 +330,17 @@ class Maker {
     } catch (FormulaError const& error) {
       for (auto const& sum : unknown_)
         if (std::string_view(error.what()).find("'" + sum + "'") != std::string_view::npos)
-          throw FormulaLawError(part, error.offset,
-                                fmt::format("'{}' is a sum, which is not known while laws act; rates may use it", sum));
-      throw FormulaLawError(part, error.offset, error.what());
+          throw FormulaPartError(
+              part, error.offset,
+              fmt::format("'{}' is a sum, which is not known while laws act; rates may use it", sum));
+      throw FormulaPartError(part, error.offset, error.what());
     }
   }
 
   void need(FormulaValue const& value, Dimension dimension, char const* what, bool vector = false) const {
-    if (value.is_vector && !vector) throw FormulaLawError("", 0, fmt::format("{} is needed, not a vector", what));
+    if (value.is_vector && !vector) throw FormulaPartError("", 0, fmt::format("{} is needed, not a vector", what));
     if (names_.checked && !(value.dimension == dimension) && !(value.plain && graph_.is_number(value.components[0], 0)))
-      throw FormulaLawError("", 0, fmt::format("{} is needed; this is {}", what, dimension_text(value.dimension)));
+      throw FormulaPartError("", 0, fmt::format("{} is needed; this is {}", what, dimension_text(value.dimension)));
   }
 
   /// On the target: (source - target) 2 dU/ds, and dU/dd where the energy knows directions.
@@ -382,16 +383,16 @@ class Maker {
   Expression ended(Expression value, double cutoff, bool is_energy) {
     if (law_.at_cutoff == FormulaLaw::AtCutoff::cut) return value;
     if (!std::isfinite(cutoff))
-      throw FormulaLawError("", 0, "without a cut-off nothing can be shifted or switched off there");
+      throw FormulaPartError("", 0, "without a cut-off nothing can be shifted or switched off there");
     std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
     Expression const r = graph_.root(square_);
     if (law_.at_cutoff == FormulaLaw::AtCutoff::switched) {
       double const from = law_.switch_from > 0 ? law_.switch_from : 0.9 * cutoff;
       if (!(from < cutoff))
-        throw FormulaLawError("", 0,
-                              fmt::format("a law that is switched off between {} and the cut-off {} has no room "
-                                          "for it",
-                                          from, cutoff));
+        throw FormulaPartError("", 0,
+                               fmt::format("a law that is switched off between {} and the cut-off {} has no room "
+                                           "for it",
+                                           from, cutoff));
       // 1 - x^3 (10 - 15 x + 6 x^2): value, slope and curvature are smooth at both ends.
       Expression const x = graph_.apply(Operation::max, graph_.number(0),
                                         graph_.sum(-from / (cutoff - from), {{r, 1 / (cutoff - from)}}));
@@ -447,9 +448,9 @@ class Maker {
     for (int k = 0; k < samples; ++k) {
       Sample const s = sample(k, of_target, of_source);
       if (!equal(graph_.value(energy, s.here), graph_.value(energy, s.there)))
-        throw FormulaLawError("", 0,
-                              "the energy of a pair is another one when p and q change places; within one ensemble it "
-                              "must be the same");
+        throw FormulaPartError("", 0,
+                               "the energy of a pair is another one when p and q change places; within one ensemble it "
+                               "must be the same");
     }
   }
   bool is_antisymmetric(std::vector<Expression> const& results, bool along, std::vector<RowInput> const& of_target,

@@ -24,13 +24,6 @@ struct FormulaPart {
   std::string name, text;
 };
 
-/// What is wrong with a law: in which of its texts (a part's name; empty: the law's own), and where in it.
-struct FormulaLawError : FormulaError {
-  FormulaLawError(std::string the_part, std::size_t at, std::string const& message)
-      : FormulaError(at, message), part(std::move(the_part)) {}
-  std::string part;
-};
-
 /// A law as text. Between two particles it may use r (their distance), separation (q.position - p.position), velocity (of
 /// q relative to p), p.FIELD and q.FIELD for every field of their classes but the position; from outside: x, y, z,
 /// position, time, and the fields by their names. Either it is the energy, of which the influence is the negative
@@ -64,7 +57,7 @@ struct FormulaLaw {
   /// Which of the formula's particles the target is: in energies between two ensembles p is of the first one, whoever is
   /// asked about; an influence acts on p.
   enum class Target { p, q };
-  /// The influence of `source` on `target` up to a cut-off. FormulaLawError if a text is wrong, an energy is none, or the energy of two
+  /// The influence of `source` on `target` up to a cut-off. FormulaPartError if a text is wrong, an energy is none, or the energy of two
   /// particles of one ensemble changes when they change places.
   PairProgram between(AnyEnsemble const& target, AnyEnsemble const& source, Target part = Target::p,
                       double cutoff = __builtin_inf()) const;
@@ -85,7 +78,7 @@ struct FieldRates {
   std::vector<FormulaPart> where = {};
   UnitSystem units = UnitSystem::reduced();
 
-  /// FormulaLawError, whose part is "rate.FIELD" or "diffusion.FIELD", if a text is wrong.
+  /// FormulaPartError, whose part is "rate.FIELD" or "diffusion.FIELD", if a text is wrong.
   RateProgram on(AnyEnsemble const& target) const;
 };
 

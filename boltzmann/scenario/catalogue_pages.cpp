@@ -362,7 +362,7 @@ bool show_unit(Page& page, std::string const& name) {
         return true;
       }
   }
-  auto const all = unit_names();
+  auto const& all = unit_names();
   if (std::find(all.begin(), all.end(), name) == all.end()) return false;
   auto const quantity = parse_quantity("1 " + name);
   page.print("unit {}: {}\n\n  in SI       {:.12g}\n", name, one(name_of(quantity.dimension)), quantity.si);

@@ -73,7 +73,7 @@ std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading) 
   return parts;
 }
 
-bool part_mistake(Section const& section, FormulaLawError const& error, Reading& reading) {
+bool part_mistake(Section const& section, FormulaPartError const& error, Reading& reading) {
   for (char const* key : {"where", "parameters"}) {
     Item const* table = section.item(key);
     Entry const* entry = table && !error.part.empty() ? table->find(error.part) : nullptr;
@@ -87,7 +87,7 @@ bool part_mistake(Section const& section, FormulaLawError const& error, Reading&
   return false;
 }
 
-void refuse_formula(Section const& section, FormulaLawError const& error, Item const& item, std::string_view key,
+void refuse_formula(Section const& section, FormulaPartError const& error, Item const& item, std::string_view key,
                     Reading& reading) {
   if (!part_mistake(section, error, reading)) formula_mistake(item, key, error, reading);
 }

@@ -295,7 +295,7 @@ class ClassReader {
     DerivedEnsemble const nobody("nobody", derived_, *particles_);
     try {
       if (has_rates()) result_->rates.on(nobody);
-    } catch (FormulaLawError const& error) {
+    } catch (FormulaPartError const& error) {
       Item const* item = text_of(error.part);
       if (!item && !texts_.empty()) item = texts_.front().second;
       if (item && item->is(Item::Kind::text))

@@ -1,8 +1,10 @@
 // Reads [[dissipation]], friction and noise, and [equilibrate], which brings particles to a temperature before the run.
+#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/nose_hoover.hpp>
+#include <boltzmann/dissipation/typed_friction.hpp>
 #include <boltzmann/dissipation/velocity_rescaling.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -13,7 +15,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 #include <utility>
 
 namespace boltzmann {
@@ -166,18 +171,105 @@ bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::str
   return true;
 }
 
+/// Whether a letter stands in a text as a word of its own.
+bool has_word(std::string_view text, char letter) {
+  auto const joins = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t k = 0; k < text.size(); ++k)
+    if (text[k] == letter && (k == 0 || !joins(text[k - 1])) && (k + 1 == text.size() || !joins(text[k + 1])))
+      return true;
+  return false;
+}
+
+/// Whether friction is more than a quantity: "2 kg/s*T" would be one, of teslas.
+bool is_formula(Item const& item) {
+  if (!item.is(Item::Kind::text)) return false;
+  if (has_word(item.text, 'r') || has_word(item.text, 'T')) return true;
+  try {
+    parse_quantity(item.text);
+    return false;
+  } catch (Error const&) {
+    return item.text.find_first_of("+-*/^(") != std::string::npos;
+  }
+}
+
+/// Where formulas of friction stand; null: there is none.
+struct FrictionTexts {
+  Item const *weight = nullptr, *friction = nullptr;
+  FrictionFormulas formulas = {};
+
+  bool any() const { return weight || friction; }
+};
+
+/// weight, parameters, and friction where it is a formula, which is taken out of the keys.
+FrictionTexts read_friction_texts(Section& section, OptionTable& keys, Reading& reading) {
+  FrictionTexts texts;
+  texts.formulas.units = reading.base_known ? reading.context.units : UnitSystem::reduced();
+  if (Item const* item = section.item("friction"); item && is_formula(*item)) {
+    texts.friction = section.find("friction");
+    section.explain(*keys.find("friction"));
+    if (auto const text = read_text(*item, "friction", reading.context)) texts.formulas.friction = *text;
+    std::vector<OptionKey> others;
+    for (auto const& key : keys.keys())
+      if (key != "friction") others.push_back({key});
+    keys = keys.only(others);
+  }
+  texts.weight = section.find("weight");
+  if (texts.weight) {
+    if (auto const text = read_text(*texts.weight, "weight", reading.context)) texts.formulas.weight = *text;
+    section.refuse("exponent", "'weight' says what chi is; leave one out");
+  }
+  if (texts.any())
+    texts.formulas.parameters = read_formula_parameters(section, reading);
+  else
+    section.refuse("parameters", "formulas use them, a 'weight' or a friction, and there is none");
+  return texts;
+}
+
+/// From half of the lowest internal temperature to twice the highest.
+void find_temperatures(FrictionFormulas& formulas, std::initializer_list<ReadEnsemble const*> ensembles) {
+  double lowest = HUGE_VAL, highest = 0;
+  for (ReadEnsemble const* one : ensembles) {
+    if (!one || !one->particles || !one->state) continue;
+    AnyEnsemble const& particles = *one->particles;
+    int const energy = particles.field("internal_energy").offset;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      double const own = one->state->temperature(particles.row(i)[energy]);
+      if (own > 0) lowest = std::min(lowest, own), highest = std::max(highest, own);
+    }
+  }
+  if (highest > 0) formulas.temperatures = {0.5 * lowest, 2 * highest};
+}
+
+/// Puts formulas into the law; mistakes at their places.
+void apply(FrictionTexts& texts, DissipationLaw& law, ReadEnsemble const* a, ReadEnsemble const* b, Section& section,
+           Reading& reading) {
+  find_temperatures(texts.formulas, {a, b});
+  try {
+    law = with_formulas(law, texts.formulas);
+  } catch (FormulaPartError const& error) {
+    bool const of_weight = error.part == "weight" || !texts.friction;
+    refuse_formula(section, error, *(of_weight ? texts.weight : texts.friction), of_weight ? "weight" : "friction",
+                   reading);
+  } catch (Error const& error) {  // too long for a program
+    reading.mistake((texts.weight ? texts.weight : texts.friction)->place, error.what());
+  }
+}
+
 void read_pairs(Section& section, Item const& table, Dissipations& all) {
   Reading& reading = all.reading;
   std::size_t const before = reading.context.mistakes.count();
   auto const pair = read_pair(section, reading);
   ReadEnsemble *const a = pair.first, *const b = pair.second;
   DissipationOptions options;
-  read_options(section, dissipation_options(), &options, {.dimension = reading.dimension});
-  DissipationLaw const& dissipation = options.dissipation;
+  OptionTable keys = dissipation_options();
+  auto texts = read_friction_texts(section, keys, reading);
+  read_options(section, keys, &options, {.dimension = reading.dimension});
+  DissipationLaw& dissipation = options.dissipation;
   if (section.has("convention") && section.item("convention")->text == to_string(dissipation.convention))
     check_convention(section, dissipation, reading);
   check_method(section, options, all);
   section.finish();
+  if (texts.any() && reading.context.mistakes.count() == before) apply(texts, dissipation, a, b, section, reading);
   if (!all.first_dpd) {
     all.first_dpd = table.place;
     all.together = options;

@@ -172,7 +172,7 @@ class InfluenceReader {
         reading_.result->typed_laws.push_back(
             {fmt::format("influences.{}.{}", number_, by_energy ? "energy" : "influence"), typed_, &a, &b, reach});
       add_tail(typed_, reach);
-    } catch (FormulaLawError const& error) {
+    } catch (FormulaPartError const& error) {
       refuse_formula(section_, error, *typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence",
                      reading_);
     } catch (Error const& error) {

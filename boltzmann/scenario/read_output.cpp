@@ -155,7 +155,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
       make();
     } catch (FormulaError const& error) {
       reading.diagnoses_known = false;
-      auto const* of_part = dynamic_cast<FormulaLawError const*>(&error);
+      auto const* of_part = dynamic_cast<FormulaPartError const*>(&error);
       if (!of_part || !part_mistake(section, *of_part, reading))
         formula_mistake(*section.item("formula"), "formula", error, reading);
     }

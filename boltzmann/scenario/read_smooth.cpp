@@ -81,7 +81,7 @@ std::optional<FormulaMaterial> read_state_formulas(Section& section, Reading& re
   if (reading.context.mistakes.count() != before || reading.dimension == 0) return std::nullopt;
   try {
     return FormulaMaterial(formulas);
-  } catch (StateFormulaError const& error) {
+  } catch (FormulaPartError const& error) {
     for (std::size_t k = 0; k < 3; ++k)
       if (error.part == keys[k]) formula_mistake(*items[k], keys[k], error, reading);
     return std::nullopt;

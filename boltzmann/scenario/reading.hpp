@@ -303,9 +303,9 @@ std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading);
 /// Whether formulas can have a name: letters, digits and _.
 bool is_formula_name(std::string_view name);
 /// A mistake at the parameter or part of the table that the error is of; false if it is of none.
-bool part_mistake(Section const& section, FormulaLawError const& error, Reading& reading);
+bool part_mistake(Section const& section, FormulaPartError const& error, Reading& reading);
 /// The same, or else at `item`, called `key`.
-void refuse_formula(Section const& section, FormulaLawError const& error, Item const& item, std::string_view key,
+void refuse_formula(Section const& section, FormulaPartError const& error, Item const& item, std::string_view key,
                     Reading& reading);
 /// Reads [[classes]]: those that the scenario derives. Gives the fields of their particles their rates.
 void read_classes(Section& document, Reading& reading);

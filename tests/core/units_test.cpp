@@ -541,7 +541,7 @@ TEST(Texts, BecomePlainNumbersOfTheBase) {
 }
 
 TEST(UnitTable, EveryNameIsReadOnceAndMeansItsUnit) {
-  auto const names = unit_names();
+  auto const& names = unit_names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   EXPECT_EQ(std::count(names.begin(), names.end(), "A"), 0);
   for (auto const* name : {"nm", "kg", "angstroms", "electronvolts", "GPa", "femtoseconds", "eVs"})

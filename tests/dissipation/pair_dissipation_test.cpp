@@ -5,6 +5,7 @@
 
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
+#include <boltzmann/dissipation/typed_friction.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/particles/laplace.hpp>
@@ -40,7 +41,7 @@ DissipationLaw usual(double range = 1.5) {
   return d;
 }
 
-/// A soft gas of two kinds of particles, one of which is very fast.
+/// A soft gas of two kinds of particles, one of which is very fast; between the kinds friction is typed.
 struct Gas {
   Box box;
   Ensemble<Meso<2>> light{"light"}, heavy{"heavy"};
@@ -58,7 +59,8 @@ struct Gas {
     dpd.state(light, StateLaw(20));
     dpd.state(heavy, StateLaw({0.5, 1, 4}, {15, 20, 25}));
     dpd.internal(light, usual());
-    dpd.between(light, heavy, usual(1.2));
+    dpd.between(light, heavy,
+                with_formulas(usual(1.2), {.weight = "cos(0.5*pi*r/range)", .friction = "3*exp(-r/4)*(T/2)^0.5"}));
     dpd.corrector(kind == Kind::corrector);
     dpd.method(kind == Kind::simultaneous || kind == Kind::corrector ? DissipationMethod::simultaneous
                                                                      : DissipationMethod::shardlow);

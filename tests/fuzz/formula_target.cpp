@@ -6,14 +6,22 @@
 #include <boltzmann/formulas/formula.hpp>
 #include <boltzmann/formulas/formula_program.hpp>
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 namespace boltzmann::fuzz {
 namespace {
 
-constexpr int W = 2;
+constexpr int W = 4;  // for which there is machine code on most machines
+constexpr std::size_t packs = 3;
 
 /// The names of a law between particles: inputs 0 to 6.
 NamesInFormula names_of_a_law(ExpressionGraph& graph, UnitSystem const& units) {
@@ -37,7 +45,41 @@ void need_place(FormulaError const& error, std::string const& text) {
     throw std::logic_error(std::string("not one line with a place: ") + error.what());
 }
 
-void as_a_law(std::string const& text, UnitSystem const& units) try {
+/// Of columns 0 to 4, of which column 3 is the square of a distance, and two scalars of the row.
+std::vector<double> results_of(FormulaProgram const& program) {
+  static auto const work = std::make_unique<detail::Workspace<W>>();
+  work->set_constants(program);
+  for (std::size_t k = 0; k < 2; ++k) work->set_scalar(program.first_row_input() + k, 0.5 + static_cast<double>(k));
+  for (std::size_t k = 0; k < 5; ++k)
+    for (std::size_t pair = 0; pair < packs * W; ++pair)
+      work->column(k)[pair] = 0.31 * static_cast<double>(k + pair) - (k == 3 ? 0 : 0.62);
+  detail::run_row<W>(*work, program);
+  detail::run_program<W>(*work, program, packs);
+  std::vector<double> results;
+  for (auto const& result : program.results)
+    for (std::size_t pair = 0; pair < packs * W; ++pair)
+      results.push_back(work->place(result)[result.scalar ? 0 : pair]);
+  return results;
+}
+
+/// Whether the interpreter rounds a b + c once, as machine code does: that depends on how this file is optimised.
+bool rounds_once() {
+  if (!detail::rounds_as_machine_code<W>) return false;
+  auto const work = std::make_unique<detail::Workspace<W>>();
+  double const numbers[] = {1 + 0x1p-30, 1 - 0x1p-30, -1};
+  for (std::size_t k = 0; k < 3; ++k) std::fill_n(work->column(k), W, numbers[k]);
+  Step const step{Instruction::fuse, Operation::exp, {3, false}, {0, false}, {1, false}, {2, false}};
+  detail::run_steps<W>(*work, &step, 1, 1);
+  return work->column(3)[0] == -0x1p-60;
+}
+
+void need_same(std::vector<double> const& a, std::vector<double> const& b) {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (std::bit_cast<std::uint64_t>(a[k]) != std::bit_cast<std::uint64_t>(b[k]) && !(a[k] != a[k] && b[k] != b[k]))
+      throw std::logic_error(fmt::format("{} interpreted and {} by machine code", a[k], b[k]));
+}
+
+bool as_a_law(std::string const& text, UnitSystem const& units) try {
   ExpressionGraph graph;
   auto const value = read_formula_text(text, names_of_a_law(graph, units), 3, graph);
   std::vector<Expression> results = value.components;
@@ -45,26 +87,24 @@ void as_a_law(std::string const& text, UnitSystem const& units) try {
     results.push_back(graph.derivative(value.components[0], 3));
     results.push_back(graph.replaced(value.components[0], {{3, graph.number(4)}}));
     std::vector<std::uint32_t> const columns{0, 1, 2, 3, 5}, rows{4, 6};
-    auto const program = make_program(graph, results, columns, rows);
-    static auto const work = std::make_unique<detail::Workspace<W>>();
-    work->set_constants(program);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      work->set_scalar(program.first_row_input() + k, 0.5 + static_cast<double>(k));
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      for (std::size_t pair = 0; pair < W; ++pair) work->column(k)[pair] = 0.31 * static_cast<double>(k + pair) - 0.4;
-    detail::run_steps<W>(*work, program.row_steps.data(), program.row_steps.size(), 1);
-    detail::run_steps<W>(*work, program.steps.data(), program.steps.size(), 1);
+    auto program = make_program(graph, results, columns, rows);
+    auto const interpreted = results_of(program);
+    program.code = machine_code(program, W);
+    static bool const comparable = rounds_once();
+    if (auto const results = results_of(program); comparable) need_same(interpreted, results);
     for (auto const e : results) graph.value(e, {0.1, 0.2, 0.3, 0.14, 1, -2, 3});
   } catch (FormulaError const&) {
     throw;
   } catch (Error const&) {
     // too long for a program
   }
+  return true;
 } catch (FormulaError const& error) {
   need_place(error, text);
+  return false;
 }
 
-void as_a_condition(std::string const& text, UnitSystem const& units) try {
+bool as_a_condition(std::string const& text, UnitSystem const& units) try {
   FormulaInputs inputs(2, units);
   inputs.allow_blanks();
   for (auto const& [name, dimension] :
@@ -72,11 +112,13 @@ void as_a_condition(std::string const& text, UnitSystem const& units) try {
         std::pair("kinetic energy", dimensions::energy), std::pair("atoms x-velocity", dimensions::velocity)})
     inputs.add(name, dimension);
   inputs.read(text)(std::vector<double>{3, 0.5, 2, -1});
+  return true;
 } catch (FormulaError const& error) {
   need_place(error, text);
+  return false;
 }
 
-void as_a_diagnosis(std::string const& text, UnitSystem const& units) try {
+bool as_a_diagnosis(std::string const& text, UnitSystem const& units) try {
   FormulaInputs inputs(2, units);
   inputs.add("mass", dimensions::mass);
   inputs.add_vector("velocity", dimensions::velocity);
@@ -87,19 +129,47 @@ void as_a_diagnosis(std::string const& text, UnitSystem const& units) try {
   formula.run(3, [](std::size_t i, std::span<double> values) {
     for (std::size_t k = 0; k < 5; ++k) values[k] = static_cast<double>(i) - 0.3 * static_cast<double>(k);
   });
+  return true;
 } catch (FormulaError const& error) {
   need_place(error, text);
+  return false;
 }
 
 }  // namespace
 
-void read_formula_of_any_text(std::string const& text) {
+bool is_a_formula(std::string const& text) {
   UnitSystem const atoms(units::angstrom, units::amu, units::picosecond);
-  for (auto const& units : {UnitSystem::reduced(), atoms}) {
-    as_a_law(text, units);
-    as_a_condition(text, units);
-    as_a_diagnosis(text, units);
+  int taken = 0;
+  for (auto const& units : {UnitSystem::reduced(), atoms})
+    taken += as_a_law(text, units) + as_a_condition(text, units) + as_a_diagnosis(text, units);
+  return taken > 0;
+}
+
+void read_formula_of_any_text(std::string const& text) { is_a_formula(text); }
+
+std::vector<std::string> formula_seeds() {
+  std::vector<std::string> seeds{"depth*((2.5 angstrom/r)^12 - 2*(2.5 angstrom/r)^6)",
+                                 "0.1 eV*(1 - exp(-(r - 2)))^2 + dot(separation, separation)",
+                                 "kinetic-energy < 0.01 eV && time > 5 ps || step == 30",
+                                 "norm(mean(velocity))/mean(speed)",
+                                 "sum(0.5*mass*dot(velocity - mean(velocity), velocity - mean(velocity)))",
+                                 "sqrt(mean(cos(angle))^2 + mean(sin(angle))^2)"};
+  std::vector<std::filesystem::path> scenarios;
+  for (auto const& entry : std::filesystem::directory_iterator(BOLTZMANN_SOURCE "/scenarios"))
+    scenarios.push_back(entry.path());
+  std::sort(scenarios.begin(), scenarios.end());  // folders have no order of their own
+  for (auto const& path : scenarios) {
+    std::ifstream file(path);
+    std::string const text{std::istreambuf_iterator<char>(file), {}};
+    for (auto from = text.find('"'); from != std::string::npos; from = text.find('"', from + 1)) {
+      auto const to = text.find_first_of("\"\n", from + 1);
+      if (to == std::string::npos) break;
+      auto const inside = text.substr(from + 1, to - from - 1);
+      if (inside.find_first_of("*^<") != std::string::npos) seeds.push_back(inside);
+      from = to;
+    }
   }
+  return seeds;
 }
 
 std::vector<std::string> const& formula_words() {

@@ -139,27 +139,6 @@ void read_run_file(std::string const& text) {
   } catch (Error const&) {
   }
 }
-/// The formulas of shipped scenarios, and some of laws, conditions and diagnoses.
-std::vector<std::string> formula_seeds() {
-  std::vector<std::string> seeds{"depth*((2.5 angstrom/r)^12 - 2*(2.5 angstrom/r)^6)",
-                                 "0.1 eV*(1 - exp(-(r - 2)))^2 + dot(separation, separation)",
-                                 "kinetic-energy < 0.01 eV && time > 5 ps || step == 30",
-                                 "norm(mean(velocity))/mean(speed)",
-                                 "sum(0.5*mass*dot(velocity - mean(velocity), velocity - mean(velocity)))",
-                                 "sqrt(mean(cos(angle))^2 + mean(sin(angle))^2)"};
-  for (auto const& name : shipped_scenarios()) {
-    auto const text = read_text(find_scenario(name));
-    for (auto from = text.find('"'); from != std::string::npos; from = text.find('"', from + 1)) {
-      auto const to = text.find_first_of("\"\n", from + 1);
-      if (to == std::string::npos) break;
-      auto const inside = text.substr(from + 1, to - from - 1);
-      if (inside.find_first_of("*^<") != std::string::npos) seeds.push_back(inside);
-      from = to;
-    }
-  }
-  return seeds;
-}
-
 std::vector<std::string> run_file_seeds() { return {file_of_run(run_file)}; }
 
 /// By one of the readers, which the text's length chooses.

@@ -191,7 +191,7 @@ TEST(FormulaLaw, RefusesWhatIsNoLaw) {
     try {
       law.between(a, a);
       ADD_FAILURE() << law.text;
-    } catch (FormulaLawError const& error) {
+    } catch (FormulaPartError const& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };

@@ -261,7 +261,7 @@ TEST(FormulaMaterials, SayWhatIsWrongAndWhere) {
   auto const wrong = [](StateFormulas const& formulas) -> std::string {
     try {
       FormulaMaterial const made(formulas);
-    } catch (StateFormulaError const& error) {
+    } catch (FormulaPartError const& error) {
       return fmt::format("{} {}: {}", error.part, error.offset, error.what());
     }
     return "";

@@ -139,10 +139,10 @@ TEST(TypedLaw, EndsNowhereWithoutACutoff) {
   auto law = FormulaLaw::energy("1/r^2");
   for (auto const way : {AtCutoff::shift, AtCutoff::switched}) {
     law.at_cutoff = way;
-    EXPECT_THROW(at<2>(law, 1, no_cutoff), FormulaLawError);
+    EXPECT_THROW(at<2>(law, 1, no_cutoff), FormulaPartError);
   }
   law.switch_from = 2;
-  EXPECT_THROW(at<2>(law, 1, 1.5), FormulaLawError);
+  EXPECT_THROW(at<2>(law, 1, 1.5), FormulaPartError);
 }
 
 }  // namespace

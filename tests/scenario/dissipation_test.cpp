@@ -159,7 +159,9 @@ TEST(Dissipation, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
   std::string const rest =
       "[[influences]]\nlaw = \"soft\"\non = \"gas\"\nrepulsion = 25\nrange = 1\ncutoff = 1\n"
       "[equilibrate]\ntemperature = 1\nrate = 2\ntime = 0.4\n";
-  for (std::string const method : {"corrector = true", "method = \"shardlow\"\nmetropolis = true"}) {
+  for (std::string const method : {"corrector = true", "method = \"shardlow\"\nmetropolis = true",
+                                   "method = \"shardlow\"\nweight = \"cos(0.5*pi*r/range)\"",
+                                   "weight = \"a - r/range\"\nparameters = { a = 1.5 }"}) {
     std::string const toml =
         text("low = [0, 0]\nhigh = [40, 40]", "class = \"Meso\"\nnumber = 6000\n" + meso.substr(meso.find("load")),
              rest + dpd("convention = \"constant-friction\"\n" + method));
@@ -182,6 +184,24 @@ TEST(Dissipation, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
     EXPECT_TRUE(same_bits(rows(*one), rows(*other))) << method;
     EXPECT_TRUE(same_bits(rows(*one), rows(*resumed))) << method;
   }
+}
+
+TEST(Dissipation, AFormulaOfThePowerIsThePower) {
+  std::string const convention = "convention = \"constant-friction\"\n";
+  auto const with = [&](std::string const& more, std::string const& friction = "1") {
+    std::string dissipation = dpd(convention + more);
+    dissipation.replace(dissipation.find("friction = 1"), 12, "friction = " + friction);
+    auto run = scenario(text(square, meso, dissipation));
+    run->simulation->run(20);
+    return run;
+  };
+  auto const expect_near = [](Scenario const& one, Scenario const& other) {
+    auto const a = rows(*one), b = rows(*other);
+    for (std::size_t k = 0; k < a.size(); ++k) ASSERT_NEAR(a[k], b[k], 1e-9 * std::max(1.0, std::abs(a[k])));
+  };
+  auto const power = with("exponent = 2");
+  expect_near(power, with("weight = \"(1 - r/range)^2\""));
+  expect_near(power, with("weight = \"1 - r/range\"", "\"g*(1 - r/range)^2\"\nparameters = { g = 1 }"));
 }
 
 TEST(Dissipation, SeedsChangeTheNoise) {

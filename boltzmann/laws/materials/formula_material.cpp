@@ -35,7 +35,7 @@ FormulaMaterial::FormulaMaterial(StateFormulas const& formulas) {
             0, fmt::format("{} is needed; this is {}", dimension_text(dimension), dimension_text(value.dimension)));
       return value.components[0];
     } catch (FormulaError const& error) {
-      throw StateFormulaError(part, error.offset, error.what());
+      throw FormulaPartError(part, error.offset, error.what());
     }
   };
   Programs programs;

@@ -19,13 +19,6 @@ struct StateFormulas {
   int dimension = 3;  ///< of space, on which that of a density depends
 };
 
-/// What is wrong with one of them, `part`: "pressure", "temperature" or "sound_speed".
-struct StateFormulaError : FormulaError {
-  StateFormulaError(std::string the_part, std::size_t at, std::string const& message)
-      : FormulaError(at, message), part(std::move(the_part)) {}
-  std::string part;
-};
-
 /// P(rho, e), and T(rho, e). The sound speed is that of this pressure, c^2 = dP/drho + P/rho^2 dP/de with exact
 /// derivatives; where c^2 is below zero the material comes apart, and it is sqrt(|c^2|). The specific energy evolves, as
 /// that of a gas does. Copies share the formulas.
@@ -38,7 +31,7 @@ class FormulaMaterial {
           "P(density, specific_energy) = pressure, T = temperature, and c = sound_speed unless that of P is meant"};
 
   FormulaMaterial() = default;
-  /// StateFormulaError if one of them is wrong.
+  /// FormulaPartError if one of them is wrong: "pressure", "temperature" or "sound_speed".
   explicit FormulaMaterial(StateFormulas const& formulas);
 
   template <class P>

@@ -35,7 +35,7 @@ class MoleculeScheme final : public Scheme {
     static_assert(P::dimension == 3, "there are dihedrals in 3D only");
     add_tuples(ensemble, 4, flat(dihedrals), tuple_kernels<detail::DihedralOf, Law>(), law);
   }
-  // The same with a formula, an energy in `angle` or `dihedral`: FormulaLawError if it is wrong.
+  // The same with a formula, an energy in `angle` or `dihedral`: FormulaPartError if it is wrong.
   void angles(AnyEnsemble& ensemble, std::vector<AngleMembers> const& angles, FormulaLaw const& law);
   void dihedrals(AnyEnsemble& ensemble, std::vector<DihedralMembers> const& dihedrals, FormulaLaw const& law);
 

@@ -23,10 +23,11 @@ class ColumnSum {
     for (auto& x : virial_) x = Real(0.0);
   }
 
-  void add(PairProgram const& law, Workspace<W>& work, std::size_t packs, double cutoff2, Real rounding,
-           double zero_at) {
+  /// The first steps of the program, `leading`, have been done.
+  void add(PairProgram const& law, Workspace<W>& work, std::size_t packs, double cutoff2, Real rounding, double zero_at,
+           std::size_t leading = 0) {
     FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
-    run_program<W>(work, program, packs);
+    run_program<W>(work, program, packs, leading);
     Real const zero = 0.0;
     double const *result[D + 1], *d[D];
     std::size_t stride[D + 1];
@@ -125,6 +126,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
   std::size_t const blocks = task.source_block_stride;
   MachineCode::List const whole = pass == Pass::influence && program.code ? program.code->list() : nullptr;
   work.set_scalar(program.scalars + D, task.cutoff2);
+  std::size_t const leading = leading_steps<W>(program, D);
   for (std::size_t i = begin; i < end; ++i) {
     double const* const p = task.target + row_block * i;
     begin_row<W>(law, program, work, [&](std::size_t offset) {
@@ -152,7 +154,10 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
           store_pack<W>(work.column(c) + k * W, d);
           square = square + d * d;
         }
-        store_pack<W>(work.column(D) + k * W, max(square, Real(least_square)));
+        square = max(square, Real(least_square));
+        store_pack<W>(work.column(D) + k * W, square);
+        for (std::size_t n = 0; n < leading; ++n)
+          store_pack<W>(work.column(program.steps[n].to.index) + k * W, lead<W>(program.steps[n], square));
       }
       // Blocks of q's rows, one after the other; a field of the block at hand gets its column.
       for (std::size_t f = 0; f < law.of_q.size();) {
@@ -168,7 +173,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
         }
         f = last;
       }
-      sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at);
+      sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at, leading);
     }
     sum.store(task, task.order ? task.order[i] : i, task.overwrite);
   }

@@ -84,7 +84,7 @@ class PairScheme final : public Scheme {
     add_external(ensemble, external_kernels<P, Law>(), keep(law), traits_of(law), &only);
   }
 
-  // The same with a law that is a formula, on particles of any class: FormulaLawError if it is wrong.
+  // The same with a law that is a formula, on particles of any class: FormulaPartError if it is wrong.
   void internal(AnyEnsemble& ensemble, FormulaLaw const& law) { internal(ensemble, law, cutoff_); }
   void internal(AnyEnsemble& ensemble, FormulaLaw const& law, double cutoff);
   void between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law) { between(a, b, law, cutoff_); }
@@ -96,7 +96,7 @@ class PairScheme final : public Scheme {
   void one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff);
   void connect(AnyEnsemble& ensemble, std::vector<Connection> const& connections, FormulaLaw const& law);
   void external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vector<std::uint32_t> const* only = nullptr);
-  /// The rates of fields (AnyEnsemble::driven()), and how they diffuse: FormulaLawError if one is wrong.
+  /// The rates of fields (AnyEnsemble::driven()), and how they diffuse: FormulaPartError if one is wrong.
   void rates(AnyEnsemble& ensemble, FieldRates const& rates);
 
   /// Of particles that are bonded: laws within this ensemble that are added from now on act between those 1, 2, ... bonds

@@ -1,0 +1,47 @@
+// The steps of a program as machine code: which instructions each of them is. Private to this room.
+#pragma once
+
+#include <boltzmann/formulas/code_registers.hpp>
+
+#if defined(__x86_64__)
+namespace boltzmann::code {
+
+/// Whether there are instructions for it.
+bool is_plain(Step const& step);
+bool are_plain(std::vector<Step> const& steps);
+
+/// Writes steps, those that are plain.
+class Steps : protected Registers {
+ protected:
+  using Registers::Registers;
+
+  /// Before a loop: those numbers that its steps need, in registers, where there are many.
+  void keep_numbers(std::vector<Step> const& steps, std::size_t first, std::size_t end);
+  /// Steps one after the other. What is read at `end` or later is in its column behind them, if `keep`.
+  void sequence(std::vector<Step> const& steps, std::size_t first, std::size_t end, bool keep);
+
+ private:
+  void step(Step const& step, Flow::Of const& of);
+  /// to = f(a).
+  template <class F>
+  void one(Source const& a, int to, F const& f);
+  /// to = f(a, b), a in a register.
+  template <class F>
+  void two(Source const& a, Source const& b, int to, F const& f);
+  template <class F>
+  void either_way(Source const& a, Source const& b, int to, F const& f);
+  /// A register for the result: that of an operand that nobody reads any more, or another.
+  int result_beside(Source const& a, Source const& b);
+  void fuse(Source a, Source b, Source const& c, int to);
+  void reciprocal(Source const& a, int to);
+  /// As rsqrt() of core/pack.hpp.
+  void inverse_root(Source const& a, int to);
+  /// As exp_in_formulas() of formulas/evaluate.hpp.
+  void exponential(Source const& a, int to);
+  void operation(Operation operation, Source const& a, Source const& b, Source const& c, int to);
+  /// 1 or 0.
+  void compare(Source const& a, Source const& b, int to, std::uint8_t how);
+};
+
+}  // namespace boltzmann::code
+#endif
