@@ -171,12 +171,12 @@ def signature(name, function, method):
 
 def python_reference(site):
     """Every public name and what its docstring says."""
-    from boltzmann import ensemble, notebook, simulation, stored
+    from boltzmann import ensemble, measured, notebook, stored
 
     lines = ["# Python, name by name", "", "Beside the [guide](../guide/python.md), which has programs.", ""]
     things = {name: getattr(boltzmann, name) for name in boltzmann.__all__ if name != "exact"}
-    others = [simulation.Units, simulation.Report, simulation.Diagnosis, simulation.Record,
-              simulation.Measured, simulation.Mesh, simulation.BoxEdges, stored.Trajectory, stored.StoredEnsemble, notebook.Window,
+    others = [measured.Units, measured.Report, measured.Diagnosis, measured.Record,
+              measured.Measured, measured.Mesh, measured.BoxEdges, stored.Trajectory, stored.StoredEnsemble, notebook.Window,
               notebook.Replay]  # fmt: skip
     functions = {name: thing for name, thing in things.items() if inspect.isfunction(thing)}
     first = [things["Simulation"], ensemble.Ensemble]

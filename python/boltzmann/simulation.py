@@ -15,146 +15,15 @@ import warnings as python_warnings
 import numpy as np
 
 from . import _core
-from .document import Document, plain, text, value
+from .document import Document, plain, value
 from .ensemble import Ensemble
 from .errors import Error, ScenarioErrors, caller, unknown
+from .measured import BoxEdges, Diagnosis, Measured, Mesh, Record, Report, Units
+from .progress import ProgressLine, wants_progress
 from .table import Picture, Table, from_rows, words
 
-# Arrays up to so many numbers stand in the scenario's text; longer ones in a file beside it.
+# Arrays up to so many numbers stand in the text of a scenario; longer ones in a file beside it.
 _numbers_in_text = 3000
-
-
-class Units:
-    """The simulation's base units, in which all arrays are."""
-
-    def __init__(self, simulation):
-        self._sim = simulation
-
-    def __call__(self, quantity) -> float:
-        """The plain number of "5 fs"."""
-        if isinstance(quantity, (int, float, np.number)):
-            return float(quantity)
-        if not isinstance(quantity, str):
-            raise Error(f"a quantity is a number or a text such as '5 fs', not {type(quantity).__name__}")
-        return _core.quantity(self._sim._core, quantity)
-
-    def to(self, unit: str, numbers):
-        """Numbers of the base in another unit: ``sim.units.to("km/s", sim.atoms.velocity)``."""
-        return np.asarray(numbers) / _core.base_of_unit(self._sim._core, unit)
-
-    def of(self, unit: str, numbers):
-        """And back: numbers that are in this unit, as the base counts."""
-        return np.asarray(numbers) * _core.base_of_unit(self._sim._core, unit)
-
-
-class Report:
-    """How a run went; it shows what was conserved."""
-
-    def __init__(self, simulation, told: dict):
-        self.steps: int = told["steps"]
-        self.step: int = told["step"]
-        self.seconds: float = told["seconds"]
-        self.stopped: bool = told["stopped"]
-        self.out_of_time: bool = told["out_of_time"]
-        self.condition: str = told["condition"]
-        self._sim = simulation
-
-    def __repr__(self) -> str:
-        sim = self._sim
-        lines = [f"{self.steps} steps to step {self.step} in {self.seconds:.3g} s"]
-        if self.condition:
-            lines.append(f"ended by its condition: {self.condition}")
-        elif self.stopped or self.out_of_time:
-            lines.append("out of time" if self.out_of_time else "stopped before its last step")
-        if sim._built is not None and sim.step == self.step and not sim._built.running():
-            lines += sim._built.conserved()
-            if sim._built.folder():
-                lines.append(f"results in {sim._built.folder()}")
-        return "\n".join(lines)
-
-
-class Diagnosis:
-    """What is measured: columns over time, ``rdf.table``, and functions that are gathered, ``rdf.r, rdf.g``."""
-
-    def __init__(self, simulation, kind: str, number: int | None, titles=()):
-        self._sim, self.kind, self._number, self._titles = simulation, kind, number, list(titles)
-
-    @property
-    def table(self) -> Table:
-        """Its columns over time."""
-        if self._number is None:
-            return self._sim.table
-        return from_rows(*self._sim._core.watched(self._number))
-
-    @property
-    def gathered(self) -> dict[str, Table]:
-        """Functions of a distance, a time lag, ... that it has gathered from all looks so far, by their names."""
-        core = self._sim._core
-        all_of = core.gathered() if self._number is None else core.watched_gathered(self._number)
-        return {name: _gathered_table(columns) for name, columns in all_of.items()}
-
-    def stop(self) -> None:
-        """It measures no more."""
-        if self._number is not None:
-            self._sim._core.unwatch(self._number)
-
-    def __getattr__(self, name: str):
-        if name.startswith("_"):
-            raise AttributeError(name)
-        tables = self.gathered if self._number is not None or self._sim._built else {}
-        for one in tables.values():
-            try:
-                return getattr(one, name)
-            except AttributeError:
-                continue
-        names = [column for one in tables.values() for column in one.names]
-        raise AttributeError(unknown(f"column of '{self.kind}' called", name, names))
-
-    def __repr__(self) -> str:
-        return f"<diagnosis {self.kind}>"
-
-
-def _gathered_table(columns: dict) -> Table:
-    return Table(list(columns), [np.frombuffer(numbers, dtype=np.float64) for numbers in columns.values()])
-
-
-class Record:
-    """Copies of one field at steps of a run: shape (looks, N, D). ``.step``, ``.time``; numpy takes it as an array."""
-
-    def __init__(self):
-        self._copies: list[np.ndarray] = []
-        self._steps: list[int] = []
-        self._times: list[float] = []
-
-    def __array__(self, dtype=None, copy=None):
-        stacked = np.array(self._copies)
-        return stacked if dtype is None else stacked.astype(dtype)
-
-    @property
-    def step(self) -> np.ndarray:
-        """Of each look."""
-        return np.array(self._steps)
-
-    @property
-    def time(self) -> np.ndarray:
-        """Of each look, in the base."""
-        return np.array(self._times)
-
-    @property
-    def T(self) -> np.ndarray:
-        """The axes in reverse order: components first, looks last."""
-        return np.asarray(self).T
-
-    @property
-    def shape(self):
-        """Looks, particles, components."""
-        return np.asarray(self).shape
-
-    def __getitem__(self, which):
-        return np.asarray(self)[which]
-
-    def __len__(self) -> int:
-        return len(self._copies)
 
 
 class Simulation:
@@ -473,7 +342,7 @@ class Simulation:
         if hours is not None and not hours > 0:
             raise Error(f"hours: a positive number, not {hours!r}")
         if progress is None:
-            progress = _wants_progress()
+            progress = wants_progress()
         if progress:
             self._progress_line = ProgressLine(core.step(), steps)
         self._begun = True
@@ -847,125 +716,6 @@ class Simulation:
             f"<p><b>{escape(core.title() or core.name())}</b>, step {core.step()}</p><table><thead><tr><th>ensemble</th>"
             f"<th>class</th><th>particles</th></tr></thead><tbody>{rows}</tbody></table>"
         )
-
-
-class Measured(dict):
-    """Numbers by the names of their columns, of one moment; as a float it is the first of them."""
-
-    def __init__(self, table: Table):
-        super().__init__((name, float(table[name][0])) for name in table.names[2:])
-        self.units = {name: table.units[name] for name in self}
-
-    def __float__(self) -> float:
-        return next(iter(self.values()))
-
-    def __missing__(self, name):
-        raise Error(unknown("column", str(name), self))
-
-    def __repr__(self) -> str:
-        return "\n".join(f"{name}  {number:.6g} {self.units[name]}".rstrip() for name, number in self.items())
-
-
-class BoxEdges:
-    """The box: ``low``, ``high``, ``length`` are arrays, ``boundary`` has a word for each axis."""
-
-    def __init__(self, low, high, boundary):
-        self.low, self.high, self.boundary = np.array(low), np.array(high), list(boundary)
-
-    @property
-    def length(self) -> np.ndarray:
-        """Along each axis."""
-        return self.high - self.low
-
-    @property
-    def volume(self) -> float:
-        """The product of the lengths: an area in 2D."""
-        return float(np.prod(self.length))
-
-    def __repr__(self) -> str:
-        axes = ", ".join(
-            f"{axis} {low:.6g} to {high:.6g} ({kind})"
-            for axis, low, high, kind in zip("xyz", self.low, self.high, self.boundary)
-        )
-        return f"<box: {axes}>"
-
-
-class Mesh:
-    """Fields on the nodes of a mesh, as they were when it was asked for: ``density`` and ``potential`` of shape (nx, ny, nz)
-    as far as space has axes, ``field`` with the components behind them; ``x``, ``y``, ``z`` are the places of the nodes,
-    ``units`` the base units of the fields."""
-
-    def __init__(self, fields: list):
-        self._arrays: dict[str, np.ndarray] = {}
-        self.units: dict[str, str] = {}
-        for name, components, dimension, nodes, low, spacing, unit in fields:
-            shape = tuple(reversed(nodes[:dimension]))
-            arrays = [np.frombuffer(one, dtype=np.float64).reshape(shape).T for one in components]
-            self._arrays[name] = arrays[0] if len(arrays) == 1 and name != "field" else np.stack(arrays, axis=-1)
-            self.units[name] = unit
-            for axis in range(dimension):
-                self._arrays["xyz"[axis]] = low[axis] + spacing[axis] * np.arange(nodes[axis])
-
-    @property
-    def names(self) -> list[str]:
-        return list(self.units)
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._arrays:
-            raise Error(unknown("field on the mesh called", str(name), self._arrays))
-        return self._arrays[name]
-
-    def __getattr__(self, name: str) -> np.ndarray:
-        if name.startswith("_") or name not in self._arrays:
-            raise AttributeError(unknown("field on the mesh called", name, () if name.startswith("_") else self._arrays))
-        return self._arrays[name]
-
-    def __dir__(self):
-        return list(super().__dir__()) + list(self._arrays)
-
-    def __repr__(self) -> str:
-        return "<mesh: " + ", ".join(f"{name} {self._arrays[name].shape}" for name in self.units) + ">"
-
-
-class ProgressLine:
-    """How far a run is: one line that is rewritten, on a terminal or in a notebook's cell."""
-
-    def __init__(self, first: int, steps: int):
-        self._first, self._steps, self._shown, self._handle = first, steps, False, None
-
-    def show(self, step: int, seconds: float) -> None:
-        done = abs(step - self._first)
-        rate = done / max(seconds, 1e-9)
-        left = (abs(self._steps) - done) / max(rate, 1e-9)
-        line = f"{100 * done // max(abs(self._steps), 1):3d} %  step {step}, {rate:.3g} steps/s, {left:.0f} s left"
-        self._shown = True
-        if _in_notebook():
-            from IPython.display import display
-
-            content = {"text/plain": line}
-            if self._handle is None:
-                self._handle = display(content, raw=True, display_id=True)
-            else:
-                self._handle.update(content, raw=True)
-        else:
-            print(f"\r{line}\033[K", end="", file=sys.stderr, flush=True)
-
-    def end(self) -> None:
-        if not self._shown:
-            return
-        if self._handle is not None:
-            self._handle.update({"text/plain": ""}, raw=True)
-        else:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-
-def _in_notebook() -> bool:
-    shell = sys.modules.get("IPython")
-    return shell is not None and type(shell.get_ipython()).__name__ == "ZMQInteractiveShell"
-
-
-def _wants_progress() -> bool:
-    return (sys.stderr is not None and sys.stderr.isatty()) or _in_notebook()
 
 
 def _whole(given, name: str) -> int:

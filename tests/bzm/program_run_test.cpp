@@ -235,6 +235,8 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
                   .most = 99,
                   .region = {{0, 1}, {-2, 2}},
                   .streamlines = 12,
+                  .streaklines = true,
+                  .gap = 0.25,
                   .cells = 33,
                   .bins = 34};
   AnyEnsemble* const ensembles[] = {&beads};
