@@ -5,6 +5,7 @@
 #include <boltzmann/core/dual.hpp>
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/core/random.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/core/tensor.hpp>
 #include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/units.hpp>

@@ -1,9 +1,11 @@
 // bzm doctor: is this machine fit to run, and does it compute right?
 #include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/launch.hpp>
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/core/launcher.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
@@ -89,6 +91,22 @@ void check_compiler(Findings& findings) {
     findings.note("compiler", compiler + " is not there: `bzm build` needs it (Debian: apt install g++)");
   else
     findings.ok("compiler", first_line(output_of({path, "--version"})));
+}
+
+// What bzm run --ranks needs: a launcher, and a plug-in of the same MPI.
+void check_mpi(Findings& findings) {
+  auto const launcher = launcher_version();
+  auto const plugin = open_mpi_plugin();
+  if (launcher.empty())
+    findings.note("MPI", "no mpirun is there: `bzm run --ranks` needs it (Debian: apt install openmpi-bin)");
+  else
+    findings.ok("MPI", launcher);
+  if (!plugin.library.empty())
+    findings.ok("MPI plug-in", fmt::format("{} ({})", plugin.path, plugin.library));
+  else if (!plugin.path.empty())
+    findings.note("MPI plug-in", fmt::format("{} can't be used: {}", plugin.path, plugin.reason));
+  else if (!launcher.empty())
+    findings.note("MPI plug-in", "libboltzmann_mpi.so is not there; " + how_to_make_mpi_plugin());
 }
 
 // 64 MB to the disk and away again.
@@ -178,6 +196,7 @@ int doctor(std::string const& folder) {
     findings.note("ffmpeg", "is not there: `bzm render` makes pictures but no movies (Debian: apt install ffmpeg)");
   else
     findings.ok("ffmpeg", first_line(output_of({ffmpeg, "-version"})));
+  check_mpi(findings);
   check_writing(folder.empty() ? "results" : folder, findings);
   check_physics(findings);
   if (findings.problems() == 0)

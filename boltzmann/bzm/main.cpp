@@ -1,7 +1,10 @@
 // bzm: the command line. Parses, calls a command, and turns every failure into its line and exit status.
 #include <boltzmann/bzm/commands.hpp>
+#include <boltzmann/bzm/launch.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/core/launcher.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/standard_streams.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
@@ -157,6 +160,9 @@ class CommandLine {
       fmt::print("{}", app_.help());
       return 0;
     }
+    if (ranks_.count && !team().alone())
+      throw Error("--ranks: a launcher has started several ranks of this already; leave one of them out");
+    if (ranks_.count.value_or(1) > 1) return run_on_ranks(words_without_ranks(argc, argv), ranks_);
     instruction_set();  // a wrong BOLTZMANN_INSTRUCTIONS is said once, not at each law of a scenario
     return action_();
   }
@@ -169,6 +175,27 @@ class CommandLine {
     sub->set_help_flag("-h,--help", help);
     sub->callback([this, call = std::move(call)] { action_ = call; });
     return sub;
+  }
+
+  void ranks_options(CLI::App* sub) {
+    auto* const count = sub->add_option("--ranks", ranks_.count, "so many processes do it together, by mpirun");
+    count->check(CLI::Range(1, 1000000));
+    sub->add_option("--hosts", ranks_.hosts, "with --ranks: a file that says on which machines")
+        ->type_name("FILE")
+        ->needs(count);
+  }
+
+  /// For the ranks themselves.
+  static std::vector<std::string> words_without_ranks(int argc, char** argv) {
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) {
+      std::string const word = argv[i];
+      if (word == "--ranks" || word == "--hosts")
+        ++i;
+      else if (!word.starts_with("--ranks=") && !word.starts_with("--hosts="))
+        words.push_back(word);
+    }
+    return words;
   }
 
   static void window_options(CLI::App* sub, WindowRun& window) {
@@ -204,6 +231,7 @@ class CommandLine {
     sub->add_flag("--quiet", run_options_.quiet, "no progress line and no table");
     sub->add_flag("--force", run_options_.force, "replace a run that is in the folder");
     window_options(sub, run_options_.window);
+    ranks_options(sub);
   }
 
   void add_resume() {
@@ -216,6 +244,7 @@ class CommandLine {
     sub->add_option("--hours", resume_options_.hours, hours_doc)->check(hours_above_zero);
     sub->add_flag("--quiet", resume_options_.quiet, "no progress line and no table");
     window_options(sub, resume_options_.window);
+    ranks_options(sub);
   }
 
   void add_window() {
@@ -342,6 +371,7 @@ class CommandLine {
   CLI::App app_{"Boltzmann: particle simulations from a scenario file or a C++ program.", "bzm"};
   std::function<int()> action_;
   RunOptions run_options_;
+  Ranks ranks_;
   ResumeOptions resume_options_;
   WindowCommand window_command_;
   RenderOptions render_options_;
@@ -364,10 +394,16 @@ int main(int argc, char** argv) {
   open_standard_streams();
   hdf5::leave_without_words();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
+  std::string const command = argc > 1 ? argv[1] : "";
+  if (command != "run" && command != "resume") {  // what is no run is done once, whoever starts several
+    if (launched().rank > 0) return 0;
+    stay_alone();
+  }
   try {
+    team();  // ranks above 0 print nothing from here on
     return CommandLine().perform(argc, argv);
   } catch (ScenarioErrors const& errors) {
-    for (auto const& line : errors.lines) fmt::print(stderr, "{}\n", line);
+    tell_failure(join(errors.lines, "\n"));
     return 2;
   } catch (Error const& error) {
     return report(error);
@@ -375,14 +411,16 @@ int main(int argc, char** argv) {
     return report(failure);
   } catch (RecordingFailure const& failure) {
     return report(failure);
+  } catch (TeamFailure const& failure) {
+    return report(failure);
   } catch (std::bad_alloc const&) {
-    fmt::print(stderr, "there is not enough memory for this simulation\n");
+    tell_failure("there is not enough memory for this simulation");
     return 1;
   } catch (std::filesystem::filesystem_error const& error) {  // a folder that one may not enter
-    fmt::print(stderr, "'{}': {}\n", error.path1().string(), error.code().message());
+    tell_failure(fmt::format("'{}': {}", error.path1().string(), error.code().message()));
     return 2;
   } catch (std::exception const& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
+    tell_failure(fmt::format("internal error: {}", error.what()));
     return 1;
   }
 }

@@ -1,6 +1,7 @@
 // bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
@@ -18,8 +19,19 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
   std::fflush(stdout);
 }
 
-void refuse_hours_in_window(std::optional<double> const& hours, WindowRun const& window) {
+void refuse_in_window(std::optional<double> const& hours, WindowRun const& window) {
+  if (window.open && !team().alone())
+    throw Error("--window shows a run on one rank; leave it or the other ranks out (bzm window shows what is stored)");
   if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
+}
+
+/// Rank 0 alone has a standard input.
+ScenarioText read_on_all(std::string const& name) {
+  if (name != "-") return read_scenario(find_scenario(name));
+  ScenarioText text;
+  team().on_first([&] { text = read_scenario(name); });
+  for (auto* part : {&text.text, &text.file, &text.name, &text.folder}) team().broadcast(*part);
+  return text;
 }
 
 int status_of(SweepReport const& report, std::string const& folder) {
@@ -44,8 +56,8 @@ int run_recording(ScenarioSimulation const& scenario, Recording& recording, std:
 
 int run(RunOptions const& options) {
   WallTime const wall(options.hours);
-  refuse_hours_in_window(options.hours, options.window);
-  ScenarioText const text = read_scenario(find_scenario(options.scenario));
+  refuse_in_window(options.hours, options.window);
+  ScenarioText const text = read_on_all(options.scenario);
   Overrides const& overrides = options.overrides;
   auto scenario = load_scenario(text, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
@@ -73,7 +85,7 @@ int run(RunOptions const& options) {
 
 int resume(ResumeOptions const& options) {
   WallTime const wall(options.hours);
-  refuse_hours_in_window(options.hours, options.window);
+  refuse_in_window(options.hours, options.window);
   std::string const path = options.folder + "/checkpoint.h5";
   if (!std::filesystem::is_directory(options.folder))
     throw Error("there is no folder '" + options.folder + "' with a run to resume");

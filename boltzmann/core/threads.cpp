@@ -2,6 +2,7 @@
 // work for a moment, then sleep. Whoever starts a loop takes ranges like everyone else, and waits for ranges that are
 // being worked on, never for a thread that has none: on a machine that is busy with something else a thread that does
 // not get a processor costs nothing.
+#include <boltzmann/core/shared_processors.hpp>
 #include <boltzmann/core/threads.hpp>
 
 #include <algorithm>
@@ -140,18 +141,25 @@ Pool& pool() {
 
 }  // namespace
 
+namespace {
+std::atomic<int> processes{1};
+}
+
+void share_processors(int of) { processes = std::max(1, of); }
+
 int default_threads() {
-  static int const count = [] {
+  static int const told = [] {
     char const* wanted = std::getenv("OMP_NUM_THREADS");
-    int const number = wanted ? std::atoi(wanted) : 0;
-    if (number > 0) return number;
+    return wanted ? std::atoi(wanted) : 0;
+  }();
+  static int const count = [] {
 #if defined(__linux__)
     cpu_set_t mine;
     if (sched_getaffinity(0, sizeof(mine), &mine) == 0) return std::max(1, CPU_COUNT(&mine));
 #endif
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }();
-  return count;
+  return told > 0 ? told : std::max(1, count / processes);
 }
 
 namespace detail {

@@ -10,7 +10,8 @@ namespace boltzmann {
 using FolderLock = std::shared_ptr<void const>;
 
 /// Locks a folder that exists; this process may hold it already. Error if another process holds it, before anything in
-/// it has changed. Empty where the file system knows no locks.
+/// it has changed. Empty where the file system knows no
+/// locks, and on ranks above 0.
 FolderLock lock_folder(std::string const& folder);
 
 }  // namespace boltzmann

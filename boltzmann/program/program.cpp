@@ -1,6 +1,7 @@
 // The command line of programs, and the run that it asks for.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/program/program.hpp>
 #include <boltzmann/recording/wall_time.hpp>
 #ifdef BOLTZMANN_WITH_WINDOW
@@ -171,6 +172,7 @@ RunReport Program::run_for(Recording& recording, double time) {
 }
 
 int run_program(int argc, char** argv, std::string const& folder, std::function<void(Program&)> const& function) try {
+  team();  // ranks above 0 print nothing from here on
   Program program(argc, argv, folder);
   if (program.wants_help()) {
     fmt::print("{}", Program::help(argc > 0 ? argv[0] : "program", folder));

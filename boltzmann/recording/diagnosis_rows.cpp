@@ -56,7 +56,7 @@ bool DiagnosisRows::write() {
     simulation_.pause();
   }
   instruments_.show(values);
-  csv_->write(simulation_.step(), values);
+  if (csv_) csv_->write(simulation_.step(), values);
   for (auto const& listener : listeners_) listener(simulation_.step(), values);
   return ends;
 }

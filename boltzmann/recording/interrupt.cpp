@@ -1,5 +1,6 @@
 // The signal handler: it may only set flags, so the simulation looks at its own after every step.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -19,8 +20,9 @@ std::atomic<int> signals_seen{0};
 std::atomic<bool> left_alone{false};
 thread_local Interrupt* present = nullptr;
 static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
-std::array<int, 3> constexpr signals{SIGINT, SIGTERM, SIGHUP};
-std::array<struct sigaction, 3> before;
+// SIGUSR1 is what mpirun and srun hand on without ending a run themselves.
+std::array<int, 4> constexpr signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+std::array<struct sigaction, 4> before;
 
 extern "C" void on_signal(int) {
   if (signals_seen.fetch_add(1) > 0) _exit(130);
@@ -51,6 +53,10 @@ Interrupt::Interrupt(Simulation& simulation) : simulation_(simulation) {
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;  // a write to a file goes on
   for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (signals[i] == SIGUSR1 && team().alone()) {
+      sigaction(SIGUSR1, nullptr, &before[i]);
+      continue;
+    }
     sigaction(signals[i], &action, &before[i]);
     if (signals[i] == SIGHUP && before[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &before[i], nullptr);
   }

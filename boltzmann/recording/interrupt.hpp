@@ -5,8 +5,8 @@ namespace boltzmann {
 
 class Simulation;
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP (a lost terminal; not where nohup has it ignored) stop the simulation
-/// after the present step; a second signal ends the process at once with status 130. One at a time; the handlers from
+/// While it lives, SIGINT, SIGTERM and SIGHUP (a lost terminal; not where nohup has it ignored), in a team of ranks SIGUSR1,
+/// too, stop the simulation after the present step; a second signal ends the process at once with status 130. One at a time; the handlers from
 /// before come back with the destructor.
 class Interrupt {
  public:

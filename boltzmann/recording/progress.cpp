@@ -1,5 +1,6 @@
 // The progress line. The clock is read only as often as the line can change, so that it costs a small system nothing.
 #include <boltzmann/core/clock.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/recording/progress.hpp>
 #include <boltzmann/recording/run_loop.hpp>
@@ -177,10 +178,10 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   report.steps = simulation.step() - first;
   report.particle_steps =
       watch.particle_steps.value_or(static_cast<double>(report.particles) * static_cast<double>(report.steps));
-  report.signalled = interrupt.seen();
+  report.signalled = team().any(interrupt.seen());
   bool const early = report.steps < static_cast<std::int64_t>(steps);
   report.interrupted = report.signalled && early;
-  report.out_of_time = watch.out_of_time && early && !report.interrupted;
+  report.out_of_time = team().any(watch.out_of_time) && early && !report.interrupted;
   return report;
 }
 

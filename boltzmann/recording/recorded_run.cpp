@@ -1,4 +1,5 @@
 // Running a recording to its end, and the table that is printed then.
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/recording/run_loop.hpp>
 #include <boltzmann/simulation/conserved.hpp>
@@ -81,7 +82,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   }
   double const recorded = recording.seconds() - before;
   recording.finish();
-  report.signalled = interrupt.seen();
+  report.signalled = team().any(interrupt.seen());
   report.condition = recording.ended_by();
   if (!report.condition.empty() && recording.ended_step() == simulation.step())
     report.interrupted = report.out_of_time = false;
@@ -99,9 +100,10 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
 }
 
 int report(std::exception const& error) {
-  fmt::print(stderr, "{}\n", error.what());
+  tell_failure(error.what());
   if (dynamic_cast<Error const*>(&error)) return 2;
   if (dynamic_cast<PhysicsFailure const*>(&error)) return 3;
+  if (auto const* of_rank = dynamic_cast<TeamFailure const*>(&error)) return of_rank->status;
   return 1;
 }
 

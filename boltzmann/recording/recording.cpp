@@ -1,5 +1,6 @@
 // When what is written, and that nothing half written is left behind.
 #include <boltzmann/core/clock.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/mesh_frames.hpp>
 #include <boltzmann/files/standard_streams.hpp>
@@ -59,6 +60,8 @@ struct Recording::State {
         title(std::filesystem::path(folder.name()).filename().string()) {}
 
   Simulation& simulation;
+  // Every rank measures; rank 0 writes.
+  bool writes = team().first();
   UnitSystem units;
   RunFolder folder;
   std::string title, scenario;
@@ -119,11 +122,12 @@ struct Recording::State {
 
   void check() const {
     check_what();
-    folder.check();
+    if (writes) folder.check();
   }
 
   /// Whether the environment wants the run of a program to go on, and there is one.
   bool resume_asked() const {
+    if (!writes) return false;
     char const* said = std::getenv("BOLTZMANN_RESUME");
     std::string_view const asked = said ? said : "";
     if (!asked.empty() && asked != "0" && asked != "1")
@@ -141,19 +145,23 @@ struct Recording::State {
     std::vector<std::string> files;
     for (auto const& picture : pictures) files.push_back(picture.file);
     for (auto const& file : rows.gathered_files()) files.push_back(file);
-    folder.begin(files);
+    if (writes) folder.begin(files);
     try {
-      describe();
-      rows.begin(folder.path("diagnoses.csv"));
-      frames.begin(folder.path("trajectory.h5"));
-      if (every_mesh > 0) mesh_frames.emplace(folder.name());
+      if (writes) begin_files();
       open = true;
       write_due(simulation.step(), true);
     } catch (...) {
       end();
-      folder.undo();
+      if (writes) folder.undo();
       throw;
     }
+  }
+
+  void begin_files() {
+    describe();
+    rows.begin(folder.path("diagnoses.csv"));
+    frames.begin(folder.path("trajectory.h5"));
+    if (every_mesh > 0) mesh_frames.emplace(folder.name());
   }
 
   /// What the run is, for those who come later: its scenario, or what a program does.
@@ -187,13 +195,14 @@ struct Recording::State {
       if (step < next) return;
       last.emplace(simulation);
       if (due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
-      if (due(frames.every)) frames.write();
-      if (due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields_of(simulation.schemes()));
+      if (writes && due(frames.every)) frames.write();
+      if (writes && due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields_of(simulation.schemes()));
       if (first || due(every_checkpoint))
         write_checkpoint();  // the last one, so that it holds the state after all looks
     } catch (Error const& error) {
       if (first) throw;
       end();  // nothing more is written: what is there stays whole
+      if (!writes) throw;
       throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), checkpoint_left()));
     }
     next = next_look(step);
@@ -215,6 +224,10 @@ struct Recording::State {
   }
 
   void write_checkpoint() {
+    if (!writes) {
+      checkpoint_step = simulation.step();
+      return;
+    }
     auto const since = Clock::now();
     Checkpoint checkpoint;
     checkpoint.program_version = program_version;
@@ -248,10 +261,7 @@ struct Recording::State {
     auto const& plan = saved_part(saved, "planned", checkpoint_path());
     if (planned < 0 && !plan.empty()) planned = static_cast<std::int64_t>(plan[0]);
     scenario = saved.scenario;
-    frames.check(saved, folder.path("trajectory.h5"));
-    rows.go_on(folder.path("diagnoses.csv"), saved);
-    frames.go_on(folder.path("trajectory.h5"), saved.step);
-    if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder.name(), saved.step));
+    if (writes) go_on_with_files(saved);
     checkpoint_step = saved.step;
     open = true;
     finished = false;
@@ -259,7 +269,15 @@ struct Recording::State {
     next = next_look(saved.step);
   }
 
+  void go_on_with_files(Checkpoint const& saved) {
+    frames.check(saved, folder.path("trajectory.h5"));
+    rows.go_on(folder.path("diagnoses.csv"), saved);
+    frames.go_on(folder.path("trajectory.h5"), saved.step);
+    if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder.name(), saved.step));
+  }
+
   void draw_pictures(std::int64_t step, double time, std::string const& note) const {
+    if (!writes) return;
     for (auto const& picture : pictures) {
       Canvas canvas = draw(picture, {simulation, units, title, step, time, folder.name(), rows.instruments().list()});
       if (!note.empty()) canvas.note(note);
@@ -284,7 +302,7 @@ struct Recording::State {
       frames.write_last();
       frames.close();
       rows.close();
-      rows.write_gathered(folder.name());
+      if (writes) rows.write_gathered(folder.name());
       draw_pictures(simulation.step(), simulation.time(), "");
     } catch (Error const& error) {
       std::string const left = checkpoint_left();
@@ -325,9 +343,9 @@ Recording::~Recording() {
     if (std::uncaught_exceptions() > 0)
       state_->give_up();
     else
-      state_->finish();
+      finish();
   } catch (std::exception const& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell_failure(error.what());
   }
   state_->simulation.forget(state_->observer);
 }
@@ -372,16 +390,26 @@ void Recording::stop_when(std::string what, std::function<bool(std::int64_t, std
   state_->rows.end.what = std::move(what);
   state_->rows.end.condition = std::move(condition);
 }
-void Recording::check() { state_->check(); }
-void Recording::resume() { state_->resume(); }
+void Recording::check() {
+  team().agree([&] { state_->check(); });
+}
+void Recording::resume() {
+  team().agree([&] { state_->resume(); });
+}
 std::uint64_t Recording::resume_if_asked(std::uint64_t steps) {
-  if (state_->open || !state_->resume_asked()) return steps;
-  state_->resume();
+  Team& team = boltzmann::team();
+  team.same(state_->scenario, "scenario");
+  bool asked = false;
+  team.agree([&] { asked = !state_->open && state_->resume_asked(); });
+  if (!team.first_says(asked)) return steps;
+  resume();
   if (state_->rows.end.met) return 0;
   auto const done = static_cast<std::uint64_t>(std::max<std::int64_t>(state_->simulation.step(), 0));
   return steps - std::min(steps, done);
 }
-void Recording::finish() { state_->finish(); }
+void Recording::finish() {
+  team().agree([&] { state_->finish(); });
+}
 void Recording::give_up() { state_->give_up(); }
 std::string Recording::save_checkpoint() {
   if (!state_->open || state_->finished)

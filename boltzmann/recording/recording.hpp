@@ -35,7 +35,7 @@ struct RecordingOptions {
 
 /// Writes diagnoses.csv, trajectory.h5, checkpoint.h5 and pictures into one folder while the simulation runs. Say what
 /// is to be recorded, then run; nothing is written before the run starts. A simulation has one recording, which it must
-/// not outlive.
+/// not outlive. In a team of ranks (core/team.hpp) every rank has it, and rank 0 writes; calls are for all of them.
 class Recording {
  public:
   /// Error when the run starts, if the folder can't be made or written, or already holds a run that is not to be

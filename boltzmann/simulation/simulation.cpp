@@ -1,11 +1,14 @@
 // What takes part in a simulation, its loop, and its state.
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/schemes/after_others.hpp>
+#include <boltzmann/simulation/run_votes.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace boltzmann {
@@ -39,6 +42,7 @@ void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
 }  // namespace
 
 Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
+  team();  // ranks above 0 print nothing from here on
   this->step_size(step_size);
   add(scheme);
 }
@@ -334,9 +338,13 @@ void Simulation::equilibrate_now() {
   take_particles();
 }
 
-void Simulation::run(std::uint64_t steps) { run(steps, 1); }
+void Simulation::run(std::uint64_t steps) {
+  run_together([&] { run(steps, 1); });
+}
 
-void Simulation::rewind(std::uint64_t steps) { run(steps, -1); }
+void Simulation::rewind(std::uint64_t steps) {
+  run_together([&] { run(steps, -1); });
+}
 
 void Simulation::run(std::uint64_t steps, int direction) {
   std::atomic_ref(pause_).store(false, std::memory_order_relaxed);
@@ -354,6 +362,14 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
   if (direction < 0 && !barostats_.empty()) throw Error("a run whose box is stretched can't go backwards");
   if (direction < 0 && !events_.empty()) throw Error("a run with events can't go backwards");
+  RunVotes votes(steps);
+  votes.begin(
+      [&] {
+        return (rows_checksum(ensembles_) + std::bit_cast<std::uint64_t>(direction * step_size_)) *
+                   (2 * static_cast<std::uint64_t>(step_) + 1) +
+               seed_;
+      },
+      stopped());
   if (!begun_) {
     if (minimisation_) minimise(*this, *std::exchange(minimisation_, std::nullopt));
     equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
@@ -366,7 +382,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   double const dt = direction * step_size_;
   bool const last = any_comes_last(schemes_);
   FusedSteps* const whole = steps > 0 ? whole_steps(dt, now) : nullptr;
-  for (std::uint64_t n = 0; n < steps && !stopped() && !paused(); ++n) {
+  for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) {
     try {
       if (whole)
         whole->step(time());
@@ -388,6 +404,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     for (auto const& one : progress_)
       if (!one.forgotten) one.observer(*this);
   }
+  if (votes.stopped()) stop();
   if (whole) {
     whole->store();
     influences_.outdated();
@@ -397,6 +414,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   Dependence const then = dependence();
   influences_.end_run(then);
   if (whole) whole_.are_for = then;
+  votes.end([&] { return then.rows; });
 }
 
 namespace {

@@ -1,5 +1,6 @@
 // A sweep from its first run to its tables; runs.csv says which runs are done.
 #include <boltzmann/core/clock.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -223,7 +224,7 @@ RunReport do_run(std::string const& folder, SweepRun const& run, std::size_t num
   std::unique_ptr<Recording> recording;
   std::int64_t first = 0;
   bool ended = false;
-  if (fs::exists(stored)) {
+  if (team().first_says(fs::exists(stored))) {
     auto const checkpoint = read_checkpoint(stored);
     ended = checkpoint.state.contains("stopped");
     check_scenario(folder, run, number, checkpoint.scenario, "checkpoint.h5");
@@ -253,9 +254,11 @@ std::string one_line(std::string text) {
 SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title,
                     std::optional<int> threads, bool quiet, WallTime const& wall, Attend const& attend = {}) {
   auto runs = runs_of(plan);
-  read_states(folder, runs);
-  check_runs_before(folder, runs);
-  write_runs(folder, plan, runs);
+  team().agree([&] {
+    read_states(folder, runs);
+    check_runs_before(folder, runs);
+  });
+  team().on_first([&] { write_runs(folder, plan, runs); });
   auto const finished = static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](SweepRun const& run) { return run.state != RunState::waiting; }));
   if (!quiet) {
@@ -288,7 +291,7 @@ SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::strin
         run.reason = one_line(errors.what());
       }
       if (run.state != RunState::waiting) progress.end(run.state == RunState::done);
-      write_runs(folder, plan, runs);
+      team().on_first([&] { write_runs(folder, plan, runs); });
       if (stopped || out_of_time) return {failed, stopped, !stopped};
     }
     if (run.state == RunState::failed) {
@@ -299,7 +302,8 @@ SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::strin
   std::vector<std::string> folders;
   folders.reserve(runs.size());
   for (auto const& run : runs) folders.push_back(run.state == RunState::done ? folder + "/" + run.folder : "");
-  auto files = write_sweep_results(plan, folder, folders, title, quiet);
+  std::vector<std::string> files;
+  team().on_first([&] { files = write_sweep_results(plan, folder, folders, title, quiet); });
   files.insert(files.begin(), {"sweep.toml", "runs.csv"});
   if (!quiet)
     fmt::print("\n  results  {}: {}, {} ... {}\n", folder, join(files), runs.front().folder, runs.back().folder);
@@ -365,6 +369,7 @@ void check_sweep(ScenarioText const& text, Overrides const& overrides, SweepPlan
 bool holds_sweep(std::string const& folder) { return fs::exists(folder + "/sweep.toml"); }
 
 void remove_sweep(std::string const& folder) {
+  if (!team().first()) return;
   std::error_code ignored;
   for (auto const& row : rows_of_runs(folder)) {
     std::string const& name = row[1];
@@ -390,17 +395,20 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
   }
   scenario.reset();
   check_sweep(options.text, options.overrides, plan);
-  if (options.force) {
-    remove_sweep(folder);
-    std::error_code ignored;
-    for (char const* file : {"scenario.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5"})
-      fs::remove(folder + "/" + file, ignored);
-  }
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
-  FolderLock const lock = lock_folder(folder);
-  write_whole(folder + "/sweep.toml", plan.text);
+  FolderLock lock;
+  team().on_first([&] {
+    if (options.force) {
+      remove_sweep(folder);
+      std::error_code ignored;
+      for (char const* file : {"scenario.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5"})
+        fs::remove(folder + "/" + file, ignored);
+    }
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw Error("the folder '" + folder + "' can't be made: " + error.message());
+    lock = lock_folder(folder);
+    write_whole(folder + "/sweep.toml", plan.text);
+  });
   return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall, options.attend);
 }
 

@@ -2,6 +2,7 @@
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/nesting.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/window/clients.hpp>
 #include <boltzmann/window/page.hpp>
 #include <boltzmann/window/wire.hpp>
@@ -234,6 +235,7 @@ struct Clients::State {
 
 Clients::Clients(std::uint16_t port, std::function<std::optional<WebFile>(std::string_view)> file, std::string token)
     : state_(std::make_shared<State>()), calls_(state_->calls), ready_(state_->ready) {
+  if (!team().alone()) throw Error("a window shows a run on one rank; leave the window out, or the other ranks");
   State* const state = state_.get();
   WebEvents events;
   events.joined = [state](std::uint64_t id) { state->joined(id); };

@@ -1,0 +1,106 @@
+// bzm stays beside the launcher: mpirun alone would end ranks a second after Ctrl-C, and with another exit status.
+#include <boltzmann/bzm/launch.hpp>
+#include <boltzmann/bzm/process.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/launcher.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace boltzmann::bzm {
+namespace {
+
+std::string find_launcher() {
+  for (auto const* name : {"mpirun", "mpiexec"})
+    if (auto const path = find_program(name); !path.empty()) return path;
+  return "";
+}
+
+std::string first_line_of_version(std::string const& launcher) {
+  std::string const text = output_of({launcher, "--version"});
+  return text.substr(0, text.find('\n'));
+}
+
+/// Of one that is not there any more: as a shell has it.
+int status_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
+/// The child, in a group of its own: Ctrl-C of a terminal is for bzm.
+[[noreturn]] void become(std::vector<std::string> const& words, sigset_t const& signals) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  sigprocmask(SIG_SETMASK, &signals, nullptr);
+  if (isatty(STDIN_FILENO) == 1) {  // which only the group of bzm may read
+    int const nothing = open("/dev/null", O_RDONLY);
+    dup2(nothing, STDIN_FILENO);
+  }
+  std::vector<char*> arguments;
+  for (auto const& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  execv(arguments[0], arguments.data());
+  std::string const line = words[0] + " can't be started: " + std::strerror(errno) + "\n";
+  [[maybe_unused]] auto const written = write(STDERR_FILENO, line.data(), line.size());
+  _exit(2);
+}
+
+}  // namespace
+
+std::string launcher_version() {
+  auto const launcher = find_launcher();
+  return launcher.empty() ? "" : fmt::format("{}: {}", launcher, first_line_of_version(launcher));
+}
+
+int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks) {
+  std::string const launcher = find_launcher();
+  if (launcher.empty())
+    throw Error("--ranks: there is neither mpirun nor mpiexec on the PATH (Debian: apt install openmpi-bin)");
+  auto const plugin = open_mpi_plugin();
+  if (plugin.path.empty())
+    throw Error("--ranks: there is no libboltzmann_mpi.so, by which processes do one run; " + how_to_make_mpi_plugin());
+  if (plugin.library.empty()) throw Error(fmt::format("--ranks: '{}' can't be used: {}", plugin.path, plugin.reason));
+  if (!ranks.hosts.empty() && !std::filesystem::exists(ranks.hosts))
+    throw Error("--hosts: there is no file '" + ranks.hosts + "'");
+  bool const open_mpi = first_line_of_version(launcher).find("Open MPI") != std::string::npos ||
+                        first_line_of_version(launcher).find("OpenRTE") != std::string::npos;
+  setenv("BOLTZMANN_MPI", std::filesystem::absolute(plugin.path).c_str(), 1);
+  std::vector<std::string> line{launcher};
+  if (open_mpi) {
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    // More ranks than processors are allowed; what it has to say of exit statuses, ranks have said.
+    line.insert(line.end(), {"--oversubscribe", "--quiet", "-x", "BOLTZMANN_MPI"});
+  }
+  if (!ranks.hosts.empty()) line.insert(line.end(), {open_mpi ? "--hostfile" : "-f", ranks.hosts});
+  line.insert(line.end(), {"-n", std::to_string(*ranks.count), own_path()});
+  line.insert(line.end(), words.begin(), words.end());
+
+  sigset_t signals, before;
+  sigemptyset(&signals);
+  for (int const number : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, number);
+  sigprocmask(SIG_BLOCK, &signals, &before);
+  pid_t const child = fork();
+  if (child < 0) throw Error(fmt::format("'{}' can't be started: {}", launcher, std::strerror(errno)));
+  if (child == 0) become(line, before);
+  int told = 0;
+  for (;;) {
+    int status = 0;
+    if (waitpid(child, &status, WNOHANG) == child) {
+      sigprocmask(SIG_SETMASK, &before, nullptr);
+      int const of_all = status_of(status);
+      return told > 1 || (told == 1 && of_all > 128) ? 130 : of_all;
+    }
+    int const number = sigwaitinfo(&signals, nullptr);
+    if (number < 0 || number == SIGCHLD) continue;
+    // SIGUSR1 reaches ranks, and leaves them the time that they need; SIGTERM would be followed by SIGKILL.
+    kill(child, ++told == 1 && open_mpi ? SIGUSR1 : SIGTERM);
+  }
+}
+
+}  // namespace boltzmann::bzm

@@ -1,0 +1,228 @@
+// From the environment to a team of processes.
+#include <boltzmann/core/team_functions.h>
+#include <boltzmann/core/clock.hpp>
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/core/launcher.hpp>
+#include <boltzmann/core/shared_processors.hpp>
+#include <boltzmann/core/team.hpp>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace boltzmann {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In the environment of what a rank starts: that is no rank.
+constexpr char const* marker = "BOLTZMANN_RANK_OF";
+
+thread_local Team* acting = nullptr;
+std::atomic<Team*> joined{nullptr};
+int real_errors = STDERR_FILENO;  // of a silent rank, where its last words go
+
+std::string environment(char const* name) {
+  char const* const value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// Ranks above 0 say nothing.
+void silence() {
+  int const nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC), kept = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (nowhere < 0) return;
+  std::fflush(nullptr);
+  if (kept >= 0) real_errors = kept;
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  close(nowhere);
+}
+
+/// The processors that this process may use, and the machine's name.
+std::string processors() {
+  std::string text(256, '\0');
+  if (gethostname(text.data(), text.size()) != 0) text.clear();
+#if defined(__linux__)
+  cpu_set_t mine;
+  if (sched_getaffinity(0, sizeof mine, &mine) == 0) text.append(reinterpret_cast<char const*>(&mine), sizeof mine);
+#endif
+  return text;
+}
+
+double patience() {
+  std::string const said = environment("BOLTZMANN_PATIENCE");
+  double const seconds = said.empty() ? 600 : std::atof(said.c_str());
+  if (!(seconds > 0))
+    throw Error(fmt::format("BOLTZMANN_PATIENCE is a number of seconds above 0, not '{}'", boltzmann::quoted(said)));
+  return seconds;
+}
+
+struct Opened {
+  MpiPlugin plugin;
+  BoltzmannTeamFunctions const* functions = nullptr;
+};
+
+Opened open_plugin() {
+  Opened opened;
+  opened.plugin.path = find_mpi_plugin();
+  if (opened.plugin.path.empty()) return opened;
+  // Open MPI's own plug-ins look for its symbols among all.
+  void* const library = dlopen(opened.plugin.path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (!library) {
+    opened.plugin.reason = dlerror();
+    return opened;
+  }
+  auto const table = reinterpret_cast<BoltzmannMpi>(dlsym(library, "boltzmann_mpi"));
+  opened.functions = table ? table() : nullptr;
+  if (!opened.functions || opened.functions->version != boltzmann_team_version) {
+    opened.plugin.reason = "it belongs to another version of Boltzmann";
+    opened.functions = nullptr;
+    return opened;
+  }
+  opened.plugin.library = opened.functions->library();
+  return opened;
+}
+
+void leave_at_exit(int status, void*) {
+  int const of_all = joined.load()->end(status);
+  if (of_all == status) return;
+  std::fflush(nullptr);
+  _exit(of_all);
+}
+
+[[noreturn]] void refuse(Launched const& told, std::string const& line) {
+  if (told.rank > 0) silence();
+  throw Error(line);
+}
+
+/// What has to be alike on all ranks, and what they share.
+void settle(Team& team) {
+  std::string own;
+  team.agree([&] { own = to_string(instruction_set()); });
+  auto const sets = team.gather(own);
+  for (std::size_t r = 1; r < sets.size(); ++r)
+    if (sets[r] != sets[0])
+      throw Error(fmt::format(
+          "rank {} uses the instructions {}, rank 0 uses {}, which have other bits; set BOLTZMANN_INSTRUCTIONS "
+          "to one that all have",
+          r, sets[r], sets[0]));
+  auto const all = team.gather(processors());
+  share_processors(static_cast<int>(std::count(all.begin(), all.end(), all[static_cast<std::size_t>(team.rank())])));
+}
+
+Team* join() {
+  if (Team* const team = joined) return team;
+  Launched const told = launched();
+  if (told.size == 1) return new Team;
+  std::string const several = told.size > 1 ? fmt::format("{} processes", told.size) : "processes";
+  Opened const opened = open_plugin();
+  if (opened.plugin.path.empty())
+    refuse(told,
+           fmt::format("a launcher has started {} of this, but there is no libboltzmann_mpi.so that makes them one "
+                       "run; {}",
+                       several, how_to_make_mpi_plugin()));
+  if (!opened.functions) refuse(told, fmt::format("'{}' can't be used: {}", opened.plugin.path, opened.plugin.reason));
+  double const seconds = patience();
+  int rank = 0, size = 1;
+  if (int const error = opened.functions->join(nullptr, &rank, &size))
+    refuse(told, fmt::format("MPI can't begin (its error {})", error));
+  if (told.size > 1 && size != told.size)
+    refuse(told,
+           fmt::format("a launcher has started {} of this, but MPI knows of {}: '{}' was compiled with another MPI "
+                       "({}) than that of the launcher",
+                       several, size, opened.plugin.path, opened.plugin.library));
+  auto* const team = new Team(*opened.functions, nullptr, rank, size);  // for ever: what leaves it runs last of all
+  joined = team;
+  stay_alone();  // what it starts
+  on_exit(leave_at_exit, nullptr);
+  if (rank > 0) silence();
+  team->patience(seconds);
+  settle(*team);
+  return team;
+}
+
+}  // namespace
+
+Team& team() {
+  if (acting) return *acting;
+  static Team* const of_process = join();
+  return *of_process;
+}
+
+ActingTeam::ActingTeam(Team& team) : before_(acting) { acting = &team; }
+ActingTeam::~ActingTeam() { acting = before_; }
+
+void tell_failure(std::string const& line) {
+  Team* const here = acting ? acting : joined.load();
+  if (!here || here->tell(line)) fmt::print(stderr, "{}\n", line);
+}
+
+void Team::give_up(std::string const& line) {
+  dprintf(real_errors, "%s\n", line.c_str());
+  functions_->abort(of_, 1);
+  throw TeamFailure(line, 1);
+}
+
+Launched launched() {
+  if (!environment(marker).empty()) return {};
+  for (auto const& [size, rank] : {std::pair("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"),
+                                   {"PMI_SIZE", "PMI_RANK"},
+                                   {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}})
+    if (!environment(size).empty() && !environment(rank).empty())
+      return {std::atoi(environment(rank).c_str()), std::max(1, std::atoi(environment(size).c_str()))};
+  if (auto const rank = environment("PMIX_RANK"); !rank.empty()) return {std::atoi(rank.c_str()), 0};
+  return {};
+}
+
+void stay_alone() { setenv(marker, "another process", 1); }
+
+std::string find_mpi_plugin() {
+  constexpr char const* name = "libboltzmann_mpi.so";
+  std::error_code ignored;
+  if (std::string const told = environment("BOLTZMANN_MPI"); !told.empty())
+    return fs::exists(told, ignored) ? told : "";
+  std::vector<fs::path> programs{fs::read_symlink("/proc/self/exe", ignored)}, folders;
+  std::string const path = environment("PATH");
+  for (std::size_t at = 0; at < path.size();) {
+    std::size_t const end = std::min(path.find(':', at), path.size());
+    if (auto const bzm = fs::path(path.substr(at, end - at)) / "bzm"; fs::exists(bzm, ignored)) {
+      programs.push_back(fs::canonical(bzm, ignored));
+      break;
+    }
+    at = end + 1;
+  }
+  for (auto const& program : programs) {
+    folders.push_back(program.parent_path());
+    folders.push_back(program.parent_path().parent_path() / "lib/boltzmann");
+  }
+  if (std::string const home = environment("HOME"); !home.empty()) folders.emplace_back(home + "/.local/lib/boltzmann");
+  folders.emplace_back("/usr/local/lib/boltzmann");
+  folders.emplace_back("/usr/lib/boltzmann");
+  for (auto const& folder : folders)
+    if (fs::exists(folder / name, ignored)) return (folder / name).string();
+  return "";
+}
+
+MpiPlugin open_mpi_plugin() { return open_plugin().plugin; }
+
+std::string how_to_make_mpi_plugin() {
+  return "where mpicc is (Debian: apt install libopenmpi-dev), `make` builds it beside bzm, and so does, with the "
+         "files "
+         "of share/boltzmann/mpi: mkdir -p ~/.local/lib/boltzmann && mpicc -O2 -shared -fPIC mpi_plugin.c -o "
+         "~/.local/lib/boltzmann/libboltzmann_mpi.so";
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,75 @@
+/* libboltzmann_mpi.so: a team of processes by MPI, compiled by the MPI that a machine has:
+     mpicc -O2 -shared -fPIC mpi_plugin.c -o libboltzmann_mpi.so
+   Nothing else of Boltzmann knows MPI. */
+#include "team_functions.h"
+
+#include <mpi.h>
+#include <string.h>
+
+static MPI_Comm team = MPI_COMM_NULL; /* of our own messages, apart from those of the program */
+static MPI_Request under_way = MPI_REQUEST_NULL;
+static int ours = 0; /* whether MPI was begun here */
+
+static char const* library(void) {
+  static char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  if (MPI_Get_library_version(text, &length) != MPI_SUCCESS) return "MPI";
+  text[strcspn(text, "\n")] = 0;
+  return text;
+}
+
+static int join(void* of, int* rank, int* size) {
+  int begun = 0, level = 0, error = MPI_Initialized(&begun);
+  (void)of;
+  if (error == MPI_SUCCESS && !begun) {
+    error = MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &level);
+    ours = error == MPI_SUCCESS;
+  }
+  if (error == MPI_SUCCESS) error = MPI_Comm_dup(MPI_COMM_WORLD, &team);
+  if (error == MPI_SUCCESS) error = MPI_Comm_rank(team, rank);
+  if (error == MPI_SUCCESS) error = MPI_Comm_size(team, size);
+  return error == MPI_SUCCESS ? 0 : error;
+}
+
+static void begin_reduce(void* of, int64_t* numbers, int count, int operation) {
+  MPI_Op const op = operation == boltzmann_team_sum ? MPI_SUM : operation == boltzmann_team_min ? MPI_MIN : MPI_MAX;
+  (void)of;
+  MPI_Iallreduce(MPI_IN_PLACE, numbers, count, MPI_INT64_T, op, team, &under_way);
+}
+
+static void begin_broadcast(void* of, void* bytes, int count, int from) {
+  (void)of;
+  MPI_Ibcast(bytes, count, MPI_BYTE, from, team, &under_way);
+}
+
+static void begin_gather(void* of, void const* mine, int count, void* all) {
+  (void)of;
+  MPI_Iallgather(mine, count, MPI_BYTE, all, count, MPI_BYTE, team, &under_way);
+}
+
+static int done(void* of) {
+  int flag = 0;
+  (void)of;
+  MPI_Test(&under_way, &flag, MPI_STATUS_IGNORE);
+  return flag;
+}
+
+static void leave(void* of) {
+  int finished = 0;
+  (void)of;
+  MPI_Finalized(&finished);
+  if (finished) return;
+  MPI_Comm_free(&team);
+  if (ours) MPI_Finalize();
+}
+
+static void end_all(void* of, int status) {
+  (void)of;
+  MPI_Abort(MPI_COMM_WORLD, status);
+}
+
+BoltzmannTeamFunctions const* boltzmann_mpi(void) {
+  static BoltzmannTeamFunctions const functions = {
+      boltzmann_team_version, library, join, begin_reduce, begin_broadcast, begin_gather, done, leave, end_all};
+  return &functions;
+}

@@ -1,0 +1,45 @@
+/* What carries messages between the processes of a run: mpi_plugin.c fills the table, team.cpp calls it. */
+#ifndef BOLTZMANN_TEAM_FUNCTIONS_H
+#define BOLTZMANN_TEAM_FUNCTIONS_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Of the table: a plug-in of another version is refused. */
+enum { boltzmann_team_version = 1 };
+
+enum { boltzmann_team_sum, boltzmann_team_min, boltzmann_team_max };
+
+/* `of` is whose table it is. All ranks call the same begin_... in the same order; one is under way at a time, and its
+   memory stays until done() has said so. */
+typedef struct BoltzmannTeamFunctions {
+  int version;
+  /* Which library it is, in one line; also before join(). */
+  char const* (*library)(void);
+  /* The calling process becomes one of `size`. 0, or an error of the library. */
+  int (*join)(void* of, int* rank, int* size);
+  /* Each number becomes the sum, minimum or maximum of those of all ranks. */
+  void (*begin_reduce)(void* of, int64_t* numbers, int count, int operation);
+  /* What this rank has becomes what the rank `from` has. */
+  void (*begin_broadcast)(void* of, void* bytes, int count, int from);
+  /* `all` becomes what all ranks have, `count` bytes of each, in the order of ranks. */
+  void (*begin_gather)(void* of, void const* mine, int count, void* all);
+  /* Whether the one under way has come to its end on this rank; never waits. */
+  int (*done)(void* of);
+  /* The last call of a rank. */
+  void (*leave)(void* of);
+  /* Ends all ranks. Comes back only where ranks are no processes. */
+  void (*abort)(void* of, int status);
+} BoltzmannTeamFunctions;
+
+/* What the plug-in has under this name. */
+typedef BoltzmannTeamFunctions const* (*BoltzmannMpi)(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
