@@ -4,6 +4,8 @@
 #include <boltzmann/laws/fene.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
+#include <boltzmann/loaders/particle_frame.hpp>
 #include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -90,7 +92,7 @@ struct Melt {
 
 void bathe(Simulation& simulation, Ensemble<Newton<3>>& beads) {
   auto const bath = std::make_shared<LangevinBath>(1, 0.5, 1);
-  bath->add(beads);
+  bath->on(beads);
   simulation.add(bath);
 }
 
@@ -128,7 +130,7 @@ void write_polymer(std::size_t count) {
 
 void run_polymer(std::size_t count, Run const& r) {
   Melt melt(count, r.skin, r.threads);
-  particle_file_load(melt.beads, melt.box, {.path = "polymer.data"});
+  frame_load(melt.beads, from_particle_file("polymer.data"));
   double const start = melt.scheme.measure().potential / static_cast<double>(melt.beads.size());
   Simulation simulation(melt.scheme, 0.01);
   simulation.integrate(melt.beads, Method::leap_frog);
