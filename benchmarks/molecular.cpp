@@ -76,11 +76,13 @@ struct Melt {
   Box box;
   Ensemble<Newton<3>> beads{"beads", 4 * count* count* count};
   PairScheme scheme{box, end_of_repulsion};
+  LangevinBath bath{1, 0.5, 1};
 
   explicit Melt(std::size_t cells, double skin, int threads) : count(cells), box(box_of(cells)) {
     auto const bonds = chain_bonds(beads.size(), chain);
-    scheme.skin(skin);
+    if (skin > 0) scheme.skin(skin);
     scheme.threads(threads);
+    bath.on(beads);
     scheme.internal(beads, LennardJones{.depth = 1, .r0 = end_of_repulsion});
     scheme.connect(beads, connections_of(bonds), Fene{.stiffness = 30, .max_length = 1.5});
   }
@@ -90,21 +92,15 @@ struct Melt {
   }
 };
 
-void bathe(Simulation& simulation, Ensemble<Newton<3>>& beads) {
-  auto const bath = std::make_shared<LangevinBath>(1, 0.5, 1);
-  bath->on(beads);
-  simulation.add(bath);
-}
-
 /// polymer.data, for read_data of LAMMPS: the melt after 1000 steps.
 void write_polymer(std::size_t count) {
-  Melt melt(count, 0.8, 1);
+  Melt melt(count, 0, 1);
   path_load(melt.beads, melt.box, {.counts = {2 * count, 2 * count, count}});
   for (auto& bead : melt.beads) bead.mass = 1;
   maxwellian_load(melt.beads, {.temperature = 1, .remove_drift = true});
   Simulation simulation(melt.scheme, 0.01);
   simulation.integrate(melt.beads, Method::leap_frog);
-  bathe(simulation, melt.beads);
+  simulation.add(melt.bath);
   simulation.run(1000);
   std::FILE* const file = std::fopen("polymer.data", "w");
   if (!file) throw Error("polymer.data can't be written");
@@ -134,7 +130,7 @@ void run_polymer(std::size_t count, Run const& r) {
   double const start = melt.scheme.measure().potential / static_cast<double>(melt.beads.size());
   Simulation simulation(melt.scheme, 0.01);
   simulation.integrate(melt.beads, Method::leap_frog);
-  bathe(simulation, melt.beads);
+  simulation.add(melt.bath);
   simulation.run(r.warm_up);
   auto const since = std::chrono::steady_clock::now();
   simulation.run(r.steps);
@@ -151,7 +147,7 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr,
                  "usage: %s melt CELLS WARM_UP STEPS THREADS SKIN, or copper | knock-on COLUMNS ... (rows are 8/5 of "
                  "columns), or polymer CELLS ... (4 CELLS^3 beads from polymer.data, which polymer-start CELLS 0 0 1 0 "
-                 "writes); in units of sigma\n",
+                 "writes; skin 0: ours); in units of sigma\n",
                  argv[0]);
     return 2;
   }

@@ -102,7 +102,8 @@ void Neighbourhood::build(int threads) {
   if (skin_) return;
   // For the density around the particles, which these first lists show. It stays, whatever the density becomes.
   double entries = 0, particles = 0, longest = (1 + longest_skin_of_cutoff) * longest_cutoff();
-  for (auto const& list : lists_) entries += static_cast<double>(list.list.entries());
+  for (auto const& list : lists_)
+    for (std::size_t i = 0; i < list.list.size(); ++i) entries += list.list.lengths(list_rings - 1)[i];
   for (auto const& copy : copies_) particles += static_cast<double>(copy.owned());
   int const D = box_->dimension();
   for (int a = 0; a < D; ++a)

@@ -198,15 +198,13 @@ TEST(Water, HasTheStructureAndTheEnergyThatOthersHave) {
   EXPECT_NEAR(values[0], 3.05, 0.15);
   EXPECT_NEAR(values[1], 2.75, 0.03);
   auto const r = oo.distances(), g = oo.g(), around = oo.coordination(), of_bonds = oh.coordination();
-  for (std::size_t k = 0; k < r.size(); ++k) {
-    if (std::abs(r[k] - 3.325) < 0.01) {
-      EXPECT_NEAR(g[k], 0.82, 0.1);       // the minimum
-      EXPECT_NEAR(around[k], 4.4, 0.25);  // neighbours
-    }
-    if (std::abs(r[k] - 4.5) < 0.03) EXPECT_NEAR(g[k], 1.12, 0.08);
-    if (std::abs(r[k] - 1.325) < 0.01) EXPECT_NEAR(of_bonds[k], 2, 1e-9);        // the molecule's own
-    if (std::abs(r[k] - 2.425) < 0.01) EXPECT_NEAR(of_bonds[k] - 2, 1.9, 0.15);  // and about two of others
-  }
+  auto const bin = [&](double distance) { return static_cast<std::size_t>(distance / 0.05); };
+  EXPECT_NEAR(r[bin(3.32)], 3.325, 1e-12);
+  EXPECT_NEAR(g[bin(3.32)], 0.82, 0.1);       // the minimum
+  EXPECT_NEAR(around[bin(3.32)], 4.4, 0.25);  // neighbours
+  EXPECT_NEAR(g[bin(4.52)], 1.12, 0.08);
+  EXPECT_NEAR(of_bonds[bin(1.32)], 2, 1e-9);        // the molecule's own
+  EXPECT_NEAR(of_bonds[bin(2.42)] - 2, 1.9, 0.15);  // and about two of others
 }
 
 }  // namespace
