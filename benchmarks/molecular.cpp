@@ -1,18 +1,25 @@
 // One molecular-dynamics problem as `peers` runs it with every code: which, how large, how many steps, how many
 // threads.
+#include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/laws/fene.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
+#include <boltzmann/loaders/particle_file.hpp>
+#include <boltzmann/loaders/particle_frame.hpp>
+#include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 
 namespace {
 
@@ -59,13 +66,88 @@ void run(Run const& r) {
               static_cast<double>(atoms.size() * r.steps) / seconds, start, end, scheme.report().c_str());
 }
 
+// ---- The polymer melt of Kremer and Grest: chains of 100 beads ----
+
+constexpr std::size_t chain = 100;
+double const end_of_repulsion = std::pow(2.0, 1.0 / 6);
+
+struct Melt {
+  std::size_t count;  // 4 count^3 beads
+  Box box;
+  Ensemble<Newton<3>> beads{"beads", 4 * count* count* count};
+  PairScheme scheme{box, end_of_repulsion};
+  LangevinBath bath{1, 0.5, 1};
+
+  explicit Melt(std::size_t cells, double skin, int threads) : count(cells), box(box_of(cells)) {
+    auto const bonds = chain_bonds(beads.size(), chain);
+    if (skin > 0) scheme.skin(skin);
+    scheme.threads(threads);
+    bath.on(beads);
+    scheme.internal(beads, LennardJones{.depth = 1, .r0 = end_of_repulsion});
+    scheme.connect(beads, connections_of(bonds), Fene{.stiffness = 30, .max_length = 1.5});
+  }
+  static Box box_of(std::size_t cells) {
+    double const site = std::pow(0.8442, -1.0 / 3), n = static_cast<double>(cells);
+    return Box(Vector{0.0, 0.0, 0.0}, Vector{2 * n * site, 2 * n * site, n * site}, Boundary::periodic);
+  }
+};
+
+/// polymer.data, for read_data of LAMMPS: the melt after 1000 steps.
+void write_polymer(std::size_t count) {
+  Melt melt(count, 0, 1);
+  path_load(melt.beads, melt.box, {.counts = {2 * count, 2 * count, count}});
+  for (auto& bead : melt.beads) bead.mass = 1;
+  maxwellian_load(melt.beads, {.temperature = 1, .remove_drift = true});
+  Simulation simulation(melt.scheme, 0.01);
+  simulation.integrate(melt.beads, Method::leap_frog);
+  simulation.add(melt.bath);
+  simulation.run(1000);
+  std::FILE* const file = std::fopen("polymer.data", "w");
+  if (!file) throw Error("polymer.data can't be written");
+  std::size_t const size = melt.beads.size();
+  std::fprintf(file, "chains\n\n%zu atoms\n%zu bonds\n1 atom types\n1 bond types\n\n", size, size - size / chain);
+  for (int a = 0; a < 3; ++a) std::fprintf(file, "0 %.17g %clo %chi\n", melt.box.length(a), "xyz"[a], "xyz"[a]);
+  std::fprintf(file, "\nMasses\n\n1 1\n\nAtoms # bond\n\n");
+  for (std::size_t i = 0; i < size; ++i) {
+    auto const& x = melt.beads[i].position;
+    std::fprintf(file, "%zu %zu 1 %.17g %.17g %.17g\n", i + 1, i / chain + 1, melt.box.wrapped(x[0], 0),
+                 melt.box.wrapped(x[1], 1), melt.box.wrapped(x[2], 2));
+  }
+  std::fprintf(file, "\nVelocities\n\n");
+  for (std::size_t i = 0; i < size; ++i)
+    std::fprintf(file, "%zu %.17g %.17g %.17g\n", i + 1, melt.beads[i].velocity[0], melt.beads[i].velocity[1],
+                 melt.beads[i].velocity[2]);
+  std::fprintf(file, "\nBonds\n\n");
+  std::size_t bond = 0;
+  for (std::size_t i = 0; i < size; ++i)
+    if (i % chain + 1 < chain) std::fprintf(file, "%zu 1 %zu %zu\n", ++bond, i + 1, i + 2);
+  std::fclose(file);
+}
+
+void run_polymer(std::size_t count, Run const& r) {
+  Melt melt(count, r.skin, r.threads);
+  frame_load(melt.beads, from_particle_file("polymer.data"));
+  double const start = melt.scheme.measure().potential / static_cast<double>(melt.beads.size());
+  Simulation simulation(melt.scheme, 0.01);
+  simulation.integrate(melt.beads, Method::leap_frog);
+  simulation.add(melt.bath);
+  simulation.run(r.warm_up);
+  auto const since = std::chrono::steady_clock::now();
+  simulation.run(r.steps);
+  double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+  std::printf("particles %zu steps %llu threads %d seconds %.6f rate %.6g start %.10f %s\n", melt.beads.size(),
+              static_cast<unsigned long long>(r.steps), r.threads, seconds,
+              static_cast<double>(melt.beads.size() * r.steps) / seconds, start, melt.scheme.report().c_str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
   if (argc != 7) {
     std::fprintf(stderr,
                  "usage: %s melt CELLS WARM_UP STEPS THREADS SKIN, or copper | knock-on COLUMNS ... (rows are 8/5 of "
-                 "columns); in units of sigma\n",
+                 "columns), or polymer CELLS ... (4 CELLS^3 beads from polymer.data, which polymer-start CELLS 0 0 1 0 "
+                 "writes; skin 0: ours); in units of sigma\n",
                  argv[0]);
     return 2;
   }
@@ -76,7 +158,11 @@ int main(int argc, char** argv) try {
   r.threads = std::atoi(argv[5]);
   r.skin = std::atof(argv[6]);
   double const r0 = std::pow(2.0, 1.0 / 6);
-  if (std::strcmp(argv[1], "melt") == 0) {
+  if (std::strcmp(argv[1], "polymer-start") == 0) {
+    write_polymer(count);
+  } else if (std::strcmp(argv[1], "polymer") == 0) {
+    run_polymer(count, r);
+  } else if (std::strcmp(argv[1], "melt") == 0) {
     r.block = {Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {count, count, count}};
     r.temperature = 1.44;
     r.cutoff = 2.5;

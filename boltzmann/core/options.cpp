@@ -194,7 +194,7 @@ std::string allowed(Option const& option) {
     case ensembles:
       return "the name of an ensemble, or a list";
     case particles:
-      return "numbers, `\"all\"` or `\"edge\"`";
+      return kind.words.front();
     case text:
       return "a text";
     case name:

@@ -88,7 +88,8 @@ struct OptionKind {
   /// Of numbers; nothing: that of the quantity which is shown, which depends on the other options.
   std::optional<Dimension> dimension = dimensions::none;
   NumberRange range = {};
-  std::vector<std::string> words = {};  ///< of a word; of a number of no dimension what it is; of a group an example
+  std::vector<std::string> words = {};  ///< of a word; of a number of no dimension or particles what it is; of a group
+                                        ///< an example
   int by_space = 0;       ///< in D dimensions the dimension is that times length^(D by_space): -1 for densities
   double counted_in = 1;  ///< what a number alone stands for, in the base: pi/180 for angles in degrees
 };
@@ -139,7 +140,9 @@ inline OptionKind vector(Dimension dimension) { return {OptionKind::Form::vector
 /// "atoms" or ["atoms", "wall"].
 inline OptionKind ensembles() { return {OptionKind::Form::ensembles}; }
 /// Particles of one ensemble: [0, 7], or words that choose them.
-inline OptionKind particles() { return {OptionKind::Form::particles}; }
+inline OptionKind particles(std::string allowed = "numbers, `\"all\"` or `\"edge\"`") {
+  return {OptionKind::Form::particles, dimensions::none, {}, {std::move(allowed)}};
+}
 /// A plain number of degrees; the member is in radians.
 inline OptionKind degrees() {
   OptionKind kind;

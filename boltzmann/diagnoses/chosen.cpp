@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numeric>
 
 namespace boltzmann {
 
@@ -25,6 +26,45 @@ AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name) {
   for (auto const* ensemble : sample.ensembles)
     if (ensemble->name() == name) return *ensemble;
   throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+}
+
+void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
+                  std::span<std::uint32_t const> particles) {
+  auto const chosen = chosen_names(available, names);
+  if (particles.empty()) return;
+  if (chosen.size() != 1)
+    throw Error(fmt::format("a group of chosen particles belongs to one ensemble; say which of {}", join(chosen)));
+  for (auto const* ensemble : available)
+    if (ensemble->name() == chosen.front())
+      for (auto const i : particles)
+        if (i >= ensemble->size())
+          throw Error(fmt::format("ensemble '{}' has {} particles, numbered from 0; there is no particle {}",
+                                  ensemble->name(), ensemble->size(), i));
+}
+
+void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
+                  std::span<std::uint32_t const> particles, std::span<std::uint32_t const> partners) {
+  check_chosen(available, names, particles);
+  check_chosen(available, names, partners);
+  if (particles.empty() && !partners.empty()) throw Error("'partners' are those of a group; say which by 'particles'");
+  std::vector<std::uint32_t> both(particles.begin(), particles.end());
+  both.insert(both.end(), partners.begin(), partners.end());
+  std::sort(both.begin(), both.end());
+  if (auto const twice = std::adjacent_find(both.begin(), both.end()); twice != both.end())
+    throw Error(fmt::format("particle {} is chosen twice; a group and its 'partners' have none in common", *twice));
+}
+
+std::vector<std::uint32_t> members_of(AnyEnsemble const& ensemble, std::span<std::uint32_t const> particles) {
+  std::vector<std::uint32_t> members(particles.begin(), particles.end());
+  if (members.empty()) {
+    members.resize(ensemble.size());
+    std::iota(members.begin(), members.end(), 0U);
+  }
+  if (auto const last = std::max_element(members.begin(), members.end());
+      last != members.end() && *last >= ensemble.size())
+    throw Error(fmt::format("a diagnosis looks for particle {} of '{}', which has {} now", *last, ensemble.name(),
+                            ensemble.size()));
+  return members;
 }
 
 std::vector<std::string> split_names(std::string const& text) {

@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/diagnosis.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,18 @@ std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& ava
                                       std::vector<std::string> const& names);
 /// Error if it is not in the simulation any more.
 AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name);
+
+/// Numbers of particles of one ensemble: of the one that is named, or that there is. Error if there are several, or one has
+/// no such particle. Nothing without numbers.
+void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
+                  std::span<std::uint32_t const> particles);
+
+/// Two groups of one ensemble, the sides of pairs: the same, and Error if the first is missing, or they have a particle in
+/// common or twice.
+void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
+                  std::span<std::uint32_t const> particles, std::span<std::uint32_t const> partners);
+/// Those of the group; all if there is none.
+std::vector<std::uint32_t> members_of(AnyEnsemble const& ensemble, std::span<std::uint32_t const> particles);
 
 /// "a, b" -> {"a", "b"}.
 std::vector<std::string> split_names(std::string const& text);

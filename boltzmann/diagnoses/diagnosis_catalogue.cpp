@@ -642,6 +642,8 @@ std::unique_ptr<Diagnosis> make_radial_distribution(DiagnosisParameters const& p
   options.count = or_usual(parameters.count, options.count);
   options.since = parameters.since;
   options.every = parameters.every;
+  options.particles = parameters.particles;
+  options.partners = parameters.partners;
   return std::make_unique<RadialDistribution>(parameters.available, std::move(options));
 }
 
@@ -650,6 +652,8 @@ std::unique_ptr<Diagnosis> make_structure_factor(DiagnosisParameters const& para
   options.modes = or_usual(parameters.modes, options.modes);
   options.since = parameters.since;
   options.every = parameters.every;
+  options.particles = parameters.particles;
+  options.partners = parameters.partners;
   return std::make_unique<StructureFactor>(parameters.available, std::move(options));
 }
 
@@ -664,6 +668,8 @@ std::unique_ptr<Diagnosis> make_time_correlation(DiagnosisParameters const& para
   options.count = or_usual(parameters.count, options.count);
   options.origins = parameters.origins;
   options.subtract_drift = parameters.subtract_drift;
+  options.label = parameters.label;
+  options.particles = parameters.particles;
   return std::make_unique<Kind>(parameters.available, options);
 }
 
@@ -720,6 +726,7 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
     OptionKey const first_look{"since", "the time of the first look", "the start"};
     OptionKey const rows{"every", "only rows whose steps are multiples of it count"};
     OptionKey const lags{"count", "the longest lag, in looks", "`200`"};
+    OptionKey const group_label{"label", "of columns and files", "by the ensemble"};
     OptionKey const moving{"subtract_drift", "relative to the mean of the ensemble"};
     OptionKey const some{"ensembles", "only of these", "all of the matter"};
     return std::vector<Entry>{
@@ -805,6 +812,8 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
           "number in radial-distribution.csv",
           told({pairs_of,
                 {"label", "of columns and file", "the ensembles"},
+                {"particles"},
+                {"partners"},
                 {"to", "the largest distance", "half of the box's shortest side"},
                 {"count", "bins", "`200`"},
                 rows,
@@ -815,6 +824,8 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
           "in structure-factor.csv",
           told({pairs_of,
                 {"label", "of columns and file", "the ensembles"},
+                {"particles"},
+                {"partners"},
                 {"modes", "the shortest wave: so many periods in the longest side", "`12`"},
                 rows,
                 first_look})},
@@ -830,12 +841,12 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
         {{"velocity-autocorrelation",
           "the diffusion coefficient of Green and Kubo, from many time origins; <v(0).v(t)> in "
           "velocity-autocorrelation.csv, its spectrum in velocity-spectrum.csv",
-          told({each, first_look, {"every"}, lags, {"origins"}, moving})},
+          told({each, group_label, {"particles"}, first_look, {"every"}, lags, {"origins"}, moving})},
          make_time_correlation<VelocityAutocorrelation>},
         {{"mean-square-displacement",
           "the diffusion coefficient of Einstein, by the later half of the mean square displacement from many time "
           "origins, followed through periodic axes; that in mean-square-displacement.csv",
-          told({each, first_look, {"every"}, lags, {"origins"}, moving})},
+          told({each, group_label, {"particles"}, first_look, {"every"}, lags, {"origins"}, moving})},
          make_time_correlation<MeanSquareDisplacement>},
         {{"green-kubo",
           "a transport coefficient by the autocorrelation of the system's flux in equilibrium, from row to row; that "

@@ -11,6 +11,8 @@ OptionTable const& diagnosis_options() {
     all.add("ensembles", &P::ensembles, ensembles(), "one set of columns for each of them", "the system as a whole");
     all.add("label", &P::label, text(), "what the columns are called", "by the ensemble");
     all.add("particles", &P::particles, particles(), "a group of one ensemble, as in `[[ensembles.set]]`", "all");
+    all.add("partners", &P::partners, particles("numbers, or a [formula](#formulas) that is true for them"),
+            "those of the same ensemble that the group's pairs are with: `\"charge > 0\"`", "the group itself");
     all.add("similar_velocity", &P::similar_velocity, vector(dimensions::velocity),
             "a group: those of about this velocity at the first look", "all");
     all.add("tolerance", &P::tolerance, number(dimensions::velocity, not_negative),

@@ -30,6 +30,7 @@ struct DiagnosisParameters {
   /// What the columns are called instead of the ensemble, if a group is measured; empty: the ensemble's name.
   std::string label = {};
   std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble, by number; empty: all
+  std::vector<std::uint32_t> partners = {};   ///< of pairs: those on their other side; empty: the group itself
   std::optional<std::array<double, 3>> similar_velocity =
       {};                             ///< a group by velocity at the first look (section 5.2.3.3) ...
   double tolerance = 0;               ///< ... within this distance of it

@@ -45,11 +45,16 @@ double ideal_within(Box const& box, double r) {
   return surface * within / box.volume();
 }
 
-/// Positions side by side, in the box along periodic axes.
-std::vector<double> positions_of(AnyEnsemble const& ensemble, Box const& box, std::vector<double> all = {}) {
-  for (std::size_t i = 0; i < ensemble.size(); ++i)
-    for (int a = 0; a < box.dimension(); ++a)
-      all.push_back(box.periodic(a) ? box.wrapped(ensemble.row(i)[a], a) : ensemble.row(i)[a]);
+/// In the box along periodic axes.
+void add_positions(AnyEnsemble const& ensemble, std::size_t i, Box const& box, std::vector<double>& all) {
+  for (int a = 0; a < box.dimension(); ++a)
+    all.push_back(box.periodic(a) ? box.wrapped(ensemble.row(i)[a], a) : ensemble.row(i)[a]);
+}
+
+/// Of a group, or all, side by side.
+std::vector<double> positions_of(AnyEnsemble const& ensemble, std::span<std::uint32_t const> which, Box const& box,
+                                 std::vector<double> all = {}) {
+  for (auto const i : members_of(ensemble, which)) add_positions(ensemble, i, box, all);
   return all;
 }
 
@@ -150,7 +155,9 @@ RadialDistribution::RadialDistribution(std::vector<AnyEnsemble const*> const& av
   if (options_.to <= 0) throw Error(fmt::format("a radial distribution needs a distance above 0, not {}", options_.to));
   if (label_.empty())
     for (auto const& name : names) label_ += (label_.empty() ? "" : " ") + name;
-  bool const within = names.size() < 2 || names[0] == names[1];
+  check_chosen(available, names, options_.particles, options_.partners);
+  if (!options_.particles.empty() && names.empty()) options_.ensembles = {available.front()->name()};
+  bool const within = options_.partners.empty() && (names.size() < 2 || names[0] == names[1]);
   partners_each_ = within ? 2 : 1;
 }
 
@@ -198,10 +205,10 @@ void RadialDistribution::count_pairs(Sample const& sample) {
   bool const within = partners_each_ == 2;
   std::vector<double> first, second;
   if (names.empty())
-    for (auto const* ensemble : sample.ensembles) first = positions_of(*ensemble, box, std::move(first));
+    for (auto const* ensemble : sample.ensembles) first = positions_of(*ensemble, {}, box, std::move(first));
   else
-    first = positions_of(ensemble_of(sample, names[0]), box);
-  if (!within) second = positions_of(ensemble_of(sample, names[1]), box);
+    first = positions_of(ensemble_of(sample, names[0]), options_.particles, box);
+  if (!within) second = positions_of(ensemble_of(sample, names.back()), options_.partners, box);
   PairSets const sets{first, within ? first : second, within, box, reach_, counted_.size(), sample.threads};
   auto const counts = box.dimension() == 1   ? counts_of<1>(sets)
                       : box.dimension() == 2 ? counts_of<2>(sets)

@@ -19,9 +19,11 @@ struct RadialDistributionOptions {
   std::string label = {};  ///< before the columns' names; empty: the ensembles
   /// The largest distance; NaN: half of the box's shortest side.
   double to = std::numeric_limits<double>::quiet_NaN();
-  std::size_t count = 200;  ///< bins
-  double since = 0;         ///< the time of the first look
-  std::size_t every = 1;    ///< looks at rows whose steps are multiples of it
+  std::size_t count = 200;                    ///< bins
+  double since = 0;                           ///< the time of the first look
+  std::size_t every = 1;                      ///< looks at rows whose steps are multiples of it
+  std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble; empty: all
+  std::vector<std::uint32_t> partners = {};   ///< of the same ensemble, on the other side of pairs; empty: the group
 };
 
 /// g(r) and the running coordination number n(r), over all looks. Pairs are counted by the nearest image along periodic
@@ -32,7 +34,7 @@ struct RadialDistributionOptions {
 class RadialDistribution final : public Diagnosis {
  public:
   using Options = RadialDistributionOptions;
-  /// Error if an ensemble isn't there, there are more than two, or a number is out of range.
+  /// Error if an ensemble isn't there, there are more than two (with a group: more than one), or a number is out of range.
   RadialDistribution(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
@@ -40,6 +42,7 @@ class RadialDistribution final : public Diagnosis {
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<GatheredTable> tables() const override;
+  bool by_number() const override { return !options_.particles.empty(); }
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

@@ -50,20 +50,22 @@ std::vector<std::array<int, 3>> modes_of(std::span<double const> lengths, std::s
 /// exp(-2 pi i n x / L) of every particle for n = 0, 1, ... along each axis, by powers.
 class Phases {
  public:
-  Phases(std::vector<AnyEnsemble const*> const& ensembles, Box const& box, std::span<std::array<int, 3> const> modes) {
-    for (auto const* ensemble : ensembles) size_ += ensemble->size();
+  Phases(std::vector<AnyEnsemble const*> const& ensembles, std::span<std::uint32_t const> group, Box const& box,
+         std::span<std::array<int, 3> const> modes) {
+    std::vector<double const*> rows;
+    for (auto const* ensemble : ensembles)
+      for (auto const i : members_of(*ensemble, group)) rows.push_back(ensemble->row(i));
+    size_ = rows.size();
     for (int a = 0; a < box.dimension(); ++a) {
       int most = 0;
       for (auto const& mode : modes) most = std::max(most, std::abs(mode[static_cast<std::size_t>(a)]));
       auto& powers = powers_.emplace_back((static_cast<std::size_t>(most) + 1) * size_, 1.0);
-      std::size_t at = 0;
-      for (auto const* ensemble : ensembles)
-        for (std::size_t i = 0; i < ensemble->size(); ++i, ++at) {
-          double const angle = -2 * std::numbers::pi * (ensemble->row(i)[a] - box.low(a)) / box.length(a);
-          std::complex<double> const first = std::polar(1.0, angle);
-          for (std::size_t n = 1; n <= static_cast<std::size_t>(most); ++n)
-            powers[n * size_ + at] = times(powers[(n - 1) * size_ + at], first);
-        }
+      for (std::size_t at = 0; at < size_; ++at) {
+        double const angle = -2 * std::numbers::pi * (rows[at][a] - box.low(a)) / box.length(a);
+        std::complex<double> const first = std::polar(1.0, angle);
+        for (std::size_t n = 1; n <= static_cast<std::size_t>(most); ++n)
+          powers[n * size_ + at] = times(powers[(n - 1) * size_ + at], first);
+      }
     }
   }
   std::size_t size() const { return size_; }
@@ -123,6 +125,8 @@ StructureFactor::StructureFactor(std::vector<AnyEnsemble const*> const& availabl
   if (options_.modes < 1) throw Error("a structure factor needs a wave of one period in the box or more");
   if (label_.empty())
     for (auto const& name : options_.ensembles) label_ += (label_.empty() ? "" : " ") + name;
+  check_chosen(available, options_.ensembles, options_.particles, options_.partners);
+  if (!options_.particles.empty() && options_.ensembles.empty()) options_.ensembles = {available.front()->name()};
 }
 
 void StructureFactor::check(Box const& box) const {
@@ -163,9 +167,9 @@ void StructureFactor::measure(Sample const& sample, std::vector<double>& values)
       first.assign(sample.ensembles.begin(), sample.ensembles.end());
     else
       first.push_back(&ensemble_of(sample, names[0]));
-    bool const between = names.size() == 2 && names[0] != names[1];
-    if (between) second.push_back(&ensemble_of(sample, names[1]));
-    Phases const a(first, sample.box, modes_), b(second, sample.box, modes_);
+    bool const between = !options_.partners.empty() || (names.size() == 2 && names[0] != names[1]);
+    if (between) second.push_back(&ensemble_of(sample, names.back()));
+    Phases const a(first, options_.particles, sample.box, modes_), b(second, options_.partners, sample.box, modes_);
     double const number = between ? std::sqrt(static_cast<double>(a.size()) * static_cast<double>(b.size()))
                                   : static_cast<double>(a.size());
     for_ranges(modes_.size(), 16, threads_for(modes_.size() * a.size(), 1.0 / 8, sample.threads),

@@ -19,6 +19,8 @@ struct StructureFactorOptions {
   std::size_t modes = 12;  ///< wave vectors are as long as so many periods in the longest side, or shorter
   double since = 0;        ///< the time of the first look
   std::size_t every = 1;   ///< looks at rows whose steps are multiples of it
+  std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble; empty: all
+  std::vector<std::uint32_t> partners = {};   ///< of the same ensemble: the partial one between both groups
 };
 
 /// S(k) = <|sum_i exp(-i k r_i)|^2> / N, summed directly for every wave vector 2 pi (n_x/L_x, n_y/L_y, n_z/L_z) up to a
@@ -28,7 +30,7 @@ struct StructureFactorOptions {
 class StructureFactor final : public Diagnosis {
  public:
   using Options = StructureFactorOptions;
-  /// Error if an ensemble isn't there, or there are more than two.
+  /// Error if an ensemble isn't there, or there are more than two (with a group: more than one).
   StructureFactor(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
@@ -36,6 +38,7 @@ class StructureFactor final : public Diagnosis {
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<GatheredTable> tables() const override;
+  bool by_number() const override { return !options_.particles.empty(); }
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

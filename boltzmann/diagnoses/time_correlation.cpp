@@ -52,7 +52,11 @@ std::vector<double> running_integral(std::span<double const> values, double spac
 
 TimeCorrelation::TimeCorrelation(std::vector<AnyEnsemble const*> const& available, Options options)
     : options_(std::move(options)), prefixed_(!options_.ensembles.empty() || available.size() > 1) {
-  for (auto const& name : chosen_names(available, options_.ensembles)) {
+  check_chosen(available, options_.ensembles, options_.particles);
+  auto const names = chosen_names(available, options_.ensembles);
+  if (!options_.label.empty() && names.size() != 1)
+    throw Error(fmt::format("a label is that of one ensemble; say which of {}", join(names)));
+  for (auto const& name : names) {
     Followed& one = followed_.emplace_back();
     one.name = name;
     one.sums = one.squares = one.numbers = std::vector<double>(options_.count + 1, 0.0);
@@ -61,6 +65,10 @@ TimeCorrelation::TimeCorrelation(std::vector<AnyEnsemble const*> const& availabl
     throw Error("a time correlation needs looks ('every'), lags ('count') and origins, one or more of each");
   dimension_ = available.front()->dimension();
   spacing_ = std::max<std::size_t>(1, (options_.count + options_.origins - 1) / options_.origins);
+}
+
+std::vector<std::uint32_t> TimeCorrelation::members(AnyEnsemble const& ensemble) const {
+  return members_of(ensemble, options_.particles);
 }
 
 void TimeCorrelation::note_time(Sample const& sample) {
@@ -82,7 +90,8 @@ void TimeCorrelation::follow(Sample const& sample) {
   for (auto& one : followed_) {
     AnyEnsemble const& ensemble = ensemble_of(sample, one.name);
     auto const D = static_cast<std::size_t>(dimension_);
-    if (!first && one.now.size() != D * ensemble.size())
+    std::size_t const size = options_.particles.empty() ? ensemble.size() : options_.particles.size();
+    if (!first && one.now.size() != D * size)
       throw Error(fmt::format("a time correlation follows the {} particles of '{}', which has {} now",
                               one.now.size() / D, one.name, ensemble.size()));
     see(ensemble, sample.box, first, one);
@@ -185,8 +194,9 @@ std::vector<Column> VelocityAutocorrelation::columns() const {
 void VelocityAutocorrelation::see(AnyEnsemble const& ensemble, Box const&, bool, Followed& followed) const {
   auto const D = static_cast<std::size_t>(dimension());
   Velocities const velocities = velocities_of(ensemble);
-  followed.now.resize(D * ensemble.size());
-  for (std::size_t i = 0; i < ensemble.size(); ++i) std::copy_n(velocities[i], D, &followed.now[D * i]);
+  auto const which = members(ensemble);
+  followed.now.resize(D * which.size());
+  for (std::size_t k = 0; k < which.size(); ++k) std::copy_n(velocities[which[k]], D, &followed.now[D * k]);
 }
 
 std::array<double, 2> VelocityAutocorrelation::compared(std::span<double const> then,
@@ -250,9 +260,10 @@ std::vector<Column> MeanSquareDisplacement::columns() const {
 
 void MeanSquareDisplacement::see(AnyEnsemble const& ensemble, Box const& box, bool first, Followed& followed) const {
   auto const D = static_cast<std::size_t>(dimension());
-  if (first) followed.now.assign(D * ensemble.size(), 0.0), followed.last.assign(D * ensemble.size(), 0.0);
-  for (std::size_t i = 0; i < ensemble.size(); ++i) {
-    double const* x = ensemble.row(i);
+  auto const which = members(ensemble);
+  if (first) followed.now.assign(D * which.size(), 0.0), followed.last.assign(D * which.size(), 0.0);
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    double const* x = ensemble.row(which[i]);
     double moved[3] = {0, 0, 0};
     for (std::size_t a = 0; a < D; ++a) moved[a] = first ? 0 : x[a] - followed.last[D * i + a];
     box.nearest_image(moved);

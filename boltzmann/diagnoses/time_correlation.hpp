@@ -14,12 +14,14 @@
 namespace boltzmann {
 
 struct TimeCorrelationOptions {
-  std::vector<std::string> ensembles = {};  ///< each by itself; empty: each that there is
-  double since = 0;                         ///< the time of the first look
-  std::size_t every = 1;                    ///< steps from one look to the next
-  std::size_t count = 200;                  ///< the longest lag, in looks
-  std::size_t origins = 20;                 ///< so many earlier looks are remembered to compare with
-  bool subtract_drift = false;              ///< relative to the mean over the ensemble
+  std::vector<std::string> ensembles = {};    ///< each by itself; empty: each that there is
+  double since = 0;                           ///< the time of the first look
+  std::size_t every = 1;                      ///< steps from one look to the next
+  std::size_t count = 200;                    ///< the longest lag, in looks
+  std::size_t origins = 20;                   ///< so many earlier looks are remembered to compare with
+  bool subtract_drift = false;                ///< relative to the mean over the ensemble, or the group
+  std::string label = {};                     ///< before the columns' names; empty: the ensemble
+  std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble; empty: all
 };
 
 /// What both have in common: at every `every`-th step it looks at some numbers of each particle, and compares them with
@@ -60,7 +62,10 @@ class TimeCorrelation : public Diagnosis {
   int dimension() const { return dimension_; }
   std::vector<Followed> const& followed() const { return followed_; }
   /// "" where there is one ensemble and nobody has named it.
-  std::string label(Followed const& followed) const { return prefixed_ ? followed.name : ""; }
+  std::string label(Followed const& followed) const {
+    return !options_.label.empty() ? options_.label : prefixed_ ? followed.name : "";
+  }
+  std::vector<std::uint32_t> members(AnyEnsemble const& ensemble) const;
   /// The lags that some pair of looks had, 0 first, in the simulation's units.
   std::vector<double> lags(Followed const& followed) const;
   std::vector<double> means(Followed const& followed) const;

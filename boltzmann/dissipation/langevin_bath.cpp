@@ -1,45 +1,62 @@
 // The exact step of friction and noise on single particles.
-#include <boltzmann/core/random.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/noise_kernels.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace boltzmann {
 namespace {
 
 constexpr std::size_t grain = 2048;
-constexpr double long_step = 2;  // in times of relaxation
+constexpr std::uint32_t of_single_particles = 0x80000000U;  // apart from the counters of pairs' noise
+constexpr double long_step = 2;                             // in times of relaxation
 
 }  // namespace
 
 void LangevinBath::advance(StepContext const& context) {
   double const keep = std::exp(-rate() * context.dt), temperature = temperature_at(context.time);
+  double const spread2 = (1 - keep * keep) * boltzmann_constant() * temperature;
+  auto const draw = for_instruction_set([](auto set) { return noise_kernel<decltype(set)::value>(); });
   auto const all = ensembles();
   for (std::size_t e = 0; e < all.size(); ++e) {
     AnyEnsemble& ensemble = *all[e];
     int const mass = ensemble.field("mass").offset, velocity = ensemble.field("velocity").offset;
     int const dimension = ensemble.dimension();
+    NoiseTask noise;
+    noise.key = PhiloxKey(context.seed);
+    noise.tag[0] = static_cast<std::uint32_t>(e) | number() << 16U;
+    noise.tag[1] = static_cast<std::uint32_t>(context.step);
+    noise.tag[2] = of_single_particles | static_cast<std::uint32_t>(context.step >> 32U);
+    noise.each = dimension;
     std::vector<double> heat(ensemble.size() / grain + 1, 0.0);
     for_ranges(ensemble.size(), grain, threads_for(ensemble.size(), 2, threads()),
                [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   double* row = ensemble.row(i);
-                   if (!acts_on(row, dimension)) continue;
-                   double const m = row[mass];
-                   double const noise = std::sqrt((1 - keep * keep) * boltzmann_constant() * temperature / m);
-                   Stream stream(context.seed, context.step, i | static_cast<std::uint64_t>(e) << 40U,
-                                 static_cast<std::uint32_t>(Purpose::thermostat) | number() << 8U);
+                 alignas(64) double normals[4 * noise_block];
+                 NoiseTask task = noise;
+                 task.columns = normals;
+                 for (std::size_t first = begin; first < end; first += noise_block) {
+                   task.first = first;
+                   task.count = std::min(noise_block, end - first);
+                   draw(task);
                    double gained = 0;
-                   for (int a = 0; a < dimension; ++a) {
-                     double& v = row[velocity + a];
-                     double const before = v;
-                     v = keep * v + noise * stream.normal();
-                     gained += 0.5 * m * (v - before) * (v + before);
+                   for (std::size_t k = 0; k < task.count; ++k) {
+                     double* const row = ensemble.row(first + k);
+                     if (!acts_on(row, dimension)) continue;
+                     double const m = row[mass], spread = std::sqrt(spread2 / m);
+                     for (int a = 0; a < dimension; ++a) {
+                       double& v = row[velocity + a];
+                       double const before = v;
+                       v = keep * v + spread * normals[static_cast<std::size_t>(a) * noise_block + k];
+                       gained += 0.5 * m * (v - before) * (v + before);
+                     }
                    }
-                   heat[i / grain] += gained;
+                   heat[first / grain] += gained;
                  }
                });
     for (double const part : heat) add_heat(part);

@@ -13,6 +13,10 @@ namespace boltzmann {
 namespace {
 
 constexpr double skin_of_cutoff = 0.12;
+// Where fewer particles are within reach than these in 1D, 2D and 3D (within 1.8 mean distances), builds cost more than
+// longer lists: the skin is as long as that takes, up to this share of the cut-off.
+constexpr double neighbours_in_reach[] = {3.6, 10, 24};
+constexpr double longest_skin_of_cutoff = 0.75;
 // Around particles that have moved further than all others neighbours are found anew, as long as that takes no more
 // than these shares of finding everybody's: at any time, so that lists are read less far, and when the lists would not
 // hold.
@@ -95,6 +99,22 @@ void Neighbourhood::build(int threads) {
   double const reach = longest_cutoff() + skin();
   for (auto& copy : copies_) copy.build(reach, threads_for(copy.ensemble().size(), 1, threads));
   find_neighbours(threads);
+  if (skin_) return;
+  // For the density around the particles, which these first lists show. It stays, whatever the density becomes.
+  double entries = 0, particles = 0, longest = (1 + longest_skin_of_cutoff) * longest_cutoff();
+  for (auto const& list : lists_)
+    for (std::size_t i = 0; i < list.list.size(); ++i) entries += list.list.lengths(list_rings - 1)[i];
+  for (auto const& copy : copies_) particles += static_cast<double>(copy.owned());
+  int const D = box_->dimension();
+  for (int a = 0; a < D; ++a)
+    if (box_->periodic(a)) longest = std::min(longest, 0.5 * box_->length(a));
+  double const found = entries / particles, wanted = neighbours_in_reach[D - 1];
+  double const longer = std::min(found > 0 ? reach * std::pow(wanted / found, 1.0 / D) : longest, longest);
+  bool const again = found < wanted && longer > reach;
+  skin_ = again ? longer - longest_cutoff() : skin();
+  if (!again) return;
+  --builds_;
+  build(threads);
 }
 
 void Neighbourhood::find_neighbours(int threads) {
@@ -192,12 +212,13 @@ void Neighbourhood::refresh(int threads) {
 }
 
 // Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found
-// anew; then of each sorted copy the edges of the box and the references at its build, and the particles that were
+// anew, the skin if it is chosen; then of each sorted copy the edges of the box and the references at its build, and the particles that were
 // moved since: number and reference of each.
 std::vector<double> Neighbourhood::state() const {
   bool decided = true;
   for (auto const& copy : copies_) decided = decided && copy.is_current();
-  std::vector<double> state{stale_ ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_};
+  std::vector<double> state{stale_ ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_,
+                            skin_.value_or(-1)};
   for (auto const& copy : copies_) {
     auto const& edges = copy.built_edges();
     state.insert(state.end(), edges.begin(), edges.end());
@@ -222,8 +243,9 @@ void Neighbourhood::restore(std::span<double const> state, int threads) {
     at += count;
     return state.subspan(at - count, count);
   };
-  auto const head = next(4);
+  auto const head = next(5);
   stale_ = head[0] != 0;
+  if (head[4] >= 0) skin_ = head[4];
   if (stale_ || lists_.empty()) return;
   double const reach = longest_cutoff() + skin();
   for (auto& copy : copies_) {

@@ -273,6 +273,7 @@ class CloudMaker {
       result_.high = std::max(-result_.low, result_.high);
       result_.low = -result_.high;
     }
+    if (options_.high > 0 && options_.low == -options_.high) result_.map = ColourMap::diverging;
     if (std::isfinite(options_.low)) result_.low = options_.low;
     if (std::isfinite(options_.high)) result_.high = options_.high;
   }

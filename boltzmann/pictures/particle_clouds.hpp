@@ -75,7 +75,7 @@ struct ParticleClouds {
   std::size_t not_finite = 0;          ///< shown, but nowhere
   std::size_t without_value = 0;       ///< of those shown
   double low = 0, high = 0;            ///< the ends of the colours
-  ColourMap map = ColourMap::viridis;  ///< the diverging one, with ends -a and a, for values of both signs
+  ColourMap map = ColourMap::viridis;  ///< the diverging one, with ends -a and a, for values of both signs or such ends
 };
 
 /// The result has the same bits for any number of threads.

@@ -9,13 +9,17 @@
 namespace boltzmann {
 namespace {
 
-/// A field of `count` particles; count = 0: not known.
-std::optional<FieldValue> read_field(Item const& item, Field const& field, std::size_t count, Reading& reading) {
+/// A field of `count` particles (0: not known), or of the `molecule` particles of each molecule.
+std::optional<FieldValue> read_field(Item const& item, Field const& field, std::size_t count, std::size_t molecule,
+                                     Reading& reading) {
   ReadContext& context = reading.context;
   bool const is_vector = field.components > 1;
   auto const wrong_count = [&](std::size_t n) {
-    context.mistakes.add(item.place, fmt::format("{}: {} value{} for {} particle{}; give one for all, or one for each",
-                                                 field.name, n, n == 1 ? "" : "s", count, count == 1 ? "" : "s"));
+    context.mistakes.add(
+        item.place,
+        fmt::format("{}: {} value{} for {} particle{}; give one for all, or one for each{}", field.name, n,
+                    n == 1 ? "" : "s", count, count == 1 ? "" : "s",
+                    molecule > 0 ? fmt::format(", or {} for the particles of a molecule", molecule) : ""));
     return std::nullopt;
   };
   if (!item.is(Item::Kind::array)) {
@@ -28,7 +32,8 @@ std::optional<FieldValue> read_field(Item const& item, Field const& field, std::
   }
   bool const nested = !item.elements.empty() && item.elements.front().is(Item::Kind::array);
   if (nested || (!is_vector && item.elements.size() != 1)) {
-    if (count > 0 && item.elements.size() != count) return wrong_count(item.elements.size());
+    bool const of_molecule = molecule > 0 && item.elements.size() == molecule;
+    if (count > 0 && item.elements.size() != count && !of_molecule) return wrong_count(item.elements.size());
     FieldValue result{field, true, {}};
     for (auto const& element : item.elements) {
       if (nested) {
@@ -66,7 +71,7 @@ std::vector<Field> given_fields(ParticleClass const& kind, int dimension) {
 }
 
 std::vector<FieldValue> read_fields(Section& section, std::vector<Field> const& fields, bool with_position,
-                                    std::size_t count, Reading& reading) {
+                                    std::size_t count, Reading& reading, std::size_t molecule) {
   std::vector<FieldValue> values;
   for (auto const& field : fields) {
     if (field.name == "position" && !with_position) continue;
@@ -79,7 +84,7 @@ std::vector<FieldValue> read_fields(Section& section, std::vector<Field> const& 
                      {}},
                     "", field.dimension);
     if (item && reading.dimension > 0)
-      if (auto value = read_field(*item, field, count, reading)) values.push_back(std::move(*value));
+      if (auto value = read_field(*item, field, count, molecule, reading)) values.push_back(std::move(*value));
   }
   return values;
 }
@@ -108,8 +113,9 @@ bool gives(Section const& section, std::string_view field) {
 
 void apply(FieldValue const& value, AnyEnsemble& particles, std::vector<std::uint32_t> const& which) {
   auto const components = static_cast<std::size_t>(value.field.components);
+  std::size_t const count = value.values.size() / components;
   for (std::size_t k = 0; k < which.size(); ++k)
-    std::copy_n(value.values.data() + (value.each ? k * components : 0), components,
+    std::copy_n(value.values.data() + (value.each ? k % count * components : 0), components,
                 particles.row(which[k]) + value.field.offset);
 }
 

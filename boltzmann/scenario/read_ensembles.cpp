@@ -122,7 +122,10 @@ class EnsembleReader {
     auto given = given_fields(*kind_, reading_.dimension);
     if (Item const* item = section_.item("internal_energy"); item && item->is(Item::Kind::table))
       std::erase_if(given, [](Field const& field) { return field.name == "internal_energy"; });
-    fields_ = read_fields(section_, given, false, count_, reading_);
+    Item const* molecule = section_.item("molecule");
+    bool const counted = molecule && molecule->is(Item::Kind::integer) && molecule->integer > 0;
+    fields_ = read_fields(section_, given, false, count_, reading_,
+                          counted ? static_cast<std::size_t>(molecule->integer) : 0);
     formulas_ = read_formulas(section_, fields_of(*kind_, reading_.dimension), false, unknown_fields(section_, *kind_),
                               reading_);
     for (auto const& formula : formulas_)

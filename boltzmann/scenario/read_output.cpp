@@ -60,19 +60,37 @@ void read_ensemble_names(Section& section, std::string const& key, std::vector<s
     if (auto const* named = reading.ensemble(array ? item->elements[k] : *item, key)) names.push_back(named->name);
 }
 
-/// Numbers of the one ensemble that is named, or that there is.
-void read_group(Section& section, DiagnosisParameters& parameters, Reading& reading) {
-  ReadEnsemble const* one = nullptr;
+/// The one ensemble that is named, or that there is.
+ReadEnsemble const* one_ensemble(DiagnosisParameters const& parameters, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
     if (parameters.ensembles.empty() ? reading.ensembles.size() == 1
                                      : parameters.ensembles == std::vector<std::string>{ensemble.name})
-      one = &ensemble;
+      return &ensemble;
+  return nullptr;
+}
+
+/// Numbers in it.
+void read_group(Section& section, DiagnosisParameters& parameters, Reading& reading) {
+  ReadEnsemble const* one = one_ensemble(parameters, reading);
   bool const parts = section.has("where") && section.has("formula");
   auto const which = read_particles(section, one ? one->particles : nullptr, reading, parts);
   if (which) parameters.particles = *which;
+  if (which && which->empty())
+    reading.mistake(section.place(section.has("where") ? "where" : "particles"), "the group has no particle");
   if (which && !one)
     reading.mistake(section.place("particles"),
                     "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
+}
+
+/// And those on the other side of pairs.
+void read_partners(Section& section, DiagnosisParameters& parameters, Reading& reading) {
+  Item const* item = section.find("partners");
+  if (!item) return;
+  ReadEnsemble const* one = one_ensemble(parameters, reading);
+  if (!one) return reading.mistake(item->place, "partners: they are those of one ensemble; add ensembles = [\"...\"]");
+  auto const which = read_chosen(*item, "partners", one->particles, reading);
+  if (which) parameters.partners = *which;
+  if (which && which->empty()) reading.mistake(item->place, "partners: there is no such particle");
 }
 
 void read_diagnosis(Item const& table, Reading& reading) {
@@ -109,6 +127,8 @@ void read_diagnosis(Item const& table, Reading& reading) {
                {reading.dimension, shown, [&](Option const& option, OptionPlace const& place) {
                   if (option.kind.form == OptionKind::Form::ensembles)
                     read_ensemble_names(section, option.key, *std::get<std::vector<std::string>*>(place), reading);
+                  else if (option.key == "partners")
+                    read_partners(section, parameters, reading);
                   else
                     read_group(section, parameters, reading);
                 }});

@@ -18,10 +18,9 @@ std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles) {
 
 namespace {
 
-std::optional<std::vector<std::uint32_t>> particles_where(Item const& where, AnyEnsemble const& ensemble,
-                                                          Reading& reading) {
-  auto formula =
-      read_formula(where, "where", formula_names(ensemble.fields(), ensemble.dimension(), reading), {}, reading);
+std::optional<std::vector<std::uint32_t>> particles_where(Item const& where, char const* key,
+                                                          AnyEnsemble const& ensemble, Reading& reading) {
+  auto formula = read_formula(where, key, formula_names(ensemble.fields(), ensemble.dimension(), reading), {}, reading);
   if (!formula) return std::nullopt;
   std::vector<std::uint32_t> which;
   for (std::size_t i = 0; i < ensemble.size(); ++i)
@@ -29,16 +28,15 @@ std::optional<std::vector<std::uint32_t>> particles_where(Item const& where, Any
   return which;
 }
 
-std::optional<std::vector<std::uint32_t>> numbered_particles(Item const& item, AnyEnsemble const* ensemble,
-                                                             Reading& reading) {
+std::optional<std::vector<std::uint32_t>> numbered_particles(Item const& item, char const* key,
+                                                             AnyEnsemble const* ensemble, Reading& reading) {
   std::vector<std::uint32_t> which;
   for (auto const& element : item.elements) {
-    auto const i = read_integer(element, "particles", 0, 4'000'000'000, reading.context);
+    auto const i = read_integer(element, key, 0, 4'000'000'000, reading.context);
     if (!i) return std::nullopt;
     if (ensemble && static_cast<std::size_t>(*i) >= ensemble->size()) {
-      reading.mistake(element.place,
-                      fmt::format("particles: there is no particle {}; '{}' has {}, numbered from 0 to {}", *i,
-                                  ensemble->name(), ensemble->size(), ensemble->size() - 1));
+      reading.mistake(element.place, fmt::format("{}: there is no particle {}; '{}' has {}, numbered from 0 to {}", key,
+                                                 *i, ensemble->name(), ensemble->size(), ensemble->size() - 1));
       return std::nullopt;
     }
     which.push_back(static_cast<std::uint32_t>(*i));
@@ -48,6 +46,12 @@ std::optional<std::vector<std::uint32_t>> numbered_particles(Item const& item, A
 
 }  // namespace
 
+std::optional<std::vector<std::uint32_t>> read_chosen(Item const& item, char const* key, AnyEnsemble const* ensemble,
+                                                      Reading& reading) {
+  if (item.is(Item::Kind::array)) return numbered_particles(item, key, ensemble, reading);
+  return ensemble ? particles_where(item, key, *ensemble, reading) : std::nullopt;
+}
+
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
                                                          Reading& reading, bool parts) {
   Item const* margin_item = section.find("margin");
@@ -55,11 +59,11 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   Item const* item = section.find("particles");
   Item const* where = parts ? nullptr : section.find("where");
   if (item && !parts) section.refuse("where", "'particles' says which, too; leave one out");
-  if (where) return item || !ensemble ? std::nullopt : particles_where(*where, *ensemble, reading);
+  if (where) return item || !ensemble ? std::nullopt : particles_where(*where, "where", *ensemble, reading);
   if (!item) return std::nullopt;
   bool const edge = item->is(Item::Kind::text) && item->text == "edge";
   if (!edge) section.refuse("margin", "it belongs to particles = \"edge\"");
-  if (item->is(Item::Kind::array)) return numbered_particles(*item, ensemble, reading);
+  if (item->is(Item::Kind::array)) return numbered_particles(*item, "particles", ensemble, reading);
   if (!item->is(Item::Kind::text)) {
     reading.mistake(item->place, fmt::format("particles: an array of numbers, \"edge\" or \"all\" is needed, not {}",
                                              describe(*item)));

@@ -211,6 +211,10 @@ std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles);
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
                                                          Reading& reading, bool parts = false);
 
+/// Numbers, or a formula that is true for those that are meant.
+std::optional<std::vector<std::uint32_t>> read_chosen(Item const& item, char const* key, AnyEnsemble const* ensemble,
+                                                      Reading& reading);
+
 /// The parameters of a law or a material, `owner` in messages, that stand in a table. Nothing, and mistakes, if one is
 /// missing or wrong.
 std::optional<ParameterValues> read_parameters(Section& section, std::string_view owner,

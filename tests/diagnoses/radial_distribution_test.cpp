@@ -267,5 +267,50 @@ TEST(StructureFactor, OfLatticesHasBraggsPeaks) {
     EXPECT_NEAR(between.s_of_modes()[m], m == 7 ? -8 : m == 15 ? 8 : 0, 1e-9) << m + 1;
 }
 
+// Groups of one ensemble are what ensembles of their own would be.
+TEST(RadialDistribution, OfGroupsIsThatOfEnsembles) {
+  Box const box(Vector{0.0, 0.0, 0.0}, Vector{3.0, 4.0, 5.0}, Boundary::periodic);
+  std::mt19937_64 random(test_seed(5));
+  Ensemble<Newton<3>> all("all", 60), one("one", 20), two("two", 30);
+  place_anywhere(all, box, random);
+  std::vector<std::uint32_t> first, second;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    if (i % 3 == 1) one[first.size()].position = all[i].position, first.push_back(i);
+    if (i % 2 == 0 && i % 3 != 1 && second.size() < 20)
+      two[second.size()].position = all[i].position, second.push_back(i);
+  }
+  two.resize(second.size());
+  auto const expect_same = [&](auto& of_group, auto& of_ensembles) {
+    EXPECT_EQ(look(of_group, {&all}, box, 2), look(of_ensembles, {&one, &two}, box, 1));
+    EXPECT_EQ(of_group.tables().front().values, of_ensembles.tables().front().values);
+    EXPECT_TRUE(of_group.by_number());
+  };
+  RadialDistribution within({&all}, {.to = 1.5, .particles = first}),
+      of_one({&one, &two}, {.ensembles = {"one"}, .to = 1.5}),
+      across({&all}, {.ensembles = {"all"}, .to = 1.5, .particles = first, .partners = second}),
+      between({&one, &two}, {.ensembles = {"one", "two"}, .to = 1.5});
+  expect_same(within, of_one);
+  expect_same(across, between);
+  StructureFactor waves({&all}, {.modes = 3, .particles = first}),
+      of_one_waves({&one, &two}, {.ensembles = {"one"}, .modes = 3}),
+      waves_across({&all}, {.modes = 3, .particles = first, .partners = second}),
+      waves_between({&one, &two}, {.ensembles = {"one", "two"}, .modes = 3});
+  expect_same(waves, of_one_waves);
+  expect_same(waves_across, waves_between);
+
+  EXPECT_EQ(message([&] {
+              RadialDistribution({&one, &two}, {.particles = {1}});
+            }),
+            "a group of chosen particles belongs to one ensemble; say which of one, two");
+  EXPECT_EQ(message([&] { StructureFactor({&all}, {.particles = {60}}); }),
+            "ensemble 'all' has 60 particles, numbered from 0; there is no particle 60");
+  EXPECT_EQ(message([&] { StructureFactor({&all}, {.partners = {6}}); }),
+            "'partners' are those of a group; say which by 'particles'");
+  EXPECT_EQ(message([&] {
+              RadialDistribution({&all}, {.particles = {1, 2}, .partners = {2, 3}});
+            }),
+            "particle 2 is chosen twice; a group and its 'partners' have none in common");
+}
+
 }  // namespace
 }  // namespace boltzmann::radial_distribution_test

@@ -216,5 +216,36 @@ TEST(GreenKubo, OfGasesWithFrictionIsExact) {
   expect_gas<3>();
 }
 
+TEST(TimeCorrelation, OfAGroupIsThatOfAnEnsemble) {
+  Box const box(Vector{0.0, 0.0}, Vector{4.0, 4.0}, Boundary::periodic);
+  Ensemble<Newton<2>> all("all", 9), some("some", 3);
+  std::mt19937_64 random(test_seed(3));
+  std::normal_distribution<double> normal;
+  for (auto& p : all) p.velocity = {normal(random), normal(random)};
+  TimeCorrelationOptions const of_group{
+      .count = 8, .origins = 4, .subtract_drift = true, .label = "O", .particles = {7, 1, 4}},
+      of_all{.count = 8, .origins = 4, .subtract_drift = true};
+  MeanSquareDisplacement way({&all}, of_group), its_way({&some}, of_all);
+  VelocityAutocorrelation memory({&all}, of_group), its_memory({&some}, of_all);
+  for (int step = 0; step < 30; ++step) {
+    for (auto& p : all)
+      for (int a = 0; a < 2; ++a) {
+        p.velocity[a] += 0.1 * normal(random);
+        p.position[a] = box.wrapped(p.position[a] + 0.3 * p.velocity[a], a);
+      }
+    for (std::size_t k = 0; k < 3; ++k) some[k] = all[std::array{7, 1, 4}[k]];
+    EXPECT_EQ(look(way, all, box, step, 1)[0], look(its_way, some, box, step, 1)[0]);
+    EXPECT_EQ(look(memory, all, box, step, 1)[0], look(its_memory, some, box, step, 1)[0]);
+  }
+  EXPECT_GT(way.displacement()[5], 0.1);
+  EXPECT_EQ(way.displacement(), its_way.displacement());
+  EXPECT_EQ(way.columns()[0].name, "O diffusion coefficient from displacements");
+  EXPECT_EQ(way.tables()[0].name, "mean-square-displacement-O");
+  EXPECT_EQ(message([&] {
+              MeanSquareDisplacement({&all, &some}, of_group);
+            }),
+            "a group of chosen particles belongs to one ensemble; say which of all, some");
+}
+
 }  // namespace
 }  // namespace boltzmann::time_correlation_test

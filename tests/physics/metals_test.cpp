@@ -165,7 +165,7 @@ TEST(Metals, SiliconOfStillingerAndWeberHasItsCohesionAndElasticConstants) {
   EXPECT_NEAR(energy({}) / law.epsilon, -2, 1e-9);
   EXPECT_NEAR(crystal.pressure() / GPa, 0, 1e-6);
   double const volume = edge * edge * edge / 8;
-  // C11 = 151.4, C12 = 76.4, C44 = 56.4 GPa (Balamane, Halicioglu and Tiller, Phys. Rev. B 46, 2250, 1992).
+  // C11 = 151.4, C12 = 76.4, C44 = 56.4 GPa (E. R. Cowley, Phys. Rev. Lett. 60, 2379, 1988; LAMMPS' examples/ELASTIC quotes them).
   double const B = bulk(energy, volume), across = difference(energy, volume);
   EXPECT_NEAR(B / GPa, (151.4 + 2 * 76.4) / 3, 0.5);
   EXPECT_NEAR(across / GPa, 151.4 - 76.4, 0.5);

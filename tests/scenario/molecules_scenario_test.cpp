@@ -199,5 +199,44 @@ TEST(MoleculesInScenarios, MistakesAreTold) {
                  "bonded_factors: the ensemble has no bonds");
 }
 
+TEST(MoleculesInScenarios, FieldsOfAMoleculeHoldForAll) {
+  auto const run = parse_scenario(start + "molecule = 4\nmass = [1, 2, 3, 4]\n", "molecules.toml");
+  AnyEnsemble const& beads = *run->ensembles.front();
+  for (std::size_t i = 0; i < beads.size(); ++i)
+    EXPECT_EQ(beads.row(i)[beads.field("mass").offset], 1.0 + static_cast<double>(i % 4)) << i;
+  expect_mistake(start + "molecule = 4\nmass = [1, 2, 3]\n",
+                 "mass: 3 values for 120 particles; give one for all, or one for each, or 4 for the particles of a "
+                 "molecule");
+  expect_mistake(start + "mass = [1, 2, 3]\n", "mass: 3 values for 120 particles; give one for all, or one for each\n");
+}
+
+TEST(MoleculesInScenarios, GroupsAreChosenByFormulas) {
+  std::string const kinds = start + "molecule = 3\nmass = [16, 1, 1]\n";
+  auto const diagnosis = [](std::string const& keys) {
+    return "[[diagnoses]]\nkind = \"radial-distribution\"\nto = 3\n" + keys;
+  };
+  auto const run = parse_scenario(kinds + diagnosis("label = \"OO\"\nwhere = \"mass > 2\"\n") +
+                                      diagnosis("label = \"OH\"\nwhere = \"mass > 2\"\npartners = \"mass < 2\"\n") +
+                                      diagnosis("label = \"pair\"\nparticles = [0]\npartners = [1, 2]\n"),
+                                  "molecules.toml");
+  EXPECT_EQ(run->diagnoses.size(), 3U);
+  std::vector<AnyEnsemble*> const all{run->ensembles.front().get()};
+  std::vector<double> partners;
+  for (auto const& one : run->diagnoses) {
+    std::vector<double> values;
+    one->measure({all, run->box(), nullptr, 1, 0, 0}, values);
+    partners.push_back(one->tables().front().values[2].back());
+  }
+  EXPECT_GT(partners[1], 1.6 * partners[0]);  // 80 and 39 others
+  EXPECT_LE(partners[2], 2);
+  expect_mistake(kinds + diagnosis("where = \"mass > 20\"\n"), "the group has no particle");
+  expect_mistake(kinds + diagnosis("where = \"mass > 2\"\npartners = \"mass > 20\"\n"),
+                 "partners: there is no such particle");
+  expect_mistake(kinds + diagnosis("where = \"mass > 2\"\npartners = [500]\n"),
+                 "partners: there is no particle 500; 'beads' has 120");
+  expect_mistake(kinds + diagnosis("where = \"mass > 2\"\npartners = \"mess < 2\"\n"), "mess");
+  expect_mistake(kinds + diagnosis("partners = \"mass < 2\"\n"), "'partners' are those of a group");
+}
+
 }  // namespace
 }  // namespace boltzmann::molecules_scenario_test
