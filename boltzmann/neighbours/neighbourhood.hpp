@@ -24,7 +24,8 @@ std::string skin_refused(double cutoff, double skin);
 class Neighbourhood {
  public:
   /// The box outlives the neighbourhood. `cutoff` is what the default skin, 0.12 of a cut-off, is a share of; without
-  /// it, that is the longest cut-off of the lists.
+  /// it, that is the longest cut-off of the lists. Where so few particles are within reach that builds would cost more
+  /// than longer lists (soft spheres, polymers), the first build chooses a longer one.
   explicit Neighbourhood(Box const& box, double cutoff = std::numeric_limits<double>::infinity())
       : box_(&box), cutoff_(cutoff) {}
   Neighbourhood(Neighbourhood const&) = delete;

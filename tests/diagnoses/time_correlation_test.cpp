@@ -234,8 +234,11 @@ TEST(TimeCorrelation, OfAGroupIsThatOfAnEnsemble) {
         p.position[a] = box.wrapped(p.position[a] + 0.3 * p.velocity[a], a);
       }
     for (std::size_t k = 0; k < 3; ++k) some[k] = all[std::array{7, 1, 4}[k]];
-    EXPECT_EQ(look(way, all, box, step, 1)[0], look(its_way, some, box, step, 1)[0]);
-    EXPECT_EQ(look(memory, all, box, step, 1)[0], look(its_memory, some, box, step, 1)[0]);
+    auto const found = look(way, all, box, step, 1), its = look(its_way, some, box, step, 1);
+    auto const kept = look(memory, all, box, step, 1), its_kept = look(its_memory, some, box, step, 1);
+    if (step < 10) continue;  // until all lags are there
+    EXPECT_EQ(found, its);
+    EXPECT_EQ(kept, its_kept);
   }
   EXPECT_GT(way.displacement()[5], 0.1);
   EXPECT_EQ(way.displacement(), its_way.displacement());

@@ -88,8 +88,12 @@ RigidBonds::Member RigidBonds::member(std::uint32_t i) const {
 
 Vector<3> RigidBonds::between(std::uint32_t i, std::uint32_t j) const {
   Vector<3> d{0, 0, 0};
-  for (int a = 0; a < box_.dimension(); ++a) d[a] = ensemble_.row(j)[a] - ensemble_.row(i)[a];
-  box_.nearest_image(d.component);
+  bool across = false;  // seldom: nearest images cost more than all else
+  for (int a = 0; a < box_.dimension(); ++a) {
+    d[a] = ensemble_.row(j)[a] - ensemble_.row(i)[a];
+    across = across || std::abs(d[a]) > 0.5 * box_.length(a);
+  }
+  if (across) box_.nearest_image(d.component);
   return d;
 }
 
@@ -151,11 +155,12 @@ double RigidBonds::correct_velocities(int threads) {
   std::vector<double> added(bonds_.size(), 0.0);
   each_molecule(threads, [&](std::size_t begin, std::size_t end) {
     bool holds = false;
+    for (std::size_t k = begin; k < end; ++k) before_[k] = between(bonds_[k][0], bonds_[k][1]);  // no more needed
     for (int turn = 0; turn < max_turns && !holds; ++turn) {
       holds = true;
       for (std::size_t k = begin; k < end; ++k) {
         Member const p = member(bonds_[k][0]), q = member(bonds_[k][1]);
-        Vector<3> const d = between(bonds_[k][0], bonds_[k][1]);
+        Vector<3> const d = before_[k];
         double along = 0, speed = 0;
         for (int a = 0; a < D; ++a) {
           along += d[a] * (q.velocity[a] - p.velocity[a]);

@@ -104,7 +104,8 @@ class PairScheme final : public Scheme {
   /// law needs a cut-off, and a periodic axis twice as long, so that no second image is near.
   void bonded_factors(AnyEnsemble& ensemble, std::vector<BondMembers> const& bonds, std::vector<double> const& factors);
 
-  /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
+  /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off,
+  /// longer where few are within it.
   void skin(double length) { neighbourhood_.skin(length); }
   double skin() const { return neighbourhood_.skin(); }
   /// Mirrors and lists, as they stand since the last calculation: for what else acts between near particles.
