@@ -68,8 +68,13 @@ int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks) {
   if (plugin.library.empty()) throw Error(fmt::format("--ranks: '{}' can't be used: {}", plugin.path, plugin.reason));
   if (!ranks.hosts.empty() && !std::filesystem::exists(ranks.hosts))
     throw Error("--hosts: there is no file '" + ranks.hosts + "'");
-  bool const open_mpi = first_line_of_version(launcher).find("Open MPI") != std::string::npos ||
-                        first_line_of_version(launcher).find("OpenRTE") != std::string::npos;
+  std::string const version = first_line_of_version(launcher);
+  bool const open_mpi = version.find("Open MPI") != std::string::npos || version.find("OpenRTE") != std::string::npos;
+  if (open_mpi && geteuid() == 0 && !std::getenv("OMPI_ALLOW_RUN_AS_ROOT"))
+    throw Error(
+        "--ranks: Open MPI starts nothing for root unless OMPI_ALLOW_RUN_AS_ROOT=1 and "
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "are in the environment");
   setenv("BOLTZMANN_MPI", std::filesystem::absolute(plugin.path).c_str(), 1);
   std::vector<std::string> line{launcher};
   if (open_mpi) {
@@ -94,6 +99,9 @@ int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks) {
     if (waitpid(child, &status, WNOHANG) == child) {
       sigprocmask(SIG_SETMASK, &before, nullptr);
       int const of_all = status_of(status);
+      if (told == 0 && of_all > 128)
+        fmt::print(stderr, "a rank was ended by signal {} ({}), and the others with it; the last checkpoint is whole\n",
+                   of_all - 128, strsignal(of_all - 128));
       return told > 1 || (told == 1 && of_all > 128) ? 130 : of_all;
     }
     int const number = sigwaitinfo(&signals, nullptr);

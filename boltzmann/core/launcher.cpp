@@ -28,8 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In the environment of what a rank starts: that is no rank.
-constexpr char const* marker = "BOLTZMANN_RANK_OF";
+// In the environment of what a rank starts: that is no rank. Whoever starts runs of their own by a launcher sets it, too.
+constexpr char const* marker = "BOLTZMANN_ALONE";
 
 thread_local Team* acting = nullptr;
 std::atomic<Team*> joined{nullptr};
@@ -177,7 +177,7 @@ void Team::give_up(std::string const& line) {
 }
 
 Launched launched() {
-  if (!environment(marker).empty()) return {};
+  if (auto const said = environment(marker); !said.empty() && said != "0") return {};
   for (auto const& [size, rank] : {std::pair("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"),
                                    {"PMI_SIZE", "PMI_RANK"},
                                    {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}})
@@ -187,7 +187,7 @@ Launched launched() {
   return {};
 }
 
-void stay_alone() { setenv(marker, "another process", 1); }
+void stay_alone() { setenv(marker, "1", 1); }
 
 std::string find_mpi_plugin() {
   constexpr char const* name = "libboltzmann_mpi.so";

@@ -10,7 +10,8 @@ struct Launched {
   int rank = 0;
   int size = 1;  ///< 0: the launcher has not said of how many
 };
-/// From the environment; one rank of one where there is no launcher, and in what a rank starts.
+/// From the environment; one rank of one where there is no launcher, where BOLTZMANN_ALONE=1 says so, and in what a rank
+/// starts.
 Launched launched();
 /// This process does something of its own, whatever has started it: its team is of one rank.
 void stay_alone();

@@ -20,9 +20,9 @@ namespace {
 constexpr std::int64_t nobody = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t piece = std::size_t{1} << 30;  // of bytes: MPI counts them by ints
 
-constexpr char const* occasion_words[] = {"begins a run", "is in a run", "ends a run", "is between two runs",
-                                          "ends its program"};
-char const* words(Occasion occasion) { return occasion_words[static_cast<std::size_t>(occasion)]; }
+constexpr char const* occasion_words[] = {"prepares a run", "begins a run",        "is in a run",
+                                          "ends a run",     "is between two runs", "ends its program"};
+char const* words(Team::Occasion occasion) { return occasion_words[static_cast<std::size_t>(occasion)]; }
 
 enum class Kind : int { error, physics, memory, other };
 
@@ -30,7 +30,7 @@ enum class Kind : int { error, physics, memory, other };
 struct Description {
   Kind kind = Kind::other;
   int status = 1;
-  Occasion occasion{};  // of the rank that has failed
+  Team::Occasion occasion{};  // of the rank that has failed
   std::string line;
 };
 
@@ -147,7 +147,7 @@ void Team::barrier() {
   sum(nothing);
 }
 
-Outcome Team::vote(Ballot const& ballot, std::exception_ptr const& failed) {
+Team::Outcome Team::vote(Ballot const& ballot, std::exception_ptr const& failed) {
   Outcome outcome;
   if (over_) {
     outcome.failure = over_;
@@ -220,7 +220,7 @@ std::exception_ptr Team::other_checksums(Ballot const& ballot) {
   auto const all = gather(bytes_of(ballot.checksum));
   int other = 1;
   while (all[static_cast<std::size_t>(other)] == all[0]) ++other;
-  if (ballot.occasion == Occasion::between_runs)
+  if (ballot.occasion == Occasion::prepares)
     return std::make_exception_ptr(Error(fmt::format("rank {} has another {} than rank 0", other, ballot.what)));
   return std::make_exception_ptr(Error(
       ballot.occasion == Occasion::run_begins
@@ -261,7 +261,7 @@ bool Team::first_says(bool mine) { return any(first() && mine); }
 
 void Team::same(std::string_view text, char const* what) {
   if (alone() || depth_ > 0) return;
-  Ballot ballot{Occasion::between_runs};
+  Ballot ballot{Occasion::prepares};
   ballot.checksum = checksum_of(text);
   ballot.what = what;
   check(vote(ballot));

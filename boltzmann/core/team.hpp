@@ -23,33 +23,33 @@ struct TeamFailure : std::runtime_error {
   int status;
 };
 
-/// What a rank has come to when it votes: all have to come to the same.
-enum class Occasion : std::int64_t { run_begins, in_run, run_ends, between_runs, program_ends };
-
-/// What a rank says in a vote.
-struct Ballot {
-  Occasion occasion;
-  bool stop = false, pause = false;
-  std::int64_t place = 0;                                        ///< of a run: steps done
-  std::int64_t next = std::numeric_limits<std::int64_t>::max();  ///< steps to the next vote
-  std::uint64_t checksum = 0;                                    ///< of what has to be the same,
-  char const* what = "";                                         ///< between runs: this
-};
-
-/// What all ranks then know.
-struct Outcome {
-  bool stop = false, pause = false;  ///< whether any rank says so
-  bool same_place = true;
-  std::int64_t last_place = 0;  ///< of the rank that is ahead of all
-  std::int64_t next = 0;        ///< the smallest
-  std::exception_ptr failure;   ///< of a rank, the same line on all; or of the vote: ranks do different things
-};
-
 /// All calls of a team but rank() and the like are for all its ranks, in the same order. A rank waits for the others;
 /// where they don't come within BOLTZMANN_PATIENCE seconds (the environment; 600 unless told), it ends them all with a
 /// line.
 class Team {
  public:
+  /// What a rank has come to when it votes: all have to come to the same.
+  enum class Occasion : std::int64_t { prepares, run_begins, in_run, run_ends, between_runs, program_ends };
+
+  /// What a rank says in a vote.
+  struct Ballot {
+    Occasion occasion;
+    bool stop = false, pause = false;
+    std::int64_t place = 0;                                        ///< of a run: steps done
+    std::int64_t next = std::numeric_limits<std::int64_t>::max();  ///< steps to the next vote
+    std::uint64_t checksum = 0;                                    ///< of what has to be the same,
+    char const* what = "";                                         ///< where a run is prepared: this
+  };
+
+  /// What all ranks then know.
+  struct Outcome {
+    bool stop = false, pause = false;  ///< whether any rank says so
+    bool same_place = true;
+    std::int64_t last_place = 0;  ///< of the rank that is ahead of all
+    std::int64_t next = 0;        ///< the smallest
+    std::exception_ptr failure;   ///< of a rank, the same line on all; or of the vote: ranks do different things
+  };
+
   /// One rank, which waits for nobody.
   Team() = default;
   /// A rank that has joined others. The functions, and `of`, outlive it.
@@ -117,7 +117,6 @@ class Team {
 
  private:
   void reduce(std::span<std::int64_t> numbers, int operation);
-  void bytes_from(void* bytes, std::size_t count, int from);
   void wait();
   [[noreturn]] void give_up(std::string const& line);
   std::exception_ptr failure_of(int rank, Ballot const& ballot, std::exception_ptr const& mine);

@@ -10,7 +10,7 @@ constexpr double seconds_between_votes = 0.1;
 
 }  // namespace
 
-Outcome RunVotes::vote(Ballot const& ballot) {
+Team::Outcome RunVotes::vote(Team::Ballot const& ballot) {
   auto outcome = team_.vote(ballot);
   if (outcome.failure) throw AgreedFailure{outcome.failure};
   return outcome;
@@ -24,7 +24,7 @@ bool RunVotes::go_on_together(std::int64_t done, bool stop, bool pause) {
     auto const possible = static_cast<double>(std::max<std::int64_t>(done - voted_at_, 1)) * seconds_between_votes /
                           std::max(seconds, 1e-9);
     interval_ = static_cast<std::int64_t>(std::clamp(possible, 1.0, 2.0 * static_cast<double>(interval_)));
-    Ballot ballot{Occasion::in_run, stop, pause, done};
+    Team::Ballot ballot{Team::Occasion::in_run, stop, pause, done};
     ballot.next = interval_;
     auto const outcome = vote(ballot);
     voted_ = Clock::now();

@@ -26,7 +26,8 @@ class RunVotes {
   template <class Checksum>
   void begin(Checksum const& checksum, bool stop) {
     if (alone_) return;
-    Ballot ballot{Occasion::run_begins, stop};
+    voted_ = Clock::now();
+    Team::Ballot ballot{Team::Occasion::run_begins, stop};
     ballot.checksum = checksum() + static_cast<std::uint64_t>(steps_);
     stopping_ = vote(ballot).stop;
     stopped_ = stopping_;
@@ -44,20 +45,20 @@ class RunVotes {
   template <class Checksum>
   void end(Checksum const& checksum) {
     if (alone_) return;
-    Ballot ballot{Occasion::run_ends};
+    Team::Ballot ballot{Team::Occasion::run_ends};
     ballot.checksum = checksum();
     vote(ballot);
   }
 
  private:
-  Outcome vote(Ballot const& ballot);
+  Team::Outcome vote(Team::Ballot const& ballot);
   bool go_on_together(std::int64_t done, bool stop, bool pause);
 
   Team& team_;
   bool alone_, stopping_ = false, stopped_ = false;
   std::int64_t steps_, goal_ = 0;  // where the next vote is
   std::int64_t interval_ = 1, voted_at_ = 0;
-  Clock::time_point voted_ = Clock::now();
+  Clock::time_point voted_;
 };
 
 /// Calls what runs; what it throws on one rank, all throw.
@@ -73,7 +74,7 @@ void run_together(Run const& run) {
   } catch (AgreedFailure const& agreed) {
     failure = agreed.failure;
   } catch (...) {
-    failure = here.vote({Occasion::in_run}, std::current_exception()).failure;
+    failure = here.vote({Team::Occasion::in_run}, std::current_exception()).failure;
   }
   std::rethrow_exception(failure);
 }

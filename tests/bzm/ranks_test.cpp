@@ -1,0 +1,230 @@
+// Runs on several ranks, by mpirun: the same files as on one, and ends that all ranks have together.
+#include "tests/bzm/command.hpp"
+#include "tests/bzm/environment.hpp"
+#include "tests/bzm/same_run.hpp"
+
+#include <chrono>
+#include <sstream>
+
+namespace boltzmann::ranks_test {
+namespace {
+
+using namespace boltzmann::test;
+
+bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+
+double seconds_since(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+/// Where Open MPI starts something for anybody.
+struct Ranks : testing::Test {
+  Folder folder;
+  Environment environment;
+
+  Ranks() {
+    environment.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    environment.set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+    environment.set("OMP_NUM_THREADS", "1");
+  }
+
+  /// What `bzm run` of a scenario that goes on for long is doing, once it has a checkpoint behind the first.
+  std::vector<std::string> endless(std::string const& out) const {
+    return {"run",   "three-body", "--steps", "1000000000", "--set", "output.checkpoint=200",
+            "--out", out,          "--quiet", "--ranks",    "3"};
+  }
+  bool begun(Process& process, std::string const& out) const {
+    return process.wait_until([&] { return checkpoint_step(folder / out) >= 200; });
+  }
+  /// The processes that write into this folder, by their command lines.
+  std::vector<pid_t> ranks(std::string const& out) const {
+    std::vector<pid_t> all;
+    for (auto const& entry : fs::directory_iterator("/proc")) {
+      pid_t const process = std::atoi(entry.path().filename().c_str());
+      std::error_code gone;
+      if (process <= 0 || fs::read_symlink(entry.path() / "cwd", gone) != fs::canonical(folder.string())) continue;
+      std::string const words = text_of(entry.path() / "cmdline");
+      if (words.rfind(bzm_words({})[0] + std::string(1, '\0') + "run", 0) == 0 && !has(words, "--ranks") &&
+          has(words, out))
+        all.push_back(process);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  void expect_same_files(std::string const& one, std::string const& other) const {
+    for (auto const* file : {"checkpoint.h5", "trajectory.h5", "diagnoses.csv"}) {
+      if (std::string(file) != "checkpoint.h5" && !fs::exists(folder / (one + "/" + file))) continue;
+      EXPECT_TRUE(text_of(folder / (one + "/" + file)) == text_of(folder / (other + "/" + file)))
+          << other << ": " << file;
+    }
+  }
+  Outcome program(std::string const& what, std::string const& ranks = "3") {
+    environment.set("RANKS_PROGRAM", what.c_str());
+    std::string const build = BOLTZMANN_BUILD;
+    environment.set("BOLTZMANN_MPI", (build + "/libboltzmann_mpi.so").c_str());
+    return Process({"/bin/sh", "-c",
+                    "exec mpirun --quiet --oversubscribe -n " + ranks + " " + build + "/tests/ranks_program --quiet"},
+                   folder.string())
+        .wait();
+  }
+};
+
+struct SameFiles : Ranks, testing::WithParamInterface<char const*> {};
+
+TEST_P(SameFiles, OnOneTwoAndThreeRanks) {
+  std::vector<std::string> const plan{
+      "run", GetParam(), "--steps", "12", "--set", "output.diagnoses=2", "--set", "output.trajectory=5", "--quiet"};
+  auto const run = [&](std::string const& ranks, std::string const& threads) {
+    environment.set("OMP_NUM_THREADS", threads.c_str());
+    auto words = plan;
+    words.insert(words.end(), {"--out", ranks + "x" + threads, "--ranks", ranks});
+    auto const outcome = bzm(words, folder.string());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    expect_same_files("1x1", ranks + "x" + threads);
+  };
+  for (auto const* ranks : {"1", "2", "3"})
+    for (auto const* threads : {"1", "2"}) run(ranks, threads);
+  EXPECT_EQ(checkpoint_step(folder / "3x2"), 12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, SameFiles,
+                         testing::Values("copper", "two-stream", "sod", "active-matter", "polymer-melt"),
+                         [](auto const& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(Ranks, PrintOnceAndEndTogether) {
+  auto const outcome = program("");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(lines_in(outcome.out), 2U) << outcome.out;
+  EXPECT_EQ(outcome.err, "");
+  Outcome const one = program("", "1");
+  EXPECT_EQ(outcome.out, one.out) << "to the last digit";
+}
+
+TEST_F(Ranks, AFailureOfOneRankIsOneLineAndTheStatusOfAll) {
+  struct Case {
+    char const *what, *line;
+    int status;
+  };
+  for (auto const& [what, line, status] :
+       {Case{"observer", "a file of rank 2 can't be read\n", 2},
+        Case{"file", "'masses.csv' is not on this machine\n", 2}, Case{"memory", "std::bad_alloc\n", 1},
+        Case{"exit", "rank 1 has ended with exit status 7\n", 7}}) {
+    auto const since = std::chrono::steady_clock::now();
+    auto const outcome = program(what);
+    EXPECT_EQ(outcome.err, line);
+    EXPECT_EQ(outcome.status, status) << what;
+    EXPECT_EQ(outcome.out, "begins\n");
+    EXPECT_LT(seconds_since(since), 20) << "of some 2";
+  }
+}
+
+TEST_F(Ranks, ProgramsThatDifferBetweenRanksAreRefused) {
+  auto outcome = program("other particles");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err.rfind("rank 1 has other particles, or other steps to do, than rank 0", 0), 0U) << outcome.err;
+  EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+  outcome = program("first only");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err.rfind("rank 1 is between two runs where rank 0 prepares a run; every rank must do the same", 0),
+            0U)
+      << outcome.err;
+  EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+}
+
+TEST_F(Ranks, ARankThatDoesNotComeEndsTheRun) {
+  environment.set("BOLTZMANN_PATIENCE", "1");
+  auto const since = std::chrono::steady_clock::now();
+  auto const outcome = program("late", "2");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_TRUE(has(outcome.err, "has waited 1 s for others")) << outcome.err;
+  EXPECT_LT(seconds_since(since), 30) << "of some 3";
+}
+
+TEST_F(Ranks, ASignalFinishesTheStepAndAnyNumberOfRanksGoesOn) {
+  Process going(bzm_words(endless("run")), folder.string());
+  ASSERT_TRUE(begun(going, "run")) << going.wait().err;
+  going.signal(SIGINT);
+  auto const outcome = going.wait();
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+  auto const step = checkpoint_step(folder / "run");
+  EXPECT_TRUE(has(outcome.err, "stopped by a signal after step " + std::to_string(step))) << outcome.err;
+
+  auto const on = bzm({"resume", "run", "--steps", "50", "--ranks", "2", "--quiet"}, folder.string());
+  ASSERT_EQ(on.status, 0) << on.err;
+  auto const again = bzm({"resume", "run", "--steps", "50", "--quiet"}, folder.string());
+  ASSERT_EQ(again.status, 0) << again.err;
+  auto const whole = bzm({"run", "three-body", "--steps", std::to_string(step + 100), "--set", "output.checkpoint=200",
+                          "--out", "whole", "--quiet"},
+                         folder.string());
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  expect_same_checkpoint(folder / "whole", folder / "run");
+  for (auto const* file : {"diagnoses.csv", "trajectory.h5"})
+    EXPECT_TRUE(text_of(folder / ("whole/" + std::string(file))) == text_of(folder / ("run/" + std::string(file))))
+        << file;
+}
+
+TEST_F(Ranks, AKilledRankEndsAllAndTheCheckpointIsWhole) {
+  for (std::size_t const which : {0U, 2U}) {
+    std::string const out = "killed-" + std::to_string(which);
+    Process going(bzm_words(endless(out)), folder.string());
+    ASSERT_TRUE(begun(going, out)) << going.wait().err;
+    auto const all = ranks(out);
+    ASSERT_EQ(all.size(), 3U);
+    auto const since = std::chrono::steady_clock::now();
+    kill(all[which], SIGKILL);
+    auto const outcome = going.wait();
+    EXPECT_LT(seconds_since(since), 10);
+    EXPECT_EQ(outcome.status, 128 + SIGKILL);
+    EXPECT_EQ(outcome.err.rfind("a rank was ended by signal 9 (Killed)", 0), 0U) << outcome.err;
+    EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+    EXPECT_TRUE(ranks(out).empty());
+    EXPECT_GE(checkpoint_step(folder / out), 200);
+  }
+}
+
+TEST_F(Ranks, SweepsHaveTheSameTables) {
+  ASSERT_EQ(bzm({"new", "gas"}, folder.string()).status, 0);
+  for (std::string const ranks : {"1", "2"})
+    ASSERT_EQ(
+        bzm({"run", "gas.toml", "--steps", "40", "--seeds", "2", "--out", "on-" + ranks, "--ranks", ranks, "--quiet"},
+            folder.string())
+            .status,
+        0);
+  for (auto const* file : {"sweep.toml", "runs.csv", "sweep.csv", "series.csv"})
+    EXPECT_EQ(text_of(folder / ("on-1/" + std::string(file))), text_of(folder / ("on-2/" + std::string(file)))) << file;
+  for (std::string const run : {"/01-seed-1", "/02-seed-2"}) expect_same_files("on-1" + run, "on-2" + run);
+}
+
+TEST_F(Ranks, MistakesAndWhatIsNotThereAreToldOnce) {
+  struct Case {
+    std::vector<std::string> words;
+    char const* line;
+  };
+  for (auto const& [words, line] : {Case{{"run", "three-body", "--set", "run.stp=1"}, "unknown key 'stp' in [run]"},
+                                    Case{{"run", "three-body", "--window"}, "--window shows a run on one rank"},
+                                    Case{{"run", "no-such"}, "no-such"}}) {
+    auto all = words;
+    all.insert(all.end(), {"--ranks", "2"});
+    auto const outcome = bzm(all, folder.string());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, line)) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "results"));
+}
+
+TEST_F(Ranks, ReadAScenarioFromStandardInput) {
+  ASSERT_EQ(bzm({"new", "gas"}, folder.string()).status, 0);
+  std::string const line = bzm_words({})[0] + " run - --steps 20 --quiet --out ";
+  ASSERT_EQ(Process({"/bin/sh", "-c", line + "two --ranks 2 < gas.toml"}, folder.string()).wait().status, 0);
+  ASSERT_EQ(Process({"/bin/sh", "-c", line + "one < gas.toml"}, folder.string()).wait().status, 0);
+  expect_same_files("one", "two");
+}
+
+}  // namespace
+}  // namespace boltzmann::ranks_test
