@@ -109,16 +109,16 @@ struct ListedKind {
   std::vector<Named> (*entries)();
 };
 constexpr ListedKind sections[] = {{"scenarios", scenarios},
-                                {"classes", of<particle_classes>},
-                                {"laws", of<scenario_laws>},
-                                {"materials", of<material_catalogue>},
-                                {"integrators", of<method_words>},
-                                {"dissipations", of<dissipation_kinds>},
-                                {"loaders", of<load_kinds>},
-                                {"tables", table_list},
-                                {"diagnoses", of<diagnosis_kinds>},
-                                {"drawings", of<drawings>},
-                                {"units", unit_list}};
+                                   {"classes", of<particle_classes>},
+                                   {"laws", of<scenario_laws>},
+                                   {"materials", of<material_catalogue>},
+                                   {"integrators", of<method_words>},
+                                   {"dissipations", of<dissipation_kinds>},
+                                   {"loaders", of<load_kinds>},
+                                   {"tables", table_list},
+                                   {"diagnoses", of<diagnosis_kinds>},
+                                   {"drawings", of<drawings>},
+                                   {"units", unit_list}};
 
 void show_scenario(Page& page, std::string const& name) {
   std::string const path = find_scenario(name);

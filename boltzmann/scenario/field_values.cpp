@@ -16,10 +16,9 @@ std::optional<FieldValue> read_field(Item const& item, Field const& field, std::
   bool const is_vector = field.components > 1;
   auto const wrong_count = [&](std::size_t n) {
     context.mistakes.add(
-        item.place,
-        fmt::format("{}: {} value{} for {} particle{}; give one for all, or one for each{}", field.name, n,
-                    n == 1 ? "" : "s", count, count == 1 ? "" : "s",
-                    molecule > 0 ? fmt::format(", or {} for the particles of a molecule", molecule) : ""));
+        item.place, fmt::format("{}: {} value{} for {} particle{}; give one for all, or one for each{}", field.name, n,
+                                n == 1 ? "" : "s", count, count == 1 ? "" : "s",
+                                molecule > 0 ? fmt::format(", or {} for the particles of a molecule", molecule) : ""));
     return std::nullopt;
   };
   if (!item.is(Item::Kind::array)) {
