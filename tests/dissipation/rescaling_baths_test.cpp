@@ -238,14 +238,16 @@ TEST(NoseHoover, EnergyWithThatOfTheChainIsConserved) {
     bath.on(fluid.atoms);
     fluid.simulation.add(bath);
     double const start = fluid.energy();
+    double given = 0;  // at most
     for (int part = 0; part < 40; ++part) {
       fluid.simulation.run(fine ? 200 : 100);
       double const energy = fluid.energy();
+      given = std::max(given, std::abs(bath.heat()));
       EXPECT_NEAR(bath.heat() + bath.bath_energy(), 0, 1e-5);
       worst[fine] = std::max(worst[fine], std::abs(energy + bath.bath_energy() - start));
       EXPECT_NEAR(*conserved(fluid.simulation).energy, energy - bath.heat(), 1e-9);
     }
-    EXPECT_GT(std::abs(bath.heat()), 10);
+    EXPECT_GT(given, 10);
   }
   EXPECT_LT(worst[0], 0.12);
   EXPECT_LT(worst[1], 0.4 * worst[0]);
