@@ -33,9 +33,9 @@ void share_hdf5() { hdf5::share_with({enter, leave}); }
 
 void look_for_h5py() {
   if (h5py_is_there) return;
-  py::dict const modules = py::module_::import("sys").attr("modules");
-  if (!modules.contains("h5py._objects")) return;
-  lock_of_h5py = new py::object(modules["h5py._objects"].attr("phil"));
+  PyObject* const module = PyDict_GetItemString(PyImport_GetModuleDict(), "h5py._objects");
+  if (!module) return;
+  lock_of_h5py = new py::object(py::handle(module).attr("phil"));
   h5py_is_there = true;
 }
 
