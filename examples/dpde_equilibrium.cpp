@@ -21,12 +21,12 @@ void dpde_equilibrium(Program& program) {
   dpd.state(molecules, inside);
   dpd.internal(molecules, dissipation(crystal_units(15e-14 * kilogram / second), cutoff));
 
-  Simulation simulation(crystal, crystal_units(5 * femtosecond));
+  Simulation simulation(crystal, crystal_units(2.5 * femtosecond));
   simulation.add(dpd);
-  equilibrate(simulation, molecules, crystal_units(2 / picosecond), 600);
+  equilibrate(simulation, molecules, crystal_units(2 / picosecond), 1200);
 
   std::vector<double> motion, harmonic, arithmetic;
-  simulation.observe(20, [&](Simulation const& s) {
+  simulation.observe(40, [&](Simulation const& s) {
     if (s.time() < 5) return;
     motion.push_back(temperature(molecules, k, {.subtract_drift = true}).total);
     harmonic.push_back(1 / mean(molecules, [&](auto const& p) { return 1 / inside.temperature(p.internal_energy); }));
@@ -34,7 +34,7 @@ void dpde_equilibrium(Program& program) {
   });
   Recording recording = program.recording(simulation, crystal_units);
   recording.diagnoses(50, {"energies", "temperature"}).trajectory(1000).picture({.colour = "temperature"});
-  program.run(recording, 10000);
+  program.run(recording, 20000);
 
   double const t = mean_with_error(harmonic).mean, higher = mean_with_error(arithmetic).mean;
   std::printf("temperature of motion        %.1f K\n", mean_with_error(motion).mean);

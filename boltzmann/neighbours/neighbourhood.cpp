@@ -212,8 +212,8 @@ void Neighbourhood::refresh(int threads) {
 }
 
 // Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found
-// anew, the skin if it is chosen; then of each sorted copy the edges of the box and the references at its build, and the particles that were
-// moved since: number and reference of each.
+// anew, the skin if it is chosen; then of each sorted copy the edges of the box and the references at its build, and
+// the particles that were moved since: number and reference of each.
 std::vector<double> Neighbourhood::state() const {
   bool decided = true;
   for (auto const& copy : copies_) decided = decided && copy.is_current();

@@ -18,6 +18,11 @@ class HeldArray {
  public:
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0);
 
+  HeldArray() = default;
+  HeldArray(HeldArray const&) = delete;  // two would share their memory
+  HeldArray& operator=(HeldArray const&) = delete;
+  ~HeldArray() = default;
+
   T* data() { return first_; }
   T const* data() const { return first_; }
   T& operator[](std::size_t i) { return first_[i]; }
