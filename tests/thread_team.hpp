@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -89,6 +90,38 @@ class ThreadTeam {
     });
   }
 
+  static void exchange(void* of, BoltzmannMessage const* messages, int count) {
+    Member& member = *static_cast<Member*>(of);
+    int const rank = member.rank;
+    std::string all;
+    auto const write = [&](int number) { all.append(reinterpret_cast<char const*>(&number), sizeof number); };
+    std::vector<BoltzmannMessage> received;
+    for (int k = 0; k < count; ++k) {
+      if (messages[k].receive) {
+        received.push_back(messages[k]);
+        continue;
+      }
+      write(messages[k].rank), write(messages[k].count);
+      all.append(static_cast<char const*>(messages[k].bytes), static_cast<std::size_t>(messages[k].count));
+    }
+    post(of, std::move(all), [rank, received](auto const& posted) {
+      std::vector<std::size_t> at(posted.size());
+      for (auto const& message : received) {
+        auto const& box = posted[static_cast<std::size_t>(message.rank)];
+        auto& place = at[static_cast<std::size_t>(message.rank)];
+        for (bool found = false; !found;) {
+          int head[2];
+          if (place + sizeof head > box.size()) throw std::logic_error("a message was not sent");
+          std::memcpy(head, box.data() + place, sizeof head);
+          found = head[0] == rank;
+          if (found && head[1] != message.count) throw std::logic_error("a message has another size");
+          if (found) std::memcpy(message.bytes, box.data() + place + sizeof head, static_cast<std::size_t>(head[1]));
+          place += sizeof head + static_cast<std::size_t>(head[1]);
+        }
+      }
+    });
+  }
+
   static BoltzmannTeamFunctions const& functions() {
     static BoltzmannTeamFunctions const all{
         boltzmann_team_version,
@@ -106,6 +139,7 @@ class ThreadTeam {
               std::memcpy(static_cast<char*>(all) + r * each[r].size(), each[r].data(), each[r].size());
           });
         },
+        exchange,
         done,
         [](void*) {},
         [](void* of, int) {

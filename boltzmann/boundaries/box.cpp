@@ -288,8 +288,8 @@ class Box::Reflection {
     return work;
   }
 
-  void at_region(Region const& region) const {
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
+  void at_region(Region const& region, std::size_t begin, std::size_t end) const {
+    for (std::size_t i = begin; i < end; ++i) {
       double* x = particles_.row(i);
       double* v = velocity_ ? x + velocity_->offset : nullptr;
       if (region.side == Region::Side::keep_in)
@@ -385,19 +385,26 @@ class Box::Reflection {
 double Box::apply(AnyEnsemble& particles, int threads) const {
   if (all_open_ && regions_.empty()) return 0;
   Reflection const reflection(*this, particles);
+  int const used = threads_for(particles.size(), 1, threads);
+  if (particles.share()) {
+    for_share(particles, grain, used, [&](std::size_t begin, std::size_t end) { reflection.at_ends(begin, end); });
+    for (auto const& region : regions_)
+      for_share(particles, grain, 1,
+                [&](std::size_t begin, std::size_t end) { reflection.at_region(region, begin, end); });
+    return 0;
+  }
   // Added up by grains, in their order, whichever threads have done them.
   std::vector<double> works(walls_move_ && !held_ ? (particles.size() + grain - 1) / grain : 0);
-  for_ranges(particles.size(), grain, threads_for(particles.size(), 1, threads),
-             [&](std::size_t begin, std::size_t end) {
-               if (works.empty())
-                 reflection.at_ends(begin, end);
-               else
-                 for (std::size_t k = begin; k < end; k += grain)
-                   works[k / grain] = reflection.at_ends(k, std::min(k + grain, end));
-             });
+  for_ranges(particles.size(), grain, used, [&](std::size_t begin, std::size_t end) {
+    if (works.empty())
+      reflection.at_ends(begin, end);
+    else
+      for (std::size_t k = begin; k < end; k += grain)
+        works[k / grain] = reflection.at_ends(k, std::min(k + grain, end));
+  });
   CompensatedSum work;
   for (double const of_grain : works) work += of_grain;
-  for (auto const& region : regions_) reflection.at_region(region);
+  for (auto const& region : regions_) reflection.at_region(region, 0, particles.size());
   return work.value();
 }
 

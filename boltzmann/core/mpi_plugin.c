@@ -4,10 +4,14 @@
 #include "team_functions.h"
 
 #include <mpi.h>
+#include <stdlib.h>
 #include <string.h>
 
 static MPI_Comm team = MPI_COMM_NULL; /* of our own messages, apart from those of the program */
-static MPI_Request under_way = MPI_REQUEST_NULL;
+static MPI_Request one = MPI_REQUEST_NULL, *under_way = &one; /* and so many */
+static int requests = 1;
+static MPI_Request* of_messages = NULL; /* room for so many */
+static int room = 0;
 static int ours = 0; /* whether MPI was begun here */
 
 static char const* library(void) {
@@ -31,26 +35,50 @@ static int join(void* of, int* rank, int* size) {
   return error == MPI_SUCCESS ? 0 : error;
 }
 
+static MPI_Request* collective(void) {
+  requests = 1;
+  return under_way = &one;
+}
+
 static void begin_reduce(void* of, int64_t* numbers, int count, int operation) {
   MPI_Op const op = operation == boltzmann_team_sum ? MPI_SUM : operation == boltzmann_team_min ? MPI_MIN : MPI_MAX;
   (void)of;
-  MPI_Iallreduce(MPI_IN_PLACE, numbers, count, MPI_INT64_T, op, team, &under_way);
+  MPI_Iallreduce(MPI_IN_PLACE, numbers, count, MPI_INT64_T, op, team, collective());
 }
 
 static void begin_broadcast(void* of, void* bytes, int count, int from) {
   (void)of;
-  MPI_Ibcast(bytes, count, MPI_BYTE, from, team, &under_way);
+  MPI_Ibcast(bytes, count, MPI_BYTE, from, team, collective());
 }
 
 static void begin_gather(void* of, void const* mine, int count, void* all) {
   (void)of;
-  MPI_Iallgather(mine, count, MPI_BYTE, all, count, MPI_BYTE, team, &under_way);
+  MPI_Iallgather(mine, count, MPI_BYTE, all, count, MPI_BYTE, team, collective());
+}
+
+static void begin_exchange(void* of, BoltzmannMessage const* messages, int count) {
+  int const tag = 1;
+  int k;
+  (void)of;
+  if (count > room) {
+    of_messages = (MPI_Request*)realloc(of_messages, (size_t)count * sizeof(MPI_Request));
+    room = count;
+    if (!of_messages) MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  under_way = of_messages;
+  requests = count;
+  for (k = 0; k < count; ++k)
+    if (messages[k].receive)
+      MPI_Irecv(messages[k].bytes, messages[k].count, MPI_BYTE, messages[k].rank, tag, team, of_messages + k);
+  for (k = 0; k < count; ++k)
+    if (!messages[k].receive)
+      MPI_Isend(messages[k].bytes, messages[k].count, MPI_BYTE, messages[k].rank, tag, team, of_messages + k);
 }
 
 static int done(void* of) {
   int flag = 0;
   (void)of;
-  MPI_Test(&under_way, &flag, MPI_STATUS_IGNORE);
+  MPI_Testall(requests, under_way, &flag, MPI_STATUSES_IGNORE);
   return flag;
 }
 
@@ -70,6 +98,6 @@ static void end_all(void* of, int status) {
 
 BoltzmannTeamFunctions const* boltzmann_mpi(void) {
   static BoltzmannTeamFunctions const functions = {
-      boltzmann_team_version, library, join, begin_reduce, begin_broadcast, begin_gather, done, leave, end_all};
+      boltzmann_team_version, library, join, begin_reduce, begin_broadcast, begin_gather, begin_exchange, done, leave, end_all};
   return &functions;
 }

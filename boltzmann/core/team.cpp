@@ -20,8 +20,9 @@ namespace {
 constexpr std::int64_t nobody = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t piece = std::size_t{1} << 30;  // of bytes: MPI counts them by ints
 
-constexpr char const* occasion_words[] = {"prepares a run", "begins a run",        "is in a run",
-                                          "ends a run",     "is between two runs", "ends its program"};
+constexpr char const* occasion_words[] = {
+    "prepares a run",   "begins a run",   "is in a run",           "ends a run",        "is between two runs",
+    "ends its program", "exchanges rows", "gathers all particles", "follows particles", "ends a step"};
 char const* words(Team::Occasion occasion) { return occasion_words[static_cast<std::size_t>(occasion)]; }
 
 enum class Kind : int { error, physics, memory, other };
@@ -142,6 +143,17 @@ std::vector<std::string> Team::gather(std::string const& mine) {
   return each;
 }
 
+void Team::exchange(std::span<Message const> messages) {
+  if (alone()) return;
+  std::vector<BoltzmannMessage> pieces;
+  for (auto const& message : messages)
+    for (std::size_t at = 0; at < message.size; at += piece)
+      pieces.push_back({message.rank, message.receive ? 1 : 0, static_cast<char*>(message.bytes) + at,
+                        static_cast<int>(std::min(piece, message.size - at))});
+  functions_->begin_exchange(of_, pieces.data(), static_cast<int>(pieces.size()));
+  wait();
+}
+
 void Team::barrier() {
   std::array<std::int64_t, 1> nothing{};
   sum(nothing);
@@ -153,30 +165,44 @@ Team::Outcome Team::vote(Ballot const& ballot, std::exception_ptr const& failed)
     outcome.failure = over_;
     return outcome;
   }
-  if (alone()) return {ballot.stop, ballot.pause, true, ballot.place, ballot.next, failed};
+  if (alone()) return {ballot.stop, ballot.pause, true, ballot.place, ballot.next, ballot.most, failed};
   occasion_ = ballot.occasion;
   auto const occasion = static_cast<std::int64_t>(ballot.occasion);
   auto const checksum = static_cast<std::int64_t>(ballot.checksum);
   // Minima; of the complement the maximum.
-  std::array<std::int64_t, 10> numbers{failed ? rank_ : nobody,
-                                       occasion,
-                                       ~occasion,
-                                       ballot.stop ? 0 : 1,
-                                       ballot.pause ? 0 : 1,
-                                       ballot.place,
-                                       ~ballot.place,
-                                       ballot.next,
-                                       checksum,
-                                       ~checksum};
+  constexpr std::size_t own = 10;
+  std::array<std::int64_t, own + std::tuple_size_v<Most>> numbers{failed ? rank_ : nobody,
+                                                                  occasion,
+                                                                  ~occasion,
+                                                                  ballot.stop ? 0 : 1,
+                                                                  ballot.pause ? 0 : 1,
+                                                                  ballot.place,
+                                                                  ~ballot.place,
+                                                                  ballot.next,
+                                                                  checksum,
+                                                                  ~checksum};
+  for (std::size_t k = 0; k < ballot.most.size(); ++k) numbers[own + k] = ~ballot.most[k];
   min(numbers);
-  auto const [failing, first_occasion, last_occasion, stop, pause, place, last_place, next, low, high] = numbers;
-  outcome = {stop == 0, pause == 0, place == ~last_place, ~last_place, next, nullptr};
+  auto const [failing, first_occasion, last_occasion, stop, pause, place, last_place, next, low, high] =
+      std::to_array({numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6], numbers[7],
+                     numbers[8], numbers[9]});
+  outcome = {stop == 0, pause == 0, place == ~last_place, ~last_place, next, {}, nullptr};
+  for (std::size_t k = 0; k < ballot.most.size(); ++k) outcome.most[k] = ~numbers[own + k];
   if (failing != nobody)
     outcome.failure = failure_of(static_cast<int>(failing), ballot, failed);
   else if (first_occasion != ~last_occasion)
     outcome.failure = over_ = other_occasions(ballot);
   else if (low != ~high)
     outcome.failure = other_checksums(ballot);
+  return outcome;
+}
+
+Team::Outcome Team::meet(Occasion occasion, Most const& most) {
+  Ballot ballot{occasion};
+  ballot.most = most;
+  auto const outcome = vote(ballot);
+  if (outcome.failure && depth_ > 0) throw AgreedFailure{outcome.failure};
+  check(outcome);
   return outcome;
 }
 

@@ -1,6 +1,7 @@
 // Team: the processes ("ranks") that do one run together. Every rank runs the same program; rank 0 prints and writes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -23,13 +24,31 @@ struct TeamFailure : std::runtime_error {
   int status;
 };
 
+/// A failure of a rank, or of a vote, that all ranks of a run throw together.
+struct AgreedFailure {
+  std::exception_ptr failure;
+};
+
 /// All calls of a team but rank() and the like are for all its ranks, in the same order. A rank waits for the others;
 /// where they don't come within BOLTZMANN_PATIENCE seconds (the environment; 600 unless told), it ends them all with a
 /// line.
 class Team {
  public:
   /// What a rank has come to when it votes: all have to come to the same.
-  enum class Occasion : std::int64_t { prepares, run_begins, in_run, run_ends, between_runs, program_ends };
+  enum class Occasion : std::int64_t {
+    prepares,
+    run_begins,
+    in_run,
+    run_ends,
+    between_runs,
+    program_ends,
+    exchanges,  ///< rows that are read where they are not owned
+    gathers,    ///< rows, for whoever looks at all of them
+    follows,    ///< its particles, to find out whether neighbours are still known
+    step_ends,
+  };
+  /// Numbers of which all ranks are told the greatest.
+  using Most = std::array<std::int64_t, 6>;
 
   /// What a rank says in a vote.
   struct Ballot {
@@ -39,6 +58,7 @@ class Team {
     std::int64_t next = std::numeric_limits<std::int64_t>::max();  ///< steps to the next vote
     std::uint64_t checksum = 0;                                    ///< of what has to be the same,
     char const* what = "";                                         ///< where a run is prepared: this
+    Most most{};
   };
 
   /// What all ranks then know.
@@ -47,7 +67,8 @@ class Team {
     bool same_place = true;
     std::int64_t last_place = 0;  ///< of the rank that is ahead of all
     std::int64_t next = 0;        ///< the smallest
-    std::exception_ptr failure;   ///< of a rank, the same line on all; or of the vote: ranks do different things
+    Most most{};
+    std::exception_ptr failure;  ///< of a rank, the same line on all; or of the vote: ranks do different things
   };
 
   /// One rank, which waits for nobody.
@@ -71,6 +92,16 @@ class Team {
   void broadcast(std::string& bytes, int from = 0);
   /// What each rank has, on every rank.
   std::vector<std::string> gather(std::string const& mine);
+  /// Bytes for a rank, or from one.
+  struct Message {
+    int rank;
+    bool receive;
+    void* bytes;
+    std::size_t size;
+  };
+  /// Between pairs of ranks, none with itself: each that one sends is received by the other, with as many bytes, in the
+  /// order in which the pair's are listed.
+  void exchange(std::span<Message const> messages);
   /// Comes back when all ranks have come here.
   void barrier();
   /// How long a rank waits.
@@ -79,6 +110,9 @@ class Team {
   /// Tells all ranks what each says, and whether one has failed: by this exception, if it is this one. Whatever fails,
   /// all ranks have the same outcome.
   Outcome vote(Ballot const& ballot, std::exception_ptr const& failed = nullptr);
+  /// A vote inside a run, before all that ranks do together in it. What has failed on any rank is thrown by all: as an
+  /// AgreedFailure, for whoever runs.
+  Outcome meet(Occasion occasion, Most const& most = {});
   /// Throws what has failed on any rank.
   static void check(Outcome const& outcome) {
     if (outcome.failure) std::rethrow_exception(outcome.failure);

@@ -9,9 +9,16 @@ extern "C" {
 #endif
 
 /* Of the table: a plug-in of another version is refused. */
-enum { boltzmann_team_version = 1 };
+enum { boltzmann_team_version = 2 };
 
 enum { boltzmann_team_sum, boltzmann_team_min, boltzmann_team_max };
+
+/* Bytes for a rank, or from one. */
+typedef struct BoltzmannMessage {
+  int rank, receive;
+  void* bytes;
+  int count;
+} BoltzmannMessage;
 
 /* `of` is whose table it is. All ranks call the same begin_... in the same order; one is under way at a time, and its
    memory stays until done() has said so. */
@@ -27,6 +34,9 @@ typedef struct BoltzmannTeamFunctions {
   void (*begin_broadcast)(void* of, void* bytes, int count, int from);
   /* `all` becomes what all ranks have, `count` bytes of each, in the order of ranks. */
   void (*begin_gather)(void* of, void const* mine, int count, void* all);
+  /* Messages between pairs of ranks: each that one sends is received by the other, with as many bytes, in the order in
+     which the pair's are listed. */
+  void (*begin_exchange)(void* of, BoltzmannMessage const* messages, int count);
   /* Whether the one under way has come to its end on this rank; never waits. */
   int (*done)(void* of);
   /* The last call of a rank. */

@@ -22,6 +22,7 @@ class RigidLeapFrog final : public Integrator {
   Method method() const override { return inner_->method(); }
   int stages() const override { return inner_->stages(); }
   double time_after(int stage) const override { return inner_->time_after(stage); }
+  std::string undivided() const override { return "rigid bonds"; }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

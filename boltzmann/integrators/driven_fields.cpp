@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -73,6 +74,16 @@ class WithDrivenFields final : public Integrator {
   double time_after(int stage) const override { return inner_->time_after(stage); }
   bool same_for_all() const override { return inner_->same_for_all(); }
   std::span<std::uint32_t const> resting() const override { return inner_->resting(); }
+  std::vector<Carried> carried() override {
+    auto all = inner_->carried();
+    std::size_t const size = ensemble_.size();
+    for (auto* numbers : {&start_, &sum_})
+      for (std::size_t k = 0; size > 0 && k < numbers->size() / size; ++k)
+        all.push_back({numbers->data() + k * size, 1});
+    if (!velocities_.empty()) all.push_back({velocities_.data(), static_cast<std::size_t>(ensemble_.dimension())});
+    return all;
+  }
+  std::string undivided() const override { return inner_->undivided(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
   EquationsOfMotion* equations_of_motion() override { return inner_->equations_of_motion(); }
@@ -166,9 +177,7 @@ class WithDrivenFields final : public Integrator {
   }
   template <class F>
   void over_particles(F const& f) {
-    std::size_t const size = ensemble_.size();
-    for_ranges(size, field_grain, threads_for(size, 1, threads_),
-               [&](std::size_t begin, std::size_t end) { f(begin, end); });
+    for_share(ensemble_, field_grain, threads_for(ensemble_.size(), 1, threads_), f);
   }
 
   /// A random step of variance 2 D dt; the coefficients stand behind the rates.
@@ -207,7 +216,7 @@ class WithDrivenFields final : public Integrator {
 
   /// The first particle that has a field which is not finite.
   void find_not_finite() {
-    std::vector<std::size_t> first((ensemble_.size() + field_grain - 1) / field_grain, LargestMove::nobody);
+    std::mutex found;
     over_particles([&](std::size_t begin, std::size_t end) {
       for (auto const& field : ensemble_.driven())
         for (int c = 0; c < field.components; ++c) {
@@ -215,12 +224,12 @@ class WithDrivenFields final : public Integrator {
           for (std::size_t i = begin; i < end; ++i) zero += 0 * ensemble_.row(i)[field.offset + c];
           for (std::size_t i = begin; i < end && zero != 0; ++i)
             if (!std::isfinite(ensemble_.row(i)[field.offset + c])) {
-              first[begin / field_grain] = std::min(first[begin / field_grain], i);
+              std::lock_guard const lock(found);
+              move_.not_finite = std::min(move_.not_finite, i);
               break;
             }
         }
     });
-    for (auto const i : first) move_.not_finite = std::min(move_.not_finite, i);
   }
 
   // ---- Velocities ----

@@ -105,6 +105,14 @@ class Integrator {
   virtual bool same_for_all() const { return true; }
   /// The numbers of those that stay where they are while others move.
   virtual std::span<std::uint32_t const> resting() const { return {}; }
+  /// What it keeps of each particle from one stage of a step to the next, besides the row: so many numbers.
+  struct Carried {
+    double* numbers;
+    std::size_t count;
+  };
+  virtual std::vector<Carried> carried() { return {}; }
+  /// Why it advances all particles on every rank of a team, in one line; empty if each rank advances its share.
+  virtual std::string undivided() const { return ""; }
   /// What a method without stages works on, which advances all ensembles together; null for methods of stages.
   virtual EquationsOfMotion* equations_of_motion() { return nullptr; }
   /// Puts the state on a grid (reversible leap-frog only).

@@ -106,29 +106,50 @@ class MethodOf : public Integrator {
     P::equations(p, influence, [&](auto member, auto const&) { rate(member, derivatives.*member); });
   }
 
-  /// Calls function(i, LargestMove&) for every particle. There is one compiled copy of the loop, for one thread and for
+  /// Calls function(i, LargestMove&) for every particle of this rank. There is one compiled copy of the loop, for one thread and for
   /// many: in two copies the compiler may contract a product and a sum in one and not in the other. Numbers of a row
   /// are written one by one and would be read again in twos: no vectors. What `function` holds by value is in
   /// registers.
   template <class Function>
   void each(Function const& function) {
-    auto const loop = [&function](std::size_t begin, std::size_t end)
+    auto const loop = [&function](Stretch const* first, Stretch const* last)
         __attribute__((noinline, optimize("no-tree-vectorize"))) {
       Function const own = function;
       LargestMove part;
-      for (std::size_t i = begin; i < end; ++i) own(i, part);
+      for (; first != last; ++first)
+        for (std::size_t i = first->begin, end = first->end; i < end; ++i) own(i, part);
       return part;
     };
+    move_ = {};
+    if (Share const* const share = ensemble_.whole().share()) {
+      auto const& stretches = share->stretches;
+      std::vector<LargestMove> parts(stretches.size());
+      for_stretches(stretches, threads_for(share->size, 1, threads_), [&](Stretch const* first, Stretch const* last) {
+        parts[static_cast<std::size_t>(first - stretches.data())] = loop(first, last);
+      });
+      for (auto const& part : parts) move_.take(part);
+      return;
+    }
     std::size_t const size = ensemble_.size();
     if (threads_for(size, 1, threads_) == 1) {
-      move_ = loop(0, size);
+      Stretch const all{0, size};
+      move_ = loop(&all, &all + 1);
       return;
     }
     std::vector<LargestMove> parts((size + integrator_grain - 1) / integrator_grain);
-    for_ranges(size, integrator_grain, threads_,
-               [&](std::size_t begin, std::size_t end) { parts[begin / integrator_grain] = loop(begin, end); });
-    move_ = {};
+    for_ranges(size, integrator_grain, threads_, [&](std::size_t begin, std::size_t end) {
+      Stretch const range{begin, end};
+      parts[begin / integrator_grain] = loop(&range, &range + 1);
+    });
     for (auto const& part : parts) move_.take(part);
+  }
+
+  /// Of an array with an entry for each particle, or none.
+  template <class T>
+  static void carry(std::vector<T>& of_particles, std::vector<Integrator::Carried>& all) {
+    static_assert(sizeof(T) % sizeof(double) == 0);
+    if (!of_particles.empty())
+      all.push_back({reinterpret_cast<double*>(of_particles.data()), sizeof(T) / sizeof(double)});
   }
 
   MovingRows<P> ensemble_;
@@ -238,6 +259,11 @@ class Symplectic4 final : public Alternating<P> {
       move.take(norm2(this->ensemble_[i].position - start_[i]), i);
     });
     return stage == 5 ? Motion::final : Motion::intermediate;
+  }
+  std::vector<Integrator::Carried> carried() override {
+    std::vector<Integrator::Carried> all;
+    this->carry(start_, all);
+    return all;
   }
 
  private:
@@ -355,6 +381,10 @@ class LeapFrog final : public Alternating<P> {
     for (auto rotation = rotations_.rbegin(); rotation != rotations_.rend(); ++rotation) turn(*rotation, 0.5 * dt);
     return Motion::none;
   }
+  std::vector<Integrator::Carried> carried() override {
+    if (kicks_.empty()) return {};
+    return {{kicks_.data(), kicked()}};
+  }
 
  private:
   static constexpr bool predicts = depends_on_velocity<P>;
@@ -371,8 +401,12 @@ class LeapFrog final : public Alternating<P> {
     auto const& only = rotation.only;
     std::size_t const count = only ? only->size() : this->ensemble_.size();
     RotationTask const task{this->ensemble_.row(0), this->ensemble_.stride(), only ? only->data() : nullptr, time};
-    for_ranges(count, integrator_grain, threads_for(count, 1, this->threads_),
-               [&](std::size_t begin, std::size_t end) { rotation.kernel(rotation.law, task, begin, end); });
+    auto const turn = [&](std::size_t begin, std::size_t end) { rotation.kernel(rotation.law, task, begin, end); };
+    int const threads = threads_for(count, 1, this->threads_);
+    if (only)
+      for_ranges(count, integrator_grain, threads, turn);
+    else
+      for_share(this->ensemble_.whole(), integrator_grain, threads, turn);
   }
 
   std::vector<Rotation> rotations_;
@@ -451,6 +485,11 @@ class Rk2 : public MethodOf<P> {
     });
     return Motion::final;
   }
+  std::vector<Integrator::Carried> carried() override {
+    std::vector<Integrator::Carried> all;
+    this->carry(start_, all);
+    return all;
+  }
 
  private:
   std::vector<P> start_;
@@ -488,6 +527,12 @@ class Rk4 final : public MethodOf<P> {
         return Motion::final;
     }
   }
+  std::vector<Integrator::Carried> carried() override {
+    std::vector<Integrator::Carried> all;
+    this->carry(start_, all);
+    this->carry(sum_, all);
+    return all;
+  }
 
  private:
   /// f(x, x at the start of the step, weighted sum of rates, rate) for every number that changes in time.
@@ -513,12 +558,14 @@ class RandomWalk final : public Rk2<P> {
     Motion const motion = Rk2<P>::advance(stage, context);
     if (motion == Motion::final)
       if constexpr (walks_at_random<P>)
-        for (std::size_t i = 0; i < this->ensemble_.size(); ++i) {
-          P& p = this->ensemble_[i];
-          Stream stream(context.seed, context.step, i, Purpose::random_walk);
-          double const deviation = std::sqrt(2 * p.viscosity * std::abs(context.dt));
-          for (int a = 0; a < P::dimension; ++a) p.position[a] += deviation * stream.normal();
-        }
+        for_share(this->ensemble_.whole(), integrator_grain, 1, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            P& p = this->ensemble_[i];
+            Stream stream(context.seed, context.step, i, Purpose::random_walk);
+            double const deviation = std::sqrt(2 * p.viscosity * std::abs(context.dt));
+            for (int a = 0; a < P::dimension; ++a) p.position[a] += deviation * stream.normal();
+          }
+        });
     return motion;
   }
 };

@@ -60,32 +60,51 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
 
 }  // namespace
 
-void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads) {
+void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin,
+                          std::vector<Stretch> const& rows, int threads) {
   cutoff_ = cutoff;
   skin_ = skin;
-  std::size_t const rows = target.owned();
-  if (!filter_.start.empty() && filter_.start.size() != rows + 1)
+  std::size_t const all = target.owned();
+  if (!filter_.start.empty() && filter_.start.size() != all + 1)
     throw Error(fmt::format("ensemble '{}' had {} particles when its bonded pairs were told, now it has {}",
-                            target.ensemble().name(), filter_.start.size() - 1, rows));
-  NearTask const task = task_of(target, source, cutoff, skin);
-  NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
-  row_.resize(rows);
-  length_.resize(list_rings * rows);
-  chunks_.resize((rows + rows_per_task - 1) / rows_per_task);
+                            target.ensemble().name(), filter_.start.size() - 1, all));
+  row_.resize(all);
+  length_.assign(list_rings * all, 0);
   replaced_.clear();
+  more_.clear();
+  entries_ = 0;
+  find_rows(target, source, rows, chunks_, threads);
+}
+
+void NeighbourList::build_more(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
+                               int threads) {
+  find_rows(target, source, rows, more_.emplace_back(), threads);
+}
+
+void NeighbourList::find_rows(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
+                              std::vector<std::vector<std::uint32_t>>& chunks, int threads) {
+  NearTask const task = task_of(target, source, cutoff_, skin_);
+  NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
+  std::vector<Stretch> parts;  // each with memory of its own
+  for (auto const& [first, last] : rows)
+    for (std::size_t begin = first, end = first; begin < last; begin = end) {
+      end = std::min((begin / rows_per_task + 1) * rows_per_task, last);
+      parts.push_back({begin, end});
+    }
+  chunks.resize(std::max(parts.size(), chunks.size()));
   std::atomic<std::size_t> entries{0};
-  for_ranges(rows, rows_per_task, threads, [&](std::size_t first, std::size_t last) {
+  for_ranges(parts.size(), 1, threads, [&](std::size_t first, std::size_t last) {
     Scratch scratch;
     scratch.offset.resize(rows_per_task);
-    for (std::size_t begin = first; begin < last; begin += rows_per_task) {
-      std::size_t const end = std::min(begin + rows_per_task, last);
-      auto& index = chunks_[begin / rows_per_task];
+    for (std::size_t k = first; k < last; ++k) {
+      auto const [begin, end] = parts[k];
+      auto& index = chunks[k];
       if (index.empty()) index.resize(first_guess * (end - begin));
       NearRows out;
       out.offset = scratch.offset.data();
       out.first = begin;
       out.length = length_.data();
-      out.rows = rows;
+      out.rows = size();
       find(kernel, task, begin, end, out, index, scratch);
       for (std::size_t i = begin; i < end; ++i) row_[i] = index.data() + scratch.offset[i - begin];
       if (!filter_.start.empty())
@@ -93,7 +112,7 @@ void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, do
       entries += out.used;
     }
   });
-  entries_ = entries;
+  entries_ += entries;
 }
 
 void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows) {
@@ -143,6 +162,8 @@ void NeighbourList::sift(SortedCopy const& target, SortedCopy const& source, std
 std::size_t NeighbourList::bytes() const {
   std::size_t total = row_.capacity() * sizeof(row_[0]) + length_.capacity() * sizeof(length_[0]);
   for (auto const& chunk : chunks_) total += chunk.capacity() * sizeof(chunk[0]);
+  for (auto const& more : more_)
+    for (auto const& chunk : more) total += chunk.capacity() * sizeof(chunk[0]);
   for (auto const& row : replaced_) total += row.capacity() * sizeof(row[0]) + sizeof(row);
   return total;
 }

@@ -33,7 +33,14 @@ class NeighbourList {
   void filter(PairFilter filter) { filter_ = std::move(filter); }
   PairFilter const& filter() const { return filter_; }
   /// Finds everybody's neighbours.
-  void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads);
+  void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads) {
+    build(target, source, cutoff, skin, {{0, target.owned()}}, threads);
+  }
+  /// Finds the neighbours of these target rows, which are owned; the others' lists are empty.
+  void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin,
+             std::vector<Stretch> const& rows, int threads);
+  /// And those of others, for references as they were then or have been changed since.
+  void build_more(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows, int threads);
   /// Finds those of the given target rows anew, after references have been changed (SortedCopy::move).
   void rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows);
 
@@ -44,11 +51,13 @@ class NeighbourList {
   std::uint32_t const* lengths(int ring) const { return length_.data() + static_cast<std::size_t>(ring) * size(); }
   /// The rows of the last rebuild().
   std::span<std::uint32_t const> rebuilt() const { return rebuilt_; }
-  /// Entries of all rows at the last build, padding included.
+  /// Entries of all rows that were built, padding included.
   std::size_t entries() const { return entries_; }
   std::size_t bytes() const;
 
  private:
+  void find_rows(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
+                 std::vector<std::vector<std::uint32_t>>& chunks, int threads);
   void sift(SortedCopy const& target, SortedCopy const& source, std::size_t i);
 
   PairFilter filter_;
@@ -56,7 +65,8 @@ class NeighbourList {
   std::size_t entries_ = 0;
   std::vector<std::uint32_t*> row_;
   std::vector<std::uint32_t> length_, rebuilt_;
-  std::vector<std::vector<std::uint32_t>> chunks_;   // their size is room, not content
+  std::vector<std::vector<std::uint32_t>> chunks_;  // their size is room, not content
+  std::deque<std::vector<std::vector<std::uint32_t>>> more_;
   std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place
 };
 

@@ -56,7 +56,14 @@ SortedCopy& Neighbourhood::copy(AnyEnsemble& ensemble, std::size_t extra_blocks)
   for (auto& copy : copies_)
     if (&copy.ensemble() == &ensemble) return copy;
   stale_ = true;
+  own_.emplace_back();
   return copies_.emplace_back(ensemble, *box_, extra_blocks);
+}
+
+std::vector<Stretch> const& Neighbourhood::own(SortedCopy const& copy) const {
+  std::size_t e = 0;
+  while (&copies_[e] != &copy) ++e;
+  return own_[e];
 }
 
 void Neighbourhood::cutoff(std::size_t list, double length) {
@@ -85,25 +92,29 @@ double Neighbourhood::longest_cutoff() const {
 }
 
 double Neighbourhood::rows_around_one() const {
-  std::size_t entries = 0, targets = 0;
-  for (auto const& list : lists_) {
-    entries += list.list.entries();
-    targets += list.list.size();
-  }
+  std::size_t targets = 0;
+  for (auto const& list : lists_) targets += list.list.size();
   // The neighbours at the old place and at the new one, and what it costs to know who they are.
-  return 2.0 * static_cast<double>(entries) / static_cast<double>(targets + 1) + 20;
+  return 2.0 * static_cast<double>(entries_) / static_cast<double>(targets + 1) + 20;
 }
 
 void Neighbourhood::build(int threads) {
   if (auto line = skin_refused(longest_cutoff(), skin()); !line.empty()) throw Error(line);
   double const reach = longest_cutoff() + skin();
   for (auto& copy : copies_) copy.build(reach, threads_for(copy.ensemble().size(), 1, threads));
+  if (divided()) share_out();
   find_neighbours(threads);
-  if (skin_) return;
-  // For the density around the particles, which these first lists show. It stays, whatever the density becomes.
-  double entries = 0, particles = 0, longest = (1 + longest_skin_of_cutoff) * longest_cutoff();
+  if (!skin_) choose_skin(threads);
+}
+
+/// For the density around the particles, which these first lists show. It stays, whatever the density becomes.
+void Neighbourhood::choose_skin(int threads) {
+  double const reach = longest_cutoff() + skin();
+  std::size_t neighbours = 0;
+  double particles = 0, longest = (1 + longest_skin_of_cutoff) * longest_cutoff();
   for (auto const& list : lists_)
-    for (std::size_t i = 0; i < list.list.size(); ++i) entries += list.list.lengths(list_rings - 1)[i];
+    for (std::size_t i = 0; i < list.list.size(); ++i) neighbours += list.list.lengths(list_rings - 1)[i];
+  auto const entries = static_cast<double>(sum(neighbours));
   for (auto const& copy : copies_) particles += static_cast<double>(copy.owned());
   int const D = box_->dimension();
   for (int a = 0; a < D; ++a)
@@ -118,8 +129,16 @@ void Neighbourhood::build(int threads) {
 }
 
 void Neighbourhood::find_neighbours(int threads) {
-  for (auto& list : lists_)
-    list.list.build(*list.target, *list.source, list.cutoff, skin(), threads_for(list.target->owned(), 4, threads));
+  if (!divided())
+    for (std::size_t e = 0; e < copies_.size(); ++e) own_[e] = {{0, copies_[e].owned()}};
+  complete_ = !divided();
+  std::size_t entries = 0;
+  for (auto& list : lists_) {
+    list.list.build(*list.target, *list.source, list.cutoff, skin(), own(*list.target),
+                    threads_for(list.target->owned(), 4, threads));
+    entries += list.list.entries();
+  }
+  entries_ = sum(entries);
   stale_ = false;
   ring_ = 0;
   found_again_ = 0;
@@ -147,14 +166,22 @@ void Neighbourhood::move(std::vector<Moved> const& moved) {
       if (copy == list.target) rows.insert(rows.end(), own.begin(), own.end());
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    list.list.rebuild(*list.target, *list.source, rows);
     found_again_ += static_cast<double>(rows.size());
+    if (divided()) std::erase_if(rows, [&](std::uint32_t row) { return !is_own(*list.target, row); });
+    list.list.rebuild(*list.target, *list.source, rows);
   }
   ++moves_;
 }
 
+double Neighbourhood::largest_displacement2() const {
+  double largest2 = 0;
+  for (auto const& copy : copies_) largest2 = std::max(largest2, copy.largest2());
+  return largest2;
+}
+
 /// Gives those that are further than sqrt(square) from their references new ones, if they are no more than `most`.
 bool Neighbourhood::move_beyond(double square, std::size_t most) {
+  if (divided() && !few_beyond(square, most)) return false;
   std::vector<Moved> moved;
   std::size_t count = 0;
   for (auto& copy : copies_) {
@@ -163,16 +190,16 @@ bool Neighbourhood::move_beyond(double square, std::size_t most) {
     if (count > most) return false;
   }
   if (count > 0) move(moved);
+  if (divided()) find_needed();
   return true;
 }
 
 /// Chooses how far lists are read, for the displacements of now; finds neighbours anew around a few particles that are
 /// ahead of all others (a knock-on atom). False if the lists don't hold any more.
-bool Neighbourhood::lists_hold() {
-  double largest2 = 0, all = 0;
+bool Neighbourhood::lists_hold(double largest2) {
+  double all = 0;
   std::size_t moved_before = 0;
   for (auto const& copy : copies_) {
-    largest2 = std::max(largest2, copy.largest2());
     all += static_cast<double>(copy.owned());
     moved_before += copy.moved().size();
   }
@@ -200,15 +227,17 @@ void Neighbourhood::refresh(int threads) {
   if (lists_.empty()) return;
   for (auto& copy : copies_)
     if (copy.owned() != copy.ensemble().size()) stale_ = true;
-  auto const follow = [&] {
-    bool changed = false;
-    for (auto& copy : copies_)
-      if (copy.refresh(threads_for(copy.owned(), 1, threads))) changed = true;
-    return changed;
-  };
-  if (!stale_ && (!follow() || lists_hold())) return;
+  if (divided()) return refresh_together(threads);
+  if (!stale_ && (!follow(threads) || lists_hold(largest_displacement2()))) return complete(threads);
   build(threads);
-  follow();
+  follow(threads);
+}
+
+bool Neighbourhood::follow(int threads) {
+  bool changed = false;
+  for (auto& copy : copies_)
+    if (copy.refresh(threads_for(copy.owned(), 1, threads))) changed = true;
+  return changed;
 }
 
 // Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found

@@ -3,10 +3,12 @@
 
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/neighbours/sorted_copy.hpp>
+#include <boltzmann/particles/division.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -39,6 +41,12 @@ class Neighbourhood {
   std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter);
   /// The sorted copy of an ensemble, made when it is first asked for, with so many extra blocks (see SortedCopy).
   SortedCopy& copy(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
+  /// Whether there is one.
+  bool has(AnyEnsemble const& ensemble) const {
+    for (auto const& copy : copies_)
+      if (&copy.ensemble() == &ensemble) return true;
+    return false;
+  }
   /// Changes the cut-off of a list: all lists are built anew at the next refresh.
   void cutoff(std::size_t list, double length);
   double cutoff(std::size_t list) const { return lists_[list].cutoff; }
@@ -47,6 +55,18 @@ class Neighbourhood {
   double skin() const;
   /// Lists are built anew at the next refresh.
   void stale() { stale_ = true; }
+
+  /// From here on lists are of the rows of this rank's share alone, and builds give each rank a part of space; null: no
+  /// more, and what is known stays. For all ranks. Everything that asks for lists is for all ranks then, too.
+  void divide(Division* division, int threads);
+  /// Rows that are read besides those in lists: add(ensemble, i) tells a particle; asked for after each build.
+  using AlsoRead = std::function<void(std::function<void(AnyEnsemble const& ensemble, std::uint32_t i)> const& add)>;
+  void also_read(AlsoRead also) { also_read_ = std::move(also); }
+  /// The rows of a target whose lists there are: all, or those of this rank's share.
+  std::vector<Stretch> const& own(SortedCopy const& copy) const;
+
+  /// Blocks [first, last) of a copy's rows come from their owners to those who read them. For all ranks.
+  void bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last);
 
   /// Mirrors take the ensembles' rows of now. Afterwards every pair within the cut-off is in its list, no further than
   /// ring(). PhysicsFailure if a position is not finite.
@@ -80,11 +100,26 @@ class Neighbourhood {
     std::vector<std::uint32_t> rows;
   };
 
-  bool lists_hold();
-  void build(int threads);
-  void find_neighbours(int threads);
+  bool divided() const { return division_ != nullptr; }
+  bool follow(int threads);
+  bool lists_hold(double largest2);
   bool move_beyond(double square, std::size_t most);
   void move(std::vector<Moved> const& moved);
+  void build(int threads);
+  void choose_skin(int threads);
+  void find_neighbours(int threads);
+  std::size_t sum(std::size_t mine) const { return divided() ? division_->sum(mine) : mine; }
+  double largest_displacement2() const;
+
+  // divided_neighbourhood.cpp: over the ranks of a team.
+  void refresh_together(int threads);
+  bool few_beyond(double square, std::size_t most);
+  bool is_own(SortedCopy const& copy, std::uint32_t row) const;
+  void share_out();
+  void take_shares();
+  void find_needed();
+  std::vector<std::vector<char>> mark_rows() const;
+  void complete(int threads);
   double rows_around_one() const;
   double longest_cutoff() const;
 
@@ -93,9 +128,17 @@ class Neighbourhood {
   std::optional<double> skin_;
   bool stale_ = true;
   int ring_ = 0;
-  double found_again_ = 0;  // rows found anew since the lists were built
+  double found_again_ = 0;   // rows found anew since the lists were built
+  std::size_t entries_ = 0;  // of all lists, on all ranks, at the build
   std::size_t builds_ = 0, moves_ = 0;
+  Division* division_ = nullptr;  // while a run is divided
+  std::uint64_t last_division_ = 0;
+  AlsoRead also_read_;
+  RowExchange exchange_;
+  bool complete_ = true;  // every row has its lists
   std::deque<SortedCopy> copies_;
+  std::deque<std::vector<Stretch>> own_;            // rows of each copy, of which there are lists
+  std::vector<std::vector<std::uint32_t>> row_of_;  // of each particle in each copy, while a run is divided
   std::deque<List> lists_;
 };
 

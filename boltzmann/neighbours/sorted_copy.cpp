@@ -115,13 +115,50 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
   if (total() >= max_rows) too_many_rows(static_cast<double>(total()));
   capacity_ = 0;
   make_room(total() + 1);
-  largest2_.assign(owned() / together + 1, 0.0);
+  everything();
   sort_all(threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
   for (std::size_t b = 0; b < all_blocks(); ++b)
     std::fill_n(block(b), row_block * ((b < blocks() ? owned() : total()) + 1), nowhere);
+}
+
+void SortedCopy::everything() {
+  pieces_.clear();
+  others_.clear();
+  for (std::size_t first = 0; first < owned(); first += together)
+    pieces_.push_back({first, std::min(first + together, owned())});
+  largest2_.assign(pieces_.size(), 0.0);
+  all_images();
+}
+
+void SortedCopy::all_images() { images_of_ = {{0, ghost_source_.size()}}; }
+
+void SortedCopy::only(std::vector<Stretch> const& own, std::vector<Stretch> const& others) {
+  pieces_.clear();
+  std::vector<char> fresh(owned(), 0);
+  auto const mark = [&](Stretch const& rows) {
+    std::fill(fresh.begin() + static_cast<std::ptrdiff_t>(rows.begin),
+              fresh.begin() + static_cast<std::ptrdiff_t>(rows.end), 1);
+  };
+  for (auto const& rows : own) {
+    mark(rows);
+    for (std::size_t first = rows.begin; first < rows.end; first += together)
+      pieces_.push_back({first, std::min(first + together, rows.end)});
+  }
+  others_ = others;
+  for (auto const& rows : others_) mark(rows);
+  largest2_.assign(pieces_.size(), 0.0);
+  images_of_.clear();
+  for (std::size_t g = 0; g < ghost_source_.size(); ++g) {
+    if (!fresh[ghost_source_[g]]) continue;
+    if (!images_of_.empty() && images_of_.back().end == g &&
+        images_of_.back().end - images_of_.back().begin < refresh_grain)
+      ++images_of_.back().end;
+    else
+      images_of_.push_back({g, g + 1});
+  }
 }
 
 void SortedCopy::too_many_rows(double count) const {
@@ -269,6 +306,15 @@ void SortedCopy::sort_all(int threads) {
   });
 }
 
+void SortedCopy::find_not_finite() const {
+  for (auto const& [begin, end] : pieces_)
+    for (std::size_t k = begin; k < end; ++k)
+      for (int a = 0; a < box_->dimension(); ++a)
+        if (!(std::abs(ensemble_->row(order_[k])[a] - references_[4 * k + a]) <=
+              std::sqrt(std::numeric_limits<double>::max())))
+          not_finite(*ensemble_, order_[k]);
+}
+
 bool SortedCopy::refresh(int threads) {
   RefreshTask task;
   task.ensemble = ensemble_->row(0);
@@ -285,20 +331,18 @@ bool SortedCopy::refresh(int threads) {
     }
   RefreshKernel const kernel = neighbour_kernels().refresh;
   std::atomic<bool> changed{false}, finite{true};
-  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += together) {
-      Refreshed const part = kernel(task, first, std::min(first + together, end));
-      largest2_[first / together] = part.largest2;
+  for_ranges(pieces_.size(), refresh_grain / together, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Refreshed const part = kernel(task, pieces_[k].begin, pieces_[k].end);
+      largest2_[k] = part.largest2;
       if (part.changed) changed.store(true, std::memory_order_relaxed);
       if (!part.finite) finite.store(false, std::memory_order_relaxed);
     }
   });
-  if (!finite)
-    for (std::size_t k = 0; k < owned(); ++k)
-      for (int a = 0; a < box_->dimension(); ++a)
-        if (!(std::abs(ensemble_->row(order_[k])[a] - references_[4 * k + a]) <=
-              std::sqrt(std::numeric_limits<double>::max())))
-          not_finite(*ensemble_, order_[k]);
+  if (!finite) find_not_finite();
+  for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
+    for (; first != last; ++first) kernel(task, first->begin, first->end);
+  });
   if (box_->any_wall()) {
     auto const now = box_->edges();
     if (now != edges_) changed = true;
@@ -310,19 +354,25 @@ bool SortedCopy::refresh(int threads) {
 }
 
 void SortedCopy::refresh_images(std::size_t first_block, std::size_t last_block, int threads) {
-  for_ranges(ghost_source_.size(), refresh_grain, threads,
-             [&](std::size_t begin, std::size_t end) { move_ghosts(first_block, last_block, begin, end); });
+  for (auto const& images : images_of_)
+    if (images.end - images.begin > refresh_grain)
+      return for_ranges(ghost_source_.size(), refresh_grain, threads,
+                        [&](std::size_t begin, std::size_t end) { move_ghosts(first_block, last_block, begin, end); });
+  for_stretches(images_of_, threads, [&](Stretch const* first, Stretch const* last) {
+    for (; first != last; ++first) move_ghosts(first_block, last_block, first->begin, first->end);
+  });
 }
 
 bool SortedCopy::is_current() const {
   if (owned() != ensemble_->size() || (box_->any_wall() && box_->edges() != edges_)) return false;
-  for (std::size_t k = 0; k < owned(); ++k)
-    for (int a = 0; a < box_->dimension(); ++a) {
-      double x = ensemble_->row(order_[k])[a];
-      if (box_->periodic(a))
-        x -= box_->length(a) * std::nearbyint((x - references_[4 * k + a]) * (1 / box_->length(a)));
-      if (x != rows_[row_block * k + a]) return false;
-    }
+  for (auto const& [begin, end] : pieces_)
+    for (std::size_t k = begin; k < end; ++k)
+      for (int a = 0; a < box_->dimension(); ++a) {
+        double x = ensemble_->row(order_[k])[a];
+        if (box_->periodic(a))
+          x -= box_->length(a) * std::nearbyint((x - references_[4 * k + a]) * (1 / box_->length(a)));
+        if (x != rows_[row_block * k + a]) return false;
+      }
   return true;
 }
 
@@ -343,7 +393,7 @@ std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) c
   }
   for (std::size_t b = 0; b < largest2_.size(); ++b) {
     if (largest2_[b] <= square) continue;
-    for (std::size_t k = b * together; k < std::min((b + 1) * together, owned()); ++k) {
+    for (std::size_t k = pieces_[b].begin; k < pieces_[b].end; ++k) {
       double moved2 = 0;
       for (int a = 0; a < box_->dimension(); ++a) {
         double const d = rows_[row_block * k + a] - references_[4 * k + a];
@@ -407,6 +457,7 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
         ghost_source_.push_back(k);
         ghost_turns_.push_back(0);
         make_room(total() + 1);
+        all_images();
       }
       std::uint32_t const g = free_.back();
       free_.pop_back();

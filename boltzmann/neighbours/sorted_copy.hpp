@@ -6,6 +6,7 @@
 #include <boltzmann/neighbours/cells.hpp>
 #include <boltzmann/neighbours/near_task.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/particles/share.hpp>
 
 #include <array>
 #include <cstdint>
@@ -59,6 +60,12 @@ class SortedCopy {
   /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
   /// last time. PhysicsFailure if a position is not finite.
   bool refresh(int threads);
+  /// From now on refresh() brings up to date these owned rows only, and `others` with all images of both, until the next
+  /// build; largest2(), beyond() and what refresh() returns are of `own`. For rows that a rank of a team advances, and
+  /// those that it reads.
+  void only(std::vector<Stretch> const& own, std::vector<Stretch> const& others);
+  /// And all of them again.
+  void everything();
   /// The images of blocks [first_block, last_block) from their owned rows, for walls as they were at the last refresh.
   void refresh_images(std::size_t first_block, std::size_t last_block, int threads);
   /// True if the ensemble's positions, and the walls' places, are still those of the last refresh.
@@ -129,6 +136,8 @@ class SortedCopy {
   void find_image_maps();
   std::uint32_t code_of(Turns const& turns) const;
   double walls_moved() const;
+  void find_not_finite() const;
+  void all_images();
   void move_ghosts(std::size_t first_block, std::size_t last_block, std::size_t begin, std::size_t end);
 
   AnyEnsemble const* ensemble_;
@@ -148,7 +157,9 @@ class SortedCopy {
   std::size_t mapped_blocks_ = 0;                 // in which images differ from their particles
   std::vector<Turns> turns_;                      // of each code
   std::vector<double> image_sign_, image_shift_;  // of rows, for each code
-  std::vector<double> largest2_;                  // of each block of rows
+  std::vector<Stretch> pieces_, others_;          // of rows that are brought up to date
+  std::vector<Stretch> images_of_;                // and of images
+  std::vector<double> largest2_;                  // of each piece
 
   std::vector<std::int32_t> steps_;                    // the references in steps, 4 a row
   Cells cells_;                                        // of all rows but the sentinel

@@ -6,6 +6,7 @@
 #include <boltzmann/particles/held_array.hpp>
 #include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
+#include <boltzmann/particles/share.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -92,6 +93,10 @@ class AnyEnsemble {
   /// Memory of rows and influences.
   virtual std::size_t bytes() const = 0;
 
+  /// In a run that is divided over ranks (Division): what this one advances. Null: all of it.
+  Share const* share() const { return share_; }
+  void share(Share const* share) { share_ = share; }
+
   /// For whoever looks at rows or influences without a copy: their memory stays while it is held. A resize takes other
   /// memory then, and what is held becomes NaN.
   virtual std::shared_ptr<void const> hold_rows() const = 0;
@@ -117,6 +122,7 @@ class AnyEnsemble {
   std::vector<DrivenField> driven_;
   std::vector<int> vectors_;  // where fields stand of one component that are vectors
   std::size_t rates_ = 0;     // arrays of rates and diffusion coefficients
+  Share const* share_ = nullptr;
 };
 
 /// The particles of class P (for example Newton<2>, or your own class for doubles: Ion<double>). Behaves like a vector

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace boltzmann {
@@ -24,6 +25,8 @@ class Frozen final : public Integrator {
   void prepare(FixedPoint const& grid) override { inner_->prepare(grid); }
   bool same_for_all() const override { return false; }
   std::span<std::uint32_t const> resting() const override { return which_; }
+  std::vector<Carried> carried() override { return inner_->carried(); }
+  std::string undivided() const override { return inner_->undivided(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

@@ -4,6 +4,7 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/particles/division.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/fused_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -138,6 +139,13 @@ class Scheme {
   /// Makes influences a function of the positions alone, whatever happened before: every contribution is rounded to a
   /// multiple of `quantum`, so that sums are exact in any order. Error if a law can't be reversed in time.
   virtual void make_reversible(double quantum) = 0;
+  /// Why every rank of a team calculates all influences, in a few words ("meshes"); empty if each calculates those on its
+  /// share of the particles.
+  virtual std::string undivided() const { return "a scheme of its own kind"; }
+  /// From here on influences of this rank's shares are wanted (AnyEnsemble::share()), and who reads rows of others asks
+  /// for them; null: all again. For all ranks, as is everything that calculates in between.
+  virtual void divide(Division* /*division*/) {}
+
   /// Memory that the scheme itself holds (not the ensembles), in bytes.
   virtual std::size_t bytes() const { return 0; }
   /// What one should know before a run with such steps: resolution, noise; warnings begin with "warning: ".

@@ -77,7 +77,10 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
   if (!dissipations.empty()) calculate(time() + dt, step_ + (dt > 0 ? 1 : -1));
   for (auto* dissipation : dissipations) dissipation->advance(context);
-  for (auto const& part : parts_) check_moves(part);
+  if (division_ && division_->goes_on())
+    check_moves_together();
+  else
+    for (auto const& part : parts_) check_moves(part);
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))
       throw PhysicsFailure(
@@ -95,6 +98,7 @@ void Simulation::advance(double start, double dt) {
     for (auto& part : parts_) {
       if (stage >= part.stages) continue;
       Motion const motion = part.integrator->advance(stage, context);
+      if (division_) division_->moved();
       if (motion == Motion::none) continue;
       influences_.outdated();
       passed = part.time_after[stage];
@@ -243,8 +247,7 @@ std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
   return schemes_.front()->fused_steps(movers, dt);
 }
 
-void Simulation::check_moves(Part const& part) const {
-  LargestMove const& move = part.integrator->largest_move();
+void Simulation::check_move(Part const& part, LargestMove const& move) const {
   if (move.not_finite == LargestMove::nobody && move.square <= part.longest_move2) return;
   auto const& name = part.ensemble->name();
   if (move.not_finite != LargestMove::nobody) {

@@ -24,6 +24,7 @@ void Simulation::check() {
 void Simulation::make_ready() {
   small_system_ = {};
   whole_ = {};
+  division_.reset();
   move_walls(time());
   accept_particles();
   ensembles_ = supervised_by(schemes_);

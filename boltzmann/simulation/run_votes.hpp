@@ -9,11 +9,6 @@
 
 namespace boltzmann {
 
-/// What a vote has said, which all ranks throw.
-struct AgreedFailure {
-  std::exception_ptr failure;
-};
-
 /// The votes of one run(). They are taken where a rank fails, where one is told to stop, after so many steps that a
 /// tenth of a second has passed, and at both ends. Ranks stop where the one that is ahead of all has come to; what all
 /// are told in the same step (a condition on the particles) stops them in that step, as it does one rank.

@@ -304,6 +304,7 @@ bool Simulation::observation_due() const {
 void Simulation::observe_now() const {
   if (!observation_due()) return;
   update_derived_fields();
+  if (division_ && division_->goes_on()) gather_particles();
   std::size_t const count = observations_.size();  // others may come
   for (std::size_t k = 0; k < count; ++k)
     if (auto const& one = observations_[k]; !one.forgotten && one.due(step_)) one.observer(*this);
@@ -377,6 +378,16 @@ void Simulation::run(std::uint64_t steps, int direction) {
     observe_now();
   }
   Dependence const now = dependence();
+  bool const divided = divide();
+  struct Together {
+    Simulation* simulation;
+    ~Together() {
+      try {
+        simulation->end_division();
+      } catch (PhysicsFailure const&) {  // of particles of another rank; whatever has ended the run is told
+      }
+    }
+  } const together{this};
   auto const running = influences_.begin_run(now);
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
@@ -405,12 +416,17 @@ void Simulation::run(std::uint64_t steps, int direction) {
       if (!one.forgotten) one.observer(*this);
   }
   if (votes.stopped()) stop();
+  if (divided) {
+    update_derived_fields();
+    gather_particles();
+    end_division();
+  }
   if (whole) {
     whole->store();
     influences_.outdated();
   }
   if (last) calculate(time());
-  update_derived_fields();
+  if (!divided) update_derived_fields();
   Dependence const then = dependence();
   influences_.end_run(then);
   if (whole) whole_.are_for = then;

@@ -4,6 +4,7 @@
 #include <boltzmann/dissipation/dissipation.hpp>
 #include <boltzmann/integrators/gauss_radau.hpp>
 #include <boltzmann/integrators/methods.hpp>
+#include <boltzmann/particles/division.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/simulation/adaptation.hpp>
 #include <boltzmann/simulation/barostat.hpp>
@@ -157,7 +158,12 @@ class Simulation {
   /// Each once, in the order of the schemes; none before check().
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
   Method method(AnyEnsemble const& ensemble) const;
-  /// Energies and virial of the present state, over all schemes and dissipations.
+  /// Why every rank of a team advances all particles by itself, in a few words ("friction and noise"); empty where each
+  /// advances its share.
+  std::string undivided() const;
+  /// How many particles there must be for that: with fewer, messages cost more than they save. 1,000 unless told.
+  void divide_from(std::size_t particles) { divided_from_ = particles; }
+  /// Energies and virial of the present state, over all schemes and dissipations. In an observer for all ranks of a team.
   EnergyAndVirial measure() const;
 
   /// What, besides the particles, determines the bits of the next step.
@@ -241,8 +247,15 @@ class Simulation {
   std::unique_ptr<FusedSteps> fused_steps(double dt);
   FusedSteps* whole_steps(double dt, Dependence const& now);
   Dependence dependence() const;
-  void check_moves(Part const& part) const;
+  void check_moves(Part const& part) const { check_move(part, part.integrator->largest_move()); }
+  void check_move(Part const& part, LargestMove const& move) const;
   std::string advice() const;
+
+  // divided_run.cpp: over the ranks of a team.
+  bool divide();
+  void end_division();
+  void gather_particles() const;
+  void check_moves_together();
 
   void run(std::uint64_t steps, int direction);
   Part* part_of(AnyEnsemble const& ensemble);
@@ -293,6 +306,8 @@ class Simulation {
   std::uint64_t seed_ = 1;
   int stages_ = 0;
   Freshness influences_;
+  std::unique_ptr<Division> division_;
+  std::size_t divided_from_ = 1000;
   struct {
     std::unique_ptr<FusedSteps> steps = {};
     double dt = 0;

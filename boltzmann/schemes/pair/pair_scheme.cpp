@@ -228,6 +228,14 @@ struct PairScheme::External {
   bool taken = false;    // by an integrator, as a rotation
 
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
+  /// Calls function(begin, end) for all on whom it acts, of this rank; of chosen ones, by their place among these, for all.
+  template <class Function>
+  void over_share(int threads, Function const& function) const {
+    if (everyone)
+      for_share(*ensemble, 8 * particle_grain, threads_for(count(), 1, threads), function);
+    else
+      for_ranges(count(), 8 * particle_grain, threads_for(count(), 1, threads), function);
+  }
   /// Whether it may change the energy: who comes back at the other end of a periodic axis has gained that of a field.
   bool drives(Box const& box) const {
     return box.any_periodic() || kernels.depends_on_time || (traits.velocity_dependent && !kernels.rotate);
@@ -393,9 +401,51 @@ void PairScheme::complete(double) {
 
 void PairScheme::add_influences(double time) { calculate(time, false); }
 
+std::string PairScheme::undivided() const {
+  if (quantum_ > 0) return "the reversible leap-frog";
+  if (box().any_wall()) return "images of vortices beyond walls";
+  return "";
+}
+
+void PairScheme::divide(Division* division) {
+  division_ = division;
+  reads_all_ = std::any_of(near_.begin(), near_.end(), [](auto const& near) { return near->all_pairs(); });
+  for (auto const& connected : connected_) reads_all_ = reads_all_ || !neighbourhood_.has(*connected->ensemble);
+  neighbourhood_.also_read([this](auto const& add) {
+    for (auto const& connected : connected_)
+      for (auto const& [begin, end] : connected->ensemble->share()->stretches)
+        for (std::size_t k = connected->list.start[begin]; k < connected->list.start[end]; ++k)
+          add(*connected->ensemble, connected->list.index[k]);
+  });
+  neighbourhood_.divide(division, threads());
+}
+
+/// Of other ranks, before influences are calculated: those near to this one's, by the lists; of ensembles that act
+/// without lists all.
+void PairScheme::bring_particles() {
+  if (division_ && reads_all_) division_->make_whole();
+  neighbourhood_.refresh(threads());
+}
+
+/// The targets of a law that belong to this rank, by ranges.
+template <class Kernel>
+void PairScheme::over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads,
+                              Kernel const& kernel) const {
+  if (!division_) return for_ranges(task.targets, near.grain(), threads_for(pairs, pair_work, threads), kernel);
+  auto const& own =
+      near.all_pairs() ? near.target->share()->stretches : neighbourhood_.own(neighbourhood_.target(near.list));
+  std::vector<Stretch> parts;
+  for (auto const& [begin, end] : own)
+    for (std::size_t first = begin; first < end; first += near.grain())
+      parts.push_back({first, std::min(first + near.grain(), end)});
+  for_stretches(parts, threads_for(pairs, pair_work, threads), [&](Stretch const* first, Stretch const* last) {
+    for (; first != last; ++first) kernel(first->begin, first->end);
+  });
+}
+
 void PairScheme::calculate(double time, bool overwrite) {
   ++calculations_;
-  neighbourhood_.refresh(threads());
+  bring_particles();
   // The first law on an ensemble stores, further ones add.
   std::vector<AnyEnsemble*> clear;
   if (overwrite) clear = ensembles();
@@ -416,8 +466,8 @@ void PairScheme::calculate(double time, bool overwrite) {
     if (near->few)
       near->few(near->law.get(), task, 0, task.targets);
     else
-      for_ranges(task.targets, near->grain(), threads_for(near->pairs, pair_work, threads()),
-                 [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
+      over_targets(*near, task, near->pairs, threads(),
+                   [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
     if (near->factor != 1) near->add_part();
     if (!box().any_wall()) continue;
     check_walls(box(), *near->target, *near->source, near->cutoff);
@@ -429,17 +479,17 @@ void PairScheme::calculate(double time, bool overwrite) {
   for (auto* ensemble : clear) ensemble->clear_influence();
   for (auto const& connected : connected_) {
     PairTask const task = connected->task(box());
-    for_ranges(task.targets, 4 * particle_grain, threads_for(connected->list.index.size(), pair_work, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 connected->kernels.connected(connected->law.get(), task, begin, end);
-               });
+    for_share(*connected->ensemble, 4 * particle_grain, threads_for(connected->list.index.size(), pair_work, threads()),
+              [&](std::size_t begin, std::size_t end) {
+                connected->kernels.connected(connected->law.get(), task, begin, end);
+              });
   }
   auto const add_external = [&](External const& external) {
     ExternalTask const task = external.task(time);
     if (external.taken) return;
-    for_ranges(
-        external.count(), 8 * particle_grain, threads_for(external.count(), 1, threads()),
-        [&](std::size_t begin, std::size_t end) { external.kernels.influence(external.law.get(), task, begin, end); });
+    external.over_share(threads(), [&](std::size_t begin, std::size_t end) {
+      external.kernels.influence(external.law.get(), task, begin, end);
+    });
   };
   for (auto const& external : external_)
     if (!external->traits.rates) add_external(*external);
@@ -468,7 +518,7 @@ EnergyAndVirial PairScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal =
       std::none_of(external_.begin(), external_.end(), [](auto const& external) { return external->traits.moves(); });
-  neighbourhood_.refresh(threads());
+  bring_particles();
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
   auto& virial = measures.virial_per_particle;
@@ -482,12 +532,10 @@ EnergyAndVirial PairScheme::measure(double time) {
   auto const number = [&](AnyEnsemble const* ensemble) {
     return static_cast<std::size_t>(std::find(all.begin(), all.end(), ensemble) - all.begin());
   };
-  auto const run = [&](PairTask task, AnyEnsemble const* target, std::size_t grain, PairKernel kernel,
-                       void const* law) {
+  auto const output = [&](PairTask task, AnyEnsemble const* target) {
     task.energy = measures.per_particle[number(target)].data();
     task.virial = virial[number(target)].data();
-    for_ranges(task.targets, grain, threads_for(task.targets, 4, threads()),
-               [&](std::size_t begin, std::size_t end) { kernel(law, task, begin, end); });
+    return task;
   };
   for (auto const& near : near_) {
     if (!near->traits.moves()) continue;
@@ -504,8 +552,10 @@ EnergyAndVirial PairScheme::measure(double time) {
       energies.swap(measures.per_particle[to]);
       virials.swap(virial[to]);
     }
-    run(near->task, near->target, near->grain(),
-        near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure, near->law.get());
+    PairTask const task = output(near->task, near->target);
+    PairKernel const kernel = near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure;
+    over_targets(*near, task, 32 * task.targets, threads(),
+                 [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
     for (std::size_t i = 0; i < energies.size(); ++i)
       measures.per_particle[to][i] = energies[i] + near->factor * measures.per_particle[to][i];
     for (std::size_t i = 0; i < virials.size(); ++i) virial[to][i] = virials[i] + near->factor * virial[to][i];
@@ -514,8 +564,11 @@ EnergyAndVirial PairScheme::measure(double time) {
     if (!connected->traits.moves()) continue;
     if (!connected->kernels.has_energy) measures.unknown = "a connection of '" + connected->ensemble->name() + "'";
     measures.reciprocal = measures.reciprocal && !connected->traits.one_way;
-    run(connected->task(box()), connected->ensemble, 4 * particle_grain, connected->kernels.connected_measure,
-        connected->law.get());
+    PairTask const task = output(connected->task(box()), connected->ensemble);
+    for_share(*connected->ensemble, 4 * particle_grain, threads_for(task.targets, 4, threads()),
+              [&](std::size_t begin, std::size_t end) {
+                connected->kernels.connected_measure(connected->law.get(), task, begin, end);
+              });
   }
   // Energies may depend on what changes by a rate of its own.
   for (auto const* ensemble : all) measures.driven = measures.driven || !ensemble->driven().empty();
@@ -529,10 +582,11 @@ EnergyAndVirial PairScheme::measure(double time) {
     }
     ExternalTask task = external->task(time);
     task.energy = field[number(external->ensemble)].data();
-    for_ranges(
-        external->count(), 8 * particle_grain, threads_for(external->count(), 1, threads()),
-        [&](std::size_t begin, std::size_t end) { external->kernels.measure(external->law.get(), task, begin, end); });
+    external->over_share(threads(), [&](std::size_t begin, std::size_t end) {
+      external->kernels.measure(external->law.get(), task, begin, end);
+    });
   }
+  if (division_) gather_measures(measures, field);
   for (std::size_t e = 0; e < all.size(); ++e) {
     for (double const u : measures.per_particle[e]) measures.potential += u;
     for (double const u : field[e]) measures.external += u;
@@ -540,6 +594,17 @@ EnergyAndVirial PairScheme::measure(double time) {
       for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] += virial[e][9 * i + k];
   }
   return measures;
+}
+
+/// What each rank has found of its particles, on all of them.
+void PairScheme::gather_measures(EnergyAndVirial& measures, std::vector<std::vector<double>>& field) {
+  division_->team().meet(Team::Occasion::gathers);
+  for (std::size_t e = 0; e < ensembles().size(); ++e) {
+    AnyEnsemble const& ensemble = *ensembles()[e];
+    division_->gather(ensemble, measures.per_particle[e].data(), 1, 1);
+    division_->gather(ensemble, measures.virial_per_particle[e].data(), 9, 9);
+    division_->gather(ensemble, field[e].data(), 1, 1);
+  }
 }
 
 std::vector<Rotation> PairScheme::rotations(AnyEnsemble const& ensemble, bool taken) {

@@ -148,6 +148,8 @@ class PairScheme final : public Scheme {
   /// Adds the influence of such fields (but for those that an integrator has taken) on one row of the ensemble.
   void add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const;
   void make_reversible(double quantum) override;
+  std::string undivided() const override;
+  void divide(Division* division) override;
   std::size_t bytes() const override;
   /// Warns of steps in which particles that meet move further than a quarter of the length over which the law between
   /// them changes: collisions would not be followed.
@@ -218,6 +220,10 @@ class PairScheme final : public Scheme {
   struct External;
 
   void calculate(double time, bool overwrite);
+  void bring_particles();
+  template <class Kernel>
+  void over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads, Kernel const& kernel) const;
+  void gather_measures(EnergyAndVirial& measures, std::vector<std::vector<double>>& field);
   void add_near(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law, LawTraits traits,
                 double cutoff, PairFilter filter, double factor);
   bool has_reaction(Near const& near) const;
@@ -227,6 +233,8 @@ class PairScheme final : public Scheme {
   double quantum_ = 0;
   bool shifted_ = true;
   std::size_t calculations_ = 0;
+  Division* division_ = nullptr;  // while a run is divided
+  bool reads_all_ = false;        // of what other ranks own
   Neighbourhood neighbourhood_;
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;

@@ -58,6 +58,12 @@ Tensor<3> SmoothScheme::stress() {
   return total;
 }
 
+/// As they have just been completed by their owners.
+void SmoothScheme::gather_particles() {
+  division_->moved();
+  division_->make_whole();
+}
+
 EnergyAndVirial SmoothScheme::measure(double time) {
   bool const all_is_pressure =
       std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
@@ -65,6 +71,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     complete(time);
   else
     find(Until::fluxes);
+  if (division_) gather_particles();
   auto measures = EnergyAndVirial::known();
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace boltzmann {
 
@@ -180,34 +182,48 @@ void SmoothScheme::take_places() {
       double shortest = infinite, longest = 0;
       std::size_t wrong = std::numeric_limits<std::size_t>::max();
     };
-    std::vector<Extent> extents(ensemble.size() / particle_grain + 1);
+    std::mutex taking;
+    Extent all;
+    auto const take = [&](Extent const& extent) {
+      std::lock_guard const lock(taking);
+      all.shortest = std::min(all.shortest, extent.shortest);
+      all.longest = std::max(all.longest, extent.longest);
+      all.wrong = std::min(all.wrong, extent.wrong);
+    };
     in_dimension(box().dimension(), [&](auto d) {
       constexpr int D = d;
-      for_ranges(ensemble.size(), particle_grain, threads_for(ensemble.size(), 1, threads()),
-                 [&](std::size_t begin, std::size_t end) {
-                   Extent extent;
-                   for (std::size_t i = begin; i < end; ++i) {
-                     auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
-                     auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(first + i));
-                     place.position = p.position;
-                     place.mass = p.mass;
-                     place.velocity = p.velocity;
-                     place.range = p.range;
-                     bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
-                     if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
-                     extent.shortest = std::min(extent.shortest, p.range);
-                     extent.longest = std::max(extent.longest, p.range);
-                   }
-                   extents[begin / particle_grain] = extent;
-                 });
+      auto const places = [&](Stretch const* one, Stretch const* last) {
+        Extent extent;
+        for (; one != last; ++one)
+          for (std::size_t i = one->begin; i < one->end; ++i) {
+            auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
+            auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(first + i));
+            place.position = p.position;
+            place.mass = p.mass;
+            place.velocity = p.velocity;
+            place.range = p.range;
+            bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
+            if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
+            extent.shortest = std::min(extent.shortest, p.range);
+            extent.longest = std::max(extent.longest, p.range);
+          }
+        take(extent);
+      };
+      int const used = threads_for(ensemble.size(), 1, threads());
+      if (division_ && !division_->is_whole())
+        for_stretches(ensemble.share()->stretches, used, places);
+      else
+        for_ranges(ensemble.size(), particle_grain, used, [&](std::size_t begin, std::size_t end) {
+          Stretch const range{begin, end};
+          places(&range, &range + 1);
+        });
     });
-    for (auto const& extent : extents) {
-      if (extent.wrong < ensemble.size()) throw PhysicsFailure(not_usable(ensemble, extent.wrong));
-      shortest_ = std::min(shortest_, extent.shortest);
-      longest_ = std::max(longest_, extent.longest);
-    }
+    if (all.wrong < ensemble.size()) throw PhysicsFailure(not_usable(ensemble, all.wrong));
+    shortest_ = std::min(shortest_, all.shortest);
+    longest_ = std::max(longest_, all.longest);
     first += ensemble.size();
   }
+  if (division_) agree_on_ranges();
 }
 
 /// What a material without a heat of its own is given by another would be lost.
@@ -235,6 +251,7 @@ void SmoothScheme::prepare() {
     hood_->copy(*points_, 1 + (matter ? matter_blocks(dimension) : 0)).components(image_components(dimension, matter));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
+    hood_->divide(division_, threads());
   } else {
     double const cutoff = hood_->cutoff(0);
     if (vary ? longest_ > cutoff || longest_ < 0.8 * cutoff : longest_ != cutoff)
@@ -252,18 +269,20 @@ void SmoothScheme::reach(double cutoff) {
   if (skin_ < 0) hood_->skin(skin_of_range * cutoff);
 }
 
-/// Which sorted rows are whose: with one ensemble, all.
+/// Which sorted rows are whose: with one ensemble, all, unless this rank has a share.
 void SmoothScheme::find_members() {
-  if (loaded_.size() == 1 || members_of_build_ == hood_->builds()) return;
+  bool const all = loaded_.size() == 1 && !division_;
+  if (all || members_of_build_ == hood_->builds()) return;
   members_of_build_ = hood_->builds();
   SortedCopy const& copy = hood_->target(0);
   for (auto& loaded : loaded_) loaded->members.clear();
-  for (std::uint32_t k = 0; k < copy.owned(); ++k) {
-    auto const after = std::find_if(loaded_.rbegin(), loaded_.rend(), [&](auto const& loaded) {
-      return loaded->first <= copy.order()[k] && loaded->ensemble->size() > 0;
-    });
-    (*after)->members.push_back(k);
-  }
+  for (auto const& [begin, end] : hood_->own(copy))
+    for (auto k = static_cast<std::uint32_t>(begin); k < end; ++k) {
+      auto const after = std::find_if(loaded_.rbegin(), loaded_.rend(), [&](auto const& loaded) {
+        return loaded->first <= copy.order()[k] && loaded->ensemble->size() > 0;
+      });
+      (*after)->members.push_back(k);
+    }
 }
 
 void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result) {
@@ -282,13 +301,18 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double co
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
   task.influence = sums_.data();
-  for_ranges(task.targets, pair_grain, threads_for(task.targets, 8, threads()),
-             [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
+  std::vector<Stretch> parts;
+  for (auto const& [begin, end] : hood_->own(copy))
+    for (std::size_t first = begin; first < end; first += pair_grain)
+      parts.push_back({first, std::min(first + pair_grain, end)});
+  for_ranges(parts.size(), 1, threads_for(task.targets, 8, threads()), [&](std::size_t first, std::size_t last) {
+    for (; first < last; ++first) kernel(&parameters_, task, parts[first].begin, parts[first].end);
+  });
 }
 
 void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
   for (auto const& loaded : loaded_) {
-    std::size_t const size = loaded->ensemble->size();
+    std::size_t const size = division_ ? loaded->members.size() : loaded->ensemble->size();
     std::vector<Found> found(size / particle_grain + 1);
     loaded->task.found = found.data();
     for_ranges(size, particle_grain, threads_for(size, 1, threads()), [&](std::size_t begin, std::size_t end) {
@@ -342,7 +366,7 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
     task.influence = loaded->ensemble->influence(0);
     task.first = static_cast<std::uint32_t>(loaded->first);
     task.order = copy.order();
-    task.members = loaded_.size() == 1 ? nullptr : loaded->members.data();
+    task.members = loaded_.size() == 1 && !division_ ? nullptr : loaded->members.data();
     task.fluid = copy.block(fluid);
     task.matter = copy.extra_blocks() > 1 ? copy.block(fluid + 1) : nullptr;
     task.block_stride = copy.block_stride();
@@ -382,6 +406,7 @@ void SmoothScheme::find(Until until) {
       run_pass(passes.density, recipe.own_ranges ? 2 : 1, &MaterialTask::density);
     sound_rate_ = 0;
     run_material(&MaterialKernels::state);
+    if (division_) bring(copy, fluid, matter);
   }
   if (until == Until::state) return;
   if (!recipe.uniform) copy.refresh_images(fluid, matter, threads_for(copy.owned(), 1, threads()));
@@ -395,6 +420,7 @@ void SmoothScheme::find(Until until) {
     run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D,
              &MaterialTask::gradients);
     run_material(&MaterialKernels::fluxes);
+    if (division_) bring(copy, matter, end);
   }
   if (until == Until::fluxes) return;
   if (recipe.gradients) copy.refresh_images(matter, end, threads_for(copy.owned(), 1, threads()));
@@ -410,13 +436,44 @@ void SmoothScheme::add_influences(double time) {
   find(Until::rates);
   for (auto const& outside : outside_) {
     ExternalTask const task = outside->task(time);
-    for_ranges(
-        outside->ensemble->size(), particle_grain, threads_for(outside->ensemble->size(), 1, threads()),
+    for_share(
+        *outside->ensemble, particle_grain, threads_for(outside->ensemble->size(), 1, threads()),
         [&](std::size_t begin, std::size_t end) { outside->kernels.influence(outside->law.get(), task, begin, end); });
   }
 }
 
 void SmoothScheme::complete(double) { find(Until::state); }
+
+std::string SmoothScheme::undivided() const {
+  bool const gradients = hood_ && hood_->copy(*points_).extra_blocks() > 1;
+  return gradients ? "smooth particles with viscosity, heat conduction or strength" : "";
+}
+
+void SmoothScheme::divide(Division* division) {
+  if (division) {
+    std::vector<AnyEnsemble*> all;
+    for (auto const& loaded : loaded_) all.push_back(loaded->ensemble);
+    division->follow(*points_, all);
+  }
+  division_ = division;
+  members_of_build_ = 0;
+  if (hood_) hood_->divide(division, threads());
+}
+
+/// Every rank knows those of its particles.
+void SmoothScheme::agree_on_ranges() {
+  auto const bits = [](double positive) { return std::bit_cast<std::int64_t>(positive); };
+  auto const all = division_->team().meet(Team::Occasion::exchanges, {bits(longest_), ~bits(shortest_)}).most;
+  longest_ = std::bit_cast<double>(all[0]);
+  shortest_ = std::bit_cast<double>(~all[1]);
+}
+
+/// What has been found of particles comes to those who read it, and everybody hears of the fastest sound.
+void SmoothScheme::bring(SortedCopy& copy, std::size_t first_block, std::size_t last_block) {
+  auto const all = division_->team().meet(Team::Occasion::exchanges, {std::bit_cast<std::int64_t>(sound_rate_)}).most;
+  sound_rate_ = std::bit_cast<double>(all[0]);
+  hood_->bring_blocks(copy, first_block, last_block);
+}
 
 void SmoothScheme::make_reversible(double) {
   throw Error(

@@ -95,6 +95,8 @@ class SmoothScheme final : public Scheme {
   double sound_step() const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
+  std::string undivided() const override;
+  void divide(Division* division) override;
   std::size_t bytes() const override;
   std::vector<std::string> warnings(double step_size) override;
   std::string summary() const override { return "smooth particles, weight " + to_string(shape_); }
@@ -135,6 +137,9 @@ class SmoothScheme final : public Scheme {
   void prepare();
   void reach(double cutoff);
   void take_places();
+  void agree_on_ranges();
+  void bring(SortedCopy& copy, std::size_t first_block, std::size_t last_block);
+  void gather_particles();
   /// Sums over pairs, for materials to read as `result`.
   void run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result);
   void run_material(MaterialKernel MaterialKernels::*kernel);
@@ -149,6 +154,7 @@ class SmoothScheme final : public Scheme {
   std::optional<VariableRange> variable_;
   double skin_ = -1;                     // not chosen
   double longest_ = 0, shortest_ = 0;    // ranges of the particles
+  Division* division_ = nullptr;         // while a run is divided
   std::unique_ptr<AnyEnsemble> points_;  // the places of all particles, ensemble after ensemble
   std::unique_ptr<Neighbourhood> hood_;  // of the points; none before the first calculation
   std::vector<std::unique_ptr<Loaded>> loaded_;

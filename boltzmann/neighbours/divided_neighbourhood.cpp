@@ -1,0 +1,194 @@
+// Lists over the ranks of a team: every rank sorts all particles where lists are built, gets a part of the order, has
+// the lists of its own rows, and between builds hears of those rows that they name.
+#include <boltzmann/neighbours/neighbourhood.hpp>
+
+#include <algorithm>
+#include <bit>
+
+namespace boltzmann {
+namespace {
+
+enum : char { unread, own_row, read };
+
+/// Of rows with this mark.
+std::vector<Stretch> stretches_of(std::vector<char> const& marks, char mark) {
+  std::vector<Stretch> stretches;
+  for (std::size_t begin = 0, end = 0; begin < marks.size(); begin = end) {
+    while (end < marks.size() && marks[end] == marks[begin]) ++end;
+    if (marks[begin] == mark) stretches.push_back({begin, end});
+  }
+  return stretches;
+}
+
+}  // namespace
+
+void Neighbourhood::divide(Division* division, int threads) {
+  if (division) {
+    if (!complete_ && division->id() != last_division_) complete(threads);
+    division_ = division;
+    last_division_ = division->id();
+    if (stale_ || lists_.empty()) return;
+    if (complete_) share_out();
+    take_shares();
+    complete_ = false;
+    return find_needed();
+  }
+  if (!divided()) return;
+  division_ = nullptr;
+  bool const current = std::all_of(copies_.begin(), copies_.end(), [](auto const& copy) { return copy.is_current(); });
+  for (auto& copy : copies_) copy.everything();
+  if (current && !stale_) follow(threads);  // what is not this rank's has not been
+}
+
+/// With lists for those rows that have none, where a run is not divided any more.
+void Neighbourhood::complete(int threads) {
+  if (complete_) return;
+  for (auto& list : lists_) {
+    std::vector<Stretch> missing;
+    std::size_t end = 0;
+    for (auto const& there : own(*list.target)) {
+      if (end < there.begin) missing.push_back({end, there.begin});
+      end = there.end;
+    }
+    if (end < list.target->owned()) missing.push_back({end, list.target->owned()});
+    list.list.build_more(*list.target, *list.source, missing, threads);
+  }
+  for (std::size_t e = 0; e < copies_.size(); ++e) own_[e] = {{0, copies_[e].owned()}};
+  complete_ = true;
+}
+
+void Neighbourhood::refresh_together(int threads) {
+  Team& team = division_->team();
+  bool changed = false;
+  if (!stale_) {
+    if (!division_->is_whole()) {
+      team.meet(Team::Occasion::exchanges);
+      exchange_.bring_rows(*division_);
+    }
+    changed = follow(threads);
+  }
+  auto const all =
+      team.meet(Team::Occasion::follows, {changed ? 1 : 0, std::bit_cast<std::int64_t>(largest_displacement2())});
+  if (!stale_ && (all.most[0] == 0 || lists_hold(std::bit_cast<double>(all.most[1])))) return;
+  division_->make_whole();
+  build(threads);
+  follow(threads);
+  find_needed();
+}
+
+/// Whether no more rows, of all ranks, are further than sqrt(square) from their references. If so, all that is known
+/// about them is known to every rank.
+bool Neighbourhood::few_beyond(double square, std::size_t most) {
+  std::size_t count = 0;
+  for (auto const& copy : copies_) count += copy.beyond(square, most + 1).size();
+  if (division_->sum(count) > most) return false;
+  division_->make_whole();
+  for (auto& copy : copies_) copy.everything();
+  follow(1);
+  return true;
+}
+
+/// Each rank gets as many rows, in the order in which they are sorted.
+void Neighbourhood::share_out() {
+  auto const ranks = static_cast<std::size_t>(division_->team().size());
+  for (auto const& copy : copies_) {
+    Division::Owners owners(copy.owned());
+    for (std::size_t r = 0; r < ranks; ++r)
+      for (std::size_t k = copy.owned() * r / ranks; k < copy.owned() * (r + 1) / ranks; ++k)
+        owners[copy.order()[k]] = static_cast<std::uint16_t>(r);
+    division_->owners(copy.ensemble(), std::move(owners));
+  }
+  take_shares();
+}
+
+void Neighbourhood::take_shares() {
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    SortedCopy const& copy = copies_[e];
+    auto const& owners = division_->owners(copy.ensemble());
+    std::vector<char> marks(copy.owned());
+    for (std::size_t k = 0; k < marks.size(); ++k)
+      marks[k] = owners[copy.order()[k]] == division_->team().rank() ? own_row : unread;
+    own_[e] = stretches_of(marks, own_row);
+  }
+}
+
+bool Neighbourhood::is_own(SortedCopy const& copy, std::uint32_t row) const {
+  auto const& rows = own(copy);
+  auto const after = std::upper_bound(rows.begin(), rows.end(), row,
+                                      [](std::uint32_t k, Stretch const& one) { return k < one.begin; });
+  return after != rows.begin() && row < std::prev(after)->end;
+}
+
+/// What each row of each copy is to this rank.
+std::vector<std::vector<char>> Neighbourhood::mark_rows() const {
+  std::vector<std::vector<char>> marks;
+  for (auto const& copy : copies_) {
+    marks.emplace_back(copy.owned(), unread);
+    for (auto const& [begin, end] : own(copy))
+      std::fill(marks.back().begin() + static_cast<std::ptrdiff_t>(begin),
+                marks.back().begin() + static_cast<std::ptrdiff_t>(end), own_row);
+  }
+  for (auto const& list : lists_) {
+    std::size_t e = 0;
+    while (&copies_[e] != list.source) ++e;
+    auto& of_source = marks[e];
+    SortedCopy const& source = *list.source;
+    std::uint32_t const sentinel = item_of_row(source.sentinel());
+    for (auto const& [begin, end] : own(*list.target))
+      for (std::size_t i = begin; i < end; ++i) {
+        std::uint32_t const* const row = list.list.rows()[i];
+        for (std::uint32_t k = 0; k < list.list.lengths(list_rings - 1)[i]; ++k) {
+          if (row[k] == sentinel) continue;
+          char& mark = of_source[source.owner(row_of_item(row[k]))];
+          if (mark == unread) mark = read;
+        }
+      }
+  }
+  return marks;
+}
+
+/// Which rows of others this rank reads; their owners hear of it.
+void Neighbourhood::find_needed() {
+  auto marks = mark_rows();
+  std::vector<RowExchange::Needed> needed;
+  for (auto const& copy : copies_) needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
+  row_of_.resize(copies_.size());
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    row_of_[e].resize(copies_[e].owned());
+    for (std::uint32_t k = 0; k < copies_[e].owned(); ++k) row_of_[e][copies_[e].order()[k]] = k;
+  }
+  if (also_read_) {
+    also_read_([&](AnyEnsemble const& ensemble, std::uint32_t i) {
+      for (std::size_t e = 0; e < copies_.size(); ++e)
+        if (&copies_[e].ensemble() == &ensemble)
+          if (char& mark = marks[e][row_of_[e][i]]; mark == unread) mark = read;
+    });
+  }
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    auto const rows = stretches_of(marks[e], read);
+    for (auto const& [begin, end] : rows)
+      needed[e].numbers.insert(needed[e].numbers.end(), copies_[e].order() + begin, copies_[e].order() + end);
+    copies_[e].only(own_[e], rows);
+  }
+  exchange_.plan(*division_, std::move(needed));
+}
+
+void Neighbourhood::bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last) {
+  std::size_t const width = row_block * (last - first);
+  auto const row = [&](std::size_t e, std::uint32_t i, auto const& of_block) {
+    for (std::size_t b = first; b < last; ++b)
+      of_block(copy.block(b) + row_block * row_of_[e][i], row_block * (b - first));
+  };
+  exchange_.bring(
+      *division_, [&](std::size_t e) { return &copies_[e] == &copy ? width : 0; },
+      [&](std::size_t e, std::uint32_t i, double* to) {
+        if (&copies_[e] == &copy)
+          row(e, i, [&](double const* block, std::size_t at) { std::copy_n(block, row_block, to + at); });
+      },
+      [&](std::size_t e, std::uint32_t i, double const* from) {
+        if (&copies_[e] == &copy)
+          row(e, i, [&](double* block, std::size_t at) { std::copy_n(from + at, row_block, block); });
+      });
+}
+
+}  // namespace boltzmann

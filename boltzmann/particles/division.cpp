@@ -1,0 +1,206 @@
+// Shares, and the messages that carry rows between them.
+#include <boltzmann/core/error.hpp>
+#include <boltzmann/particles/division.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+
+namespace boltzmann {
+namespace {
+
+/// The sizes of what each rank sends to each: [from][to].
+std::vector<std::vector<std::uint64_t>> all_sizes(Team& team, std::vector<std::uint64_t> const& mine) {
+  std::string const bytes(reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]);
+  std::vector<std::vector<std::uint64_t>> all;
+  for (auto const& row : team.gather(bytes)) {
+    all.emplace_back(row.size() / sizeof(std::uint64_t));
+    std::memcpy(all.back().data(), row.data(), row.size());
+  }
+  return all;
+}
+
+}  // namespace
+
+Division::Division(Team& team) : team_(team) {
+  static std::atomic<std::uint64_t> made{0};
+  id_ = ++made;
+}
+
+void Division::add(AnyEnsemble& ensemble) {
+  if (has(ensemble)) return;
+  auto const ranks = static_cast<std::size_t>(team_.size());
+  std::size_t const size = ensemble.size();
+  Part part;
+  part.owners.resize(size);
+  for (std::size_t r = 0; r < ranks; ++r)
+    std::fill(part.owners.begin() + static_cast<std::ptrdiff_t>(size * r / ranks),
+              part.owners.begin() + static_cast<std::ptrdiff_t>(size * (r + 1) / ranks), static_cast<std::uint16_t>(r));
+  divide(part);
+  ensembles_.push_back(&ensemble);
+  parts_.push_back(std::move(part));
+  if (goes_on_) ensemble.share(&parts_.back().share);
+}
+
+bool Division::has(AnyEnsemble const& ensemble) const {
+  return std::find(ensembles_.begin(), ensembles_.end(), &ensemble) != ensembles_.end();
+}
+
+std::size_t Division::place(AnyEnsemble const& ensemble) const {
+  return static_cast<std::size_t>(std::find(ensembles_.begin(), ensembles_.end(), &ensemble) - ensembles_.begin());
+}
+
+void Division::divide(Part& part) {
+  auto const ranks = static_cast<std::size_t>(team_.size());
+  part.of_rank.assign(ranks, {});
+  part.sizes.assign(ranks, 0);
+  part.share.stretches.clear();
+  part.share.size = 0;
+  for (std::size_t begin = 0, end = 0; begin < part.owners.size(); begin = end) {
+    auto const owner = part.owners[begin];
+    while (end < part.owners.size() && part.owners[end] == owner) ++end;
+    part.of_rank[owner].push_back({begin, end});
+    part.sizes[owner] += end - begin;
+    if (owner == team_.rank()) part.share.add(begin, end);
+  }
+}
+
+void Division::owners(AnyEnsemble const& ensemble, Owners owners) {
+  if (gather_carried_) gather_carried_(ensemble);
+  Part& part = parts_[place(ensemble)];
+  part.owners = std::move(owners);
+  divide(part);
+  auto first = part.owners.begin();
+  for (auto* follower : std::vector(part.followers)) {
+    auto const end = first + static_cast<std::ptrdiff_t>(follower->size());
+    this->owners(*follower, Owners(first, end));
+    first = end;
+  }
+}
+
+void Division::follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& followers) {
+  add(leader);
+  Part& part = parts_[place(leader)];
+  part.followers = followers;
+  owners(leader, part.owners);
+}
+
+void Division::begin() {
+  for (std::size_t e = 0; e < parts_.size(); ++e) ensembles_[e]->share(&parts_[e].share);
+  goes_on_ = true;
+}
+
+void Division::end() {
+  for (auto* ensemble : ensembles_) ensemble->share(nullptr);
+  goes_on_ = false;
+}
+
+void Division::make_whole() {
+  if (whole_) return;
+  team_.meet(Team::Occasion::gathers);
+  for (auto* ensemble : ensembles_) gather(*ensemble, ensemble->row(0), ensemble->stride(), ensemble->doubles());
+  whole_ = true;
+}
+
+void Division::gather_influences() {
+  team_.meet(Team::Occasion::gathers);
+  for (auto* ensemble : ensembles_) {
+    gather(*ensemble, ensemble->influence(0), ensemble->influence_size(), ensemble->influence_size());
+    std::size_t const numbers = ensemble->influences().size() - ensemble->size() * ensemble->influence_size();
+    if (ensemble->size() == 0) continue;
+    std::size_t const rates = numbers / (ensemble->size() * ensemble->rate_stride());
+    for (std::size_t k = 0; k < rates; ++k)
+      gather(*ensemble, ensemble->rate(k), ensemble->rate_stride(), ensemble->rate_stride());
+  }
+}
+
+void Division::gather(AnyEnsemble const& ensemble, double* numbers, std::size_t stride, std::size_t count) {
+  if (count == 0) return;
+  Part const& part = this->part(ensemble);
+  auto const ranks = static_cast<std::size_t>(team_.size()), mine = static_cast<std::size_t>(team_.rank());
+  received_.resize(ranks);
+  sent_.resize(1);
+  auto const over = [&](std::size_t rank, double* buffer, auto const& copy) {
+    for (auto const& [begin, end] : part.of_rank[rank])
+      for (std::size_t i = begin; i < end; ++i, buffer += count) copy(buffer, numbers + i * stride);
+  };
+  sent_[0].resize(part.sizes[mine] * count);
+  over(mine, sent_[0].data(), [&](double* to, double const* from) { std::copy_n(from, count, to); });
+  std::vector<Team::Message> messages;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == mine) continue;
+    received_[r].resize(part.sizes[r] * count);
+    messages.push_back({static_cast<int>(r), true, received_[r].data(), received_[r].size() * sizeof(double)});
+    messages.push_back({static_cast<int>(r), false, sent_[0].data(), sent_[0].size() * sizeof(double)});
+  }
+  team_.exchange(messages);
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (r != mine) over(r, received_[r].data(), [&](double const* from, double* to) { std::copy_n(from, count, to); });
+}
+
+std::size_t Division::sum(std::size_t mine) {
+  std::array<std::int64_t, 1> number{static_cast<std::int64_t>(mine)};
+  team_.sum(number);
+  return static_cast<std::size_t>(number[0]);
+}
+
+void RowExchange::plan(Division& division, std::vector<Needed> needed) {
+  Team& team = division.team();
+  auto const ranks = static_cast<std::size_t>(team.size());
+  std::size_t const count = needed.size();
+  ensembles_.clear();
+  sends_.assign(ranks, Numbers(count));
+  receives_.assign(ranks, Numbers(count));
+  sent_.resize(ranks);
+  received_.resize(ranks);
+  for (std::size_t e = 0; e < count; ++e) {
+    ensembles_.push_back(needed[e].ensemble);
+    auto const& owners = division.owners(*needed[e].ensemble);
+    for (auto const i : needed[e].numbers) receives_[owners[i]][e].push_back(i);
+  }
+  // Who needs something says so to its owner.
+  std::vector<std::uint64_t> sizes;
+  for (auto const& from : receives_)
+    for (auto const& numbers : from) sizes.push_back(numbers.size());
+  auto const all = all_sizes(team, sizes);
+  std::vector<Team::Message> messages;
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (std::size_t e = 0; e < count; ++e) {
+      auto& asked = receives_[r][e];
+      auto& given = sends_[r][e];
+      given.resize(all[r][static_cast<std::size_t>(team.rank()) * count + e]);
+      messages.push_back({static_cast<int>(r), false, asked.data(), asked.size() * sizeof asked[0]});
+      messages.push_back({static_cast<int>(r), true, given.data(), given.size() * sizeof given[0]});
+    }
+  team.exchange(messages);
+}
+
+void RowExchange::bring_rows(Division& division) {
+  bring(
+      division, [&](std::size_t e) { return ensembles_[e]->doubles(); },
+      [&](std::size_t e, std::uint32_t i, double* to) {
+        std::copy_n(ensembles_[e]->row(i), ensembles_[e]->doubles(), to);
+      },
+      [&](std::size_t e, std::uint32_t i, double const* from) {
+        std::copy_n(from, ensembles_[e]->doubles(), ensembles_[e]->row(i));
+      });
+}
+
+void RowExchange::send(Division& division) {
+  std::vector<Team::Message> messages;
+  for (std::size_t r = 0; r < sends_.size(); ++r) {
+    messages.push_back({static_cast<int>(r), true, received_[r].data(), received_[r].size() * sizeof(double)});
+    messages.push_back({static_cast<int>(r), false, sent_[r].data(), sent_[r].size() * sizeof(double)});
+  }
+  division.team().exchange(messages);
+}
+
+std::size_t RowExchange::received_rows() const {
+  std::size_t rows = 0;
+  for (auto const& from : receives_)
+    for (auto const& numbers : from) rows += numbers.size();
+  return rows;
+}
+
+}  // namespace boltzmann

@@ -1,0 +1,137 @@
+// Division: how the particles of a run are divided over the ranks of a team.
+#pragma once
+
+#include <boltzmann/core/team.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/particles/share.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace boltzmann {
+
+/// Every rank has a row for every particle, row i is particle i everywhere, and all ranks know who owns it. Its owner
+/// advances it; others have what the owner has sent: before influences are calculated the rows that they read
+/// (RowExchange), and before anybody looks all rows (gather()). Nothing that is computed depends on who owns what.
+///
+/// All calls but the questions are for all ranks.
+class Division {
+ public:
+  using Owners = std::vector<std::uint16_t>;  ///< the rank of each particle
+  static constexpr int most_ranks = 65535;
+
+  explicit Division(Team& team);
+  /// Ensembles are whole again.
+  ~Division() { end(); }
+  Division(Division const&) = delete;
+  Division& operator=(Division const&) = delete;
+
+  Team& team() const { return team_; }
+  /// An ensemble takes part, in equal shares by number until others are told. All its rows are known everywhere.
+  void add(AnyEnsemble& ensemble);
+  bool has(AnyEnsemble const& ensemble) const;
+  std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
+  /// From now on particles have these owners. All rows are known everywhere.
+  void owners(AnyEnsemble const& ensemble, Owners owners);
+  /// Ensembles whose particles have the owners of consecutive particles of `leader`, whatever these become.
+  void follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& followers);
+  Owners const& owners(AnyEnsemble const& ensemble) const { return part(ensemble).owners; }
+
+  /// From here on ensembles know their shares; and none any more, until it begins again.
+  void begin();
+  void end();
+  bool goes_on() const { return goes_on_; }
+
+  /// What else is held of particles, by integrators inside a step: a call that gathers it, before they change hands.
+  void carry(std::function<void(AnyEnsemble const&)> gather_carried) { gather_carried_ = std::move(gather_carried); }
+  /// Tells divisions apart.
+  std::uint64_t id() const { return id_; }
+
+  /// Owners have moved particles: others know old rows.
+  void moved() { whole_ = false; }
+  /// Whether all rows are known everywhere.
+  bool is_whole() const { return whole_; }
+  /// All rows of all ensembles come to all ranks, unless they are there.
+  void make_whole();
+  /// So do influences and rates.
+  void gather_influences();
+  /// So does any array: `count` doubles of each particle, from each `stride` doubles.
+  void gather(AnyEnsemble const& ensemble, double* numbers, std::size_t stride, std::size_t count);
+  /// The sum over all ranks.
+  std::size_t sum(std::size_t mine);
+
+ private:
+  struct Part {
+    Owners owners;
+    Share share;
+    std::vector<std::vector<Stretch>> of_rank;
+    std::vector<std::size_t> sizes;
+    std::vector<AnyEnsemble*> followers;
+  };
+  std::size_t place(AnyEnsemble const& ensemble) const;
+  Part const& part(AnyEnsemble const& ensemble) const { return parts_[place(ensemble)]; }
+  void divide(Part& part);
+
+  Team& team_;
+  std::vector<AnyEnsemble*> ensembles_;
+  std::deque<Part> parts_;  // whose shares ensembles know
+  bool goes_on_ = false, whole_ = true;
+  std::uint64_t id_;
+  std::function<void(AnyEnsemble const&)> gather_carried_;
+  std::vector<std::vector<double>> sent_, received_;  // of each rank
+};
+
+/// Who sends which particles' numbers to whom, again and again: one message between two ranks, whatever ensembles it is
+/// of.
+class RowExchange {
+ public:
+  /// What this rank reads of others: for each ensemble numbers that it does not own. For all ranks.
+  struct Needed {
+    AnyEnsemble* ensemble;
+    std::vector<std::uint32_t> numbers;
+  };
+  void plan(Division& division, std::vector<Needed> needed);
+
+  /// Owners send rows, for all ranks.
+  void bring_rows(Division& division);
+  /// The same of any numbers: give(e, i, to) writes `count(e)` doubles of particle i of ensemble e (in the order of the
+  /// plan) for another rank, and take(e, i, from) gets them there.
+  template <class Count, class Give, class Take>
+  void bring(Division& division, Count const& count, Give const& give, Take const& take) {
+    for (std::size_t r = 0; r < sends_.size(); ++r) {
+      double* to = room(sent_[r], sends_[r], count);
+      for (std::size_t e = 0; e < sends_[r].size(); ++e)
+        for (auto const i : sends_[r][e]) give(e, i, to), to += count(e);
+    }
+    for (std::size_t r = 0; r < receives_.size(); ++r) room(received_[r], receives_[r], count);
+    send(division);
+    for (std::size_t r = 0; r < receives_.size(); ++r) {
+      double const* from = received_[r].data();
+      for (std::size_t e = 0; e < receives_[r].size(); ++e)
+        for (auto const i : receives_[r][e]) take(e, i, from), from += count(e);
+    }
+  }
+
+  std::size_t received_rows() const;
+
+ private:
+  using Numbers = std::vector<std::vector<std::uint32_t>>;  // of each ensemble
+  template <class Count>
+  static double* room(std::vector<double>& buffer, Numbers const& numbers, Count const& count) {
+    std::size_t size = 0;
+    for (std::size_t e = 0; e < numbers.size(); ++e) size += numbers[e].size() * count(e);
+    buffer.resize(size);
+    return buffer.data();
+  }
+  void send(Division& division);
+
+  std::vector<AnyEnsemble*> ensembles_;
+  std::vector<Numbers> sends_, receives_;  // to and from each rank
+  std::vector<std::vector<double>> sent_, received_;
+};
+
+}  // namespace boltzmann
