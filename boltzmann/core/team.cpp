@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <new>
 #include <thread>
 #include <utility>
@@ -73,6 +74,13 @@ std::uint64_t checksum_of(std::string_view text) {  // FNV-1a
   return sum;
 }
 
+/// That the calling thread has used.
+double processor_seconds() {
+  std::timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 template <class T>
 std::string bytes_of(T const& value) {
   return {reinterpret_cast<char const*>(&value), sizeof value};
@@ -87,7 +95,9 @@ Team::Team(BoltzmannTeamFunctions const& functions, void* of, int rank, int size
 
 /// Soon awake at first; then it leaves the processor to others, who may be what it waits for.
 void Team::wait() {
+  if (functions_->done(of_) != 0) return;
   auto const start = Clock::now();
+  double const since = processor_seconds();
   while (functions_->done(of_) == 0) {
     double const waited = seconds_since(start);
     if (waited > patience_)
@@ -100,6 +110,7 @@ void Team::wait() {
     else
       std::this_thread::sleep_for(clock_time(std::min(waited / 16, 2e-3)));
   }
+  waited_ += processor_seconds() - since;
 }
 
 void Team::reduce(std::span<std::int64_t> numbers, int operation) {

@@ -104,6 +104,8 @@ class Team {
   void exchange(std::span<Message const> messages);
   /// Comes back when all ranks have come here.
   void barrier();
+  /// Processor time that this rank has spent waiting for others, in seconds: what is left of all of it is work.
+  double waited() const { return waited_; }
   /// How long a rank waits.
   void patience(double seconds) { patience_ = seconds; }
 
@@ -161,6 +163,7 @@ class Team {
   void* of_ = nullptr;
   int rank_ = 0, size_ = 1, depth_ = 0;
   double patience_ = std::numeric_limits<double>::infinity();
+  double waited_ = 0;
   Occasion occasion_ = Occasion::between_runs;  // of the vote that is waited for
   std::exception_ptr over_;                     // a failure after which ranks can't vote any more
   std::string told_;

@@ -3,6 +3,7 @@
 #include <boltzmann/neighbours/neighbourhood.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 namespace boltzmann {
@@ -31,7 +32,7 @@ void Neighbourhood::divide(Division* division, int threads) {
     if (complete_) share_out();
     take_shares();
     complete_ = false;
-    return find_needed();
+    return find_needed(threads);
   }
   if (!divided()) return;
   division_ = nullptr;
@@ -73,7 +74,7 @@ void Neighbourhood::refresh_together(int threads) {
   division_->make_whole();
   build(threads);
   follow(threads);
-  find_needed();
+  find_needed(threads);
 }
 
 /// Whether no more rows, of all ranks, are further than sqrt(square) from their references. If so, all that is known
@@ -119,56 +120,51 @@ bool Neighbourhood::is_own(SortedCopy const& copy, std::uint32_t row) const {
   return after != rows.begin() && row < std::prev(after)->end;
 }
 
-/// What each row of each copy is to this rank.
-std::vector<std::vector<char>> Neighbourhood::mark_rows() const {
-  std::vector<std::vector<char>> marks;
-  for (auto const& copy : copies_) {
-    marks.emplace_back(copy.owned(), unread);
-    for (auto const& [begin, end] : own(copy))
-      std::fill(marks.back().begin() + static_cast<std::ptrdiff_t>(begin),
-                marks.back().begin() + static_cast<std::ptrdiff_t>(end), own_row);
-  }
+/// The rows of each copy, sentinel and images too, that are in this rank's lists.
+std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
+  std::vector<std::vector<char>> found;
+  for (auto const& copy : copies_) found.emplace_back(copy.total() + 1, 0);
   for (auto const& list : lists_) {
     std::size_t e = 0;
     while (&copies_[e] != list.source) ++e;
-    auto& of_source = marks[e];
-    SortedCopy const& source = *list.source;
-    std::uint32_t const sentinel = item_of_row(source.sentinel());
-    for (auto const& [begin, end] : own(*list.target))
-      for (std::size_t i = begin; i < end; ++i) {
-        std::uint32_t const* const row = list.list.rows()[i];
-        for (std::uint32_t k = 0; k < list.list.lengths(list_rings - 1)[i]; ++k) {
-          if (row[k] == sentinel) continue;
-          char& mark = of_source[source.owner(row_of_item(row[k]))];
-          if (mark == unread) mark = read;
-        }
-      }
+    char* const in_lists = found[e].data();
+    std::uint32_t const* const* const rows = list.list.rows();
+    std::uint32_t const* const lengths = list.list.lengths(list_rings - 1);
+    over_own(*list.target, 1024, threads, [=](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::uint32_t const *entry = rows[i], *const last = entry + lengths[i]; entry < last; ++entry)
+          std::atomic_ref(in_lists[row_of_item(*entry)]).store(1, std::memory_order_relaxed);
+    });
   }
-  return marks;
+  return found;
 }
 
 /// Which rows of others this rank reads; their owners hear of it.
-void Neighbourhood::find_needed() {
-  auto marks = mark_rows();
-  std::vector<RowExchange::Needed> needed;
-  for (auto const& copy : copies_) needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
+void Neighbourhood::find_needed(int threads) {
   row_of_.resize(copies_.size());
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     row_of_[e].resize(copies_[e].owned());
     for (std::uint32_t k = 0; k < copies_[e].owned(); ++k) row_of_[e][copies_[e].order()[k]] = k;
   }
-  if (also_read_) {
+  auto in_lists = rows_in_lists(threads);
+  if (also_read_)
     also_read_([&](AnyEnsemble const& ensemble, std::uint32_t i) {
       for (std::size_t e = 0; e < copies_.size(); ++e)
-        if (&copies_[e].ensemble() == &ensemble)
-          if (char& mark = marks[e][row_of_[e][i]]; mark == unread) mark = read;
+        if (&copies_[e].ensemble() == &ensemble) in_lists[e][row_of_[e][i]] = 1;
     });
-  }
+  std::vector<RowExchange::Needed> needed;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
-    auto const rows = stretches_of(marks[e], read);
-    for (auto const& [begin, end] : rows)
-      needed[e].numbers.insert(needed[e].numbers.end(), copies_[e].order() + begin, copies_[e].order() + end);
-    copies_[e].only(own_[e], rows);
+    SortedCopy& copy = copies_[e];
+    std::vector<char> marks(copy.owned(), unread);
+    for (std::size_t k = 0; k <= copy.total(); ++k)
+      if (in_lists[e][k] && k != copy.sentinel()) marks[copy.owner(k)] = read;
+    for (auto const& [begin, end] : own_[e])
+      std::fill(marks.begin() + static_cast<std::ptrdiff_t>(begin), marks.begin() + static_cast<std::ptrdiff_t>(end),
+                own_row);
+    auto const rows = stretches_of(marks, read);
+    auto& numbers = needed.emplace_back(const_cast<AnyEnsemble*>(&copy.ensemble())).numbers;
+    for (auto const& [begin, end] : rows) numbers.insert(numbers.end(), copy.order() + begin, copy.order() + end);
+    copy.only(own_[e], rows, in_lists[e]);
   }
   exchange_.plan(*division_, std::move(needed));
 }

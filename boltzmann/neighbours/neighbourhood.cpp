@@ -190,7 +190,7 @@ bool Neighbourhood::move_beyond(double square, std::size_t most) {
     if (count > most) return false;
   }
   if (count > 0) move(moved);
-  if (divided()) find_needed();
+  if (divided()) find_needed(1);
   return true;
 }
 

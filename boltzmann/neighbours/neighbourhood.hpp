@@ -65,6 +65,19 @@ class Neighbourhood {
   /// The rows of a target whose lists there are: all, or those of this rank's share.
   std::vector<Stretch> const& own(SortedCopy const& copy) const;
 
+  /// Calls function(begin, end) for ranges of so many of them or fewer, on so many threads.
+  template <class Function>
+  void over_own(SortedCopy const& copy, std::size_t grain, int threads, Function const& function) const {
+    auto const& rows = own(copy);
+    if (rows.size() == 1 && rows[0].begin == 0) return for_ranges(rows[0].end, grain, threads, function);
+    std::vector<Stretch> parts;
+    for (auto const& [begin, end] : rows)
+      for (std::size_t first = begin; first < end; first += grain)
+        parts.push_back({first, std::min(first + grain, end)});
+    for_stretches(parts, threads, [&](Stretch const* part, Stretch const* last) {
+      for (; part != last; ++part) function(part->begin, part->end);
+    });
+  }
   /// Blocks [first, last) of a copy's rows come from their owners to those who read them. For all ranks.
   void bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last);
 
@@ -117,8 +130,8 @@ class Neighbourhood {
   bool is_own(SortedCopy const& copy, std::uint32_t row) const;
   void share_out();
   void take_shares();
-  void find_needed();
-  std::vector<std::vector<char>> mark_rows() const;
+  void find_needed(int threads);
+  std::vector<std::vector<char>> rows_in_lists(int threads) const;
   void complete(int threads);
   double rows_around_one() const;
   double longest_cutoff() const;

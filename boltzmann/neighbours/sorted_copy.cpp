@@ -135,26 +135,20 @@ void SortedCopy::everything() {
 
 void SortedCopy::all_images() { images_of_ = {{0, ghost_source_.size()}}; }
 
-void SortedCopy::only(std::vector<Stretch> const& own, std::vector<Stretch> const& others) {
+void SortedCopy::only(std::vector<Stretch> const& own, std::vector<Stretch> const& others,
+                      std::vector<char> const& read) {
   pieces_.clear();
-  std::vector<char> fresh(owned(), 0);
-  auto const mark = [&](Stretch const& rows) {
-    std::fill(fresh.begin() + static_cast<std::ptrdiff_t>(rows.begin),
-              fresh.begin() + static_cast<std::ptrdiff_t>(rows.end), 1);
-  };
-  for (auto const& rows : own) {
-    mark(rows);
+  for (auto const& rows : own)
     for (std::size_t first = rows.begin; first < rows.end; first += together)
       pieces_.push_back({first, std::min(first + together, rows.end)});
-  }
   others_ = others;
-  for (auto const& rows : others_) mark(rows);
   largest2_.assign(pieces_.size(), 0.0);
   images_of_.clear();
   for (std::size_t g = 0; g < ghost_source_.size(); ++g) {
-    if (!fresh[ghost_source_[g]]) continue;
-    if (!images_of_.empty() && images_of_.back().end == g &&
-        images_of_.back().end - images_of_.back().begin < refresh_grain)
+    if (!read[owned() + 1 + g]) continue;
+    bool const goes_on = !images_of_.empty() && images_of_.back().end == g &&
+                         images_of_.back().end - images_of_.back().begin < refresh_grain;
+    if (goes_on)
       ++images_of_.back().end;
     else
       images_of_.push_back({g, g + 1});

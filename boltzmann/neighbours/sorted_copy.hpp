@@ -60,10 +60,10 @@ class SortedCopy {
   /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
   /// last time. PhysicsFailure if a position is not finite.
   bool refresh(int threads);
-  /// From now on refresh() brings up to date these owned rows only, and `others` with all images of both, until the next
-  /// build; largest2(), beyond() and what refresh() returns are of `own`. For rows that a rank of a team advances, and
-  /// those that it reads.
-  void only(std::vector<Stretch> const& own, std::vector<Stretch> const& others);
+  /// From now on refresh() brings up to date these owned rows only, `others` and those images that `read` has (a number
+  /// other than 0 for each of them, at its row), until the next build; largest2(), beyond() and what refresh() returns
+  /// are of `own`. For rows that a rank of a team advances, and those that it reads.
+  void only(std::vector<Stretch> const& own, std::vector<Stretch> const& others, std::vector<char> const& read);
   /// And all of them again.
   void everything();
   /// The images of blocks [first_block, last_block) from their owned rows, for walls as they were at the last refresh.

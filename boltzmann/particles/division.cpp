@@ -177,13 +177,14 @@ void RowExchange::plan(Division& division, std::vector<Needed> needed) {
 }
 
 void RowExchange::bring_rows(Division& division) {
+  auto const copy = [](double const* from, double* to, std::size_t count) {
+    for (std::size_t k = 0; k < count; k += row_block) std::memcpy(to + k, from + k, row_block * sizeof(double));
+  };
   bring(
-      division, [&](std::size_t e) { return ensembles_[e]->doubles(); },
-      [&](std::size_t e, std::uint32_t i, double* to) {
-        std::copy_n(ensembles_[e]->row(i), ensembles_[e]->doubles(), to);
-      },
+      division, [&](std::size_t e) { return ensembles_[e]->stride(); },
+      [&](std::size_t e, std::uint32_t i, double* to) { copy(ensembles_[e]->row(i), to, ensembles_[e]->stride()); },
       [&](std::size_t e, std::uint32_t i, double const* from) {
-        std::copy_n(from, ensembles_[e]->doubles(), ensembles_[e]->row(i));
+        copy(from, ensembles_[e]->row(i), ensembles_[e]->stride());
       });
 }
 

@@ -133,6 +133,12 @@ void print_warnings(Simulation const& simulation, ProgressOptions const& options
   };
   for (auto* scheme : simulation.schemes()) print(scheme->warnings(simulation.step_size()));
   for (auto* dissipation : simulation.dissipations()) print(dissipation->warnings(simulation.step_size()));
+  if (team().alone()) return;
+  std::string const why = simulation.undivided();
+  print({why.empty()
+             ? fmt::format("{} ranks share the particles", team().size())
+             : fmt::format("warning: each of the {} ranks does all the work: runs with {} are not divided so far",
+                           team().size(), why)});
 }
 
 bool rewrites_lines() {

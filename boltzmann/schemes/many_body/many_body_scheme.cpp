@@ -70,18 +70,22 @@ void ManyBodyScheme::copy_places() {
   std::size_t first = 0;
   for (auto const& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded.ensemble;
-    for_ranges(ensemble.size(), copy_grain, threads_for(ensemble.size(), 1, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   double const* const x = ensemble.row(i);
-                   double* const point = points_->row(first + i);
-                   if (!std::all_of(x, x + D, [](double number) { return std::isfinite(number); }))
-                     throw PhysicsFailure(
-                         fmt::format("particle {} of '{}' is at a position that is not finite", i, ensemble.name()));
-                   std::copy_n(x, D, point);
-                   if (elements) point[D] = static_cast<double>(loaded.element);
-                 }
-               });
+    auto const copy = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        double const* const x = ensemble.row(i);
+        double* const point = points_->row(first + i);
+        if (!std::all_of(x, x + D, [](double number) { return std::isfinite(number); }))
+          throw PhysicsFailure(
+              fmt::format("particle {} of '{}' is at a position that is not finite", i, ensemble.name()));
+        std::copy_n(x, D, point);
+        if (elements) point[D] = static_cast<double>(loaded.element);
+      }
+    };
+    int const used = threads_for(ensemble.size(), 1, threads());
+    if (division_ && division_->is_whole())  // all are known
+      for_ranges(ensemble.size(), copy_grain, used, copy);
+    else
+      for_share(ensemble, copy_grain, used, copy);
     first += ensemble.size();
   }
 }
@@ -108,8 +112,8 @@ PairTask ManyBodyScheme::task() const {
 }
 
 void ManyBodyScheme::run(PairKernel kernel, Passes const& passes, PairTask const& task) const {
-  for_ranges(task.targets, atom_grain, threads_for(task.targets, pass_work, threads()),
-             [&](std::size_t begin, std::size_t end) { kernel(passes.law, task, begin, end); });
+  hood_.over_own(hood_.target(list_), atom_grain, threads_for(task.targets, pass_work, threads()),
+                 [&](std::size_t begin, std::size_t end) { kernel(passes.law, task, begin, end); });
 }
 
 /// What is around each atom, and its answer; `energies`, if asked for, by number.
@@ -124,18 +128,21 @@ void ManyBodyScheme::find_answers(Passes const& passes, double* energies) {
 
   SortedCopy& copy = hood_.copy(*points_);
   std::vector<double> sorted(energies ? sums.targets : 0);
-  for_ranges(sums.targets, atom_grain, threads_for(sums.targets, 1, threads()),
-             [&](std::size_t begin, std::size_t end) {
-               answer({end - begin, copy.rows() + row_block * begin, sums_.data() + passes.sums * begin,
-                       answers_.data() + passes.answers * begin, energies ? sorted.data() + begin : nullptr});
-               for (std::size_t n = 0; n < passes.answers; ++n) {
-                 std::size_t const at = passes.first + n;
-                 double* const block = copy.block(at / row_block) + at % row_block;
-                 for (std::size_t k = begin; k < end; ++k) block[row_block * k] = answers_[passes.answers * k + n];
-               }
-             });
-  copy.refresh_images(passes.first / row_block, (passes.first + passes.answers - 1) / row_block + 1,
-                      threads_for(sums.targets, 1, threads()));
+  hood_.over_own(copy, atom_grain, threads_for(sums.targets, 1, threads()), [&](std::size_t begin, std::size_t end) {
+    answer({end - begin, copy.rows() + row_block * begin, sums_.data() + passes.sums * begin,
+            answers_.data() + passes.answers * begin, energies ? sorted.data() + begin : nullptr});
+    for (std::size_t n = 0; n < passes.answers; ++n) {
+      std::size_t const at = passes.first + n;
+      double* const block = copy.block(at / row_block) + at % row_block;
+      for (std::size_t k = begin; k < end; ++k) block[row_block * k] = answers_[passes.answers * k + n];
+    }
+  });
+  std::size_t const first = passes.first / row_block, last = (passes.first + passes.answers - 1) / row_block + 1;
+  if (division_) {
+    division_->team().meet(Team::Occasion::exchanges);
+    hood_.bring_blocks(copy, first, last);
+  }
+  copy.refresh_images(first, last, threads_for(sums.targets, 1, threads()));
   for (std::size_t k = 0; k < sorted.size(); ++k) energies[copy.order()[k]] += sorted[k];
 }
 
@@ -181,6 +188,11 @@ EnergyAndVirial ManyBodyScheme::measure(double) {
     pairs.virial = virials.data();
     run(passes.kernels.measure, passes, pairs);
   }
+  if (division_) {
+    division_->team().meet(Team::Occasion::gathers);
+    division_->gather(*points_, energies.data(), 1, 1);
+    division_->gather(*points_, virials.data(), 9, 9);
+  }
   CompensatedSum total;
   for (double const energy : energies) total += energy;
   measures.potential = total.value();
@@ -196,6 +208,16 @@ EnergyAndVirial ManyBodyScheme::measure(double) {
     first += loaded.ensemble->size();
   }
   return measures;
+}
+
+void ManyBodyScheme::divide(Division* division) {
+  if (division) {
+    std::vector<AnyEnsemble*> all;
+    for (auto const& loaded : loaded_) all.push_back(loaded.ensemble);
+    division->follow(*points_, all);
+  }
+  division_ = division;
+  hood_.divide(division, threads());
 }
 
 std::string ManyBodyScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {

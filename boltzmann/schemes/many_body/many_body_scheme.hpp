@@ -30,6 +30,8 @@ class ManyBodyScheme : public Scheme {
   EnergyAndVirial measure(double time = 0) override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
+  std::string undivided() const override { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
+  void divide(Division* division) override;
   std::size_t bytes() const override;
   std::string report() const override;
   std::vector<double> state() const override;
@@ -79,6 +81,7 @@ class ManyBodyScheme : public Scheme {
 
   double cutoff_, quantum_ = 0;
   std::size_t calculations_ = 0;
+  Division* division_ = nullptr;         // while a run is divided
   std::unique_ptr<AnyEnsemble> points_;  // the places of all atoms, ensemble after ensemble
   Neighbourhood hood_;
   std::size_t list_ = 0;

@@ -431,14 +431,10 @@ void PairScheme::bring_particles() {
 template <class Kernel>
 void PairScheme::over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads,
                               Kernel const& kernel) const {
-  if (!division_) return for_ranges(task.targets, near.grain(), threads_for(pairs, pair_work, threads), kernel);
-  auto const& own =
-      near.all_pairs() ? near.target->share()->stretches : neighbourhood_.own(neighbourhood_.target(near.list));
-  std::vector<Stretch> parts;
-  for (auto const& [begin, end] : own)
-    for (std::size_t first = begin; first < end; first += near.grain())
-      parts.push_back({first, std::min(first + near.grain(), end)});
-  for_stretches(parts, threads_for(pairs, pair_work, threads), [&](Stretch const* first, Stretch const* last) {
+  int const used = threads_for(pairs, pair_work, threads);
+  if (!near.all_pairs()) return neighbourhood_.over_own(neighbourhood_.target(near.list), near.grain(), used, kernel);
+  if (!division_) return for_ranges(task.targets, near.grain(), used, kernel);
+  for_stretches(near.target->share()->stretches, used, [&](Stretch const* first, Stretch const* last) {
     for (; first != last; ++first) kernel(first->begin, first->end);
   });
 }

@@ -301,13 +301,8 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double co
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
   task.influence = sums_.data();
-  std::vector<Stretch> parts;
-  for (auto const& [begin, end] : hood_->own(copy))
-    for (std::size_t first = begin; first < end; first += pair_grain)
-      parts.push_back({first, std::min(first + pair_grain, end)});
-  for_ranges(parts.size(), 1, threads_for(task.targets, 8, threads()), [&](std::size_t first, std::size_t last) {
-    for (; first < last; ++first) kernel(&parameters_, task, parts[first].begin, parts[first].end);
-  });
+  hood_->over_own(copy, pair_grain, threads_for(task.targets, 8, threads()),
+                  [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
 }
 
 void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
