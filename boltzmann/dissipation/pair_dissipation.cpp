@@ -1,6 +1,6 @@
 // What friction and noise act on: ensembles, their state laws, and the pairs that neighbour lists give.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
@@ -343,7 +343,7 @@ void PairDissipation::update_derived_fields() {
 }
 
 double PairDissipation::internal_energy() const {
-  CompensatedSum sum;
+  ExactSum sum;
   for (auto const& member : members_)
     if (member->law)
       for (std::size_t i = 0; i < member->ensemble->size(); ++i) sum += member->ensemble->row(i)[member->energy];

@@ -12,6 +12,8 @@
 
 namespace boltzmann {
 
+class ExactSum;
+
 /// How the dissipation of all pairs together is made of that of one.
 enum class DissipationMethod {
   simultaneous,  ///< all pairs act at once on the velocities of the step's end; each particle then gets back as heat what
@@ -78,7 +80,7 @@ class PairDissipation final : public Dissipation {
   void each_chunk(StepContext const& context, double asymmetry, Function const& function);
   bool take_points();
   void take_lists();
-  void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& by_bath);
+  void finish_chunk(Member& member, std::size_t chunk, double const* sums, ExactSum& by_bath);
   void simultaneous(StepContext const& context);
   void shardlow(StepContext const& context);
 

@@ -1,5 +1,6 @@
-// Kinetic energies of baths, added up in one order whatever the threads, and the scaling of velocities.
+// Kinetic energies of baths, and the scaling of velocities.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/rescaling_bath.hpp>
 
@@ -10,21 +11,6 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t rescaling_grain = 2048;
-
-/// The sum of so many numbers over the particles of an ensemble, by grains in their order; add(row, sums) adds those of
-/// one.
-template <std::size_t Numbers, class Add>
-std::array<double, Numbers> sum_over(AnyEnsemble const& ensemble, int threads, Add const& add) {
-  std::vector<std::array<double, Numbers>> parts(ensemble.size() / rescaling_grain + 1, std::array<double, Numbers>{});
-  for_ranges(ensemble.size(), rescaling_grain, threads_for(ensemble.size(), 1, threads),
-             [&](std::size_t begin, std::size_t end) {
-               for (std::size_t i = begin; i < end; ++i) add(ensemble.row(i), parts[i / rescaling_grain]);
-             });
-  std::array<double, Numbers> total{};
-  for (auto const& part : parts)
-    for (std::size_t k = 0; k < Numbers; ++k) total[k] += part[k];
-  return total;
-}
 
 }  // namespace
 
@@ -54,33 +40,35 @@ RescalingBath::Motion RescalingBath::motion() const {
   Motion all;
   bool const relative = std::find(kept_.begin(), kept_.end(), true) != kept_.end();
   if (relative) {
-    std::array<double, 4> total{};  // momentum, mass
+    std::array<ExactSum, 4> total;  // momentum, mass
     for (auto const* ensemble : ensembles()) {
       int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-      auto const part = sum_over<4>(*ensemble, threads(), [&](double const* row, std::array<double, 4>& sums) {
-        for (int a = 0; a < ensemble->dimension(); ++a) sums[a] += row[mass] * row[velocity + a];
-        sums[3] += row[mass];
+      add_terms(total, ensemble->size(), threads(), [&](std::size_t i, std::array<double, 4>& terms) {
+        double const* const row = ensemble->row(i);
+        for (int a = 0; a < ensemble->dimension(); ++a) terms[a] = row[mass] * row[velocity + a];
+        terms[3] = row[mass];
       });
-      for (std::size_t k = 0; k < 4; ++k) total[k] += part[k];
     }
     for (std::size_t a = 0; a < 3; ++a)
-      if (kept_[a]) all.common[a] = total[a] / total[3];
+      if (kept_[a]) all.common[a] = total[a].value() / total[3].value();
   }
+  std::array<ExactSum, 2> sums;  // kinetic energy, particles
   for (auto const* ensemble : ensembles()) {
     int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-    auto const part = sum_over<2>(*ensemble, threads(), [&](double const* row, std::array<double, 2>& sums) {
+    add_terms(sums, ensemble->size(), threads(), [&](std::size_t i, std::array<double, 2>& terms) {
+      double const* const row = ensemble->row(i);
       if (!acts_on(row, ensemble->dimension())) return;
       double square = 0;
       for (int a = 0; a < ensemble->dimension(); ++a) {
         double const v = row[velocity + a] - all.common[a];
         square += v * v;
       }
-      sums[0] += 0.5 * row[mass] * square;
-      sums[1] += 1;
+      terms[0] = 0.5 * row[mass] * square;
+      terms[1] = 1;
     });
-    all.kinetic += part[0];
-    all.particles += part[1];
   }
+  all.kinetic = sums[0].value();
+  all.particles = sums[1].value();
   return all;
 }
 

@@ -1,5 +1,6 @@
 // The simultaneous dissipation: all pairs at once, then every particle gets back as heat what its motion has lost.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
 
@@ -68,15 +69,13 @@ void PairDissipation::simultaneous(StepContext const& context) {
     for (auto& member : members_)
       if (member->dissipates) member->take_mean_velocities(threads_for(member->owned(), 2, threads()));
   }
-  std::vector<std::vector<double>> paid;  // by the bath, for each chunk
-  for (auto const& member : members_) paid.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
+  SharedSum paid;  // by the bath
   each_chunk(context, corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
-    std::size_t number = 0;
-    while (members_[number].get() != &m) ++number;
-    finish_chunk(m, chunk, sums, paid[number][chunk]);
+    ExactSum by_bath;
+    finish_chunk(m, chunk, sums, by_bath);
+    paid.add(by_bath);
   });
-  for (auto const& of_member : paid)
-    for (double const heat : of_member) heat_ += heat;
+  heat_ += paid.value();
 }
 
 /// The points' velocities become the means of now and of the last try.
@@ -94,7 +93,7 @@ void PairDissipation::Member::take_mean_velocities(int threads) {
 }
 
 /// Gives momenta and energies to the particles of a chunk; what no internal energy pays for the bath does.
-void PairDissipation::finish_chunk(Member& m, std::size_t chunk, double const* sums, double& by_bath) {
+void PairDissipation::finish_chunk(Member& m, std::size_t chunk, double const* sums, ExactSum& by_bath) {
   bool const has_energy = m.has_energy();
   int const dimension = m.dimension();
   std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());

@@ -265,7 +265,7 @@ TEST(ExactSum, OfItemsOnThreadsHasTheSameBits) {
   for (int const threads : {1, 2, 5}) {
     std::array<ExactSum, 3> sums;
     sums[2] += 1;
-    add_terms(sums, size, 1, threads, [&](std::size_t i, std::array<double, 3>& terms) {
+    add_terms(sums, size, threads, [&](std::size_t i, std::array<double, 3>& terms) {
       terms[0] = x[i];
       terms[1] = x[i] * y[i];
     });

@@ -1,5 +1,5 @@
 // What a SmoothScheme says of its particles: energies, steps that make sense, and what is wrong.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/smooth/loaded.hpp>
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ Tensor<3> SmoothScheme::stress() {
   SortedCopy const& copy = hood_->copy(*points_);
   int const D = box().dimension();
   std::size_t const matter = copy.blocks() + 1;
-  std::array<std::array<CompensatedSum, 3>, 3> sums;
+  std::array<std::array<ExactSum, 3>, 3> sums;
   for (auto const& loaded : loaded_) {
     if (!loaded->kernels.needs_gradients) continue;
     AnyEnsemble const& ensemble = *loaded->ensemble;
@@ -72,7 +72,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     AnyEnsemble const& ensemble = *all[e];
     auto const mass = ensemble.field("mass").offset, energy = ensemble.field("specific_energy").offset;
     measures.per_particle[e].resize(ensemble.size());
-    CompensatedSum sum;
+    ExactSum sum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* p = ensemble.row(i);
       sum += measures.per_particle[e][i] = p[mass] * p[energy];
@@ -80,7 +80,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     measures.internal += sum.value();
   }
   // The mean over space of the pressure of the states, and of the stress.
-  CompensatedSum work;
+  ExactSum work;
   for (auto const& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset,
@@ -107,8 +107,8 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     ExternalTask task = outside->task(time);
     task.energy = energy.data();
     outside->kernels.measure(outside->law.get(), task, 0, energy.size());
-    CompensatedSum sum;
-    for (double const u : energy) sum += u;
+    ExactSum sum;
+    sum.add(energy);
     measures.external += sum.value();
   }
   return measures;
@@ -180,12 +180,12 @@ std::vector<std::string> SmoothScheme::warnings(double step_size) {
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const mass = ensemble.field("mass").offset, range = ensemble.field("range").offset,
                density = ensemble.field("density").offset;
-    double own = 0;
+    ExactSum sum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* p = ensemble.row(i);
-      own += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
+      sum += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
     }
-    own /= static_cast<double>(ensemble.size());
+    double const own = sum.value() / static_cast<double>(ensemble.size());
     if (own > alone)
       lines.push_back(
           fmt::format("warning: the particles of '{}' hardly have neighbours, {:.0f} % of their density is their own; "
