@@ -3,9 +3,10 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/boundaries/images.hpp>
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
+#include <boltzmann/particles/division.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <fmt/format.h>
@@ -270,22 +271,20 @@ class Box::Reflection {
     }
   }
 
-  /// At the ends of the box; the work that moving walls have done.
-  double at_ends(std::size_t begin, std::size_t end) const {
-    double work = 0;
+  /// At the ends of the box. `work`, unless null: what moving walls do.
+  void at_ends(std::size_t begin, std::size_t end, ExactSum* work) const {
     for (std::size_t i = begin; i < end; ++i) {
       double const* x = particles_.row(i);
       Turns mirrored{};
       for (int a = 0; a < box_.dimension_; ++a)
         if (!(x[a] >= low_[a] && x[a] < high_[a]) && box_.boundary(a) != Boundary::open)
-          work += bring_back(i, a, mirrored);
+          if (double const done = bring_back(i, a, mirrored); work) *work += done;
       if (!box_.any_wall_ || mirrored == Turns{}) continue;
       double* const v = velocity_ ? particles_.row(i) + velocity_->offset : nullptr;
       for (int c = 0; v && c < box_.dimension_; ++c) v[c] = image_map(box_, {ImageRule::velocity, c}, mirrored)(v[c]);
       double* const w = vorticity_ ? particles_.row(i) + vorticity_->offset : nullptr;
       for (int c = 0; w && c < vorticity_->components; ++c) w[c] *= vorticity_sign(box_, c, mirrored);
     }
-    return work;
   }
 
   void at_region(Region const& region, std::size_t begin, std::size_t end) const {
@@ -382,30 +381,23 @@ class Box::Reflection {
   std::array<double, 3> low_, high_;  ///< beyond them something happens
 };
 
-double Box::apply(AnyEnsemble& particles, int threads) const {
+double Box::apply(AnyEnsemble& particles, int threads, Division* division) const {
   if (all_open_ && regions_.empty()) return 0;
   Reflection const reflection(*this, particles);
+  bool const walls_work = walls_move_ && !held_;
+  SharedSum work;
   int const used = threads_for(particles.size(), 1, threads);
-  if (particles.share()) {
-    for_share(particles, grain, used, [&](std::size_t begin, std::size_t end) { reflection.at_ends(begin, end); });
-    for (auto const& region : regions_)
-      for_share(particles, grain, 1,
-                [&](std::size_t begin, std::size_t end) { reflection.at_region(region, begin, end); });
-    return 0;
-  }
-  // Added up by grains, in their order, whichever threads have done them.
-  std::vector<double> works(walls_move_ && !held_ ? (particles.size() + grain - 1) / grain : 0);
-  for_ranges(particles.size(), grain, used, [&](std::size_t begin, std::size_t end) {
-    if (works.empty())
-      reflection.at_ends(begin, end);
-    else
-      for (std::size_t k = begin; k < end; k += grain)
-        works[k / grain] = reflection.at_ends(k, std::min(k + grain, end));
+  for_share(particles, grain, used, [&](std::size_t begin, std::size_t end) {
+    if (!walls_work) return reflection.at_ends(begin, end, nullptr);
+    ExactSum own;
+    reflection.at_ends(begin, end, &own);
+    work.add(own);
   });
-  CompensatedSum work;
-  for (double const of_grain : works) work += of_grain;
-  for (auto const& region : regions_) reflection.at_region(region, 0, particles.size());
-  return work.value();
+  for (auto const& region : regions_)
+    for_share(particles, grain, used,
+              [&](std::size_t begin, std::size_t end) { reflection.at_region(region, begin, end); });
+  if (division && walls_work) division->sum(work.total());
+  return walls_work ? work.value() : 0;
 }
 
 void Box::on_grid(double quantum) {

@@ -16,6 +16,7 @@
 namespace boltzmann {
 
 class AnyEnsemble;
+class Division;
 
 /// What happens at the two ends of an axis.
 enum class Boundary {
@@ -147,8 +148,9 @@ class Box {
   /// reflecting axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves
   /// away from it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does
   /// not bring it back, or is not finite. Returns the work that moving walls of reflecting axes have done on the
-  /// particles (zero for classes without mass), the same bits for any number of threads.
-  double apply(AnyEnsemble& particles, int threads = 1) const;
+  /// particles (zero for classes without mass), the same bits for any number of threads. In a run that is divided over
+  /// ranks: on this rank's share of the particles; the work is that of all.
+  double apply(AnyEnsemble& particles, int threads = 1, Division* division = nullptr) const;
 
   /// Rounds every edge to a multiple of `quantum`, for the fixed-point grid of the reversible leap-frog. Error if walls
   /// move.

@@ -1,5 +1,6 @@
 // Harmonics of the directions to neighbours, particle by particle.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/bond_order.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/near_images.hpp>
@@ -117,13 +118,13 @@ BondOrder::Local BondOrder::find(Sample const& sample) const {
     }
   });
   Harmonics all(D, options_.order);
-  std::complex<double> sum = 0;
+  ExactSum real, imaginary;
   double with = 0;
   for (auto const& one : own) {
     all.add(one);
-    if (one.count() > 0) sum += one.mean(), with += 1;
+    if (one.count() > 0) real += one.mean().real(), imaginary += one.mean().imag(), with += 1;
   }
-  local.whole = D == 3 ? all.order() : with > 0 ? std::abs(sum) / with : unknown;
+  local.whole = D == 3 ? all.order() : with > 0 ? std::hypot(real.value(), imaginary.value()) / with : unknown;
   return local;
 }
 
@@ -134,13 +135,15 @@ BondOrder::Local BondOrder::local(Sample const& sample) const {
 
 void BondOrder::measure(Sample const& sample, std::vector<double>& values) {
   Local const found = local(sample);
-  double order = 0, with = 0, neighbours = 0;
+  ExactSum order;
+  double with = 0, neighbours = 0;
   for (std::size_t i = 0; i < found.order.size(); ++i) {
     neighbours += found.neighbours[i];
     if (found.neighbours[i] > 0) order += found.order[i], with += 1;
   }
   auto const size = static_cast<double>(found.order.size());
-  values.insert(values.end(), {with > 0 ? order / with : unknown, found.whole, size > 0 ? neighbours / size : unknown});
+  values.insert(values.end(),
+                {with > 0 ? order.value() / with : unknown, found.whole, size > 0 ? neighbours / size : unknown});
 }
 
 }  // namespace boltzmann

@@ -1,8 +1,8 @@
 // Sizes of chains, each followed from bond to bond.
 #include <boltzmann/diagnoses/chains.hpp>
 
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/vector.hpp>
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ void check_chains(AnyEnsemble const& ensemble, std::size_t length) {
 
 /// Of one ensemble.
 struct ChainSizes {
-  CompensatedSum ends, gyration, bonds;
+  ExactSum ends, gyration, bonds;
 
   /// One chain, from particle `first` on.
   void add(AnyEnsemble const& ensemble, Box const& box, std::size_t first, std::size_t length) {

@@ -2,8 +2,8 @@
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
 
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 
 #include <fmt/format.h>
 
@@ -71,10 +71,11 @@ void Diffusion::measure(Sample const& sample, std::vector<double>& values) {
       continue;
     }
     std::size_t const count = one.last.size() / D;
-    double mean[3] = {0, 0, 0};
+    ExactSum all[3], square;
     for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t a = 0; a < D; ++a) mean[a] += one.displacement[D * i + a] / static_cast<double>(count);
-    CompensatedSum square;
+      for (std::size_t a = 0; a < D; ++a) all[a] += one.displacement[D * i + a];
+    double mean[3];
+    for (std::size_t a = 0; a < 3; ++a) mean[a] = all[a].value() / static_cast<double>(count);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t a = 0; a < D; ++a) {
         double const d = one.displacement[D * i + a] - mean[a];

@@ -1,6 +1,6 @@
 // Averages of velocities at the particles and on a grid, and the logarithm of the heat.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 
 #include <fmt/format.h>
@@ -89,7 +89,7 @@ SmoothEntropy smooth_entropy(Ensembles of, Box const& box, EntropyOptions const&
   SmoothColumn const energy = field.column("specific_energy");
   Averages const own = averages(field, field.positions());
   for (std::size_t k = 0; k < 3; ++k) {
-    CompensatedSum sum;
+    ExactSum sum;
     for (std::size_t i = 0; i < field.size(); ++i) {
       double const motion = k == 0 ? own.fluctuation[i] : k == 1 ? 0 : own.square[i];
       sum += per_particle(energy.values[i] + motion / 2, own.density[i]);

@@ -1,5 +1,6 @@
 // Sums over the nodes of a mesh.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 
 #include <fmt/format.h>
@@ -64,11 +65,11 @@ double field_energy(std::span<MeshField const* const> fields) {
   MeshField const &density = named(fields, "density"), &potential = named(fields, "potential");
   MeshGrid const& grid = density.grid;
   auto const x = shares(grid, 0), y = shares(grid, 1), z = shares(grid, 2);
-  double sum = 0;
+  ExactSum sum;
   each_node(grid, [&](std::size_t node, std::size_t i, std::size_t j, std::size_t k) {
     sum += x[i] * y[j] * z[k] * density.components[0][node] * potential.components[0][node];
   });
-  return 0.5 * sum * grid.cell_volume();
+  return 0.5 * sum.value() * grid.cell_volume();
 }
 
 std::complex<double> field_mode(MeshQuantity const& quantity, std::array<int, 3> const& mode) {

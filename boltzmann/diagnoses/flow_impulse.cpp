@@ -1,5 +1,5 @@
 // Sums over vortices and panels.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/flow_impulse.hpp>
 
 namespace boltzmann {
@@ -7,7 +7,7 @@ namespace boltzmann {
 bool is_body(AnyEnsemble const& ensemble) { return ensemble.class_name() == "Panel" && ensemble.find_field("sheet"); }
 
 FlowImpulse flow_impulse(std::span<AnyEnsemble* const> ensembles) {
-  CompensatedSum x, y, circulation;
+  ExactSum x, y, circulation;
   for (auto const* ensemble : ensembles) {
     bool const body = is_body(*ensemble);
     Field const* const strength = ensemble->find_field(body ? "sheet" : "vorticity");

@@ -1,6 +1,6 @@
 // Fluxes of the whole system from row to row.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/green_kubo.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
@@ -31,7 +31,7 @@ std::vector<double> shear_stress(Sample const& sample, int D) {
 }
 
 std::vector<double> charge_current(Sample const& sample, int D) {
-  std::array<CompensatedSum, 3> current;
+  std::array<ExactSum, 3> current;
   for (auto const* ensemble : sample.ensembles) {
     Field const* charge = ensemble->find_field("charge");
     if (charge == nullptr || !has_velocities(*ensemble)) continue;
@@ -49,7 +49,7 @@ std::vector<double> heat_current(Sample const& sample, int D) {
   Triple drift = momentum(sample.ensembles);
   double const mass = total_mass(sample.ensembles);
   for (double& v : drift) v /= mass;
-  std::array<CompensatedSum, 3> current;
+  std::array<ExactSum, 3> current;
   for (std::size_t e = 0; e < sample.ensembles.size(); ++e) {
     AnyEnsemble const& ensemble = *sample.ensembles[e];
     if (!carries_momentum(ensemble)) continue;

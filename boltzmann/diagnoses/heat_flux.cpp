@@ -2,8 +2,8 @@
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
 
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ void HeatFlux::measure(Sample const& sample, std::vector<double>& values) {
   double const difference = temperature_difference(sample.box, axis);
   double const conductive = options_.conductivity * difference / sample.box.length(axis);
 
-  CompensatedSum mass, enthalpy, carried;
+  ExactSum mass, enthalpy, carried;
   for_each_enthalpy(sample.ensembles, axis, [&](double m, double, double h) {
     mass += m;
     enthalpy += m * h;

@@ -1,6 +1,6 @@
-// The sums of section 5.2.3 over particles, compensated.
-#include <boltzmann/core/compensated_sum.hpp>
+// The sums of section 5.2.3 over particles.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
 
@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-using TripleSum = std::array<CompensatedSum, 3>;
+using TripleSum = std::array<ExactSum, 3>;
 
 Triple value_of(TripleSum const& sum) { return {sum[0].value(), sum[1].value(), sum[2].value()}; }
 
@@ -77,7 +77,7 @@ std::size_t number_of_particles(Ensembles of) {
 }
 
 double total_mass(Ensembles of) {
-  CompensatedSum sum;
+  ExactSum sum;
   for_each_mass(of, [&](double mass, double const*, int) { sum += mass; });
   return sum.value();
 }
@@ -121,7 +121,7 @@ Triple angular_momentum(Ensembles of, Triple const& about) {
 }
 
 double kinetic_energy(Ensembles of) {
-  CompensatedSum sum;
+  ExactSum sum;
   for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a) sum += mass * velocity[a] * velocity[a];
   });
@@ -130,7 +130,7 @@ double kinetic_energy(Ensembles of) {
 
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options) {
   std::size_t count = 0;
-  CompensatedSum mass;
+  ExactSum mass;
   TripleSum momentum;
   int axes = 1;
   for (AnyEnsemble const* ensemble : of) axes = ensemble->dimension();
@@ -220,7 +220,7 @@ double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t cons
   Triple const mean = mean_velocity(ensemble, group);
   if (group.empty()) return unknown;
   Velocities const velocities = velocities_of(ensemble);
-  CompensatedSum sum;
+  ExactSum sum;
   for (std::uint32_t const i : group)
     for (int a = 0; a < ensemble.dimension(); ++a) {
       double const difference = velocities[i][a] - mean[a];
@@ -231,14 +231,14 @@ double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t cons
 
 Extremes extremes(std::span<double const> values) {
   if (values.empty()) return {unknown, unknown, unknown};
-  CompensatedSum sum;
+  ExactSum sum;
   double low = values.front(), high = values.front();
   for (double const x : values) {
     if (std::isnan(x)) return {unknown, unknown, unknown};
     low = std::min(low, x);
     high = std::max(high, x);
-    sum += x;
   }
+  sum.add(values);
   return {low, high, sum.value() / static_cast<double>(values.size())};
 }
 

@@ -1,7 +1,7 @@
 // Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
 //
-// Numbers are in the simulation's units, of the state as it stands. Every function is a compensated sum in the order of
-// the particles, so that results do not depend on threads. What a class does not have does not count: an ensemble
+// Numbers are in the simulation's units, of the state as it stands. Every function is an exact sum over the
+// particles (ExactSum), rounded once, so that results do not depend on their order. What a class does not have does not count: an ensemble
 // without mass or velocity (Tracer particles, vortices) adds nothing to mass, momentum, kinetic energy and temperature.
 // Components beyond the dimension are 0.
 #pragma once

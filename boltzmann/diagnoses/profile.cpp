@@ -3,6 +3,7 @@
 #include <boltzmann/diagnoses/unknown.hpp>
 
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 
 #include <fmt/format.h>
 
@@ -21,26 +22,54 @@ int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
 
 // ---- Sums ----
 
-void MomentSums::add(Body const& body, int dimension) {
-  double const m = body.mass;
-  number_ += 1;
-  mass_ += m;
-  std::array<double, 3> before{};
+void MomentSums::add(std::span<Body const> bodies, int dimension) {
+  if (bodies.empty()) return;
+  std::array<ExactSum, 7> sums;  // mass, momentum, energies, inverse temperatures
+  double with_temperature = 0;
+  add_terms(sums, bodies.size(), 1, [&](std::size_t i, std::array<double, 7>& terms) {
+    Body const& body = bodies[i];
+    terms[0] = body.mass;
+    for (int a = 0; a < dimension; ++a) terms[1 + a] = body.mass * body.velocity[a];
+    terms[4] = body.internal_energy;
+    terms[5] = body.potential;
+    if (std::isnan(body.temperature)) return;
+    with_temperature += 1;
+    terms[6] = body.temperature > 0 ? 1 / body.temperature : unknown;
+  });
+  double const mass = sums[0].value(), all = mass_ + mass;
+  std::array<double, 3> mean{}, change{};
   for (int a = 0; a < dimension; ++a) {
-    before[a] = body.velocity[a] - mean_[a];
-    if (mass_ > 0) mean_[a] += before[a] * (m / mass_);
+    mean[a] = mass > 0 ? sums[1 + a].value() / mass : 0;
+    change[a] = mean[a] - mean_[a];
   }
+  std::array<ExactSum, 9> squares;
+  add_terms(squares, bodies.size(), 1, [&](std::size_t i, std::array<double, 9>& terms) {
+    double const* const v = bodies[i].velocity;
+    for (int a = 0; a < dimension; ++a)
+      for (int b = 0; b < dimension; ++b) terms[3 * a + b] = bodies[i].mass * ((v[a] - mean[a]) * (v[b] - mean[b]));
+  });
   for (int a = 0; a < dimension; ++a)
-    for (int b = 0; b < dimension; ++b) squares_[a][b] += m * before[a] * (body.velocity[b] - mean_[b]);
-  internal_ += body.internal_energy;
-  potential_ += body.potential;
-  if (!std::isnan(body.temperature)) {
-    with_temperature_ += 1;
-    inverse_temperature_ += body.temperature > 0 ? 1 / body.temperature : unknown;
+    for (int b = 0; b < dimension; ++b)
+      squares_[a][b] += squares[3 * a + b].value() + (all > 0 ? change[a] * change[b] * (mass_ * (mass / all)) : 0.0);
+  for (int a = 0; a < dimension; ++a) mean_[a] += all > 0 ? change[a] * (mass / all) : 0.0;
+  number_ += static_cast<double>(bodies.size());
+  mass_ = all;
+  internal_ += sums[4].value();
+  potential_ += sums[5].value();
+  with_temperature_ += with_temperature;
+  inverse_temperature_ += sums[6].value();
+  add_virial(bodies);
+}
+
+void MomentSums::add_virial(std::span<Body const> bodies) {
+  if (std::any_of(bodies.begin(), bodies.end(), [](Body const& body) { return body.virial == nullptr; })) {
+    for (auto& row : virial_) row.fill(unknown);
+    return;
   }
-  double const* virial = body.virial;
-  for (auto& row : virial_)
-    for (double& sum : row) sum += virial != nullptr ? *virial++ : unknown;
+  std::array<ExactSum, 9> sums;
+  add_terms(sums, bodies.size(), 1,
+            [&](std::size_t i, std::array<double, 9>& terms) { std::copy_n(bodies[i].virial, 9, terms.begin()); });
+  for (std::size_t k = 0; k < 9; ++k) virial_[k / 3][k % 3] += sums[k].value();
 }
 
 MatterState MomentSums::matter(int dimension, double boltzmann_constant) const {
@@ -56,9 +85,8 @@ MatterState MomentSums::matter(int dimension, double boltzmann_constant) const {
     matter.kinetic_temperature[a] = number_ > 1 ? squares_[a][a] / ((number_ - 1) * boltzmann_constant) : unknown;
     sum += matter.kinetic_temperature[a];
     thermal += 0.5 * squares_[a][a];
-    for (int b = 0; b < dimension; ++b)  // the two ways of writing m v'_a v'_b differ in rounding only
-      matter.pressure[a][b] =
-          number_ > 0 && volume_ > 0 ? (0.5 * (squares_[a][b] + squares_[b][a]) + virial_[a][b]) / volume_ : unknown;
+    for (int b = 0; b < dimension; ++b)
+      matter.pressure[a][b] = number_ > 0 && volume_ > 0 ? (squares_[a][b] + virial_[a][b]) / volume_ : unknown;
   }
   matter.mean_kinetic_temperature = sum / dimension;
   matter.internal_temperature = with_temperature_ > 0 ? with_temperature_ / inverse_temperature_ : unknown;
@@ -170,9 +198,7 @@ MatterState matter_between(MassiveParticles const& bodies, Box const& box, int a
                            double boltzmann_constant) {
   MomentSums sum;
   sum.add_volume(volume_between(box, axis, low, high));
-  bodies.for_each([&](double const* position, MomentSums::Body const& body) {
-    if (position[axis] >= low && position[axis] < high) sum.add(body, box.dimension());
-  });
+  sum.add(bodies.where([&](double const* x) { return x[axis] >= low && x[axis] < high; }), box.dimension());
   return sum.matter(box.dimension(), boltzmann_constant);
 }
 
@@ -192,14 +218,17 @@ ProfileSums::ProfileSums(int dimension, int axis, double low, double high, std::
 }
 
 void ProfileSums::add(MassiveParticles const& bodies, Box const& box) {
+  std::vector<std::vector<MomentSums::Body>> of_bin(sums_.size());
   bodies.for_each([&](double const* position, MomentSums::Body const& body) {
     double const x = position[axis_];
     if (!(x >= low_ && x <= high_)) return;
     auto const bin = static_cast<std::size_t>((x - low_) / width_);  // a particle at the high end is in the last one
-    sums_[std::min(bin, sums_.size() - 1)].add(body, dimension_);
+    of_bin[std::min(bin, sums_.size() - 1)].push_back(body);
   });
-  for (std::size_t b = 0; b < sums_.size(); ++b)
+  for (std::size_t b = 0; b < sums_.size(); ++b) {
+    sums_[b].add(of_bin[b], dimension_);
     sums_[b].add_volume(volume_between(box, axis_, left(b), b + 1 == sums_.size() ? high_ : left(b) + width_));
+  }
 }
 
 Profile ProfileSums::profile(double boltzmann_constant) const {

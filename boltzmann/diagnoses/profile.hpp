@@ -29,7 +29,9 @@ struct MatterState {
   double specific_energy = 0;           ///< per mass: both, and the kinetic energy of v'
 };
 
-/// Sums over particles that become a MatterState: one pass, exact for any mean velocity (Welford's).
+/// Sums over particles that become a MatterState, for any mean velocity. What is added at once is added exactly, in
+/// whatever order it stands (ExactSum); what was added before it joins by its number, mean and squares about the mean
+/// (T. F. Chan, G. H. Golub and R. J. LeVeque, Am. Stat. 37, 242 (1983)).
 class MomentSums {
  public:
   struct Body {
@@ -39,8 +41,8 @@ class MomentSums {
     double temperature;                 ///< NaN: its class has none
     double const* virial;               ///< nine numbers (EnergyAndVirial::virial_per_particle); null: unknown
   };
-  /// One particle, in the simulation's units.
-  void add(Body const& body, int dimension);
+  /// Particles, in the simulation's units.
+  void add(std::span<Body const> bodies, int dimension);
   void add_volume(double volume) { volume_ += volume; }
 
   std::size_t number() const { return static_cast<std::size_t>(number_); }
@@ -54,6 +56,8 @@ class MomentSums {
   void restore(std::span<double const> state);
 
  private:
+  void add_virial(std::span<Body const> bodies);
+
   double number_ = 0, mass_ = 0, volume_ = 0;
   std::array<double, 3> mean_{};
   Tensor3 squares_{}, virial_{};
@@ -78,6 +82,15 @@ class MassiveParticles {
   std::vector<Source> const& sources() const { return sources_; }
   /// Particle i of a source; offsets count doubles from the beginning of its row.
   static MomentSums::Body body(Source const& source, std::size_t i);
+  /// The particles for which holds(position) is true.
+  template <class Where>
+  std::vector<MomentSums::Body> where(Where const& holds) const {
+    std::vector<MomentSums::Body> bodies;
+    for_each([&](double const* position, MomentSums::Body const& body) {
+      if (holds(position)) bodies.push_back(body);
+    });
+    return bodies;
+  }
   /// Calls f(position, body) for every particle.
   template <class Function>
   void for_each(Function const& f) const {

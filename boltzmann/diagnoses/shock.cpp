@@ -147,15 +147,15 @@ std::vector<Column> Shock::columns() const {
 void Shock::begin(Box const& box, MassiveParticles const& bodies, double boltzmann_constant) {
   int const axis = options_.axis;
   check_shock_axis(box, axis);
-  MomentSums sum;
   std::vector<double> position, mass;
   bodies.for_each([&](double const* x, MomentSums::Body const& body) {
-    sum.add(body, dimension_);
     position.push_back(x[axis]);
     mass.push_back(body.mass);
   });
   if (position.size() < 2) throw Error("a shock needs particles to run through; there are none in its ensembles");
   double const width = layer_of(position, mass, box, axis).width;
+  MomentSums sum;
+  sum.add(bodies.where([](double const*) { return true; }), dimension_);
   sum.add_volume(width * cross_section(box, axis));
   MatterState const first = sum.matter(dimension_, boltzmann_constant);
   first_velocity_ = first.velocity[axis];
@@ -242,9 +242,7 @@ void Shock::look(Sample const& sample, MassiveParticles const& bodies, double& f
   auto const add = [&](MomentSums& sum, double from, double to) {
     auto const [a, b] = std::minmax(from, to);
     sum.add_volume((b - a) * cross_section(box, axis));
-    bodies.for_each([&, a = a, b = b](double const* x, MomentSums::Body const& body) {
-      if (x[axis] >= a && x[axis] < b) sum.add(body, dimension_);
-    });
+    sum.add(bodies.where([&, a = a, b = b](double const* x) { return x[axis] >= a && x[axis] < b; }), dimension_);
   };
   add(behind_, front - direction * deep, front - direction * near());
   add(ahead_, front + direction * margin_, far_end - direction * margin_);

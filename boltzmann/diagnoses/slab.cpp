@@ -1,8 +1,8 @@
 // Slabs: chosen by place once, then followed by number.
 #include <boltzmann/diagnoses/slab.hpp>
 
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 
 #include <fmt/format.h>
 
@@ -64,26 +64,26 @@ Layer layer_of(std::span<double const> position, std::span<double const> mass, B
   double reference = 0, turns = 0;
   if (box.periodic(axis)) {
     turns = box.length(axis);
-    double sine = 0, cosine = 0;
+    ExactSum sine, cosine;
     for (double const x : position) {
       double const angle = 2 * std::numbers::pi * (x - box.low(axis)) / turns;
       sine += std::sin(angle);
       cosine += std::cos(angle);
     }
-    reference = box.low(axis) + std::atan2(sine, cosine) / (2 * std::numbers::pi) * turns;
+    reference = box.low(axis) + std::atan2(sine.value(), cosine.value()) / (2 * std::numbers::pi) * turns;
   }
   auto const place = [&](double x) {
     double const away = x - reference;
     return turns > 0 ? away - turns * std::round(away / turns) : away;
   };
-  CompensatedSum moment, weight, sum;
+  ExactSum moment, weight, sum;
   for (std::size_t i = 0; i < position.size(); ++i) {
     moment += mass[i] * place(position[i]);
     weight += mass[i];
     sum += place(position[i]);
   }
   double const mean = sum.value() / static_cast<double>(position.size());
-  CompensatedSum squares;
+  ExactSum squares;
   for (double const x : position) squares += (place(x) - mean) * (place(x) - mean);
   double const centre = reference + moment.value() / weight.value();
   return {turns > 0 ? box.wrapped(centre, axis) : centre,
@@ -130,9 +130,10 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
     throw Error("a slab diagnosis was made for other ensembles than the simulation has");
   // Each by its number in the simulation; what carries no momentum has no members.
   MassiveParticles const bodies(sample.ensembles, nullptr);
+  std::vector<MomentSums::Body> found;
   std::vector<double> position, mass;
   for (auto const& slab : members_) {
-    MomentSums sum;
+    found.clear();
     position.clear();
     mass.clear();
     for (auto const& source : bodies.sources()) {
@@ -142,12 +143,13 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
         if (i >= source.ensemble->size())
           throw Error(fmt::format("a slab has particle {} of '{}', which has {} now", i, source.ensemble->name(),
                                   source.ensemble->size()));
-        auto const body = MassiveParticles::body(source, i);
-        sum.add(body, dimension_);
+        found.push_back(MassiveParticles::body(source, i));
         position.push_back(source.ensemble->row(i)[options_.axis]);
-        mass.push_back(body.mass);
+        mass.push_back(found.back().mass);
       }
     }
+    MomentSums sum;
+    sum.add(found, dimension_);
     Layer const layer = layer_of(position, mass, sample.box, options_.axis);
     sum.add_volume(layer.width * cross_section(sample.box, options_.axis));
     MatterState const matter = sum.matter(dimension_, sample.boltzmann_constant);

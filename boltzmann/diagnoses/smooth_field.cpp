@@ -1,5 +1,6 @@
 // Sums over the particles near a point, their images sorted into cells.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
 
@@ -87,7 +88,7 @@ SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothin
     : box_(box), shape_(smoothing.shape), threads_(threads), ensembles_(of.begin(), of.end()) {
   if (!(smoothing.range >= 0) || std::isinf(smoothing.range))
     throw Error(fmt::format("the range of a smooth field must be above 0, it is {}", smoothing.range));
-  double sum_of_ranges = 0, images = 0;
+  ExactSum sum_of_ranges, expected;
   for (auto const* ensemble : ensembles_) {
     if (ensemble->dimension() != box.dimension())
       throw Error(fmt::format("ensemble '{}' has {} dimensions, the box of its smooth field {}", ensemble->name(),
@@ -95,18 +96,19 @@ SmoothField::SmoothField(Ensembles of, Box const& box, Smoothing const& smoothin
     Ranges const ranges(*ensemble, smoothing.range);
     for (std::size_t i = 0; i < ensemble->size(); ++i) {
       double const range = ranges.of(ensemble->row(i));
-      images += expected_images(*ensemble, i, range, box);
+      expected += expected_images(*ensemble, i, range, box);
       largest_range_ = std::max(largest_range_, range);
       sum_of_ranges += range;
     }
     size_ += ensemble->size();
   }
+  double const images = expected.value();
   if (images > max_images)
     throw Error(
         fmt::format("smooth fields with a range of {} in this box need {:.1e} images of particles; {:.0e} are "
                     "allowed",
                     largest_range_, images, max_images));
-  mean_range_ = size_ > 0 ? sum_of_ranges / static_cast<double>(size_) : 0;
+  mean_range_ = size_ > 0 ? sum_of_ranges.value() / static_cast<double>(size_) : 0;
   sources_.reserve(static_cast<std::size_t>(images) + size_ / 8);
   collect_sources(smoothing.range);
   if (sources_.empty()) return;
@@ -363,15 +365,14 @@ double integral(MeshField const& field, std::size_t component) {
                      (node == 0 || node + 1 == grid.nodes[axis]);
     return end ? 0.5 : 1.0;
   };
-  double sum = 0;
+  ExactSum sum;
   for (std::size_t k = 0; k < grid.nodes[2]; ++k)
     for (std::size_t j = 0; j < grid.nodes[1]; ++j) {
-      double line = 0;
+      double const of_line = share(1, j) * share(2, k);
       for (std::size_t i = 0; i < grid.nodes[0]; ++i)
-        line += share(0, i) * field.components[component][grid.index(i, j, k)];
-      sum += share(1, j) * share(2, k) * line;
+        sum += of_line * share(0, i) * field.components[component][grid.index(i, j, k)];
     }
-  return sum * grid.cell_volume();
+  return sum.value() * grid.cell_volume();
 }
 
 namespace {

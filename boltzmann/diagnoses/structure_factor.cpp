@@ -1,5 +1,6 @@
 // Direct sums over particles, wave vector by wave vector.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/structure_factor.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
@@ -78,16 +79,23 @@ class Phases {
   /// The density's amplitude: the sum over all particles of exp(-i k r).
   std::complex<double> amplitude(std::array<int, 3> const& mode, Shared& shared) const {
     if (shared.x != mode[0] || shared.y != mode[1]) share(mode, shared);
-    double re = 0, im = 0;
+    ExactSum re, im;
     std::complex<double> const* const last = powers_.size() > 2 ? power(2, mode[2]) : nullptr;
     double const sign = mode[2] < 0 ? -1 : 1;
-    for (std::size_t i = 0; i < size_; ++i) {
-      double const a = shared.phases[i].real(), b = shared.phases[i].imag();
-      double const c = last ? last[i].real() : 1, d = last ? sign * last[i].imag() : 0;
-      re += a * c - b * d;
-      im += a * d + b * c;
+    double real[ExactSum::block], imaginary[ExactSum::block];
+    for (std::size_t first = 0; first < size_; first += ExactSum::block) {
+      std::size_t const count = std::min(ExactSum::block, size_ - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        std::size_t const i = first + k;
+        double const a = shared.phases[i].real(), b = shared.phases[i].imag();
+        double const c = last ? last[i].real() : 1, d = last ? sign * last[i].imag() : 0;
+        real[k] = a * c - b * d;
+        imaginary[k] = a * d + b * c;
+      }
+      re.add({real, count});
+      im.add({imaginary, count});
     }
-    return {re, im};
+    return {re.value(), im.value()};
   }
 
  private:

@@ -1,5 +1,6 @@
 // Looks that are remembered, and what comes after them.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
@@ -21,8 +22,9 @@ namespace {
 void subtract_mean(std::vector<double>& values, std::size_t D) {
   auto const count = static_cast<double>(values.size() / D);
   for (std::size_t a = 0; a < D; ++a) {
-    double mean = 0;
-    for (std::size_t k = a; k < values.size(); k += D) mean += values[k] / count;
+    ExactSum sum;
+    for (std::size_t k = a; k < values.size(); k += D) sum += values[k];
+    double const mean = sum.value() / count;
     for (std::size_t k = a; k < values.size(); k += D) values[k] -= mean;
   }
 }
@@ -31,14 +33,14 @@ void subtract_mean(std::vector<double>& values, std::size_t D) {
 template <class OfComponent>
 std::array<double, 2> sums_over(std::span<double const> then, std::span<double const> now, std::size_t D,
                                 OfComponent of) {
-  double sum = 0, squares = 0;
+  ExactSum sum, squares;
   for (std::size_t k = 0; k < now.size(); k += D) {
     double value = 0;
     for (std::size_t a = 0; a < D; ++a) value += of(then[k + a], now[k + a]);
     sum += value;
     squares += value * value;
   }
-  return {sum, squares};
+  return {sum.value(), squares.value()};
 }
 
 }  // namespace

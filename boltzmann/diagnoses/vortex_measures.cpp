@@ -1,5 +1,5 @@
 // Sums over vortices.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
 
@@ -24,7 +24,7 @@ Vector<3> vector_of(double const* numbers) { return {numbers[0], numbers[1], num
 bool has_vorticity(AnyEnsemble const& ensemble) { return ensemble.find_field("vorticity") != nullptr; }
 
 VortexMeasures vortex_measures(Ensembles of) {
-  CompensatedSum circulation[3], impulse[3], angular[3], helicity;
+  ExactSum circulation[3], impulse[3], angular[3], helicity;
   each_vortex(of, [&](int dimension, double const* x, double const* vorticity, double const* velocity) {
     if (dimension == 2) {
       double const gamma = vorticity[0];

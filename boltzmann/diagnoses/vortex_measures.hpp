@@ -1,5 +1,5 @@
 // Vortex measures: what a flow of vortices conserves without viscosity and boundaries, over the density of the fluid.
-// Compensated sums in the order of the particles; ensembles without vorticity add nothing.
+// Exact sums over the particles (ExactSum); ensembles without vorticity add nothing.
 #pragma once
 
 #include <boltzmann/diagnoses/measures.hpp>

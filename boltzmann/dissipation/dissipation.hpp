@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/particles/division.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <array>
@@ -44,6 +45,10 @@ class Dissipation {
   virtual void update_derived_fields() {}
   /// The sum of the internal energies of its ensembles; zero for dissipations without.
   virtual double internal_energy() const { return 0; }
+  /// Why every rank of a team acts on all particles, in a few words; empty if each acts on its share.
+  virtual std::string undivided() const { return "the dissipation " + kind(); }
+  /// From here on shares are acted on (AnyEnsemble::share()); null: all again. For all ranks, as is advance() in between.
+  virtual void divide(Division* division) { division_ = division; }
   /// The energy that has come from outside (from a heat bath) since the start of the run.
   virtual double heat() const { return 0; }
   /// Whether the momentum of its ensembles is kept.
@@ -73,7 +78,12 @@ class Dissipation {
   void number(std::uint32_t number) { number_ = number; }
   std::uint32_t number() const { return number_; }
 
+ protected:
+  /// While a run is divided.
+  Division* division() const { return division_; }
+
  private:
+  Division* division_ = nullptr;
   int threads_ = default_threads();
   std::uint32_t number_ = 0;
 };

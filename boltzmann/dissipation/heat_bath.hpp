@@ -34,6 +34,7 @@ class HeatBath : public Dissipation {
   std::vector<AnyEnsemble*> ensembles() const override { return ensembles_; }
   /// Error where a mass is not positive.
   void check() override;
+  std::string undivided() const override { return ""; }
   double heat() const override { return heat_; }
   std::vector<double> state() const override { return {heat_}; }
   void restore(std::span<double const> state) override;

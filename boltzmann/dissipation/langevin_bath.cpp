@@ -1,4 +1,5 @@
 // The exact step of friction and noise on single particles.
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
@@ -34,32 +35,35 @@ void LangevinBath::advance(StepContext const& context) {
     noise.tag[1] = static_cast<std::uint32_t>(context.step);
     noise.tag[2] = of_single_particles | static_cast<std::uint32_t>(context.step >> 32U);
     noise.each = dimension;
-    std::vector<double> heat(ensemble.size() / grain + 1, 0.0);
-    for_ranges(ensemble.size(), grain, threads_for(ensemble.size(), 2, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 alignas(64) double normals[4 * noise_block];
-                 NoiseTask task = noise;
-                 task.columns = normals;
-                 for (std::size_t first = begin; first < end; first += noise_block) {
-                   task.first = first;
-                   task.count = std::min(noise_block, end - first);
-                   draw(task);
-                   double gained = 0;
-                   for (std::size_t k = 0; k < task.count; ++k) {
-                     double* const row = ensemble.row(first + k);
-                     if (!acts_on(row, dimension)) continue;
-                     double const m = row[mass], spread = std::sqrt(spread2 / m);
-                     for (int a = 0; a < dimension; ++a) {
-                       double& v = row[velocity + a];
-                       double const before = v;
-                       v = keep * v + spread * normals[static_cast<std::size_t>(a) * noise_block + k];
-                       gained += 0.5 * m * (v - before) * (v + before);
-                     }
-                   }
-                   heat[first / grain] += gained;
-                 }
-               });
-    for (double const part : heat) add_heat(part);
+    SharedSum heat;
+    for_share_stretches(ensemble, grain, threads_for(ensemble.size(), 2, threads()),
+                        [&](Stretch const* range, Stretch const* last) {
+                          alignas(64) double normals[4 * noise_block];
+                          ExactSum own_heat;
+                          NoiseTask task = noise;
+                          task.columns = normals;
+                          for (; range != last; ++range)
+                            for (task.first = range->begin; task.first < range->end; task.first += noise_block) {
+                              task.count = std::min<std::size_t>(noise_block, range->end - task.first);
+                              draw(task);
+                              for (std::size_t k = 0; k < task.count; ++k) {
+                                double* const row = ensemble.row(task.first + k);
+                                if (!acts_on(row, dimension)) continue;
+                                double const m = row[mass], spread = std::sqrt(spread2 / m);
+                                double gained = 0;
+                                for (int a = 0; a < dimension; ++a) {
+                                  double& v = row[velocity + a];
+                                  double const before = v;
+                                  v = keep * v + spread * normals[static_cast<std::size_t>(a) * noise_block + k];
+                                  gained += 0.5 * m * (v - before) * (v + before);
+                                }
+                                own_heat += gained;
+                              }
+                            }
+                          heat.add(own_heat);
+                        });
+    if (division()) division()->sum(heat.total());
+    add_heat(heat.value());
   }
 }
 

@@ -36,6 +36,7 @@ struct PairDissipation::Member {
   int inverse_mass_at() const { return dimension(); }
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
   void take_mean_velocities(int threads);
+  void show_images(int first, int count);
   /// Of which particle somebody speaks.
   std::string who(std::size_t row) const;
 };

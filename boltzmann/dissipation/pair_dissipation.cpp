@@ -1,6 +1,6 @@
 // What friction and noise act on: ensembles, their state laws, and the pairs that neighbour lists give.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
 namespace boltzmann {
 namespace {
@@ -220,14 +219,14 @@ bool PairDissipation::take_points() {
     m.points.resize(m.stride() * (total + 1));
     int const threads = threads_for(owned, 2, this->threads());
     StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
-    for_ranges(owned, dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
+    auto const take = [&](Stretch const& rows, bool own) {
+      for (std::size_t k = rows.begin; k < rows.end; ++k) {
         std::uint32_t const i = copy.order()[k];
         double const* row = m.ensemble->row(i);
         double* point = m.point(k);
         for (int a = 0; a < dimension; ++a) {
           point[a] = copy.rows()[row_block * k + a];
-          if (point[a] != row[a] && !(std::abs(point[a] - row[a]) > half[a])) current = false;
+          if (own && point[a] != row[a] && !(std::abs(point[a] - row[a]) > half[a])) current = false;
         }
         std::copy_n(row + m.velocity, dimension, point + m.velocity_at());
         point[m.inverse_mass_at()] = 1 / row[m.mass];
@@ -241,16 +240,24 @@ bool PairDissipation::take_points() {
         heat[0] = inverse;
         heat[1] = curvature;
       }
-    });
+    };
+    auto const take_all = [&](std::vector<Stretch> const& stretches, bool own) {
+      for_stretches(stretches, threads, [&](Stretch const* rows, Stretch const* last) {
+        for (; rows != last; ++rows) take(*rows, own);
+      });
+    };
+    take_all(copy.followed(), true);
+    take_all(copy.others(), false);
     double* sentinel = m.point(owned);
     std::fill_n(sentinel, m.stride(), 1.0);
     std::fill_n(sentinel, dimension, nowhere);
-    for_ranges(total - owned, dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = owned + 1 + begin; k < owned + 1 + end; ++k) {
-        double* point = m.point(k);
-        std::copy_n(m.point(copy.owner(k)), m.stride(), point);
-        std::copy_n(copy.rows() + row_block * k, dimension, point);
-      }
+    for_stretches(copy.images(), threads, [&](Stretch const* images, Stretch const* last) {
+      for (; images != last; ++images)
+        for (std::size_t k = owned + 1 + images->begin; k < owned + 1 + images->end; ++k) {
+          double* point = m.point(k);
+          std::copy_n(m.point(copy.owner(k)), m.stride(), point);
+          std::copy_n(copy.rows() + row_block * k, dimension, point);
+        }
     });
   }
   return current;
@@ -290,6 +297,21 @@ void PairDissipation::Coupling::take_chunk(std::size_t chunk, NeighbourList cons
   for (std::size_t k = begin; k < end; ++k) row[k] = groups.data() + start[k - begin];
 }
 
+void PairDissipation::divide(Division* division) {
+  Dissipation::divide(division);
+  scheme_.neighbourhood().cut_at(dissipation_chunk);
+  for (auto& coupling : couplings_) coupling->builds = ~std::size_t{0};  // of whose rows there are pairs
+}
+
+/// All of them, or those of this rank's share.
+std::vector<std::size_t> PairDissipation::own_chunks(Member const& m) const {
+  std::vector<std::size_t> chunks;
+  for (auto const& [begin, end] : scheme_.neighbourhood().own(*m.copy))
+    for (std::size_t chunk = begin / dissipation_chunk; chunk * dissipation_chunk < end; ++chunk)
+      chunks.push_back(chunk);
+  return chunks;
+}
+
 void PairDissipation::take_lists() {
   Neighbourhood const& neighbourhood = scheme_.neighbourhood();
   for (auto& coupling : couplings_) {
@@ -307,8 +329,7 @@ void PairDissipation::take_lists() {
       c.entries.resize(m.chunks());
       c.row.resize(m.owned());
       for (auto& length : c.length) length.resize(m.owned());
-      chunks.resize(m.chunks());
-      std::iota(chunks.begin(), chunks.end(), std::size_t{0});
+      chunks = own_chunks(m);
     }
     c.builds = neighbourhood.builds();
     c.moves = neighbourhood.moves();
@@ -322,6 +343,7 @@ void PairDissipation::advance(StepContext const& context) {
   if (!(context.dt > 0)) throw Error(fmt::format("friction and noise need a positive step, not {}", context.dt));
   // Runs that are compared with others may have none at all.
   if (std::all_of(couplings_.begin(), couplings_.end(), [](auto const& c) { return c->vanishes(); })) return;
+  if (division()) scheme_.neighbourhood().refresh(threads());  // others have been kicked since
   if (!take_points()) {
     scheme_.neighbourhood().refresh(threads());
     take_points();
@@ -343,7 +365,7 @@ void PairDissipation::update_derived_fields() {
 }
 
 double PairDissipation::internal_energy() const {
-  CompensatedSum sum;
+  ExactSum sum;
   for (auto const& member : members_)
     if (member->law)
       for (std::size_t i = 0; i < member->ensemble->size(); ++i) sum += member->ensemble->row(i)[member->energy];

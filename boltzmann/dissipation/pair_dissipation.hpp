@@ -12,6 +12,8 @@
 
 namespace boltzmann {
 
+class ExactSum;
+
 /// How the dissipation of all pairs together is made of that of one.
 enum class DissipationMethod {
   simultaneous,  ///< all pairs act at once on the velocities of the step's end; each particle then gets back as heat what
@@ -58,6 +60,10 @@ class PairDissipation final : public Dissipation {
   void update_derived_fields() override;
   double internal_energy() const override;
   double heat() const override { return heat_; }
+  std::string undivided() const override {
+    return method_ == DissipationMethod::shardlow ? "pairs that are taken one by one (shardlow)" : "";
+  }
+  void divide(Division* division) override;
   bool keeps_momentum() const override { return true; }
   std::vector<std::string> warnings(double step_size) override;
   std::string report() const override;
@@ -77,8 +83,10 @@ class PairDissipation final : public Dissipation {
   template <class Function>
   void each_chunk(StepContext const& context, double asymmetry, Function const& function);
   bool take_points();
+  void bring_mean_velocities(Member& member);
+  std::vector<std::size_t> own_chunks(Member const& member) const;
   void take_lists();
-  void finish_chunk(Member& member, std::size_t chunk, double const* sums, double& by_bath);
+  void finish_chunk(Member& member, std::size_t chunk, double const* sums, ExactSum& by_bath);
   void simultaneous(StepContext const& context);
   void shardlow(StepContext const& context);
 

@@ -1,5 +1,6 @@
-// Kinetic energies of baths, added up in one order whatever the threads, and the scaling of velocities.
+// Kinetic energies of baths, and the scaling of velocities.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/rescaling_bath.hpp>
 
@@ -11,19 +12,13 @@ namespace {
 
 constexpr std::size_t rescaling_grain = 2048;
 
-/// The sum of so many numbers over the particles of an ensemble, by grains in their order; add(row, sums) adds those of
-/// one.
-template <std::size_t Numbers, class Add>
-std::array<double, Numbers> sum_over(AnyEnsemble const& ensemble, int threads, Add const& add) {
-  std::vector<std::array<double, Numbers>> parts(ensemble.size() / rescaling_grain + 1, std::array<double, Numbers>{});
-  for_ranges(ensemble.size(), rescaling_grain, threads_for(ensemble.size(), 1, threads),
-             [&](std::size_t begin, std::size_t end) {
-               for (std::size_t i = begin; i < end; ++i) add(ensemble.row(i), parts[i / rescaling_grain]);
-             });
-  std::array<double, Numbers> total{};
-  for (auto const& part : parts)
-    for (std::size_t k = 0; k < Numbers; ++k) total[k] += part[k];
-  return total;
+/// Terms of all particles of this rank.
+template <std::size_t K, class Function>
+void add_terms_of(std::array<ExactSum, K>& sums, AnyEnsemble const& ensemble, int threads, Function const& f) {
+  if (!ensemble.share()) return add_terms(sums, ensemble.size(), threads, f);
+  for (auto const& [begin, end] : ensemble.share()->stretches)
+    add_terms(sums, end - begin, 1,
+              [&, first = begin](std::size_t i, std::array<double, K>& terms) { f(first + i, terms); });
 }
 
 }  // namespace
@@ -54,33 +49,37 @@ RescalingBath::Motion RescalingBath::motion() const {
   Motion all;
   bool const relative = std::find(kept_.begin(), kept_.end(), true) != kept_.end();
   if (relative) {
-    std::array<double, 4> total{};  // momentum, mass
+    std::array<ExactSum, 4> total;  // momentum, mass
     for (auto const* ensemble : ensembles()) {
       int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-      auto const part = sum_over<4>(*ensemble, threads(), [&](double const* row, std::array<double, 4>& sums) {
-        for (int a = 0; a < ensemble->dimension(); ++a) sums[a] += row[mass] * row[velocity + a];
-        sums[3] += row[mass];
+      add_terms_of(total, *ensemble, threads(), [&](std::size_t i, std::array<double, 4>& terms) {
+        double const* const row = ensemble->row(i);
+        for (int a = 0; a < ensemble->dimension(); ++a) terms[a] = row[mass] * row[velocity + a];
+        terms[3] = row[mass];
       });
-      for (std::size_t k = 0; k < 4; ++k) total[k] += part[k];
     }
+    if (division()) division()->sum(total);
     for (std::size_t a = 0; a < 3; ++a)
-      if (kept_[a]) all.common[a] = total[a] / total[3];
+      if (kept_[a]) all.common[a] = total[a].value() / total[3].value();
   }
+  std::array<ExactSum, 2> sums;  // kinetic energy, particles
   for (auto const* ensemble : ensembles()) {
     int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-    auto const part = sum_over<2>(*ensemble, threads(), [&](double const* row, std::array<double, 2>& sums) {
+    add_terms_of(sums, *ensemble, threads(), [&](std::size_t i, std::array<double, 2>& terms) {
+      double const* const row = ensemble->row(i);
       if (!acts_on(row, ensemble->dimension())) return;
       double square = 0;
       for (int a = 0; a < ensemble->dimension(); ++a) {
         double const v = row[velocity + a] - all.common[a];
         square += v * v;
       }
-      sums[0] += 0.5 * row[mass] * square;
-      sums[1] += 1;
+      terms[0] = 0.5 * row[mass] * square;
+      terms[1] = 1;
     });
-    all.kinetic += part[0];
-    all.particles += part[1];
   }
+  if (division()) division()->sum(sums);
+  all.kinetic = sums[0].value();
+  all.particles = sums[1].value();
   return all;
 }
 
@@ -106,17 +105,17 @@ void RescalingBath::advance(StepContext const& context) {
   double const scale = factor(now.kinetic, freedom, kT, context);
   for (auto* ensemble : ensembles()) {
     int const velocity = ensemble->field("velocity").offset, dimension = ensemble->dimension();
-    for_ranges(ensemble->size(), rescaling_grain, threads_for(ensemble->size(), 1, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   double* row = ensemble->row(i);
-                   if (!acts_on(row, dimension)) continue;
-                   for (int a = 0; a < dimension; ++a) {
-                     double& v = row[velocity + a];
-                     v = now.common[a] + scale * (v - now.common[a]);
-                   }
-                 }
-               });
+    for_share(*ensemble, rescaling_grain, threads_for(ensemble->size(), 1, threads()),
+              [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                  double* row = ensemble->row(i);
+                  if (!acts_on(row, dimension)) continue;
+                  for (int a = 0; a < dimension; ++a) {
+                    double& v = row[velocity + a];
+                    v = now.common[a] + scale * (v - now.common[a]);
+                  }
+                }
+              });
   }
   add_heat((scale * scale - 1) * now.kinetic);
 }

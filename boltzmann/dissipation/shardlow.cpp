@@ -1,6 +1,7 @@
 // Shardlow's splitting: one pair after the other, each by an implicit step that keeps its momentum and its energy
 // (Shardlow).
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
@@ -73,7 +74,7 @@ class PairSteps {
   PairSteps(PairNoise const& noise, TypedFriction const* typed, bool metropolis, StepContext const& context)
       : noise_(noise), typed_(typed), metropolis_(metropolis), context_(context) {}
 
-  double heat = 0;
+  ExactSum heat;
   std::uint64_t proposed = 0, refused = 0;
 
   /// Pair k of the block of columns. False if an internal energy would not be positive.
@@ -249,7 +250,7 @@ void PairDissipation::Splitting::run_in(Edge& edge, Part const& part, PairNoise 
                                    second.who(pair.second)));
     }
   }
-  edge.heat += steps.heat;
+  edge.heat->add(steps.heat);
   edge.proposed += steps.proposed;
   edge.refused += steps.refused;
 }
@@ -293,17 +294,19 @@ void PairDissipation::shardlow(StepContext const& context) {
     for_ranges(colour.size(), 1, threads_for(particles, 4, threads()), [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) {
         Splitting::Edge& edge = splitting.edges[colour[e]];
-        edge.heat = 0;
+        edge.heat.emplace();
         edge.proposed = edge.refused = 0;
         for (auto const& part : edge.parts)
           splitting.run(edge, part, part.coupling->noise(context, boltzmann_constant_, number()), metropolis_, context);
       }
     });
+  ExactSum heat;
   for (auto const& edge : splitting.edges) {
-    heat_ += edge.heat;
+    if (edge.heat) heat.add(*edge.heat);
     proposed_ += edge.proposed;
     refused_ += edge.refused;
   }
+  heat_ += heat.value();
   for_dissipating([](Member& m, std::size_t k) {
     double* row = m.ensemble->row(m.copy->order()[k]);
     std::copy_n(m.point(k) + m.velocity_at(), m.dimension(), row + m.velocity);

@@ -1,5 +1,6 @@
 // The simultaneous dissipation: all pairs at once, then every particle gets back as heat what its motion has lost.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
 
@@ -31,9 +32,11 @@ void PairDissipation::each_chunk(StepContext const& context, double asymmetry, F
       task.noise = c.noise(context, boltzmann_constant_, number());
       tasks.emplace_back(task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected));
     }
-    for_ranges(m.chunks(), 1, threads_for(m.owned(), 4, threads()), [&](std::size_t first, std::size_t last) {
+    auto const chunks = own_chunks(m);
+    for_ranges(chunks.size(), 1, threads_for(m.owned(), 4, threads()), [&](std::size_t first, std::size_t last) {
       AlignedVector<double> sums;
-      for (std::size_t chunk = first; chunk < last; ++chunk) {
+      for (std::size_t n = first; n < last; ++n) {
+        std::size_t const chunk = chunks[n];
         std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
         sums.assign(4 * (end - begin + 1), 0.0);
         for (auto [task, kernels] : tasks) {
@@ -66,35 +69,54 @@ void PairDissipation::simultaneous(StepContext const& context) {
       std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
     });
     for (auto& member : members_)
-      if (member->dissipates) member->take_mean_velocities(threads_for(member->owned(), 2, threads()));
+      if (member->dissipates) {
+        member->take_mean_velocities(threads_for(member->owned(), 2, threads()));
+        if (division()) bring_mean_velocities(*member);
+        member->show_images(member->velocity_at(), member->dimension());
+      }
   }
-  std::vector<std::vector<double>> paid;  // by the bath, for each chunk
-  for (auto const& member : members_) paid.emplace_back(member->dissipates ? member->chunks() : 0, 0.0);
+  SharedSum paid;  // by the bath
   each_chunk(context, corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
-    std::size_t number = 0;
-    while (members_[number].get() != &m) ++number;
-    finish_chunk(m, chunk, sums, paid[number][chunk]);
+    ExactSum by_bath;
+    finish_chunk(m, chunk, sums, by_bath);
+    paid.add(by_bath);
   });
-  for (auto const& of_member : paid)
-    for (double const heat : of_member) heat_ += heat;
+  if (division()) division()->sum(paid.total());
+  heat_ += paid.value();
+}
+
+/// Those of other ranks' particles, which they have found.
+void PairDissipation::bring_mean_velocities(Member& m) {
+  division()->team().meet(Team::Occasion::exchanges);
+  auto const velocity = [&](std::uint32_t row) { return m.point(row) + m.velocity_at(); };
+  int const D = m.dimension();
+  scheme_.neighbourhood().bring(
+      *m.copy, static_cast<std::size_t>(D), [&](std::uint32_t row, double* to) { std::copy_n(velocity(row), D, to); },
+      [&](std::uint32_t row, double const* from) { std::copy_n(from, D, velocity(row)); });
 }
 
 /// The points' velocities become the means of now and of the last try.
 void PairDissipation::Member::take_mean_velocities(int threads) {
   int const at = velocity_at();
-  for_ranges(owned(), dissipation_chunk, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      double const* row = ensemble->row(copy->order()[k]);
-      for (int a = 0; a < dimension(); ++a)
-        point(k)[at + a] = row[velocity + a] + 0.5 * predicted[4 * k + a] * point(k)[inverse_mass_at()];
-    }
+  for_stretches(copy->followed(), threads, [&](Stretch const* rows, Stretch const* last) {
+    for (; rows != last; ++rows)
+      for (std::size_t k = rows->begin; k < rows->end; ++k) {
+        double const* row = ensemble->row(copy->order()[k]);
+        for (int a = 0; a < dimension(); ++a)
+          point(k)[at + a] = row[velocity + a] + 0.5 * predicted[4 * k + a] * point(k)[inverse_mass_at()];
+      }
   });
-  for (std::size_t k = owned() + 1; k <= copy->total(); ++k)
-    std::copy_n(point(copy->owner(k)) + at, dimension(), point(k) + at);
+}
+
+/// So many numbers of points go to their images.
+void PairDissipation::Member::show_images(int first, int count) {
+  for (auto const& [begin, end] : copy->images())
+    for (std::size_t k = owned() + 1 + begin; k < owned() + 1 + end; ++k)
+      std::copy_n(point(copy->owner(k)) + first, count, point(k) + first);
 }
 
 /// Gives momenta and energies to the particles of a chunk; what no internal energy pays for the bath does.
-void PairDissipation::finish_chunk(Member& m, std::size_t chunk, double const* sums, double& by_bath) {
+void PairDissipation::finish_chunk(Member& m, std::size_t chunk, double const* sums, ExactSum& by_bath) {
   bool const has_energy = m.has_energy();
   int const dimension = m.dimension();
   std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());

@@ -1,8 +1,10 @@
 // Which pairs follow which in Shardlow's splitting. Private to this room.
 #pragma once
 
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/dissipation/members.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace boltzmann {
@@ -18,7 +20,7 @@ struct PairDissipation::Splitting {
   struct Edge {
     std::size_t from, to;
     std::vector<Part> parts;
-    double heat = 0;  // that a bath has given, and moves proposed and refused, in the last step
+    std::optional<ExactSum> heat = {};  // that a bath has given, and moves proposed and refused, in the last step
     std::uint64_t proposed = 0, refused = 0;
   };
 

@@ -1,6 +1,6 @@
 // State laws: heat capacities, integrated.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/invariant_law.hpp>
 #include <boltzmann/laws/state_law.hpp>
@@ -101,7 +101,7 @@ void StateLaw::check_and_integrate() {
           fmt::format("state law: temperatures must ascend, but {} follows {}", temperature_[i], temperature_[i - 1]));
   }
 
-  CompensatedSum energy, entropy;
+  ExactSum energy, entropy;
   energy += capacity_[0] * temperature_[0];
   energy_ = {energy.value()};
   entropy_ = {0};

@@ -1,6 +1,6 @@
 // A disc as a heap of uniform ones, whose gravity is known.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/loaders/disc_load.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
@@ -52,7 +52,7 @@ std::array<Vector<3>, 2> plane_across(Vector<3> normal) {
 
 void set_mean_of(AnyEnsemble& ensemble, int offset, std::array<double, 3> const& mean) {
   for (int a = 0; a < ensemble.dimension(); ++a) {
-    CompensatedSum sum;
+    ExactSum sum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) sum += ensemble.row(i)[offset + a];
     double const shift = mean[static_cast<std::size_t>(a)] - sum.value() / static_cast<double>(ensemble.size());
     for (std::size_t i = 0; i < ensemble.size(); ++i) ensemble.row(i)[offset + a] += shift;

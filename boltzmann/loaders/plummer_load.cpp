@@ -1,6 +1,6 @@
 // Drawing a cluster, star by star, each from its own stream.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
 
@@ -41,7 +41,7 @@ double part_of_escape(Stream& stream) {
 /// Moves a vector field of all particles so that its mean is this.
 void set_mean(AnyEnsemble& ensemble, int offset, std::array<double, 3> const& mean) {
   for (int a = 0; a < 3; ++a) {
-    CompensatedSum sum;
+    ExactSum sum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) sum += ensemble.row(i)[offset + a];
     double const shift = mean[a] - sum.value() / static_cast<double>(ensemble.size());
     for (std::size_t i = 0; i < ensemble.size(); ++i) ensemble.row(i)[offset + a] += shift;

@@ -1,6 +1,6 @@
 // Drawing positions and velocities, particle by particle, each from its own stream.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
 #include <boltzmann/loaders/placing.hpp>
 #include <boltzmann/loaders/quiet_start.hpp>
@@ -154,22 +154,24 @@ void maxwellian_load(AnyEnsemble& ensemble, MaxwellianOptions const& options) {
   }
 
   if (options.remove_drift && size > 0) {
-    CompensatedSum total;
-    std::array<CompensatedSum, 3> momentum;
+    ExactSum total;
+    std::array<ExactSum, 3> momentum;
     for (std::size_t i = 0; i < size; ++i) {
       double const* row = ensemble.row(i);
       total += row[mass.offset];
       for (int a = 0; a < dimension; ++a) momentum[a] += row[mass.offset] * row[velocity + a];
     }
-    for (std::size_t i = 0; i < size; ++i)
-      for (int a = 0; a < dimension; ++a) ensemble.row(i)[velocity + a] -= momentum[a].value() / total.value();
+    for (int a = 0; a < dimension; ++a) {
+      double const drift = momentum[a].value() / total.value();
+      for (std::size_t i = 0; i < size; ++i) ensemble.row(i)[velocity + a] -= drift;
+    }
   }
 
   if (options.exact_temperature && size > 0 && temperature > 0) {
     if (options.remove_drift && size == 1)
       throw Error(
           fmt::format("Maxwellian load: one particle without drift ('{}') can't have a temperature", ensemble.name()));
-    CompensatedSum twice_kinetic;
+    ExactSum twice_kinetic;
     for (std::size_t i = 0; i < size; ++i) {
       double const* row = ensemble.row(i);
       for (int a = 0; a < dimension; ++a) twice_kinetic += row[mass.offset] * row[velocity + a] * row[velocity + a];

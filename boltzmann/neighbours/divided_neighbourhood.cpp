@@ -94,8 +94,12 @@ void Neighbourhood::share_out() {
   auto const ranks = static_cast<std::size_t>(division_->team().size());
   for (auto const& copy : copies_) {
     Division::Owners owners(copy.owned());
+    auto const cut = [&](std::size_t r) {
+      std::size_t const even = copy.owned() * r / ranks;
+      return r == ranks ? copy.owned() : (even + cut_at_ / 2) / cut_at_ * cut_at_;
+    };
     for (std::size_t r = 0; r < ranks; ++r)
-      for (std::size_t k = copy.owned() * r / ranks; k < copy.owned() * (r + 1) / ranks; ++k)
+      for (std::size_t k = cut(r); k < std::min(cut(r + 1), copy.owned()); ++k)
         owners[copy.order()[k]] = static_cast<std::uint16_t>(r);
     division_->owners(copy.ensemble(), std::move(owners));
   }
@@ -170,20 +174,16 @@ void Neighbourhood::find_needed(int threads) {
 }
 
 void Neighbourhood::bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last) {
-  std::size_t const width = row_block * (last - first);
-  auto const row = [&](std::size_t e, std::uint32_t i, auto const& of_block) {
-    for (std::size_t b = first; b < last; ++b)
-      of_block(copy.block(b) + row_block * row_of_[e][i], row_block * (b - first));
+  auto const each = [&](std::uint32_t row, auto const& of_block) {
+    for (std::size_t b = first; b < last; ++b) of_block(copy.block(b) + row_block * row, row_block * (b - first));
   };
-  exchange_.bring(
-      *division_, [&](std::size_t e) { return &copies_[e] == &copy ? width : 0; },
-      [&](std::size_t e, std::uint32_t i, double* to) {
-        if (&copies_[e] == &copy)
-          row(e, i, [&](double const* block, std::size_t at) { std::copy_n(block, row_block, to + at); });
+  bring(
+      copy, row_block * (last - first),
+      [&](std::uint32_t row, double* to) {
+        each(row, [&](double const* block, std::size_t at) { std::copy_n(block, row_block, to + at); });
       },
-      [&](std::size_t e, std::uint32_t i, double const* from) {
-        if (&copies_[e] == &copy)
-          row(e, i, [&](double* block, std::size_t at) { std::copy_n(from + at, row_block, block); });
+      [&](std::uint32_t row, double const* from) {
+        each(row, [&](double* block, std::size_t at) { std::copy_n(from + at, row_block, block); });
       });
 }
 

@@ -78,8 +78,23 @@ class Neighbourhood {
       for (; part != last; ++part) function(part->begin, part->end);
     });
   }
-  /// Blocks [first, last) of a copy's rows come from their owners to those who read them. For all ranks.
+  /// So many numbers of a copy's rows come from their owners to those who read them: give(row, to) writes them there,
+  /// take(row, from) gets them here. For all ranks.
+  template <class Give, class Take>
+  void bring(SortedCopy const& copy, std::size_t count, Give const& give, Take const& take) {
+    exchange_.bring(
+        *division_, [&](std::size_t e) { return &copies_[e] == &copy ? count : 0; },
+        [&](std::size_t e, std::uint32_t i, double* to) {
+          if (&copies_[e] == &copy) give(row_of_[e][i], to);
+        },
+        [&](std::size_t e, std::uint32_t i, double const* from) {
+          if (&copies_[e] == &copy) take(row_of_[e][i], from);
+        });
+  }
+  /// The same of blocks [first, last).
   void bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last);
+  /// Shares begin at multiples of so many rows.
+  void cut_at(std::size_t rows) { cut_at_ = std::max(cut_at_, rows); }
 
   /// Mirrors take the ensembles' rows of now. Afterwards every pair within the cut-off is in its list, no further than
   /// ring(). PhysicsFailure if a position is not finite.
@@ -146,6 +161,7 @@ class Neighbourhood {
   std::size_t builds_ = 0, moves_ = 0;
   Division* division_ = nullptr;  // while a run is divided
   std::uint64_t last_division_ = 0;
+  std::size_t cut_at_ = 1;
   AlsoRead also_read_;
   RowExchange exchange_;
   bool complete_ = true;  // every row has its lists

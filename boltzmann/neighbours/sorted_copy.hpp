@@ -66,6 +66,11 @@ class SortedCopy {
   void only(std::vector<Stretch> const& own, std::vector<Stretch> const& others, std::vector<char> const& read);
   /// And all of them again.
   void everything();
+  /// What is brought up to date: owned rows of which refresh() speaks, others, and images, each `sentinel() + 1` behind
+  /// these numbers.
+  std::vector<Stretch> const& followed() const { return pieces_; }
+  std::vector<Stretch> const& others() const { return others_; }
+  std::vector<Stretch> const& images() const { return images_of_; }
   /// The images of blocks [first_block, last_block) from their owned rows, for walls as they were at the last refresh.
   void refresh_images(std::size_t first_block, std::size_t last_block, int threads);
   /// True if the ensemble's positions, and the walls' places, are still those of the last refresh.

@@ -88,7 +88,7 @@ void Division::follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& foll
 
 void Division::begin() {
   for (std::size_t e = 0; e < parts_.size(); ++e) ensembles_[e]->share(&parts_[e].share);
-  goes_on_ = true;
+  goes_on_ = whole_ = true;
 }
 
 void Division::end() {
@@ -143,6 +143,21 @@ std::size_t Division::sum(std::size_t mine) {
   std::array<std::int64_t, 1> number{static_cast<std::int64_t>(mine)};
   team_.sum(number);
   return static_cast<std::size_t>(number[0]);
+}
+
+void Division::sum(std::span<ExactSum> mine) {
+  team_.meet(Team::Occasion::gathers);
+  std::vector<std::int64_t> digits;
+  for (auto& one : mine) {
+    auto const own = one.digits();
+    digits.insert(digits.end(), own.begin(), own.end());
+  }
+  team_.sum(digits);
+  auto at = digits.begin();
+  for (auto& one : mine) {
+    std::copy_n(at, ExactSum::words, one.digits().begin());
+    at += ExactSum::words;
+  }
 }
 
 void RowExchange::plan(Division& division, std::vector<Needed> needed) {

@@ -1,6 +1,7 @@
 // Division: how the particles of a run are divided over the ranks of a team.
 #pragma once
 
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/share.hpp>
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -41,7 +43,8 @@ class Division {
   void follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& followers);
   Owners const& owners(AnyEnsemble const& ensemble) const { return part(ensemble).owners; }
 
-  /// From here on ensembles know their shares; and none any more, until it begins again.
+  /// From here on, where all rows are known everywhere, ensembles know their shares; and none any more, until it begins
+  /// again.
   void begin();
   void end();
   bool goes_on() const { return goes_on_; }
@@ -63,6 +66,9 @@ class Division {
   void gather(AnyEnsemble const& ensemble, double* numbers, std::size_t stride, std::size_t count);
   /// The sum over all ranks.
   std::size_t sum(std::size_t mine);
+  /// They become those of all ranks. What a rank has failed of until then, all throw.
+  void sum(std::span<ExactSum> mine);
+  void sum(ExactSum& mine) { sum({&mine, 1}); }
 
  private:
   struct Part {

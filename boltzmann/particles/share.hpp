@@ -43,11 +43,20 @@ void for_stretches(std::vector<Stretch> const& stretches, int threads, Function 
              [&](std::size_t begin, std::size_t end) { function(stretches.data() + begin, stretches.data() + end); });
 }
 
-/// for_ranges() over the particles of an ensemble that this rank advances.
+/// The same over the particles of an ensemble that this rank advances; ranges of `grain` particles if it advances all.
+template <class AnyEnsemble, class Function>
+void for_share_stretches(AnyEnsemble const& ensemble, std::size_t grain, int threads, Function const& function) {
+  if (ensemble.share()) return for_stretches(ensemble.share()->stretches, threads, function);
+  for_ranges(ensemble.size(), grain, threads, [&](std::size_t begin, std::size_t end) {
+    Stretch const range{begin, end};
+    function(&range, &range + 1);
+  });
+}
+
+/// The same, with function(begin, end) for each stretch.
 template <class AnyEnsemble, class Function>
 void for_share(AnyEnsemble const& ensemble, std::size_t grain, int threads, Function const& function) {
-  if (!ensemble.share()) return for_ranges(ensemble.size(), grain, threads, function);
-  for_stretches(ensemble.share()->stretches, threads, [&](Stretch const* first, Stretch const* last) {
+  for_share_stretches(ensemble, grain, threads, [&](Stretch const* first, Stretch const* last) {
     for (; first != last; ++first) function(first->begin, first->end);
   });
 }

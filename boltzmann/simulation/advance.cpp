@@ -76,7 +76,10 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     advance(time(), dt);
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
   if (!dissipations.empty()) calculate(time() + dt, step_ + (dt > 0 ? 1 : -1));
-  for (auto* dissipation : dissipations) dissipation->advance(context);
+  for (auto* dissipation : dissipations) {
+    dissipation->advance(context);
+    if (division_) division_->moved();
+  }
   if (division_ && division_->goes_on())
     check_moves_together();
   else
@@ -112,7 +115,8 @@ void Simulation::advance(double start, double dt) {
 /// Puts back what has left the box during a step.
 void Simulation::keep_in_box(Part& part) {
   try {
-    work_ += part.home->box().apply(*part.ensemble, part.home->threads());
+    Division* const division = division_ && division_->goes_on() ? division_.get() : nullptr;
+    work_ += part.home->box().apply(*part.ensemble, part.home->threads(), division);
   } catch (PhysicsFailure const& failure) {
     throw PhysicsFailure(failure.what() + advice());
   }

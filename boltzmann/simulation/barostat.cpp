@@ -1,5 +1,6 @@
 // One move of the box: what it is drawn from, and whether it is accepted.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
@@ -64,16 +65,18 @@ struct Barostat::Look {
     auto const common = common_velocity(system);
     double virial = 0;
     for (int const a : axes) virial += measures.virial[a][a];
+    ExactSum kinetic_energy;
     for (auto const* ensemble : system.ensembles) {
       int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
       for (std::size_t i = 0; i < ensemble->size(); ++i) {
         double const* row = ensemble->row(i);
         for (int const a : axes) {
           double const v = row[velocity + a] - common[a];
-          kinetic += 0.5 * row[mass] * v * v;
+          kinetic_energy += 0.5 * row[mass] * v * v;
         }
       }
     }
+    kinetic = kinetic_energy.value();
     pressure = (2 * kinetic + virial) / (static_cast<double>(axes.size()) * volume);
   }
 };

@@ -1,4 +1,5 @@
 // Totals at both ends of a run, and the table that compares them.
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 
@@ -20,14 +21,17 @@ std::array<double, 3> difference(std::array<double, 3> const& a, std::array<doub
 void add_scales(AnyEnsemble const& ensemble, Conserved& total) {
   int const D = ensemble.dimension(), mass = ensemble.field("mass").offset,
             velocity = ensemble.field("velocity").offset;
+  ExactSum momenta, angular_momenta;
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     double const* row = ensemble.row(i);
     std::array<double, 3> r{}, v{};
     for (int a = 0; a < D; ++a) r[a] = row[a], v[a] = row[velocity + a];
-    total.momentum_scale += row[mass] * magnitude(v);
-    total.angular_momentum_scale +=
+    momenta += row[mass] * magnitude(v);
+    angular_momenta +=
         row[mass] * magnitude({r[1] * v[2] - r[2] * v[1], r[2] * v[0] - r[0] * v[2], r[0] * v[1] - r[1] * v[0]});
   }
+  total.momentum_scale += momenta.value();
+  total.angular_momentum_scale += angular_momenta.value();
 }
 
 std::string with_unit(std::string const& quantity, std::string const& unit) {

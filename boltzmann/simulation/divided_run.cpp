@@ -24,7 +24,8 @@ LargestMove over_all_ranks(Team& team, LargestMove const& mine) {
 }  // namespace
 
 std::string Simulation::undivided() const {
-  if (!dissipations_.empty()) return "friction and noise";
+  for (auto const* dissipation : dissipations_)
+    if (auto why = dissipation->undivided(); !why.empty()) return why;
   if (!barostats_.empty()) return "a barostat";
   if (!changes_.empty()) return "adaptations of the particles";
   if (!events_.empty()) return "events";
@@ -32,7 +33,6 @@ std::string Simulation::undivided() const {
   if (!gauss_radau_.parts().empty()) return "gauss-radau";
   if (schemes_.size() > 1) return "several schemes";
   for (auto const* scheme : schemes_) {
-    if (scheme->box().walls_move()) return "walls that move";
     if (auto why = scheme->undivided(); !why.empty()) return why;
   }
   std::size_t particles = 0;
@@ -57,6 +57,7 @@ bool Simulation::divide() {
     });
   }
   division_->begin();
+  for (auto* dissipation : dissipations_) dissipation->divide(division_.get());
   for (auto* scheme : schemes_) scheme->divide(division_.get());
   return true;
 }
@@ -64,6 +65,7 @@ bool Simulation::divide() {
 /// Everything is everybody's again, as far as it is known here.
 void Simulation::end_division() {
   if (!division_ || !division_->goes_on()) return;
+  for (auto* dissipation : dissipations_) dissipation->divide(nullptr);
   for (auto* scheme : schemes_) scheme->divide(nullptr);
   division_->end();
 }

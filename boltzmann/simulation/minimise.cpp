@@ -1,6 +1,6 @@
 // Who is moved, what is kept meanwhile, and when it is enough.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/simulation/descent.hpp>
 #include <boltzmann/simulation/minimise.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -155,7 +155,7 @@ void Simulation::minimise_first(MinimiseOptions const& options) {
 /// Those that forces move, and their mean mass.
 std::pair<std::vector<Descending>, double> Simulation::descending(MinimiseOptions const& options) const {
   std::vector<Descending> parts;
-  CompensatedSum mass;
+  ExactSum mass;
   double count = 0;
   double const mean = mean_distance(schemes_.front()->box(), ensembles_);
   for (auto* ensemble : ensembles_) {

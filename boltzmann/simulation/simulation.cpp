@@ -1,4 +1,5 @@
 // What takes part in a simulation, its loop, and its state.
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/run_votes.hpp>
@@ -21,13 +22,13 @@ std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
   std::array<double, 3> drift{};
   int const mass = ensemble.field("mass").offset, velocity = ensemble.field("velocity").offset;
   for (int a = 0; a < ensemble.dimension(); ++a) {
-    double total = 0, momentum = 0;
+    ExactSum total, momentum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* row = ensemble.row(i);
       total += row[mass];
       momentum += row[mass] * row[velocity + a];
     }
-    if (total > 0) drift[a] = momentum / total;
+    if (total.value() > 0) drift[a] = momentum.value() / total.value();
     for (std::size_t i = 0; i < ensemble.size(); ++i) ensemble.row(i)[velocity + a] -= drift[a];
   }
   return drift;

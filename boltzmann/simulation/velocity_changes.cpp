@@ -1,5 +1,6 @@
-// Sums over the chosen particles, in their order.
+// Sums over the chosen particles.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/simulation/velocity_changes.hpp>
 
 #include <fmt/format.h>
@@ -40,24 +41,26 @@ void scale_to_temperature(std::vector<ChosenParticles> const& of, double tempera
   if (!(temperature >= 0) || !std::isfinite(temperature))
     throw Error(fmt::format("velocities are scaled to a temperature of zero or more, not {}", temperature));
   std::array<double, 3> common{};
-  double total = 0, particles = 0, twice_kinetic = 0;
+  std::array<ExactSum, 3> momentum;
+  ExactSum total, twice_kinetic;
+  double particles = 0;
   int dimension = 1;
   each_velocity(of, [&](double const* v, double mass, int D) {
     if (!(mass > 0)) throw Error("velocities are scaled to a temperature where all masses are positive");
-    for (int a = 0; a < D; ++a) common[a] += mass * v[a];
+    for (int a = 0; a < D; ++a) momentum[a] += mass * v[a];
     total += mass;
     particles += 1;
     dimension = D;
   });
   if (particles == 0) return;
-  for (double& v : common) v = particles > 1 ? v / total : 0;
+  for (std::size_t a = 0; a < 3; ++a) common[a] = particles > 1 ? momentum[a].value() / total.value() : 0;
   each_velocity(of, [&](double const* v, double mass, int D) {
     for (int a = 0; a < D; ++a) twice_kinetic += mass * (v[a] - common[a]) * (v[a] - common[a]);
   });
   double const wanted = dimension * (particles > 1 ? particles - 1 : 1) * boltzmann_constant * temperature;
-  if (!(twice_kinetic > 0) && wanted > 0)
+  if (!(twice_kinetic.value() > 0) && wanted > 0)
     throw Error("velocities can't be scaled to a temperature: nobody moves against the others");
-  double const factor = wanted > 0 ? std::sqrt(wanted / twice_kinetic) : 0;
+  double const factor = wanted > 0 ? std::sqrt(wanted / twice_kinetic.value()) : 0;
   each_velocity(of, [&](double* v, double, int D) {
     for (int a = 0; a < D; ++a) v[a] = common[a] + factor * (v[a] - common[a]);
   });

@@ -1,6 +1,6 @@
 // The curl at every vortex, and what becomes of its vorticity.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/vortices/vortex_flow.hpp>
 #include <boltzmann/simulation/vortex_relaxation.hpp>
@@ -62,7 +62,7 @@ std::vector<double> VortexRelaxation::slopes() {
 void VortexRelaxation::change() {
   std::vector<double> const flow = slopes();
   double const f = relaxing_.fraction;
-  CompensatedSum turned, all;
+  ExactSum turned, all;
   std::size_t at = 0;
   for (auto const& source : sources_) {
     AnyEnsemble& ensemble = *source.ensemble;

@@ -248,5 +248,29 @@ TEST(Measures, SumsKeepWhatPlainSumsLose) {
   EXPECT_EQ(momentum(p)[0], INFINITY);
 }
 
+TEST(Measures, DoNotDependOnTheOrderOfParticles) {
+  Box const box(Vector{0.0, 0.0, 0.0}, Vector{10.0, 11.0, 12.0}, Boundary::periodic);
+  Ensemble<Newton<3>> p("p", 5000), shuffled("p", 5000);
+  random_load(p, box, {.seed = test_seed(3)});
+  for (std::size_t i = 0; i < p.size(); ++i) p[i].mass = 1 / (1.0 + static_cast<double>(i));
+  maxwellian_load(p, {.temperature = 1, .drift = {0.1, 7, -3}, .seed = test_seed(4)});
+  for (std::size_t i = 0; i < p.size(); ++i) shuffled[i] = p[(i * 1789 + 333) % p.size()];
+  EXPECT_EQ(total_mass(p), total_mass(shuffled));
+  EXPECT_EQ(centre_of_mass(p), centre_of_mass(shuffled));
+  EXPECT_EQ(momentum(p), momentum(shuffled));
+  EXPECT_EQ(angular_momentum(p), angular_momentum(shuffled));
+  EXPECT_EQ(kinetic_energy(p), kinetic_energy(shuffled));
+  EXPECT_EQ(kinetic_stress(p), kinetic_stress(shuffled));
+  EXPECT_EQ(mean_velocity(p, all_particles(p)), mean_velocity(shuffled, all_particles(shuffled)));
+  EXPECT_EQ(velocity_spread(p, all_particles(p)), velocity_spread(shuffled, all_particles(shuffled)));
+  Temperature const one = temperature(p, 1, {.subtract_drift = true}),
+                    other = temperature(shuffled, 1, {.subtract_drift = true});
+  EXPECT_EQ(one.component, other.component);
+  __float128 twice = 0;
+  for (auto const& q : p)
+    for (int a = 0; a < 3; ++a) twice += q.mass * q.velocity[a] * q.velocity[a];  // each rounded to a double
+  EXPECT_EQ(kinetic_energy(p), static_cast<double>(twice) / 2);
+}
+
 }  // namespace
 }  // namespace boltzmann::measures_test

@@ -202,13 +202,26 @@ TEST(Profile, SumsSurviveACheckpoint) {
   Four const four;
   MomentSums sum, other;
   MassiveParticles const bodies(four.all, &four.measures);
-  bodies.for_each([&](double const*, MomentSums::Body const& body) { sum.add(body, 2); });
+  sum.add(bodies.where([](double const*) { return true; }), 2);
   sum.add_volume(3);
   ASSERT_EQ(sum.state().size(), MomentSums::state_size);
   other.restore(sum.state());
   EXPECT_EQ(other.state(), sum.state());
   EXPECT_EQ(other.matter(2, 1).pressure, sum.matter(2, 1).pressure);
   EXPECT_EQ(other.matter(2, 1).internal_temperature, sum.matter(2, 1).internal_temperature);
+}
+
+TEST(Profile, DoesNotDependOnTheOrderOfParticles) {
+  Box const box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::reflecting);
+  Ensemble<Newton<2>> gas("gas", 3000), shuffled("gas", 3000);
+  random_load(gas, box, {.seed = test_seed(1)});
+  maxwellian_load(gas, {.temperature = 1, .drift = {3, 0}, .seed = test_seed(2)});
+  for (std::size_t i = 0; i < gas.size(); ++i) shuffled[i] = gas[(i * 1789 + 333) % gas.size()];
+  AnyEnsemble const *const one[] = {&gas}, *const other[] = {&shuffled};
+  Profile const first = profile(MassiveParticles(one, nullptr), box, 0, 0, 10, 7, 1),
+                second = profile(MassiveParticles(other, nullptr), box, 0, 0, 10, 7, 1);
+  for (auto const* quantity : {"density", "velocity.x", "kinetic-temperature", "kinetic-temperature.y"})
+    EXPECT_EQ(first.values(quantity), second.values(quantity)) << quantity;
 }
 
 TEST(Profile, AsAPicture) {

@@ -1,7 +1,7 @@
 // What tests of gases made of smooth particles share: lattices at rest, and what is conserved.
 #pragma once
 
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
@@ -31,7 +31,7 @@ void fill(Ensemble<Smooth<D>>& gas, Vector<D> const& low, double spacing,
 
 template <int D>
 double kinetic_energy(Ensemble<Smooth<D>> const& gas) {
-  CompensatedSum sum;
+  ExactSum sum;
   for (auto const& p : gas) sum += 0.5 * p.mass * norm2(p.velocity);
   return sum.value();
 }

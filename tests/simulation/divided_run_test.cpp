@@ -157,7 +157,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"rod", {}, 20}, Shipped{"pendulums", {}, 20}, Shipped{"cylinder", {}, 20},
                     Shipped{"sod", {}, 10}, Shipped{"dam-break", {}, 6}, Shipped{"sedov", {}, 6},
                     Shipped{"gresho", {}, 6}, Shipped{"free-expansion", {}, 10}, Shipped{"penetration", {}, 6},
-                    Shipped{"copper-cascade", {}, 10}, Shipped{"copper-10000", {}, 10}),
+                    Shipped{"taylor-green", {}, 6}, Shipped{"convection", {}, 6}, Shipped{"pvdf-shock", {}, 4},
+                    Shipped{"hugoniot", {}, 4}, Shipped{"cavitation", {}, 4}, Shipped{"star", {}, 4},
+                    Shipped{"dpd-fluid", {}, 10}, Shipped{"dpde-equilibrium", {}, 10}, Shipped{"nematic-discs", {}, 10},
+                    Shipped{"copper-3d", {}, 10}, Shipped{"silicon", {}, 10}, Shipped{"lattice-density", {}, 4},
+                    Shipped{"free-expansion-1d", {}, 6}, Shipped{"copper-10000", {}, 10}),
     [](auto const& info) {
       std::string name = info.param.name;
       std::replace(name.begin(), name.end(), '-', '_');

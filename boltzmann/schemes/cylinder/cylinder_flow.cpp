@@ -1,6 +1,6 @@
 // The circle theorem.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
@@ -80,7 +80,7 @@ void CylinderFlow::find_images() {
     images_[at] = options_.centre[0] + x, images_[at + 1] = options_.centre[1] + y;
     images_[at + 2] = circulation, images_[at + 3] = core;
   };
-  CompensatedSum circulations;
+  ExactSum circulations;
   for (auto const& [ensemble, kind] : carried_) {
     for (std::size_t i = 0; kind.vorticity >= 0 && i < ensemble->size(); ++i) {
       double const* const row = ensemble->row(i);

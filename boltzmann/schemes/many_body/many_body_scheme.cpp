@@ -1,6 +1,6 @@
 // Two passes over one list of all atoms, and what stands between them.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/many_body/many_body_scheme.hpp>
 
 #include <fmt/format.h>
@@ -193,10 +193,12 @@ EnergyAndVirial ManyBodyScheme::measure(double) {
     division_->gather(*points_, energies.data(), 1, 1);
     division_->gather(*points_, virials.data(), 9, 9);
   }
-  CompensatedSum total;
-  for (double const energy : energies) total += energy;
+  ExactSum total;
+  total.add(energies);
   measures.potential = total.value();
-  for (std::size_t k = 0; k < virials.size(); ++k) measures.virial[k % 9 / 3][k % 3] += virials[k];
+  std::array<ExactSum, 9> total_virial;
+  add_columns(total_virial, virials, threads());
+  for (std::size_t k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] = total_virial[k].value();
   std::size_t first = 0;
   for (auto const& loaded : loaded_) {
     auto const from = [&](std::vector<double> const& all, std::size_t each) {

@@ -1,6 +1,6 @@
 // Ewald sums in one, two and three dimensions, written plainly from the textbook.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/schemes/mesh/ewald.hpp>
 
@@ -188,12 +188,12 @@ EwaldSums<D> ewald_sums(std::span<Vector<D> const> positions, std::span<double c
   add_near(total, positions, strengths, edges, alpha);
   add_far(total, positions, strengths, edges, alpha);
 
-  CompensatedSum all;
+  ExactSum all;
   for (double const s : strengths) all += s;
   double const background = -all.value() / (4 * alpha * alpha * volume);
 
   EwaldSums<D> result{0, std::move(total.field), std::move(total.potential)};
-  CompensatedSum energy;
+  ExactSum energy;
   for (std::size_t i = 0; i < n; ++i) {
     result.potential[i] = constant * (result.potential[i] + background);
     result.force[i] *= constant * strengths[i];

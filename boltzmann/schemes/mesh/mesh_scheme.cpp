@@ -1,5 +1,6 @@
 // What a mesh scheme is told, what it refuses, and how it looks to a simulation.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
@@ -206,10 +207,10 @@ std::vector<double> MeshScheme::strengths(AnyEnsemble const& ensemble) const {
 void MeshScheme::check_neutral() const {
   if (background_ || !closed()) return;
   double const total = total_strength();
-  double all = 0;
+  ExactSum all;
   for (auto const& loaded : loaded_)
     for (double const s : loaded->strengths) all += std::abs(s);
-  if (std::abs(total) <= 1e-9 * all) return;
+  if (std::abs(total) <= 1e-9 * all.value()) return;
   bool const walls = !box().periodic(0) || (box().dimension() > 1 && !box().periodic(1)) ||
                      (box().dimension() > 2 && !box().periodic(2));
   throw Error(
@@ -225,10 +226,9 @@ bool MeshScheme::closed() const {
 }
 
 double MeshScheme::total_strength() const {
-  double total = 0;
-  for (auto const& loaded : loaded_)
-    for (double const s : loaded->strengths) total += s;
-  return total;
+  ExactSum total;
+  for (auto const& loaded : loaded_) total.add(loaded->strengths);
+  return total.value();
 }
 
 std::vector<AnyEnsemble*> const& MeshScheme::ensembles() const {
@@ -307,22 +307,24 @@ EnergyAndVirial MeshScheme::measure(double time) {
     for (std::size_t k = 0; k < pairs_.ensembles().size() && k < measures.per_particle.size(); ++k)
       if (pairs_.ensembles()[k] == all[e]) energies[e] = measures.per_particle[k];
   }
+  ExactSum potential;
   for (auto const& loaded : loaded_) {
     std::size_t const size = loaded->ensemble->size();
     std::vector<double> energy(size);
     gather(work, *loaded, true, energy.data(), true);
     auto& own = energies[static_cast<std::size_t>(std::find(all.begin(), all.end(), loaded->ensemble) - all.begin())];
     for (std::size_t i = 0; i < size; ++i) {
-      double const e = 0.5 * energy[i];
-      own[i] += e;
-      measures.potential += e;
+      energy[i] *= 0.5;
+      own[i] += energy[i];
     }
+    potential.add(energy);
   }
+  measures.potential += potential.value();
   if (background_ && !closed()) {
-    double sum = 0;
+    ExactSum sum;
     for (std::size_t node = 0; node < work.grid.size(); ++node)
       sum += work.inside[node] * work.potential.components[0][node];
-    measures.potential -= 0.5 * work.total_strength / box().volume() * sum * work.grid.cell_volume();
+    measures.potential -= 0.5 * work.total_strength / box().volume() * sum.value() * work.grid.cell_volume();
   }
   measures.per_particle = std::move(energies);
   measures.virial_per_particle.clear();  // the mesh's is nobody's
@@ -343,16 +345,17 @@ void MeshScheme::add_virial(MeshField const&, MeshField const&, MeshField const&
       measures.no_virial =
           fmt::format("axis {} is not periodic: the field of a mesh goes on behind its ends", "xyz"[a]);
   if (!measures.no_virial.empty()) return;
+  std::array<ExactSum, 9> sums;
+  add_terms(sums, field.grid.size(), threads(), [&](std::size_t i, std::array<double, 9>& terms) {
+    double e2 = 0;
+    for (int c = 0; c < D; ++c) e2 += square(field.components[c][i]);
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b)
+        terms[3 * a + b] = (a == b ? 0.5 * e2 : 0.0) - field.components[a][i] * field.components[b][i];
+  });
   for (int a = 0; a < D; ++a)
-    for (int b = 0; b < D; ++b) {
-      double sum = 0;
-      for (std::size_t i = 0; i < field.grid.size(); ++i) {
-        double e2 = 0;
-        for (int c = 0; c < D; ++c) e2 += square(field.components[c][i]);
-        sum += (a == b ? 0.5 * e2 : 0.0) - field.components[a][i] * field.components[b][i];
-      }
-      measures.virial[a][b] += sum * field.grid.cell_volume() / law_.constant;
-    }
+    for (int b = 0; b < D; ++b)
+      measures.virial[a][b] += sums[3 * a + b].value() * field.grid.cell_volume() / law_.constant;
 }
 
 std::vector<Rotation> MeshScheme::rotations(AnyEnsemble const& ensemble, bool taken) {

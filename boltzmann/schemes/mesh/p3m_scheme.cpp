@@ -1,6 +1,6 @@
 // A mesh with the optimal influence function, a pair scheme over copies of the particles, and the choice of both.
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/fourier.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/laws/ewald_short.hpp>
@@ -57,7 +57,7 @@ P3mSystem P3MScheme::system() const {
   system.dimension = box().dimension();
   for (int a = 0; a < system.dimension; ++a) system.edges[a] = box().length(a);
   system.constant = near_law_.constant;
-  CompensatedSum squares, strengths;
+  ExactSum squares, strengths;
   for (auto const* ensemble : Scheme::ensembles())
     for (double const s : this->strengths(*ensemble)) {
       if (s != 0) ++system.particles;
@@ -108,7 +108,7 @@ void P3MScheme::tune() {
   copy_particles();
   near_->scheme.calculate();
   MeshField const& field = *MeshScheme::mesh_fields().back();
-  CompensatedSum squares;
+  ExactSum squares;
   std::vector<double> E;
   std::size_t at = 0;
   for (auto* ensemble : Scheme::ensembles()) {
@@ -198,7 +198,7 @@ void P3MScheme::add_virial(MeshField const& density, MeshField const& potential,
   };
   double const scale = grid.cell_volume() / (4 * static_cast<double>(nodes));
   double const of_width = 1 / (4 * square(parameters_.alpha));
-  std::array<std::array<CompensatedSum, 3>, 3> sums;
+  std::array<std::array<ExactSum, 3>, 3> sums;
   for (std::size_t l = 0; l < n[2]; ++l)
     for (std::size_t j = 0; j < n[1]; ++j)
       for (std::size_t i = 0; i < n[0]; ++i) {

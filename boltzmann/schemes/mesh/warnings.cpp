@@ -1,5 +1,6 @@
 // What a plasma run should know before it starts: Debye length, plasma frequency, particles per cell, steps per cell
 // (Birdsall and Langdon, Plasma Physics via Computer Simulation, sections 4.2, 8.13, 13.3).
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
 #include <fmt/format.h>
@@ -22,17 +23,22 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, SourceKind const& kin
   SpeciesOnMesh result;
   auto const count = static_cast<double>(ensemble.size());
   int const D = ensemble.dimension();
-  std::array<double, 3> sum{0, 0, 0}, sum2{0, 0, 0};
+  std::array<ExactSum, 3> sum, sum2;
+  ExactSum frequency2;
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     double const* v = ensemble.row(i) + kind.velocity;
-    result.plasma_frequency2 += constant * strengths[i] * strengths[i] / ensemble.row(i)[kind.mass] / volume;
+    frequency2 += constant * strengths[i] * strengths[i] / ensemble.row(i)[kind.mass] / volume;
     for (int a = 0; a < D; ++a) {
       sum[a] += v[a];
       sum2[a] += v[a] * v[a];
       result.crossing = std::max(result.crossing, std::abs(v[a] * step_size) / grid.spacing[a]);
     }
   }
-  for (int a = 0; a < D; ++a) result.thermal2 += std::max(0.0, sum2[a] - sum[a] * sum[a] / count) / (count * D);
+  result.plasma_frequency2 = frequency2.value();
+  for (int a = 0; a < D; ++a) {
+    double const total = sum[a].value();
+    result.thermal2 += std::max(0.0, sum2[a].value() - total * total / count) / (count * D);
+  }
   result.particles = count * grid.cell_volume() / volume;
   return result;
 }

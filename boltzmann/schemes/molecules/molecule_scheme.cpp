@@ -2,6 +2,7 @@
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/formulas/machine_code.hpp>
 #include <boltzmann/laws/angular_program.hpp>
@@ -156,6 +157,8 @@ EnergyAndVirial MoleculeScheme::measure(double) {
     measures.per_particle.emplace_back(ensemble->size());
     measures.virial_per_particle.emplace_back(9 * ensemble->size());
   }
+  ExactSum potential;
+  std::array<ExactSum, 9> virials;
   for (auto const& group : groups_) {
     TupleTask task = group->task(box());
     std::vector<double> energy(group->count()), virial(9 * group->count());
@@ -165,25 +168,24 @@ EnergyAndVirial MoleculeScheme::measure(double) {
                [&](std::size_t begin, std::size_t end) { group->kernels.measure(group->law.get(), task, begin, end); });
     auto const e = static_cast<std::size_t>(std::find(all.begin(), all.end(), group->ensemble) - all.begin());
     double const share = 1 / static_cast<double>(group->each);
-    for (std::size_t t = 0; t < group->count(); ++t) {
-      measures.potential += energy[t];
-      for (std::size_t k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] += virial[9 * t + k];
+    potential.add(energy);
+    add_columns(virials, virial, threads());
+    for (std::size_t t = 0; t < group->count(); ++t)
       for (std::size_t m = 0; m < group->each; ++m) {
         std::size_t const i = group->members[t * group->each + m];
         measures.per_particle[e][i] += share * energy[t];
         for (std::size_t k = 0; k < 9; ++k) measures.virial_per_particle[e][9 * i + k] += share * virial[9 * t + k];
       }
-    }
   }
   for (auto const& bonds : rigid_) {
     auto const e = static_cast<std::size_t>(std::find(all.begin(), all.end(), &bonds->ensemble()) - all.begin());
     std::vector<double> virial(9 * bonds->ensemble().size());
     bonds->add_virial(virial);
-    for (std::size_t k = 0; k < virial.size(); ++k) {
-      measures.virial_per_particle[e][k] += virial[k];
-      measures.virial[k % 9 / 3][k % 3] += virial[k];
-    }
+    add_columns(virials, virial, threads());
+    for (std::size_t k = 0; k < virial.size(); ++k) measures.virial_per_particle[e][k] += virial[k];
   }
+  measures.potential = potential.value();
+  for (std::size_t k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] = virials[k].value();
   return measures;
 }
 

@@ -2,6 +2,7 @@
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 
 #include <fmt/format.h>
@@ -183,7 +184,9 @@ double RigidBonds::correct_velocities(int threads) {
                       "with its rigid bonds",
                       bonds_[begin][0], ensemble_.name()));
   });
-  return std::accumulate(added.begin(), added.end(), 0.0);
+  ExactSum work;
+  work.add(added);
+  return work.value();
 }
 
 void RigidBonds::settle(int threads) {

@@ -1,5 +1,5 @@
 // Charges and masses: strengths, fields, energies and the virial.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
 
 namespace boltzmann {
@@ -25,8 +25,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
     std::size_t total = 0, at = 0;
     for (auto const& one : loaded) total += one.ensemble->size();
     strengths_.resize(total);
-    CompensatedSum sum, all;
-    double squares = 0;
+    ExactSum sum, all, squares;
     for (auto const& one : loaded) {
       std::size_t const count = one.ensemble->size();
       one.kind.strengths(one.ensemble->row(0), one.ensemble->stride(), 0, count, strengths_.data() + at);
@@ -45,7 +44,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
     // In a crystal all that a particle feels may cancel: a hundredth of what a neighbour does.
     least_field_ = 0;
     if (this->any_periodic())
-      least_field_ = 1e-2 * this->constant() * std::sqrt(squares / static_cast<double>(this->count())) *
+      least_field_ = 1e-2 * this->constant() * std::sqrt(squares.value() / static_cast<double>(this->count())) *
                      std::pow(this->spacing(), 1 - D);
   }
 
@@ -78,8 +77,8 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
 
   EnergyAndVirial measure(std::vector<LoadedSources> const& loaded) const override {
     EnergyAndVirial measures = EnergyAndVirial::known();
-    CompensatedSum potential;
-    std::array<std::array<CompensatedSum, 3>, 3> virial;
+    ExactSum potential;
+    std::array<std::array<ExactSum, 3>, 3> virial;
     std::size_t at = 0;
     bool reaction = true;
     for (auto const& one : loaded) {

@@ -1,5 +1,5 @@
 // Who is compared, and for how many each stands.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/schemes/multipole/error_samples.hpp>
 
@@ -33,7 +33,7 @@ double ErrorSamples::typical(std::vector<Square> squares) {
   std::stable_sort(squares.begin(), squares.end(), [](auto const& a, auto const& b) { return a.value < b.value; });
   double all = 0, kept = 0;
   for (auto const& one : squares) all += one.weight;
-  CompensatedSum sum;
+  ExactSum sum;
   for (auto const& one : squares) {
     double const weight = std::min(one.weight, 0.98 * all - kept);
     if (!(weight > 0)) break;
@@ -91,7 +91,7 @@ double ErrorSamples::error() {
   find_exact(samples);
   double worst = 0;
   for (int part = 0; part < engine_.parts(); ++part) {
-    CompensatedSum errors, all;
+    ExactSum errors, all;
     std::vector<Square> felt;
     for (auto const& [particle, weight] : samples) {
       auto const squares =

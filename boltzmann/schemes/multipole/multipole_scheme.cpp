@@ -1,6 +1,5 @@
 // From ensembles to points and back, and how an accuracy is kept.
 #include <boltzmann/core/clock.hpp>
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/schemes/multipole/error_samples.hpp>

@@ -2,7 +2,7 @@
 // room.
 #pragma once
 
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
 
@@ -23,7 +23,7 @@ class UniformBackground {
     for (int a = 0; a < D; ++a) volume *= lattice.edges[a];
     of_square_ = D == 3 ? 2 * pi / (3 * volume) : pi / (2 * volume);
     origin_ = origin;
-    CompensatedSum strength, second, first[D];
+    ExactSum strength, second, first[D];
     for (auto const& p : particles) {
       double const q = amount(p);
       strength += q;

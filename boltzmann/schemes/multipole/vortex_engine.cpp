@@ -1,5 +1,5 @@
 // Vortices: their vorticity and cores, the velocity of the flow, and what it does to vorticity.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
 
 namespace boltzmann {
@@ -41,8 +41,7 @@ class VortexEngine final : public EngineOf<Kind> {
                                              i, one.ensemble->name()));
                          });
     add_images();
-    CompensatedSum sums[Kind::densities], all;
-    double squares = 0, cores = 0;
+    ExactSum sums[Kind::densities], all, squares, cores;
     for (auto const& p : points_) {
       for (int k = 0; k < Kind::densities; ++k) sums[k] += p.vorticity[k];
       all += magnitude(p.vorticity);
@@ -51,8 +50,9 @@ class VortexEngine final : public EngineOf<Kind> {
     for (auto const& sum : sums)
       if (this->periodic() && !(background && D == 2) && std::abs(sum.value()) > 1e-9 * all.value())
         refuse_sum(sum.value(), D == 2 ? use_background : "close the vortex lines");
-    double const count = static_cast<double>(std::max<std::size_t>(1, this->count())), rms = std::sqrt(squares / count);
-    double const core = std::sqrt(cores / count);
+    double const count = static_cast<double>(std::max<std::size_t>(1, this->count())),
+                 rms = std::sqrt(squares.value() / count);
+    double const core = std::sqrt(cores.value() / count);
     // In a row of vortices all that one feels may cancel, and a ring is hardly stretched: a hundredth of what a
     // neighbour does.
     least_field_ = this->any_periodic() ? 1e-2 * this->constant() * rms * std::pow(this->spacing(), 1 - D) : 0;

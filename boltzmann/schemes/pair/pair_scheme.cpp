@@ -3,6 +3,7 @@
 
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/laws/pair_numbers.hpp>
 #include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/pair/closing_speed.hpp>
@@ -583,12 +584,16 @@ EnergyAndVirial PairScheme::measure(double time) {
     });
   }
   if (division_) gather_measures(measures, field);
+  std::array<ExactSum, 9> virials;
+  std::array<ExactSum, 2> energies;
   for (std::size_t e = 0; e < all.size(); ++e) {
-    for (double const u : measures.per_particle[e]) measures.potential += u;
-    for (double const u : field[e]) measures.external += u;
-    for (std::size_t i = 0; i < all[e]->size(); ++i)
-      for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] += virial[e][9 * i + k];
+    add_columns(virials, virial[e], threads());
+    energies[0].add(measures.per_particle[e]);
+    energies[1].add(field[e]);
   }
+  measures.potential = energies[0].value();
+  measures.external = energies[1].value();
+  for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] = virials[k].value();
   return measures;
 }
 

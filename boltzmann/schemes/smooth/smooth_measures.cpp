@@ -1,5 +1,5 @@
 // What a SmoothScheme says of its particles: energies, steps that make sense, and what is wrong.
-#include <boltzmann/core/compensated_sum.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/smooth/loaded.hpp>
 
 #include <fmt/format.h>
@@ -35,26 +35,29 @@ Tensor<3> SmoothScheme::stress() {
   SortedCopy const& copy = hood_->copy(*points_);
   int const D = box().dimension();
   std::size_t const matter = copy.blocks() + 1;
-  std::array<std::array<CompensatedSum, 3>, 3> sums;
+  std::array<ExactSum, 9> sums;
   for (auto const& loaded : loaded_) {
     if (!loaded->kernels.needs_gradients) continue;
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset;
-    for (std::size_t k = 0; k < copy.owned(); ++k) {
-      std::size_t const i = copy.order()[k] - loaded->first;
-      if (copy.order()[k] < loaded->first || i >= ensemble.size()) continue;
-      double const* p = ensemble.row(i);
-      double const by_density2 = loaded->task.factor ? loaded->task.factor[k] : 1;
-      std::size_t number = 1;  // behind the shear switch
-      for (int a = 0; a < D; ++a)
-        for (int b = a; b < D; ++b, ++number) {
-          double const flux = copy.block(matter + number / row_block)[row_block * k + number % row_block];
-          sums[a][b] += p[mass] * p[density] * flux / by_density2;
-        }
-    }
+    hood_->over_own(copy, copy.owned(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        std::size_t const i = copy.order()[k] - loaded->first;
+        if (copy.order()[k] < loaded->first || i >= ensemble.size()) continue;
+        double const* p = ensemble.row(i);
+        double const by_density2 = loaded->task.factor ? loaded->task.factor[k] : 1;
+        std::size_t number = 1;  // behind the shear switch
+        for (int a = 0; a < D; ++a)
+          for (int b = a; b < D; ++b, ++number) {
+            double const flux = copy.block(matter + number / row_block)[row_block * k + number % row_block];
+            sums[static_cast<std::size_t>(3 * a + b)] += p[mass] * p[density] * flux / by_density2;
+          }
+      }
+    });
   }
+  if (division_) division_->sum(sums);
   for (int a = 0; a < D; ++a)
-    for (int b = a; b < D; ++b) total[a][b] = total[b][a] = sums[a][b].value();
+    for (int b = a; b < D; ++b) total[a][b] = total[b][a] = sums[static_cast<std::size_t>(3 * a + b)].value();
   return total;
 }
 
@@ -79,7 +82,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     AnyEnsemble const& ensemble = *all[e];
     auto const mass = ensemble.field("mass").offset, energy = ensemble.field("specific_energy").offset;
     measures.per_particle[e].resize(ensemble.size());
-    CompensatedSum sum;
+    ExactSum sum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* p = ensemble.row(i);
       sum += measures.per_particle[e][i] = p[mass] * p[energy];
@@ -87,7 +90,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     measures.internal += sum.value();
   }
   // The mean over space of the pressure of the states, and of the stress.
-  CompensatedSum work;
+  ExactSum work;
   for (auto const& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const mass = ensemble.field("mass").offset, density = ensemble.field("density").offset,
@@ -114,8 +117,8 @@ EnergyAndVirial SmoothScheme::measure(double time) {
     ExternalTask task = outside->task(time);
     task.energy = energy.data();
     outside->kernels.measure(outside->law.get(), task, 0, energy.size());
-    CompensatedSum sum;
-    for (double const u : energy) sum += u;
+    ExactSum sum;
+    sum.add(energy);
     measures.external += sum.value();
   }
   return measures;
@@ -187,12 +190,12 @@ std::vector<std::string> SmoothScheme::warnings(double step_size) {
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const mass = ensemble.field("mass").offset, range = ensemble.field("range").offset,
                density = ensemble.field("density").offset;
-    double own = 0;
+    ExactSum sum;
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* p = ensemble.row(i);
-      own += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
+      sum += loaded->task.self * p[mass] / (std::pow(p[range], box().dimension()) * p[density]);
     }
-    own /= static_cast<double>(ensemble.size());
+    double const own = sum.value() / static_cast<double>(ensemble.size());
     if (own > alone)
       lines.push_back(
           fmt::format("warning: the particles of '{}' hardly have neighbours, {:.0f} % of their density is their own; "

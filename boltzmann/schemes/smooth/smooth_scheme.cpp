@@ -211,7 +211,7 @@ void SmoothScheme::take_places() {
       };
       int const used = threads_for(ensemble.size(), 1, threads());
       if (division_ && !division_->is_whole())
-        for_stretches(ensemble.share()->stretches, used, places);
+        for_share_stretches(ensemble, particle_grain, used, places);
       else
         for_ranges(ensemble.size(), particle_grain, used, [&](std::size_t begin, std::size_t end) {
           Stretch const range{begin, end};
@@ -438,11 +438,6 @@ void SmoothScheme::add_influences(double time) {
 }
 
 void SmoothScheme::complete(double) { find(Until::state); }
-
-std::string SmoothScheme::undivided() const {
-  bool const gradients = hood_ && hood_->copy(*points_).extra_blocks() > 1;
-  return gradients ? "smooth particles with viscosity, heat conduction or strength" : "";
-}
 
 void SmoothScheme::divide(Division* division) {
   if (division) {

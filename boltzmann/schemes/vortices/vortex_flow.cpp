@@ -1,7 +1,7 @@
 // Elements in rows of one class, and the sums over them.
 #include <boltzmann/boundaries/flow_images.hpp>
-#include <boltzmann/core/compensated_sum.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 #include <boltzmann/schemes/vortices/flow_kernels.hpp>
@@ -150,7 +150,7 @@ FlowMeasures VortexFlow::measure() const {
   auto const found =
       sums(kernels_of_flow(dimension_).sums[static_cast<int>(law_.core)], law_, all, all, width, threads_);
   int const vorticity = all.field("vorticity").offset;
-  CompensatedSum energy, enstrophy, misfit, curls;
+  ExactSum energy, enstrophy, misfit, curls;
   for (std::size_t i = 0; i < size_; ++i) {
     double const *const own = all.row(i) + vorticity, *const sum = found.data() + i * width;
     double size2 = 0;

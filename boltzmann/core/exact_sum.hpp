@@ -1,0 +1,112 @@
+// ExactSum: the sum of doubles without any rounding error but one, in whatever order and however they are shared out.
+#pragma once
+
+#include <boltzmann/core/threads.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+
+namespace boltzmann {
+
+/// Adds numbers exactly; value() is their sum, rounded once to the nearest double (ties to even). So it has the same
+/// bits for any order of the terms, and for terms that were shared out over several sums which are then added. Infinite
+/// terms and NaN give what IEEE addition gives. Room for 2^60 terms. No memory is allocated; an ExactSum has 2.6 kB.
+///
+/// The sum is a whole number of 2^-1074, the least double, kept in digits of 32 bits each in an integer of 64, so that
+/// carries may wait (Kulisch's long accumulator). Terms wait in a block, which is split into few numbers whose sum is
+/// the same: exact_sum_kernels.cpp.
+class ExactSum {
+ public:
+  static constexpr std::size_t block = 256;
+
+  void operator+=(double x) {
+    waiting_[count_] = x;
+    if (++count_ == block) take_waiting();
+  }
+  /// All of these.
+  void add(std::span<double const> numbers);
+  /// All terms of another sum.
+  void add(ExactSum const& other);
+  double value() const;
+
+  /// 68 digits, the lowest first, and how many terms were inf, -inf and NaN.
+  static constexpr std::size_t words = 71;
+  /// What is to be added, word by word, to the words of other sums (Team::sum): afterwards this has all their terms.
+  /// None is beyond 2^32 in magnitude at first, so that no sum of those of 2^29 ranks overflows.
+  std::span<std::int64_t, words> digits();
+
+ private:
+  /// The number that the digits are, and which of them are not zero at most.
+  struct Digits {
+    std::array<std::int64_t, words> word{};
+    std::int64_t deposits = 0;  ///< since the last carry: each changes a digit by less than 2^33
+    std::size_t low = words, high = 0;
+
+    void deposit(double x);
+    void take(double const* numbers, std::size_t count);
+    void carry();
+    double value();
+  };
+
+  void take_waiting();
+
+  Digits digits_;
+  std::size_t count_ = 0;  ///< of those that wait
+  alignas(64) double waiting_[block];
+};
+
+/// What several threads add up, each in a sum of its own first: whichever comes first, the bits are the same.
+class SharedSum {
+ public:
+  void add(ExactSum const& part) {
+    std::lock_guard const lock(one_at_a_time_);
+    sum_.add(part);
+  }
+  // When all have added theirs.
+  double value() const { return sum_.value(); }
+  ExactSum& total() { return sum_; }
+
+ private:
+  std::mutex one_at_a_time_;
+  ExactSum sum_;
+};
+
+/// Adds terms of `size` items to K sums, on several threads: f(i, terms) writes the terms of item i to the array, which
+/// is zero before.
+template <std::size_t K, class Function>
+void add_terms(std::array<ExactSum, K>& sums, std::size_t size, int threads, Function const& f) {
+  constexpr std::size_t grain = 32 * ExactSum::block;
+  std::mutex one_at_a_time;
+  for_ranges(size, grain, threads_for(size, 0.25 * K, threads), [&](std::size_t begin, std::size_t end) {
+    std::optional<std::array<ExactSum, K>> own;
+    auto& mine = end - begin == size ? sums : own.emplace();
+    double terms[K][ExactSum::block];
+    for (std::size_t first = begin; first < end; first += ExactSum::block) {
+      std::size_t const count = std::min(end - first, ExactSum::block);
+      for (std::size_t i = 0; i < count; ++i) {
+        std::array<double, K> of_item{};
+        f(first + i, of_item);
+        for (std::size_t k = 0; k < K; ++k) terms[k][i] = of_item[k];
+      }
+      for (std::size_t k = 0; k < K; ++k) mine[k].add({terms[k], count});
+    }
+    if (!own) return;
+    std::lock_guard const lock(one_at_a_time);
+    for (std::size_t k = 0; k < K; ++k) sums[k].add(mine[k]);
+  });
+}
+
+/// Adds K columns that stand side by side: number K i + k to sum k.
+template <std::size_t K>
+void add_columns(std::array<ExactSum, K>& sums, std::span<double const> numbers, int threads) {
+  add_terms(sums, numbers.size() / K, threads, [&](std::size_t i, std::array<double, K>& terms) {
+    for (std::size_t k = 0; k < K; ++k) terms[k] = numbers[K * i + k];
+  });
+}
+
+}  // namespace boltzmann
