@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -135,6 +136,91 @@ TEST(DividedRun, OfAFluidInThreeDimensions) {
 
 TEST(DividedRun, OfAFluidBetweenWallsInTwoDimensions) {
   expect_same_bits([](World& world) { melt<2>(world, 34, 1.0, Boundary::reflecting); }, 120);
+}
+
+/// The line with which a run ends: on one rank, and the same on all of several.
+std::string failure_of(Make const& make, int size) {
+  std::vector<std::exception_ptr> thrown;
+  auto const run = [&] {
+    World world;
+    make(world);
+    world.simulation->divide_from(0);
+    world.simulation->run(60);
+  };
+  if (size > 1) {
+    thrown = ThreadTeam(size).run([&](Team&) { run(); });
+  } else {
+    try {
+      run();
+    } catch (...) {
+      thrown.push_back(std::current_exception());
+    }
+  }
+  for (auto const& one : thrown) {
+    EXPECT_EQ(line_of(one), line_of(thrown.front()));
+    EXPECT_EQ(exit_status(one), exit_status(thrown.front()));
+  }
+  return thrown.empty() ? "" : line_of(thrown.front());
+}
+
+void expect_same_failure(Make const& make, char const* words) {
+  auto const wanted = failure_of(make, 1);
+  EXPECT_NE(wanted.find(words), std::string::npos) << wanted;
+  for (int const size : {2, 3, 5}) EXPECT_EQ(failure_of(make, size), wanted) << size << " ranks";
+}
+
+/// A melt, of which something becomes of one particle at step 20.
+Make disturbed(std::function<double(double v)> const& change) {
+  return [=](World& world) {
+    melt<2>(world, 34, 1.0, Boundary::reflecting);
+    auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(static_cast<PairScheme*>(world.parts[1].get())->ensembles()[0]);
+    static_cast<PairScheme*>(world.parts[1].get())->external(atoms, [change](auto const& p, double time) {
+      auto force = p.position * 0.0;
+      if constexpr (std::is_same_v<std::decay_t<decltype(p.mass)>, double>)
+        if (time > 0.079 && p.position[0] < 0.5 && p.position[1] < 0.5) force[0] = change(0.0);
+      return force;
+    });
+  };
+}
+
+TEST(DividedRun, AParticleThatIsNowhereEndsAllWithTheLineOfOneRank) {
+  expect_same_failure(disturbed([](double) { return std::numeric_limits<double>::quiet_NaN(); }), "not finite");
+}
+
+TEST(DividedRun, AParticleThatLeavesTheBoxEndsAllWithTheLineOfOneRank) {
+  expect_same_failure(disturbed([](double) { return 1e9; }), "escaped");
+}
+
+TEST(DividedRun, AParticleThatMovesTooFarEndsAllWithTheLineOfOneRank) {
+  expect_same_failure(disturbed([](double) { return 3e6; }), "further than the length");
+}
+
+TEST(DividedRun, AnObserverThatFailsOnOneRankEndsAll) {
+  for (int const where : {0, 2}) {
+    auto const thrown = ThreadTeam(3).run([&](Team& team) {
+      World world;
+      melt<2>(world, 34, 1.0, Boundary::periodic);
+      world.simulation->observe(5, [&](Simulation const& simulation) {
+        if (simulation.step() == 10 && team.rank() == where) throw Error("a file can't be read");
+        simulation.measure();
+      });
+      world.simulation->run(30);
+    });
+    for (auto const& one : thrown) EXPECT_EQ(line_of(one), "a file can't be read");
+  }
+}
+
+TEST(DividedRun, MeasuringOnOneRankAloneIsRefused) {
+  auto const thrown = ThreadTeam(3).run([&](Team& team) {
+    World world;
+    melt<2>(world, 34, 1.0, Boundary::periodic);
+    world.simulation->observe(5, [&](Simulation const& simulation) {
+      if (team.first()) simulation.measure();
+    });
+    world.simulation->run(30);
+  });
+  for (auto const& one : thrown)
+    EXPECT_NE(line_of(one).find("every rank must do the same"), std::string::npos) << line_of(one);
 }
 
 struct Shipped {
