@@ -12,10 +12,21 @@ namespace {
 
 constexpr std::int64_t most_deposits = std::int64_t{1} << 29U;
 constexpr std::uint64_t low_half = 0xffffffffU;
-constexpr std::size_t digit_count = 68, plus = 68, minus = 69, nan = 70;  // places of words
-constexpr std::size_t few = 8;                                            // not worth splitting
+constexpr std::size_t few = 8;  // not worth splitting
 
 }  // namespace
+
+/// Sets digits up to these ends.
+void ExactSum::Digits::reach(std::size_t from, std::size_t to) {
+  if (low > high) {
+    low = from;
+    high = to;
+    std::fill(word.begin() + from, word.begin() + to + 1, 0);
+    return;
+  }
+  while (low > from) word[--low] = 0;
+  while (high < to) word[++high] = 0;
+}
 
 /// A finite number is m 2^(p - 1074), m of 53 bits: from bit p on they are bits of three digits.
 void ExactSum::Digits::deposit(double x) {
@@ -31,12 +42,21 @@ void ExactSum::Digits::deposit(double x) {
   std::size_t const place = exponent == 0 ? 0 : exponent - 1, digit = place / 32, shift = place % 32;
   std::uint64_t const lower = (magnitude & low_half) << shift, upper = (magnitude >> 32U) << shift;
   std::int64_t const sign = bits >> 63U ? -1 : 1;
+  if (digit < low || digit + 2 > high) reach(digit, digit + 2);
   word[digit] += sign * static_cast<std::int64_t>(lower & low_half);
   word[digit + 1] += sign * static_cast<std::int64_t>((lower >> 32U) + (upper & low_half));
   word[digit + 2] += sign * static_cast<std::int64_t>(upper >> 32U);
-  low = std::min(low, digit);
-  high = std::max(high, digit + 2);
   if (++deposits == most_deposits) carry();
+}
+
+void ExactSum::Digits::add(Digits const& other) {
+  for (auto const w : {plus, minus, nan}) word[w] += other.word[w];
+  if (other.low > other.high) return;
+  if (deposits + other.deposits >= most_deposits) carry();
+  reach(other.low, other.high);
+  for (std::size_t d = other.low; d <= other.high; ++d) word[d] += other.word[d];
+  deposits += other.deposits;
+  if (deposits >= most_deposits) carry();
 }
 
 /// A multiple of split_unit.
@@ -73,6 +93,7 @@ double ExactSum::Digits::value() {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (word[nan] > 0 || (word[plus] > 0 && word[minus] > 0)) return std::numeric_limits<double>::quiet_NaN();
   if (word[plus] > 0 || word[minus] > 0) return word[plus] > 0 ? infinite : -infinite;
+  if (low > high) return 0;
   carry();
   bool const negative = word[high] < 0;
   if (negative) {
@@ -80,11 +101,11 @@ double ExactSum::Digits::value() {
     carry();
   }
   std::size_t top = high;
-  while (top > 0 && word[top] == 0) --top;
+  while (top > low && word[top] == 0) --top;
   if (top == digit_count - 1) return negative ? -infinite : infinite;
   // 64 bits from the first one that is set; the last is set, too, if any below is: then they are rounded as all of them.
   auto const at = [&](std::size_t below) {
-    return top >= below ? static_cast<std::uint64_t>(word[top - below]) : std::uint64_t{0};
+    return top >= low + below ? static_cast<std::uint64_t>(word[top - below]) : std::uint64_t{0};
   };
   std::uint64_t bits = at(0) << 32U | at(1);
   if (bits == 0) return 0;
@@ -121,27 +142,20 @@ void ExactSum::add(std::span<double const> numbers) {
 
 void ExactSum::add(ExactSum const& other) {
   add(std::span(other.waiting_, other.count_));
-  Digits const& more = other.digits_;
-  if (digits_.deposits + more.deposits >= most_deposits) digits_.carry();
-  for (std::size_t d = more.low; d <= more.high && d < digit_count; ++d) digits_.word[d] += more.word[d];
-  for (std::size_t w = digit_count; w < words; ++w) digits_.word[w] += more.word[w];
-  digits_.low = std::min(digits_.low, more.low);
-  digits_.high = std::max(digits_.high, more.high);
-  digits_.deposits += more.deposits;
-  if (digits_.deposits >= most_deposits) digits_.carry();
+  digits_.add(other.digits_);
 }
 
 std::span<std::int64_t, ExactSum::words> ExactSum::digits() {
   take_waiting();
   digits_.carry();
-  digits_.low = 0;
-  digits_.high = digit_count - 1;
+  digits_.reach(0, digit_count - 1);
   digits_.deposits = most_deposits - 1;  // of many ranks they may be as large as that
   return digits_.word;
 }
 
 double ExactSum::value() const {
-  Digits all = digits_;
+  Digits all;
+  all.add(digits_);
   if (count_ <= few) {
     for (double const x : std::span(waiting_, count_)) all.deposit(x);
   } else {

@@ -41,13 +41,19 @@ class ExactSum {
   std::span<std::int64_t, words> digits();
 
  private:
-  /// The number that the digits are, and which of them are not zero at most.
-  struct Digits {
-    std::array<std::int64_t, words> word{};
-    std::int64_t deposits = 0;  ///< since the last carry: each changes a digit by less than 2^33
-    std::size_t low = words, high = 0;
+  static constexpr std::size_t digit_count = 68, plus = 68, minus = 69, nan = 70;
 
+  /// The number that the digits are. Those from low to high have been set, the others are zero: sums of few numbers
+  /// know few.
+  struct Digits {
+    std::array<std::int64_t, words> word;
+    std::int64_t deposits = 0;  ///< since the last carry: each changes a digit by less than 2^33
+    std::size_t low = digit_count, high = 0;
+
+    Digits() { word[plus] = word[minus] = word[nan] = 0; }
+    void reach(std::size_t from, std::size_t to);
     void deposit(double x);
+    void add(Digits const& other);
     void take(double const* numbers, std::size_t count);
     void carry();
     double value();

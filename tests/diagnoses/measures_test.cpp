@@ -253,7 +253,7 @@ TEST(Measures, DoNotDependOnTheOrderOfParticles) {
   Ensemble<Newton<3>> p("p", 5000), shuffled("p", 5000);
   random_load(p, box, {.seed = test_seed(3)});
   for (std::size_t i = 0; i < p.size(); ++i) p[i].mass = 1 / (1.0 + static_cast<double>(i));
-  maxwellian_load(p, {.temperature = 1, .drift = {0.1, 7, -3}, .seed = test_seed(4)});
+  maxwellian_load(p, {.temperature = 1, .seed = test_seed(4), .drift = {0.1, 7, -3}});
   for (std::size_t i = 0; i < p.size(); ++i) shuffled[i] = p[(i * 1789 + 333) % p.size()];
   EXPECT_EQ(total_mass(p), total_mass(shuffled));
   EXPECT_EQ(centre_of_mass(p), centre_of_mass(shuffled));

@@ -215,7 +215,7 @@ TEST(Profile, DoesNotDependOnTheOrderOfParticles) {
   Box const box(Vector{0.0, 0.0}, Vector{10.0, 10.0}, Boundary::reflecting);
   Ensemble<Newton<2>> gas("gas", 3000), shuffled("gas", 3000);
   random_load(gas, box, {.seed = test_seed(1)});
-  maxwellian_load(gas, {.temperature = 1, .drift = {3, 0}, .seed = test_seed(2)});
+  maxwellian_load(gas, {.temperature = 1, .seed = test_seed(2), .drift = {3, 0}});
   for (std::size_t i = 0; i < gas.size(); ++i) shuffled[i] = gas[(i * 1789 + 333) % gas.size()];
   AnyEnsemble const *const one[] = {&gas}, *const other[] = {&shuffled};
   Profile const first = profile(MassiveParticles(one, nullptr), box, 0, 0, 10, 7, 1),
