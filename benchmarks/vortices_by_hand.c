@@ -8,6 +8,7 @@
 enum { block = 4 };
 
 // The velocity of each of `count` vortices (a multiple of 8), circulation over 2 pi in w; the same core^2 > 0 for all.
+// The inverse is a 14-bit estimate and two of Newton's steps, for a division takes three times as long.
 int vortices_by_hand(size_t count, double const* x, double const* y, double const* w, double core2, double* u,
                      double* v) {
   __m512d const least = _mm512_set1_pd(core2), one = _mm512_set1_pd(1);
@@ -24,7 +25,10 @@ int vortices_by_hand(size_t count, double const* x, double const* y, double cons
       for (int t = 0; t < block; ++t) {
         __m512d const dx = _mm512_sub_pd(px[t], qx), dy = _mm512_sub_pd(py[t], qy);
         __m512d const r2 = _mm512_max_pd(_mm512_fmadd_pd(dx, dx, _mm512_mul_pd(dy, dy)), least);
-        __m512d const f = _mm512_mul_pd(qw, _mm512_div_pd(one, r2));
+        __m512d const estimate = _mm512_rcp14_pd(r2);
+        __m512d const better = _mm512_fmadd_pd(estimate, _mm512_fnmadd_pd(r2, estimate, one), estimate);
+        __m512d const inverse = _mm512_fmadd_pd(better, _mm512_fnmadd_pd(r2, better, one), better);
+        __m512d const f = _mm512_mul_pd(qw, inverse);
         ux[t] = _mm512_fnmadd_pd(f, dy, ux[t]), uy[t] = _mm512_fmadd_pd(f, dx, uy[t]);
       }
     }
