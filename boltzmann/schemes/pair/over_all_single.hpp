@@ -88,15 +88,17 @@ struct SingleBlock {
 
   std::size_t first;
   rebind_t<P, Real> p[packs];
-  double total[components][size] = {};
+  double total[components][size];
 
   /// The targets first, first + 1, ..., their places relative to the origin.
-  [[gnu::always_inline]] SingleBlock(PairTask const& task, std::size_t stride, std::size_t first,
-                                     Origin<P> const& origin)
-      : first(first) {
+  [[gnu::always_inline]] void load(PairTask const& task, std::size_t stride, std::size_t from,
+                                   Origin<P> const& origin) {
+    first = from;
     for (int t = 0; t < packs; ++t)
       p[t] = load_rounded_rows<P, lanes>(task.target, stride, first + static_cast<std::size_t>(t * lanes), task.targets,
                                          origin);
+    for (auto& of_component : total)
+      for (auto& x : of_component) x = 0;
   }
 
   /// What a group of sources does to all of them, those of numbers from, from + 1, ...: summed in single precision and
@@ -152,7 +154,10 @@ struct SingleBlock {
   }
 };
 
-/// Every target sums the sources in their order, in groups. Places are rounded once for two blocks, relative to the
+/// Targets for which sources are rounded once.
+inline constexpr std::size_t single_targets = 128;
+
+/// Every target sums the sources in their order, in groups. Places are rounded once for some blocks, relative to the
 /// first target of these, so that the differences of what is near each other are right. Blocks begin at multiples of
 /// their size, and the result has the same bits for every division into ranges.
 template <int W, class P, class Q, class Law>
@@ -161,20 +166,21 @@ template <int W, class P, class Q, class Law>
   Held<Law> law = *static_cast<Law const*>(the_law);
   std::size_t const target_stride = stride_of<P, Law>(task.target_row_stride);
   std::size_t const source_stride = stride_of<Q, Law>(task.source_row_stride);
-  for (std::size_t both = begin / (2 * Block::size) * (2 * Block::size); both < end; both += 2 * Block::size) {
-    double const* const origin = task.target + both * target_stride;
-    Origin<P> const of_targets(origin);
-    Origin<Q> const of_sources(origin);
-    Block block[]{{task, target_stride, both, of_targets}, {task, target_stride, both + Block::size, of_targets}};
+  for (std::size_t all = begin / single_targets * single_targets; all < end; all += single_targets) {
+    Origin<P> const of_targets(task.target + all * target_stride);
+    Origin<Q> const of_sources(task.target + all * target_stride);
+    Block block[single_targets / Block::size];
+    std::size_t blocks = 0;
+    for (std::size_t first = all; first < all + single_targets && first < end; first += Block::size)
+      if (begin < first + Block::size) block[blocks++].load(task, target_stride, first, of_targets);
     for (std::size_t from = 0; from < task.sources; from += single_group) {
       std::size_t const count = task.sources - from < single_group ? task.sources - from : single_group;
       alignas(64) float source[single_group][rounded_numbers<Q>];
       for (std::size_t k = 0; k < count; ++k)
         round_row<Q>(task.source + (from + k) * source_stride, of_sources, source[k]);
-      for (auto& one : block)
-        if (one.first < end && begin < one.first + Block::size) one.add(law, source, from, count, task.same);
+      for (std::size_t b = 0; b < blocks; ++b) block[b].add(law, source, from, count, task.same);
     }
-    for (auto const& one : block) one.store(task, begin, end);
+    for (std::size_t b = 0; b < blocks; ++b) block[b].store(task, begin, end);
   }
 }
 
