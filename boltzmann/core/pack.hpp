@@ -212,8 +212,9 @@ struct Pack {
       return Real(1) / sqrt(a);
   }
 
-  /// 1 / a where both are normal numbers, to the last bit or the one before it; NaN or the right value at zero and
-  /// infinity. With AVX-512 a 14-bit estimate and two of Newton's steps (floats: one), a third of a division's time.
+  /// 1 / a where both are normal numbers, to a relative error below epsilon (1.25 of it where products are not fused);
+  /// NaN or the right value at zero and infinity. With AVX-512 a 14-bit estimate and two of Newton's steps (floats:
+  /// one), a third of a division's time.
   friend Pack reciprocal(Pack a) {
 #if defined(__AVX512F__)
     if constexpr (sizeof(Native) == 64) {

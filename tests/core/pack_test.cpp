@@ -207,7 +207,7 @@ TYPED_TEST(PackOf, Reciprocal) {
           largest, static_cast<double>(std::fabs(value[lane] / exact - 1)) / std::numeric_limits<Real>::epsilon());
     }
   }
-  EXPECT_LT(largest, 1);
+  EXPECT_LT(largest, 1.25);  // without fused products; with them 1
   EXPECT_EQ(reciprocal(0.25), 4.0);
   EXPECT_EQ(reciprocal(0.25F), 4.0F);
 }
