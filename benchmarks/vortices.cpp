@@ -1,6 +1,6 @@
-// Vortices in 2D, all pairs on one core, in double and in single precision, against the same by hand in AVX-512
-// intrinsics, in turns in one process. With a number of vortices and "multipoles": steps of RK4 by multipoles, for a
-// profile of them.
+// Vortices in 2D, all pairs on one core, in double and in single precision, against the same by hand in intrinsics of
+// AVX-512 or AVX2, in turns in one process. With a number of vortices and "multipoles": steps of RK4 by multipoles, for
+// a profile of them.
 #include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
   add_in_single_precision(single, in_single, in_single, BiotSavart{});
   std::printf("%zu vortices in 2D, all pairs, one core; packs of %d doubles; median of %d in turns\n", count,
               native_width<double>, rounds);
-  if (native_width<double> < 8) std::printf("no AVX-512 here: the loop by hand is left out\n");
+  if (native_width<double> < 4) std::printf("no AVX2 here: the loop by hand is left out\n");
   against_hand<double>("double", exact, scheme, exact);
   against_hand<float>("single", in_single, single, exact);
 }

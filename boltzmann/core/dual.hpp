@@ -315,6 +315,11 @@ Dual<Real, Derivative> rsqrt(Dual<Real, Derivative> const& x) {
   return detail::chain(x, y, Real(-0.5 * y * (y * y)));
 }
 template <class Real, class Derivative>
+Dual<Real, Derivative> reciprocal(Dual<Real, Derivative> const& x) {
+  Real const y = reciprocal(x.value);
+  return detail::chain(x, y, Real(-(y * y)));
+}
+template <class Real, class Derivative>
 Dual<Real, Derivative> exp(Dual<Real, Derivative> const& x) {
   Real const y = exp(x.value);
   return detail::chain(x, y, y);

@@ -30,6 +30,10 @@ constexpr Real cube(Real const& x) {
 inline double rsqrt(double x) { return 1.0 / std::sqrt(x); }
 inline float rsqrt(float x) { return 1.0F / std::sqrt(x); }
 
+/// 1 / x where both are normal numbers
+constexpr double reciprocal(double x) { return 1.0 / x; }
+constexpr float reciprocal(float x) { return 1.0F / x; }
+
 constexpr double min(double a, double b) { return b < a ? b : a; }
 constexpr double max(double a, double b) { return a < b ? b : a; }
 

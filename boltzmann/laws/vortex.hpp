@@ -2,6 +2,7 @@
 // cores that vortex methods use.
 #pragma once
 
+#include <boltzmann/core/pack.hpp>
 #include <boltzmann/laws/interaction.hpp>
 #include <boltzmann/laws/parameter.hpp>
 #include <boltzmann/particles/vortex.hpp>
@@ -11,9 +12,20 @@
 
 namespace boltzmann {
 
-/// How strongly a vortex turns what is near it, by the square of the distance and of its core (a radius). A core says in
-/// 2D q(r) / r^2 and in 3D q(r) / r^3, q the part of its vorticity that is inside r, and in 3D also the derivative of
-/// that over r.
+/// The square of a distance in 2D and so little that only at no distance it counts: there its inverse is a number, too,
+/// and the velocity, which is r times that, is zero without a core.
+template <class Real>
+inline constexpr double smallest_square = 1e-200;
+template <int W>
+inline constexpr float smallest_square<Pack<float, W>> = 1e-30F;
+template <class Real>
+Real square_above_zero(Vector<2, Real> const& r) {
+  return r[0] * r[0] + (r[1] * r[1] + smallest_square<Real>);
+}
+
+/// How strongly a vortex turns what is near it, by the square of the distance (in 2D square_above_zero) and of its core
+/// (a radius). A core says in 2D q(r) / r^2 and in 3D q(r) / r^3, q the part of its vorticity that is inside r, and in
+/// 3D also the derivative of that over r.
 template <class Real>
 struct Turning {
   Real strength, slope;
@@ -39,8 +51,7 @@ struct PlainCore {
 
   template <class Real>
   static Real turning_2d(Real const& square, Real const& core2) {
-    Real const larger = max(square, core2);
-    return select(larger > 0.0, 1.0 / larger, Real(0.0));
+    return reciprocal(max(square, core2));
   }
   template <class Real>
   static Turning<Real> turning_3d(Real const& square, Real const& core2) {
@@ -71,9 +82,8 @@ struct AlgebraicCore {
 
   template <class Real>
   static Real turning_2d(Real const& square, Real const& core2) {
-    Real const all = square + core2;
-    Real const inverse = select(all > 0.0, 1.0 / all, Real(0.0));
-    return (all + core2) * (inverse * inverse);
+    Real const inverse = reciprocal(square + core2);
+    return (1.0 + core2 * inverse) * inverse;
   }
   template <class Real>
   static Turning<Real> turning_3d(Real const& square, Real const& core2) {
@@ -180,15 +190,16 @@ struct BiotSavartOf {
   auto operator()(P const& p, Q const& q) const {
     auto const r = p.position - q.position;
     using Real = std::remove_cvref_t<decltype(r[0])>;
-    Real const square = dot(r, r), core2 = q.core * q.core;
+    Real const core2 = q.core * q.core;
     if constexpr (P::dimension == 2) {
-      auto const swirl = cross(q.vorticity, r) * (1 / (2 * pi) * Core::turning_2d(square, core2));
+      // What is of the source alone stands together: it is found once for several targets.
+      auto const swirl = cross(q.vorticity * (1 / (2 * pi)) * Core::turning_2d(square_above_zero(r), core2), r);
       if constexpr (std::is_same_v<typename P::Influence, ExchangeInfluence<Real>>)
         return ExchangeInfluence<Real>{swirl, {Real(0.0)}};
       else
         return swirl;
     } else {
-      auto const turning = Core::turning_3d(square, core2);
+      auto const turning = Core::turning_3d(dot(r, r), core2);
       auto const across = cross(q.vorticity, r) * (1 / (4 * pi));
       auto const swirl = across * turning.strength;
       if constexpr (std::is_same_v<typename P::Influence, VortexInfluence<Real>>)

@@ -79,6 +79,8 @@ TEST(Dual, EveryFunctionHasItsDerivative) {
   expect_derivative(
       "rsqrt", [](auto x) { return rsqrt(x); }, positive);
   expect_derivative(
+      "reciprocal", [](auto x) { return reciprocal(x); }, positive);
+  expect_derivative(
       "x^2.5", [](auto x) { return pow(x, 2.5); }, positive);
   expect_derivative(
       "x^-3", [](auto x) { return pow(x, -3.0); }, all);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -187,6 +188,28 @@ TYPED_TEST(PackOf, InverseRoot) {
   if (TypeParam::width > 2) {
     EXPECT_EQ(rsqrt(a)[2], Real(0.5));
   }
+}
+
+TYPED_TEST(PackOf, Reciprocal) {
+  using Real = typename Of<TypeParam>::Real;
+  std::mt19937_64 random(test_seed(4));
+  std::uniform_real_distribution<double> exponent(std::is_same_v<Real, double> ? -1021 : -125,
+                                                  std::is_same_v<Real, double> ? 1021 : 125);
+  double largest = 0;  // relative error in units of epsilon
+  for (int trial = 0; trial < 20000; ++trial) {
+    TypeParam a;
+    for (int lane = 0; lane < TypeParam::width; ++lane)
+      a.native[lane] = static_cast<Real>(std::exp2(exponent(random)) * (lane % 2 == 0 ? 1 : -1));
+    TypeParam const value = reciprocal(a);
+    for (int lane = 0; lane < TypeParam::width; ++lane) {
+      long double const exact = 1 / static_cast<long double>(a[lane]);
+      largest = std::max(
+          largest, static_cast<double>(std::fabs(value[lane] / exact - 1)) / std::numeric_limits<Real>::epsilon());
+    }
+  }
+  EXPECT_LT(largest, 1.25);  // without fused products; with them 1
+  EXPECT_EQ(reciprocal(0.25), 4.0);
+  EXPECT_EQ(reciprocal(0.25F), 4.0F);
 }
 
 TYPED_TEST(PackOf, SumOfLanes) {

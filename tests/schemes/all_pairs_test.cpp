@@ -3,8 +3,11 @@
 #include "oracle.hpp"
 
 #include <boltzmann/laws/laplace.hpp>
+#include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/particles/laplace.hpp>
+#include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/schemes/pair/single_precision.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
@@ -183,6 +186,54 @@ TYPED_TEST(AllPairs, NothingButTheOwnPairIsNotANumber) {
   for (std::size_t i = 0; i < stars.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_EQ(std::isfinite(out.influence[3 * i + c]), i != 3 && i != 11) << "particle " << i;
+}
+
+/// Each velocity against the sum of the law over doubles, relative to the sum of the speeds that it is made of; and the
+/// same bits for every division into ranges.
+template <class Law>
+void compare_velocities(PairKernels const& kernels, Ensemble<Vortex<2>> const& vortices, Law const& law,
+                        double allowed) {
+  Output const whole = run(kernels, vortices, vortices, law, {});
+  for (std::size_t i = 0; i < vortices.size(); ++i) {
+    Vector<2> velocity{};
+    double speeds = 1e-300;
+    for (std::size_t j = 0; j < vortices.size(); ++j) {
+      if (i == j) continue;
+      auto const one = law(vortices[i], vortices[j]);
+      velocity += one, speeds += magnitude(one);
+    }
+    for (std::size_t c = 0; c < 2; ++c)
+      ASSERT_NEAR(whole.influence[2 * i + c], velocity[static_cast<int>(c)], allowed * speeds) << "vortex " << i;
+  }
+  for (std::size_t const grain : {7, 32, 64, 100}) {
+    std::vector<std::size_t> ends;
+    for (std::size_t end = grain; end < vortices.size(); end += grain) ends.push_back(end);
+    EXPECT_TRUE(run(kernels, vortices, vortices, law, ends) == whole) << "ranges of " << grain;
+  }
+}
+
+TYPED_TEST(AllPairs, VorticesInDoubleAndInSinglePrecision) {
+  constexpr int W = TypeParam::value;
+  using V = Vortex<2>;
+  for (std::size_t const count : {1, 2, 17, 130, 600}) {
+    Ensemble<V> vortices("vortices", count);
+    std::mt19937_64 random(test_seed(9));
+    std::uniform_real_distribution anywhere(-1.0, 1.0);
+    for (auto& p : vortices) {
+      p.position = {anywhere(random), anywhere(random)};
+      p.vorticity = {anywhere(random)}, p.core = 0.05 * std::abs(anywhere(random));
+    }
+    // Two at one place and without a core: they don't move each other.
+    if (count > 2) vortices[1].position = vortices[count - 1].position, vortices[1].core = vortices[count - 1].core = 0;
+    SCOPED_TRACE(testing::Message() << count << " vortices, W = " << W);
+    auto const each = [&](auto const& law) {
+      using Law = std::remove_cvref_t<decltype(law)>;
+      constexpr auto in_double = near_kernels<V, V, Law, W>();
+      compare_velocities(in_double, vortices, law, 1e-14);
+      compare_velocities(in_single_precision<W, V, V, Law>(in_double), vortices, law, 1e-5);
+    };
+    each(BiotSavart{}), each(AlgebraicBiotSavart{});
+  }
 }
 
 TEST(AllPairsOfAScheme, HaveTheSameBitsForAnyNumberOfThreads) {

@@ -20,6 +20,25 @@ template <int W>
   return {typename Mask<double, W>::Native{} - 1};
 }
 
+/// A number in every lane, as a pack that the compiler knows nothing of. Loads spread a number for nothing; of what a law
+/// makes of the numbers of a source alone it would make one number and spread that, which takes a shuffle besides.
+template <class Real>
+[[gnu::always_inline]] inline Real spread(auto number) {
+  Real pack = number;
+#if defined(__SSE2__)
+  if constexpr (sizeof(pack.native) <= register_bytes) asm("" : "+v"(pack.native));
+#endif
+  return pack;
+}
+
+/// A source in every lane, its numbers from `row`.
+template <class Q, class Real>
+[[gnu::always_inline]] inline rebind_t<Q, Real> spread_row(auto const* row) {
+  std::array<Real, row_doubles<Q>> columns;
+  for (std::size_t k = 0; k < row_doubles<Q>; ++k) columns[k] = spread<Real>(row[k]);
+  return std::bit_cast<rebind_t<Q, Real>>(columns);
+}
+
 /// Sums what a law returns over the partners of W particles.
 template <Pass pass, int W, class P, class Q, class Law>
 class LaneSum {

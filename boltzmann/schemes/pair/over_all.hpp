@@ -7,9 +7,12 @@ namespace boltzmann {
 
 namespace detail {
 
-/// Packs of targets that share one load of a source: two keep the arithmetic units of 32 registers busy, and of 16 one.
-template <int W>
-inline constexpr int target_packs = W == 8 ? 2 : 1;
+/// Packs of targets that share one load of a source: two keep the arithmetic units of 32 registers busy, and of 16 one;
+/// four of two numbers each fit in 32, and share what a law makes of a source alone, too.
+template <int W, std::size_t components>
+inline constexpr int target_packs = W < 8             ? 1
+                                    : components <= 2 ? 4
+                                                      : 2;
 
 /// Sources whose influences are summed before they are added to the total: rounding errors grow with this number and
 /// with that of such groups, not with their product.
@@ -20,7 +23,7 @@ inline constexpr std::size_t source_group = 1024;
 /// not begin there computes up to a block that is not its own; ranges of several blocks lose nothing.
 template <Pass pass, int W, class P, class Q, class Law>
 [[gnu::flatten]] void over_all(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
-  constexpr int packs = pass == Pass::measure ? 1 : target_packs<W>;
+  constexpr int packs = pass == Pass::measure ? 1 : target_packs<W, LaneSum<pass, W, P, Q, Law>::components>;
   constexpr std::size_t block = packs * W;
   using Real = Pack<double, W>;
   Held<Law> law = *static_cast<Law const*>(the_law);
@@ -40,15 +43,18 @@ template <Pass pass, int W, class P, class Q, class Law>
       // Up to the block's own particles without a mask, past them with one, and on without.
       for (std::size_t const pause : {self_begin, group_end}) {
         for (; j < pause; ++j) {
-          auto const q = broadcast<Q, Real>(task.source + j * source_stride);
+          auto const q = spread_row<Q, Real>(task.source + j * source_stride);
+#pragma GCC unroll 4
           for (int t = 0; t < packs; ++t) sum[t].add(law, p[t], q, every_lane<W>());
         }
         for (; j < self_end; ++j) {
-          auto const q = broadcast<Q, Real>(task.source + j * source_stride);
+          auto const q = spread_row<Q, Real>(task.source + j * source_stride);
+#pragma GCC unroll 4
           for (int t = 0; t < packs; ++t)
             sum[t].add(law, p[t], q, lanes_from<W>(static_cast<double>(first + t * W)) != static_cast<double>(j));
         }
       }
+#pragma GCC unroll 4
       for (int t = 0; t < packs; ++t) sum[t].store(task, first + t * W, begin, end, overwrite);
     } while (j < task.sources);
   }

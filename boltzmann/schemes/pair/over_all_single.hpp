@@ -15,29 +15,70 @@ inline constexpr int single_packs = W == 8   ? 4
                                     : W == 4 ? 2
                                              : 1;
 
-/// A row in single precision, places relative to `origin`.
+/// Numbers of a row that are rounded: whole blocks, as rows have them.
 template <class P>
-[[gnu::always_inline]] inline void round_row(double const* row, double const* origin, float* rounded) {
-  for (std::size_t k = 0; k < row_doubles<P>; ++k)
-    rounded[k] = static_cast<float>(k < P::dimension ? row[k] - origin[k] : row[k]);
+inline constexpr std::size_t rounded_numbers = (row_doubles<P> + row_block - 1) / row_block* row_block;
+
+/// What is taken from the numbers of a row before they are rounded: the place of an origin.
+template <class P>
+struct Origin {
+  alignas(64) double number[rounded_numbers<P>] = {};
+  [[gnu::always_inline]] explicit Origin(double const* row) {
+    for (int a = 0; a < P::dimension; ++a) number[a] = row[a];
+  }
+};
+
+/// A row in single precision, places relative to an origin; four numbers at once.
+template <class P>
+[[gnu::always_inline]] inline void round_row(double const* row, Origin<P> const& origin, float* rounded) {
+  typedef float Single __attribute__((vector_size(4 * sizeof(float)), aligned(4), may_alias));
+  for (std::size_t k = 0; k < rounded_numbers<P>; k += row_block) {
+    Quad const numbers = *reinterpret_cast<Quad const*>(row + k) - *reinterpret_cast<Quad const*>(origin.number + k);
+    *reinterpret_cast<Single*>(rounded + k) = __builtin_convertvector(numbers, Single);
+  }
 }
 
 /// The particles first, first + 1, ... as one particle of packs; past the last one, that one again.
 template <class P, int lanes>
 [[gnu::always_inline]] inline rebind_t<P, Pack<float, lanes>> load_rounded_rows(double const* rows, std::size_t stride,
                                                                                 std::size_t first, std::size_t size,
-                                                                                double const* origin) {
+                                                                                Origin<P> const& origin) {
   std::array<Pack<float, lanes>, row_doubles<P>> columns;
   for (int lane = 0; lane < lanes; ++lane) {
     std::size_t const i = first + static_cast<std::size_t>(lane);
-    float row[row_doubles<P>];
+    float row[rounded_numbers<P>];
     round_row<P>(rows + (i < size ? i : size - 1) * stride, origin, row);
     for (std::size_t k = 0; k < row_doubles<P>; ++k) columns[k].native[lane] = row[k];
   }
   return std::bit_cast<rebind_t<P, Pack<float, lanes>>>(columns);
 }
 
-/// Some targets side by side, what they feel from a group of sources in single precision, and from all in double.
+/// What some packs of targets feel. Unrolled, so that it stays in registers.
+template <int packs, std::size_t components, class Real>
+struct SingleSums {
+  Real of[packs][components];
+
+  [[gnu::always_inline]] SingleSums() {
+    for_each([&](int t, std::size_t c) { of[t][c] = Real(0.0F); });
+  }
+  [[gnu::always_inline]] static void for_each(auto const& f) {
+#pragma GCC unroll 4
+    for (int t = 0; t < packs; ++t)
+#pragma GCC unroll 6
+      for (std::size_t c = 0; c < components; ++c) f(t, c);
+  }
+  /// Adds influence_on(t) to pack t.
+  [[gnu::always_inline]] void add(auto const& influence_on) {
+#pragma GCC unroll 4
+    for (int t = 0; t < packs; ++t) {
+      auto const influence = influence_on(t);
+#pragma GCC unroll 6
+      for (std::size_t c = 0; c < components; ++c) of[t][c] += influence[c];
+    }
+  }
+};
+
+/// Some targets side by side, and what they feel from all sources.
 template <int W, class P, class Q, class Law>
 struct SingleBlock {
   static constexpr int lanes = 2 * W, packs = single_packs<W>;
@@ -45,84 +86,101 @@ struct SingleBlock {
   static constexpr std::size_t components = sizeof(typename P::Influence) / sizeof(double);
   using Real = Pack<float, lanes>;
 
+  std::size_t first;
   rebind_t<P, Real> p[packs];
-  Real sum[packs][components];
-  double total[components][size] = {};
+  double total[components][size];
 
-  [[gnu::always_inline]] void clear() {
-    for (auto& of_pack : sum)
-      for (auto& x : of_pack) x = Real(0.0F);
-  }
-  /// What a source does to all of them; of pack t only where masked(t, x) leaves it.
-  template <class Masked>
-  [[gnu::always_inline]] void add(Law const& law, float const* source, Masked const& masked) {
-    std::array<Real, row_doubles<Q>> columns;
-    for (std::size_t c = 0; c < row_doubles<Q>; ++c) columns[c] = source[c];
-    auto const q = std::bit_cast<rebind_t<Q, Real>>(columns);
-    for (int t = 0; t < packs; ++t) {
-      auto const influence = as_array<Real>(influence_of(law(p[t], q)));
-      for (std::size_t c = 0; c < components; ++c) sum[t][c] += masked(t, influence[c]);
-    }
-  }
-  [[gnu::always_inline]] void add_to_total() {
+  /// The targets first, first + 1, ..., their places relative to the origin.
+  [[gnu::always_inline]] void load(PairTask const& task, std::size_t stride, std::size_t from,
+                                   Origin<P> const& origin) {
+    first = from;
     for (int t = 0; t < packs; ++t)
-      for (std::size_t c = 0; c < components; ++c) {
-        auto const of_lanes = as_array<float>(sum[t][c]);
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-          total[c][static_cast<std::size_t>(t * lanes) + lane] += static_cast<double>(of_lanes[lane]);
-      }
+      p[t] = load_rounded_rows<P, lanes>(task.target, stride, first + static_cast<std::size_t>(t * lanes), task.targets,
+                                         origin);
+    for (auto& of_component : total)
+      for (auto& x : of_component) x = 0;
   }
-  /// Gives the totals to the particles of [begin, end) among those from `first` on.
-  [[gnu::always_inline]] void store(PairTask const& task, std::size_t first, std::size_t begin, std::size_t end) const {
+
+  /// What a group of sources does to all of them, those of numbers from, from + 1, ...: summed in single precision and
+  /// added to the total. If targets are sources, they do nothing to themselves.
+  [[gnu::always_inline]] void add(Law const& law, float const (*source)[rounded_numbers<Q>], std::size_t from,
+                                  std::size_t count, bool same) {
+    SingleSums<packs, components, Real> sum;
+    auto const influence = [&](int t, auto const& q) { return as_array<Real>(influence_of(law(p[t], q))); };
+    auto const plain = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        auto const q = spread_row<Q, Real>(source[k]);
+        sum.add([&](int t) { return influence(t, q); });
+      }
+    };
+    // The block's own particles, [own, own_end) of the group if they are in it, are masked where they meet themselves.
+    bool const meets = same && first < from + count && from < first + size;
+    std::size_t const own = !meets ? count : first > from ? first - from : 0;
+    std::size_t const behind = first + size - from, own_end = !meets || behind > count ? count : behind;
+    plain(0, own);
+    for (std::size_t k = own; k < own_end; ++k) {
+      auto const q = spread_row<Q, Real>(source[k]);
+      // its number in the block: a small number, exact in single precision
+      auto const self = static_cast<float>(static_cast<std::ptrdiff_t>(from + k) - static_cast<std::ptrdiff_t>(first));
+      sum.add([&](int t) {
+        auto const other = lane_numbers() != self - static_cast<float>(t * lanes);
+        auto of_pack = influence(t, q);
+        for (auto& x : of_pack) x = select(other, x, Real(0.0F));
+        return of_pack;
+      });
+    }
+    plain(own_end, count);
+    sum.for_each([&](int t, std::size_t c) {
+      auto const of_lanes = as_array<float>(sum.of[t][c]);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        total[c][static_cast<std::size_t>(t * lanes) + lane] += static_cast<double>(of_lanes[lane]);
+    });
+  }
+
+  /// Gives the totals to the particles of [begin, end).
+  [[gnu::always_inline]] void store(PairTask const& task, std::size_t begin, std::size_t end) const {
     for (std::size_t i = first > begin ? first : begin; i < end && i < first + size; ++i)
       for (std::size_t c = 0; c < components; ++c) {
         double& influence = task.influence[i * components + c];
         influence = task.overwrite ? total[c][i - first] : influence + total[c][i - first];
       }
   }
+
+ private:
+  static Real lane_numbers() {
+    Real numbers;
+    for (int lane = 0; lane < lanes; ++lane) numbers.native[lane] = static_cast<float>(lane);
+    return numbers;
+  }
 };
 
-/// Every target sums the sources in their order, in groups. Places are rounded relative to the first target of a block,
-/// so that the differences of what is near each other are right; blocks begin at multiples of their size, and the result
-/// has the same bits for every division into ranges.
+/// Targets for which sources are rounded once.
+inline constexpr std::size_t single_targets = 128;
+
+/// Every target sums the sources in their order, in groups. Places are rounded once for some blocks, relative to the
+/// first target of these, so that the differences of what is near each other are right. Blocks begin at multiples of
+/// their size, and the result has the same bits for every division into ranges.
 template <int W, class P, class Q, class Law>
 [[gnu::flatten]] void over_all_single(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
   using Block = SingleBlock<W, P, Q, Law>;
-  using Real = typename Block::Real;
   Held<Law> law = *static_cast<Law const*>(the_law);
   std::size_t const target_stride = stride_of<P, Law>(task.target_row_stride);
   std::size_t const source_stride = stride_of<Q, Law>(task.source_row_stride);
-  Real lane_number;
-  for (int lane = 0; lane < Block::lanes; ++lane) lane_number.native[lane] = static_cast<float>(lane);
-  for (std::size_t first = begin / Block::size * Block::size; first < end; first += Block::size) {
-    double const* const origin = task.target + first * target_stride;
-    Block block;
-    for (int t = 0; t < Block::packs; ++t)
-      block.p[t] = load_rounded_rows<P, Block::lanes>(
-          task.target, target_stride, first + static_cast<std::size_t>(t * Block::lanes), task.targets, origin);
+  for (std::size_t all = begin / single_targets * single_targets; all < end; all += single_targets) {
+    Origin<P> const of_targets(task.target + all * target_stride);
+    Origin<Q> const of_sources(task.target + all * target_stride);
+    Block block[single_targets / Block::size];
+    std::size_t blocks = 0;
+    for (std::size_t first = all; first < all + single_targets && first < end; first += Block::size)
+      if (begin < first + Block::size) block[blocks++].load(task, target_stride, first, of_targets);
     for (std::size_t from = 0; from < task.sources; from += single_group) {
       std::size_t const count = task.sources - from < single_group ? task.sources - from : single_group;
-      alignas(64) float source[single_group][row_doubles<Q>];
-      for (std::size_t k = 0; k < count; ++k) round_row<Q>(task.source + (from + k) * source_stride, origin, source[k]);
-      block.clear();
-      // The block's own particles, [own, own_end) of the group if they are in it, are masked where they meet themselves.
-      bool const meets = task.same && first < from + count && from < first + Block::size;
-      std::size_t const own = !meets ? count : first > from ? first - from : 0;
-      std::size_t const behind = first + Block::size - from, own_end = !meets || behind > count ? count : behind;
-      auto const plain = [](int, Real const& x) { return x; };
-      for (std::size_t k = 0; k < own; ++k) block.add(law, source[k], plain);
-      for (std::size_t k = own; k < own_end; ++k) {
-        // its number in the block: a small number, exact in single precision
-        auto const self =
-            static_cast<float>(static_cast<std::ptrdiff_t>(from + k) - static_cast<std::ptrdiff_t>(first));
-        block.add(law, source[k], [&](int t, Real const& x) {
-          return select(lane_number != self - static_cast<float>(t * Block::lanes), x, Real(0.0F));
-        });
-      }
-      for (std::size_t k = own_end; k < count; ++k) block.add(law, source[k], plain);
-      block.add_to_total();
+      alignas(64) float source[single_group][rounded_numbers<Q>];
+      for (std::size_t k = 0; k < count; ++k)
+        round_row<Q>(task.source + (from + k) * source_stride, of_sources, source[k]);
+      for (std::size_t b = 0; b < blocks; ++b) block[b].add(law, source, from, count, task.same);
     }
-    block.store(task, first, begin, end);
+    for (std::size_t b = 0; b < blocks; ++b) block[b].store(task, begin, end);
   }
 }
 

@@ -24,7 +24,7 @@ constexpr PairKernels in_single_precision(PairKernels kernels) {
 
 /// The influence law(p, q) of all q in `source` (which may be the target) on each p in `target`, without a cut-off, like
 /// PairScheme::internal and, one way, between. Distances are differences of places relative to a target nearby, and sums
-/// of 256 are added up in double precision.
+/// of 256 are added up in double precision. Inverses of squares end at 1e38: nobody may be further than 1e18 from others.
 template <class P, class Q, class Law>
 void add_in_single_precision(PairScheme& scheme, Ensemble<P>& target, Ensemble<Q>& source, Law const& law) {
   scheme.add_pairs(target, source, in_single_precision<native_width<double>, P, Q, Law>(near_kernels<P, Q, Law>()),

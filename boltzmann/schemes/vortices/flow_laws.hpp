@@ -144,7 +144,7 @@ struct SlopesOf {
     Real const square = dot(r, r), core2 = q.core * q.core;
     SlopedFlow<P::dimension, Real> flow;
     if constexpr (P::dimension == 2) {
-      flow.velocity = cross(q.vorticity, r) * (1 / (2 * pi) * Core::turning_2d(square, core2));
+      flow.velocity = cross(q.vorticity * (1 / (2 * pi)) * Core::turning_2d(square_above_zero(r), core2), r);
       flow.vorticity = q.vorticity[0] * CoreSums<Core>::density_2d(square, core2);
     } else {
       auto const turning = Core::turning_3d(square, core2);
