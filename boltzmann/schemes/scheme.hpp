@@ -112,6 +112,9 @@ class Scheme {
   /// Whether its box may be stretched while it runs (Box::edges()); it is told of that.
   virtual bool follows_box() const { return false; }
   virtual void box_changed() {}
+  /// The box stays as it is now, for some steps at least: what a scheme has chosen for another box it may choose anew.
+  /// True if energies are others by that.
+  virtual bool box_settled() { return false; }
 
   /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
   /// more, until they are asked for again with `taken` false.
