@@ -95,6 +95,7 @@ Team::Team(BoltzmannTeamFunctions const& functions, void* of, int rank, int size
 
 /// Soon awake at first; then it leaves the processor to others, who may be what it waits for.
 void Team::wait() {
+  ++counts_.collectives;
   if (functions_->done(of_) != 0) return;
   auto const start = Clock::now();
   double const since = processor_seconds();
@@ -157,10 +158,12 @@ std::vector<std::string> Team::gather(std::string const& mine) {
 void Team::exchange(std::span<Message const> messages) {
   if (alone()) return;
   std::vector<BoltzmannMessage> pieces;
-  for (auto const& message : messages)
+  for (auto const& message : messages) {
+    if (!message.receive && message.size > 0) ++counts_.messages, counts_.bytes += message.size;
     for (std::size_t at = 0; at < message.size; at += piece)
       pieces.push_back({message.rank, message.receive ? 1 : 0, static_cast<char*>(message.bytes) + at,
                         static_cast<int>(std::min(piece, message.size - at))});
+  }
   functions_->begin_exchange(of_, pieces.data(), static_cast<int>(pieces.size()));
   wait();
 }

@@ -104,6 +104,13 @@ class Team {
   void exchange(std::span<Message const> messages);
   /// Comes back when all ranks have come here.
   void barrier();
+  /// What this rank has had to do with others.
+  struct Counts {
+    std::uint64_t collectives = 0;  ///< sums, minima, broadcasts, gathers and exchanges: one wait each
+    std::uint64_t messages = 0;     ///< that it has sent in exchanges,
+    std::uint64_t bytes = 0;        ///< with so many bytes
+  };
+  Counts const& counts() const { return counts_; }
   /// Processor time that this rank has spent waiting for others, in seconds: what is left of all of it is work.
   double waited() const { return waited_; }
   /// How long a rank waits.
@@ -164,6 +171,7 @@ class Team {
   int rank_ = 0, size_ = 1, depth_ = 0;
   double patience_ = std::numeric_limits<double>::infinity();
   double waited_ = 0;
+  Counts counts_;
   Occasion occasion_ = Occasion::between_runs;  // of the vote that is waited for
   std::exception_ptr over_;                     // a failure after which ranks can't vote any more
   std::string told_;

@@ -71,8 +71,16 @@ void read_one_barostat(Item const& table, Reading& reading) {
 
 void read_barostats(Section& document, Reading& reading) {
   Item const* const item = document.find("barostat");
-  if (item && item->is(Item::Kind::table)) return read_one_barostat(*item, reading);
-  for (Item const* table : find_tables(document, "barostat")) read_one_barostat(*table, reading);
+  if (item && item->is(Item::Kind::table))
+    read_one_barostat(*item, reading);
+  else
+    for (Item const* table : find_tables(document, "barostat")) read_one_barostat(*table, reading);
+  // Moves of the box would feel the jumps, which forces and the virial don't have.
+  if (!reading.barostats.empty() && reading.jump)
+    reading.mistake(
+        *reading.jump,
+        "barostat: the energy of this law jumps at its cut-off, by which the pressure would be another than its "
+        "forces'; add tail = true here, or leave out shifted = false in [run]");
 }
 
 void add_barostats(Reading& reading) {

@@ -151,6 +151,7 @@ class InfluenceReader {
     if (reading_.context.mistakes.count() != before_ || !there) return;
     double const reach = from_outside_ || connect_ || tuples() ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
+    note_jump(reach);
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
     try {
       BondedFactors const bonded(*pairs_, *a_, factors_);
@@ -271,6 +272,13 @@ class InfluenceReader {
       }
       tails->between(*a_->particles, *b_->particles, law, reach);
     });
+  }
+
+  /// Barostats want to know of energies that jump where pairs cross the cut-off.
+  void note_jump(double reach) {
+    if (std::isfinite(reach) && !reading_.run.shifted && !tail_ && typed_.at_cutoff == FormulaLaw::AtCutoff::cut &&
+        !reading_.jump)
+      reading_.jump = law_place_;
   }
 
   /// A shipped law as somebody would type it. Error if it can't be typed.
@@ -446,6 +454,7 @@ class InfluenceReader {
                                           law_->name));
     double const reach = smooth || external() || connect_ ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
+    note_jump(reach);
     catch_errors(reading_, law_place_, [&] {
       std::optional<BondedFactors> bonded;
       if (!factors_.empty()) bonded.emplace(*pairs_, *a_, factors_);

@@ -171,6 +171,7 @@ struct Reading {
   std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
   std::vector<std::unique_ptr<ReadClass>> classes = {};
   std::vector<ReadBarostat> barostats = {};
+  std::optional<Place> jump = {};  ///< a law whose energy jumps at its cut-off, without a tail
   std::vector<Settable> settable = {};
   std::vector<ReadEvent> events = {};
 

@@ -113,6 +113,9 @@ class Scheme {
   /// Whether its box may be stretched while it runs (Box::edges()); it is told of that.
   virtual bool follows_box() const { return false; }
   virtual void box_changed() {}
+  /// The box stays as it is now, for some steps at least: what a scheme has chosen for another box it may choose anew.
+  /// True if energies are others by that.
+  virtual bool box_settled() { return false; }
 
   /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
   /// more, until they are asked for again with `taken` false.
@@ -142,6 +145,8 @@ class Scheme {
   /// Why every rank of a team calculates all influences, in a few words ("meshes"); empty if each calculates those on its
   /// share of the particles.
   virtual std::string undivided() const { return "a scheme of its own kind"; }
+  /// Whether it is its neighbour lists that say who owns which particles.
+  virtual bool shares_out() const { return false; }
   /// From here on influences of this rank's shares are wanted (AnyEnsemble::share()), and who reads rows of others asks
   /// for them; null: all again. For all ranks, as is everything that calculates in between.
   virtual void divide(Division* /*division*/) {}

@@ -4,6 +4,8 @@
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
+#include <boltzmann/schemes/molecules/rigid_groups.hpp>
 #include <boltzmann/simulation/barostat.hpp>
 
 #include <fmt/format.h>
@@ -11,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <optional>
 
 namespace boltzmann {
 namespace {
@@ -41,6 +45,55 @@ OptionTable make_barostat_options() {
   return all;
 }
 
+/// All rigid bonds that schemes know of.
+std::vector<std::shared_ptr<RigidBonds const>> rigid_bonds(StretchedSystem const& system) {
+  std::vector<std::shared_ptr<RigidBonds const>> all;
+  for (auto* scheme : system.schemes)
+    if (auto const* molecules = dynamic_cast<MoleculeScheme const*>(scheme))
+      all.insert(all.end(), molecules->rigid_bonds().begin(), molecules->rigid_bonds().end());
+  return all;
+}
+
+/// The bodies of an ensemble: its particles, or the groups that rigid bonds make of them.
+class Bodies {
+ public:
+  Bodies(StretchedSystem const& system, AnyEnsemble& ensemble)
+      : ensemble_(ensemble),
+        box_(system.schemes.front()->box()),
+        mass_(ensemble.field("mass").offset),
+        velocity_(ensemble.field("velocity").offset) {
+    std::vector<BondMembers> bonds;
+    for (auto const& rigid : rigid_bonds(system))
+      if (&rigid->ensemble() == &ensemble) bonds.insert(bonds.end(), rigid->bonds().begin(), rigid->bonds().end());
+    if (!bonds.empty()) groups_.emplace(ensemble, bonds);
+  }
+
+  /// function(body, members, arms), see RigidGroups.
+  template <class Function>
+  void each(Function const& function) const {
+    std::vector<Vector<3>> arms{Vector<3>{0, 0, 0}};
+    std::size_t const count = groups_ ? groups_->size() : ensemble_.size();
+    for (std::size_t g = 0; g < count; ++g) {
+      if (groups_) {
+        RigidGroups::Body const body = groups_->body(g, box_, arms);
+        function(body, groups_->members(g), arms);
+        continue;
+      }
+      double const* row = ensemble_.row(g);
+      RigidGroups::Body body{.mass = row[mass_]};
+      for (int a = 0; a < box_.dimension(); ++a) body.centre[a] = row[a], body.velocity[a] = row[velocity_ + a];
+      auto const number = static_cast<std::uint32_t>(g);
+      function(body, std::span(&number, 1), arms);
+    }
+  }
+
+ private:
+  AnyEnsemble& ensemble_;
+  Box const& box_;
+  int mass_, velocity_;
+  std::optional<RigidGroups> groups_;
+};
+
 /// The velocity that the system has as a whole, along axes where it keeps its momentum.
 std::array<double, 3> common_velocity(StretchedSystem const& system) {
   std::array<double, 3> common{};
@@ -50,36 +103,50 @@ std::array<double, 3> common_velocity(StretchedSystem const& system) {
   return common;
 }
 
+/// What forces inside of rigid groups, those of the bonds among them, have of the virial along these axes.
+double virial_inside(StretchedSystem const& system, std::vector<int> const& axes) {
+  double virial = 0;
+  for (auto const& rigid : rigid_bonds(system)) {
+    std::vector<double> per_particle(9 * rigid->ensemble().size(), 0.0);
+    rigid->add_virial(per_particle);
+    for (std::size_t i = 0; i < rigid->ensemble().size(); ++i)
+      for (int const a : axes) virial += per_particle[9 * i + 4 * static_cast<std::size_t>(a)];
+  }
+  for (auto* ensemble : system.ensembles)
+    Bodies(system, *ensemble).each([&](RigidGroups::Body const&, auto const& members, auto const& arms) {
+      for (std::size_t k = 0; members.size() > 1 && k < members.size(); ++k)
+        for (int const a : axes) virial += ensemble->influence(members[k])[a] * arms[k][a];
+    });
+  return virial;
+}
+
+/// The influences on all particles as they are now.
+void calculate(StretchedSystem const& system, double time) {
+  for (auto* ensemble : system.ensembles) ensemble->clear_influence();
+  for (auto* scheme : system.schemes) scheme->add_influences(time);
+}
+
 }  // namespace
 
 OptionTable const& barostat_options() { return once<make_barostat_options>(); }
 
-/// Energies and pressure of the system as it is.
-struct Barostat::Look {
-  double potential = 0, kinetic = 0, pressure = 0, volume = 0;
-
-  Look(StretchedSystem const& system, std::vector<int> const& axes) {
-    auto const measures = system.measure();
-    potential = measures.potential + measures.external + measures.internal;
-    volume = system.schemes.front()->box().volume();
-    auto const common = common_velocity(system);
-    double virial = 0;
-    for (int const a : axes) virial += measures.virial[a][a];
-    ExactSum kinetic_energy;
-    for (auto const* ensemble : system.ensembles) {
-      int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-      for (std::size_t i = 0; i < ensemble->size(); ++i) {
-        double const* row = ensemble->row(i);
-        for (int const a : axes) {
-          double const v = row[velocity + a] - common[a];
-          kinetic_energy += 0.5 * row[mass] * v * v;
-        }
-      }
-    }
-    kinetic = kinetic_energy.value();
-    pressure = (2 * kinetic + virial) / (static_cast<double>(axes.size()) * volume);
-  }
-};
+StretchMeasures measure_stretch(StretchedSystem const& system, std::vector<int> const& axes) {
+  StretchMeasures result;
+  auto const measures = system.measure();
+  result.potential = measures.potential + measures.external + measures.internal;
+  result.volume = system.schemes.front()->box().volume();
+  for (int const a : axes) result.virial += measures.virial[a][a];
+  if (!rigid_bonds(system).empty()) result.virial -= virial_inside(system, axes);
+  auto const common = common_velocity(system);
+  ExactSum kinetic;
+  for (auto* ensemble : system.ensembles)
+    Bodies(system, *ensemble).each([&](RigidGroups::Body const& body, auto const&, auto const&) {
+      for (int const a : axes) kinetic += 0.5 * body.mass * square(body.velocity[a] - common[a]);
+    });
+  result.kinetic = kinetic.value();
+  result.pressure = (2 * result.kinetic + result.virial) / (static_cast<double>(axes.size()) * result.volume);
+  return result;
+}
 
 Barostat::Barostat(BarostatOptions options, double boltzmann_constant)
     : options_(std::move(options)), boltzmann_constant_(boltzmann_constant) {
@@ -122,8 +189,9 @@ void Barostat::check(StretchedSystem const& system) const {
   for (auto const* scheme : system.schemes)
     if (!scheme->follows_box())
       throw Error(
-          "barostat: the box is stretched where all influences are those of pairs; meshes, multipoles, smooth "
-          "particles and bodies do not follow it");
+          "barostat: the box is stretched where influences are those of pairs, of metals, inside of molecules and of a "
+          "mesh "
+          "with near pairs (P3M, 'accuracy'); other meshes, multipoles, smooth particles and bodies do not follow it");
   if (!box.regions().empty()) throw Error("barostat: a box with regions can't be stretched");
   for (auto const& group : groups(box.dimension()))
     for (std::size_t k = 0; k < group.size(); ++k) {
@@ -140,6 +208,13 @@ void Barostat::check(StretchedSystem const& system) const {
     if (!carries_momentum(*ensemble) || ensemble->fields().front().dimension != dimensions::length)
       throw Error(fmt::format("barostat: '{}' is of class {}, which has no mass and velocity in space",
                               ensemble->name(), ensemble->class_name()));
+  for (auto const& rigid : rigid_bonds(system))
+    if (std::none_of(system.schemes.begin(), system.schemes.end(),
+                     [&](Scheme const* scheme) { return &scheme->box() == &rigid->box(); }))
+      throw Error(fmt::format(
+          "barostat: the rigid bonds of '{}' were made with a box that is none of the schemes', and would not "
+          "follow it; give them box() of their MoleculeScheme",
+          rigid->ensemble().name()));
   auto const measures = system.measure();
   if (!measures.unknown.empty()) throw Error("barostat: energies are needed, and " + measures.unknown + " gives none");
   if (!measures.no_virial.empty()) throw Error("barostat: the virial is needed: " + measures.no_virial);
@@ -157,26 +232,31 @@ double Barostat::act(StretchedSystem const& system, StepContext const& context) 
                     options_.pressure, options_.temperature));
   double work = 0;
   for (auto const& axes : groups(system.schemes.front()->box().dimension()))
-    work += move(system, axes, stream, static_cast<double>(options_.every) * context.dt);
+    work += move(system, axes, stream, context);
   return work;
 }
 
-double Barostat::move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream, double duration) {
+double Barostat::move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream,
+                      StepContext const& context) {
   double const kT = boltzmann_constant_ * options_.temperature, mobility = options_.compressibility * options_.rate;
+  double const duration = static_cast<double>(options_.every) * context.dt;
   double const spread2 = 0.5 * kT * mobility * duration;  // of the root of the volume, over the move
-  auto const mean = [&](Look const& at) {
+  auto const mean = [&](StretchMeasures const& at) {
     double const root = std::sqrt(at.volume);
     return root + 0.5 * mobility * root * (at.pressure - options_.pressure + 0.5 * kT / at.volume) * duration;
   };
   ++moves_;
-  Look const before(system, axes);
+  auto const before = measure_stretch(system, axes);
   double const root = std::sqrt(before.volume), centre = mean(before),
                drawn = centre + std::sqrt(spread2) * stream.normal(), chance = stream.uniform();
   if (!(drawn > 0)) return 0;
   double const ratio = drawn * drawn / before.volume, factor = std::pow(ratio, 1 / static_cast<double>(axes.size()));
-  std::vector<std::vector<double>> rows;
-  for (auto const* ensemble : system.ensembles)
+  bool const rigid = !rigid_bonds(system).empty();  // whose forces need all others
+  std::vector<std::vector<double>> rows, influences;
+  for (auto const* ensemble : system.ensembles) {
     rows.emplace_back(ensemble->row(0), ensemble->row(0) + ensemble->size() * ensemble->stride());
+    if (rigid) influences.emplace_back(ensemble->influences().begin(), ensemble->influences().end());
+  }
   auto const edges = system.schemes.front()->box().edges();
   std::array<double, 3> factors{1, 1, 1};
   double kept = 0;
@@ -185,7 +265,8 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
     kept += system.momentum_is_kept[static_cast<std::size_t>(a)] ? 1 : 0;
   }
   stretch(system, factors);
-  Look const after(system, axes);
+  if (rigid) calculate(system, context.time);
+  auto const after = measure_stretch(system, axes);
   double const gained = after.potential - before.potential + after.kinetic - before.kinetic;
   double const back = root - mean(after), forth = drawn - centre;
   double const logarithm = -(gained + options_.pressure * (after.volume - before.volume)) / kT +
@@ -193,13 +274,19 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
                            (forth * forth - back * back) / (2 * spread2);
   if (std::log(chance) < logarithm) {
     ++accepted_;
-    return gained;
+    bool others = false;
+    for (auto* scheme : system.schemes) others = scheme->box_settled() || others;
+    if (others && rigid) calculate(system, context.time);
+    return others ? gained + measure_stretch(system, axes).potential - after.potential : gained;
   }
   for (auto* scheme : system.schemes) {
     scheme->box().edges(edges);
     scheme->box_changed();
   }
-  for (std::size_t e = 0; e < rows.size(); ++e) std::copy(rows[e].begin(), rows[e].end(), system.ensembles[e]->row(0));
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    std::copy(rows[e].begin(), rows[e].end(), system.ensembles[e]->row(0));
+    if (rigid) std::copy(influences[e].begin(), influences[e].end(), system.ensembles[e]->influences().begin());
+  }
   return 0;
 }
 
@@ -208,25 +295,29 @@ void stretch(StretchedSystem const& system, std::array<double, 3> const& factors
   std::array<double, 3> middle{};
   for (int a = 0; a < first.dimension(); ++a) middle[a] = first.low(a) + 0.5 * first.length(a);
   auto const common = common_velocity(system);
-  for (auto* scheme : system.schemes) {
+  for (auto* ensemble : system.ensembles) {
+    int const velocity = ensemble->field("velocity").offset;
+    Bodies(system, *ensemble).each([&](RigidGroups::Body const& body, auto const& members, auto const& arms) {
+      for (int a = 0; a < first.dimension(); ++a) {
+        if (factors[a] == 1) continue;
+        double const centre = middle[a] + factors[a] * (body.centre[a] - middle[a]);
+        double const speed = common[a] + (body.velocity[a] - common[a]) / factors[a];
+        for (std::size_t k = 0; k < members.size(); ++k) {
+          double* const row = ensemble->row(members[k]);
+          row[a] = centre + arms[k][a];
+          row[velocity + a] = speed + (row[velocity + a] - body.velocity[a]);
+        }
+      }
+    });
+  }
+  for (auto* scheme : system.schemes) {  // and not before: bodies are put together by nearest images
     auto edges = scheme->box().edges();
     for (int a = 0; a < first.dimension(); ++a)
       if (factors[a] != 1)
         for (int const end : {a, 3 + a}) edges[end] = middle[a] + factors[a] * (edges[end] - middle[a]);
     scheme->box().edges(edges);
   }
-  for (auto* ensemble : system.ensembles) {
-    int const velocity = ensemble->field("velocity").offset;
-    for (std::size_t i = 0; i < ensemble->size(); ++i) {
-      double* row = ensemble->row(i);
-      for (int a = 0; a < first.dimension(); ++a) {
-        if (factors[a] == 1) continue;
-        row[a] = middle[a] + factors[a] * (row[a] - middle[a]);
-        row[velocity + a] = common[a] + (row[velocity + a] - common[a]) / factors[a];
-      }
-    }
-    first.wrap(*ensemble);
-  }
+  for (auto* ensemble : system.ensembles) first.wrap(*ensemble);
   for (auto* scheme : system.schemes) scheme->box_changed();
 }
 

@@ -31,7 +31,8 @@ struct BarostatOptions {
 };
 OptionTable const& barostat_options();
 
-/// What a barostat acts on. `measure` gives energies and virial of particles and box as they are.
+/// What a barostat acts on. `measure` gives energies and virial of particles and box as they are (where there are rigid
+/// bonds, for the influences as they are).
 struct StretchedSystem {
   std::span<Scheme* const> schemes;
   std::span<AnyEnsemble* const> ensembles;
@@ -42,7 +43,8 @@ struct StretchedSystem {
 /// Volumes V have the density exp(-(H + P V) / kT) dV, and particles belong to it. The root of V is moved as the
 /// stochastic equation has it, with the force 2 V^(1/2) (P(t) - P) + k T / V^(1/2), P(t) the pressure of now; positions go
 /// with the box and momenta the other way, H changes, and the move is accepted with the probability of Metropolis and
-/// Hastings. So the ensemble does not depend on rate, compressibility or `every`.
+/// Hastings. So the ensemble does not depend on rate, compressibility or `every`. Particles that rigid bonds join, directly
+/// or by others, are moved as one: their centre of mass goes with the box, its momentum the other way.
 class Barostat {
  public:
   /// Error if temperature, compressibility or rate is not positive, or something is not finite.
@@ -71,9 +73,8 @@ class Barostat {
   void restore(std::span<double const> state);
 
  private:
-  struct Look;
   std::vector<std::vector<int>> groups(int dimension) const;
-  double move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream, double duration);
+  double move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream, StepContext const& context);
 
   BarostatOptions options_;
   double boltzmann_constant_;
@@ -84,6 +85,20 @@ class Barostat {
 
 /// Stretches the boxes of all schemes about their middle by a factor along each axis, and the particles with them:
 /// positions by the factor, velocities (relative to the common one along axes whose momentum is kept) by its inverse.
+/// Of particles that rigid bonds join it is the centre of mass and its velocity that are stretched.
 void stretch(StretchedSystem const& system, std::array<double, 3> const& factors);
+
+/// What the volume works against where these axes are stretched by one factor.
+struct StretchMeasures {
+  double potential = 0;  ///< energy of all influences
+  double kinetic = 0;    ///< of the motion along these axes that is stretched
+  double virial = 0;     ///< minus the slope of the potential energy by the logarithm of the factor
+  double volume = 0;
+  double pressure = 0;  ///< (2 kinetic + virial) / (axes times volume)
+};
+/// Of the state as it is. Where rigid bonds join particles, the pressure is that of molecules: the motion of centres of
+/// mass, and forces on these (M. P. Allen and D. J. Tildesley, Computer Simulation of Liquids, 2nd ed. 2017, section 2.4);
+/// influences must then be those of the state.
+StretchMeasures measure_stretch(StretchedSystem const& system, std::vector<int> const& axes);
 
 }  // namespace boltzmann

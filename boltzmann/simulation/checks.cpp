@@ -2,6 +2,7 @@
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/simulation/start_forces.hpp>
 
@@ -262,8 +263,13 @@ void Simulation::check_barostats() {
           fmt::format("barostat: ensemble '{}' needs leap-frog for all its particles, not {}", ensemble->name(),
                       part.integrator->same_for_all() ? to_string(part.integrator->method()) : "some that are frozen"));
   }
-  for (auto const* dissipation : dissipations_)
-    if (dissipation->rigid_bonds() > 0) throw Error("barostat: rigid bonds can't be stretched");
+  std::size_t known = 0, kept = 0;  // rigid bonds, by schemes and behind baths
+  for (auto const* scheme : schemes_)
+    if (auto const* molecules = dynamic_cast<MoleculeScheme const*>(scheme))
+      for (auto const& rigid : molecules->rigid_bonds()) known += rigid->size();
+  for (auto const* dissipation : dissipations_) kept += dissipation->rigid_bonds();
+  if (kept > known)
+    throw Error("barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
   for (auto const& barostat : barostats_) barostat->check(stretched_system());
 }
 

@@ -2,6 +2,7 @@
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace boltzmann {
@@ -31,7 +32,9 @@ std::string Simulation::undivided() const {
   if (!events_.empty()) return "events";
   if (substeps_) return "steps that are divided into substeps";
   if (!gauss_radau_.parts().empty()) return "gauss-radau";
-  if (schemes_.size() > 1) return "several schemes";
+  if (!slow_.empty()) return "forces that are calculated every few steps";
+  if (std::count_if(schemes_.begin(), schemes_.end(), [](auto const* scheme) { return scheme->shares_out(); }) > 1)
+    return "several schemes that have neighbour lists";
   for (auto const* scheme : schemes_) {
     if (auto why = scheme->undivided(); !why.empty()) return why;
   }

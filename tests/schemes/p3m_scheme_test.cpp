@@ -176,6 +176,69 @@ TEST(P3M, VirialOfAPairIsItsOwn) {
       EXPECT_NEAR(virial[a][b], -strength * r[a] * r[b], 0.02 * strength * norm2(r)) << a << b;
 }
 
+// ---- boxes that change ----
+
+template <int D>
+void expect_to_follow(Vector<D> const& edges, Vector<D> const& factors, double growth, unsigned seed) {
+  Ensemble<Coulomb<D>> charges("charges");
+  scatter<D>(charges, 200, Vector<D>{}, edges, seed);
+  P3MScheme scheme(box_of(edges, Boundary::periodic), coulomb(0.7), 1e-4);
+  scheme.add(charges);
+  scheme.calculate();
+  auto const before = scheme.parameters();
+  double const chosen = std::hypot(before.error_near, before.error_mesh);
+  Vector<D> now = edges;
+  auto const stretch = [&](Vector<D> const& by) {
+    for (auto& p : charges)
+      for (int a = 0; a < D; ++a) p.position[a] *= by[a];
+    for (int a = 0; a < D; ++a) now[a] *= by[a];
+    Box::Edges to{};
+    for (int a = 0; a < D; ++a) to[3 + static_cast<std::size_t>(a)] = now[a];
+    scheme.box().edges(to);
+    scheme.box_changed();
+  };
+  auto const error = [&] {  // rms of forces, and the energy's
+    auto const exact = exact_sums<D>(charges, now, coulomb(0.7).constant);
+    scheme.calculate();
+    auto const measures = scheme.measure();
+    double largest = 0, squares = 0;
+    for (std::size_t i = 0; i < charges.size(); ++i) {
+      largest = std::max(largest, std::abs(measures.per_particle[0][i]));
+      squares += std::pow(measures.per_particle[0][i] - 0.5 * charges[i].charge * exact.potential[i], 2);
+    }
+    EXPECT_LT(std::sqrt(squares / 200), 20e-4 * (1 + largest)) << D;
+    EXPECT_NEAR(measures.potential, exact.energy, 4 * std::sqrt(squares)) << D;
+    return relative_error(forces(charges), exact.force) * rms(exact.force);
+  };
+  EXPECT_LT(error(), 2 * chosen) << D;
+  stretch(factors);
+  EXPECT_LT(error(), 2 * chosen) << D;
+  EXPECT_FALSE(scheme.box_settled()) << D;
+  EXPECT_EQ(scheme.parameters().cells, before.cells);
+  stretch(filled<D>(growth));
+  EXPECT_GT(error(), 2 * chosen) << D;
+  EXPECT_TRUE(scheme.box_settled()) << D;
+  EXPECT_NE(scheme.parameters().alpha, before.alpha);
+  EXPECT_LT(error(), 2 * chosen) << D;
+  EXPECT_FALSE(scheme.box_settled()) << D;
+}
+
+TEST(P3M, FollowsItsBoxAndChoosesAnewWhereItHasGrown) {
+  expect_to_follow<1>({3.0}, {0.95}, 3, 91);
+  expect_to_follow<2>({1.0, 1.4}, {0.97, 1.02}, 1.8, 92);
+  expect_to_follow<3>({1.0, 1.3, 0.9}, {0.97, 1.01, 1.02}, 1.8, 93);
+  // What is near, too: pairs() beside the mesh.
+  Ensemble<Coulomb<3>> charges("charges", 2);
+  charges[0].charge = 1, charges[1].charge = -1;
+  charges[1].position = {0.5, 0, 0};
+  P3MScheme scheme(box_of(filled<3>(4.0), Boundary::periodic), coulomb(1), 1e-4);
+  scheme.add(charges);
+  scheme.calculate();
+  scheme.box().edges({0, 0, 0, 5, 5, 5});
+  scheme.box_changed();
+  EXPECT_EQ(scheme.pairs().box().edges(), scheme.box().edges());
+}
+
 TEST(P3M, SeveralClasses) {
   Vector<3> const edges{1.0, 1.3, 0.9};
   Ensemble<Coulomb<3>> ions("ions"), nobody("nobody");

@@ -77,6 +77,35 @@ TEST(TailCorrection, OfTwoEnsemblesCountsEachPairOnce) {
   EXPECT_NEAR(mixed.measure().virial[1][1] / one.measure().virial[1][1], 1, 1e-13);
 }
 
+TEST(TailCorrection, OfParticlesThatDifferIsThatOfEnsemblesOfEqualOnes) {
+  // p is not q: a law of an ensemble by itself is symmetric, one between two need not be.
+  Ensemble<Newton<3>> a("a", 3), b("b", 5), all("all", 8), others("others", 4);
+  for (std::size_t i = 0; i < 8; ++i) all[i].mass = i % 2 == 0 || i == 7 ? 2 : 0.5;
+  for (auto& p : a) p.mass = 0.5;
+  for (auto& p : b) p.mass = 2;
+  for (std::size_t i = 0; i < 4; ++i) others[i].mass = i == 2 ? 3 : 1;
+  auto const law = FormulaLaw::energy("4*p.mass*q.mass*((1/r)^12 - q.mass*p.mass*(1/r)^6)");
+  auto const skew = FormulaLaw::energy("p.mass*q.mass^2/r^5");
+  TailCorrection mixed(cube<3>(8)), one(cube<3>(8));
+  mixed.internal(a, law, 2);
+  mixed.internal(b, law, 2);
+  mixed.between(a, b, law, 2);
+  mixed.between(a, others, skew, 2);
+  mixed.between(b, others, skew, 2);
+  one.internal(all, law, 2);
+  one.between(all, others, skew, 2);
+  auto const apart = mixed.measure(), together = one.measure();
+  EXPECT_NEAR(apart.potential / together.potential, 1, 1e-13);
+  EXPECT_NEAR(apart.virial[1][1] / together.virial[1][1], 1, 1e-13);
+  EXPECT_NEAR(apart.per_particle[0][0] / together.per_particle[0][1], 1, 1e-13);
+  EXPECT_NEAR(apart.per_particle[1][0] / together.per_particle[0][0], 1, 1e-13);
+  EXPECT_NEAR(apart.per_particle[2][2] / together.per_particle[1][2], 1, 1e-13);
+  // Against the closed formula, of the skew law: sum of m_p m_q^2 over pairs times 4 pi / (2 R^2) / V.
+  TailCorrection alone(cube<3>(8));
+  alone.between(all, others, skew, 2);
+  EXPECT_NEAR(alone.measure().potential, (3 * 0.5 + 5 * 2) * (3 + 9) * 4 * pi / (2 * 4) / 512, 1e-13);
+}
+
 // exp(-r) in 3D: 4 pi (R^2 + 2 R + 2) exp(-R).
 TEST(TailCorrection, OfExponentials) {
   for (double const R : {1.0, 5.0, 12.0})
@@ -97,10 +126,14 @@ TEST(TailCorrection, RefusesWhatHasNone) {
   };
   EXPECT_EQ(refused(FormulaLaw::energy("1/r^3")),
             "its tail has no end: in 3D an energy must fall off faster than 1/r^3, from the cut-off 3 on it does not");
-  EXPECT_EQ(refused(FormulaLaw::energy("p.mass*q.mass/r^6")),
-            "a tail is that of an energy which knows the distance of two particles, and nothing else of them");
-  EXPECT_EQ(refused(FormulaLaw::energy("dot(separation, [1, 0, 0])^2/r^9")),
-            "a tail is that of an energy which knows the distance of two particles, and nothing else of them");
+  for (char const* law : {"dot(p.velocity, q.velocity)/r^6", "dot(separation, [1, 0, 0])^2/r^9"})
+    EXPECT_EQ(refused(FormulaLaw::energy(law)),
+              "a tail is that of an energy which knows the distance of two particles and fields of them that do not "
+              "change, and nothing else");
+  Ensemble<Newton<3>> many("many", 65);
+  for (std::size_t i = 0; i < 65; ++i) many[i].mass = 1 + static_cast<double>(i);
+  EXPECT_EQ(message([&] { tail.internal(many, FormulaLaw::energy("p.mass*q.mass/r^6"), 3); }),
+            "a tail is that of at most 64 kinds of particles; the fields that the law reads make more of 'many'");
   EXPECT_EQ(refused(FormulaLaw::influence("1/r^6")), "a tail needs the energy of the law; it has none");
   EXPECT_EQ(refused(lennard_jones, no_cutoff), "a tail begins at a cut-off; there is none");
   EXPECT_EQ(message([] { TailCorrection open(cube<2>(8, Boundary::open)); }),

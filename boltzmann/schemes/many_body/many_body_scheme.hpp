@@ -31,6 +31,7 @@ class ManyBodyScheme : public Scheme {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::string undivided() const override { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
+  bool shares_out() const override { return true; }
   void divide(Division* division) override;
   std::size_t bytes() const override;
   std::string report() const override;

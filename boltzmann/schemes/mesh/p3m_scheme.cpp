@@ -13,6 +13,11 @@
 #include <cmath>
 
 namespace boltzmann {
+namespace {
+
+constexpr double max_growth_of_error = 1.5;  // in a box that changes
+
+}  // namespace
 
 /// All particles as point sources, and the pair scheme over them.
 struct P3MScheme::Near {
@@ -77,11 +82,42 @@ void P3MScheme::choose(P3mParameters const& parameters) {
           : D == 2 ? Near::make<2>(box(), law, parameters.cutoff)
                    : Near::make<3>(box(), law, parameters.cutoff);
   if (quantum_ > 0) near_->scheme.make_reversible(quantum_);
+  solve_in_this_box();
+}
+
+void P3MScheme::solve_in_this_box() {
+  int const D = box().dimension();
   std::array<double, 3> edges{1, 1, 1};
   for (int a = 0; a < D; ++a) edges[a] = box().length(a);
-  auto influence = std::make_shared<P3mInfluence>(D, edges, parameters.order, parameters.cells, parameters.alpha);
-  solve_by({parameters.cells.begin(), parameters.cells.begin() + D}, parameters.order,
+  auto const& [order, cells, alpha, cutoff, error_near, error_mesh] = parameters_;
+  auto influence = std::make_shared<P3mInfluence>(D, edges, order, cells, alpha);
+  solve_by({cells.begin(), cells.begin() + D}, order,
            [influence](std::array<double, 3> const& k) { return (*influence)(k); });
+  energy_terms_.reset();
+}
+
+void P3MScheme::box_changed() {
+  pairs().box().edges(box().edges());
+  pairs().box_changed();
+  if (!near_) return;
+  near_->scheme.box().edges(box().edges());
+  near_->scheme.box_changed();
+  solve_in_this_box();
+}
+
+bool P3MScheme::box_settled() {
+  if (!tuned_ || parameters_.error_mesh == 0) return false;  // no strength, no error
+  P3mSystem const system = this->system();
+  double const chosen = std::hypot(parameters_.error_near, parameters_.error_mesh);
+  double const error = std::hypot(p3m_error_near(system, parameters_.alpha, parameters_.cutoff),
+                                  p3m_error_mesh(system, parameters_.order, parameters_.cells, parameters_.alpha));
+  if (error <= max_growth_of_error * chosen) return false;
+  try {
+    choose(tune_p3m(system, chosen, threads()));
+  } catch (Error const& refusal) {
+    throw PhysicsFailure(fmt::format("the box has changed, and its mesh can't be chosen anew: {}", refusal.what()));
+  }
+  return true;
 }
 
 void P3MScheme::tune() {
@@ -232,17 +268,15 @@ EnergyAndVirial P3MScheme::measure(double time) {
   measures.reciprocal = measures.reciprocal && near.reciprocal;
   P3mSystem const system = this->system();
   // A part goes with the square of each strength; with the background, the other with each strength times their sum.
-  double const constant = p3m_energy_constant(system, parameters_);
-  P3mSystem neutral = system;
-  neutral.sum_of_strengths = 0;
-  double const own = p3m_energy_constant(neutral, parameters_);
-  double const per_square = system.sum_of_squares > 0 ? own / system.sum_of_squares : 0;
-  double const per_strength = system.sum_of_strengths != 0 ? (constant - own) / system.sum_of_strengths : 0;
-  measures.potential += near.potential + constant;
+  if (!energy_terms_) energy_terms_ = p3m_energy_terms(system, parameters_);
+  double const per_square = energy_terms_->per_square,
+               per_strength = energy_terms_->per_total * system.sum_of_strengths;
+  double const of_total = per_strength * system.sum_of_strengths;
+  measures.potential += near.potential + per_square * system.sum_of_squares + of_total;
   // What goes with the inverse volume, and with nothing else, pushes in all directions.
   for (int a = 0; a < box().dimension(); ++a) {
     for (int b = 0; b < box().dimension(); ++b) measures.virial[a][b] += near.virial[a][b];
-    measures.virial[a][a] += constant - own;
+    measures.virial[a][a] += of_total;
   }
   std::size_t at = 0, number = 0;
   for (auto const* ensemble : Scheme::ensembles()) {

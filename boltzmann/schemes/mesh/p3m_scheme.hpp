@@ -10,6 +10,7 @@
 #include <boltzmann/schemes/mesh/p3m_tuning.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace boltzmann {
 
@@ -29,6 +30,12 @@ class P3MScheme final : public MeshScheme {
   std::vector<MeshField const*> mesh_fields() override;
   void add_influences(double time) override;
   EnergyAndVirial measure(double time = 0) override;
+  bool follows_box() const override { return true; }
+  /// Cells, order, splitting and cut-off stay what they are, the influence function is that of the new box.
+  void box_changed() override;
+  /// Chooses all of them anew where the error by estimate has become 1.5 times what it was chosen to be: in a box that
+  /// has grown. PhysicsFailure if that can't be.
+  bool box_settled() override;
   void make_reversible(double quantum) override;
   std::size_t bytes() const override;
   std::string summary() const override { return MeshScheme::summary() + ", and near pairs (P3M)"; }
@@ -48,6 +55,7 @@ class P3MScheme final : public MeshScheme {
 
   void tune();
   void choose(P3mParameters const& parameters);
+  void solve_in_this_box();
   P3mSystem system() const;
   void copy_particles();
 
@@ -55,6 +63,7 @@ class P3MScheme final : public MeshScheme {
   double accuracy_, quantum_ = 0;
   bool tuned_ = false;
   P3mParameters parameters_;
+  std::optional<P3mEnergyTerms> energy_terms_;  // of this box, once they are needed
   std::unique_ptr<Near> near_;
 };
 

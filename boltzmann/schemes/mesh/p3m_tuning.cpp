@@ -460,8 +460,8 @@ double p3m_error_mesh(P3mSystem const& system, int order, MeshCells const& cells
   return error_mesh(system, order, cells, alpha, finest_sample);
 }
 
-double p3m_energy_constant(P3mSystem const& system, P3mParameters const& parameters) {
-  check(system, "p3m_energy_constant");
+P3mEnergyTerms p3m_energy_terms(P3mSystem const& system, P3mParameters const& parameters) {
+  check(system, "p3m_energy_terms");
   P3mInfluence const influence(system.dimension, system.edges, parameters.order, parameters.cells, parameters.alpha);
   auto const of_one = [&]<int D>(std::integral_constant<int, D>) {
     Vector<D> const place{};
@@ -476,10 +476,13 @@ double p3m_energy_constant(P3mSystem const& system, P3mParameters const& paramet
   double const background = 1 / (4 * square(parameters.alpha) * volume_of(system));
   double const beyond =
       tail_of_near_potential(system.dimension, parameters.alpha, parameters.cutoff) / volume_of(system);
-  double const squares = system.sum_of_squares, total = square(system.sum_of_strengths);
-  return 0.5 * system.constant *
-         (squares * (itself + background - influence.mean_self_potential()) - total * background +
-          (total - squares) * beyond);
+  double const half = 0.5 * system.constant;
+  return {half * (itself + background - influence.mean_self_potential() - beyond), half * (beyond - background)};
+}
+
+double p3m_energy_constant(P3mSystem const& system, P3mParameters const& parameters) {
+  P3mEnergyTerms const terms = p3m_energy_terms(system, parameters);
+  return terms.per_square * system.sum_of_squares + terms.per_total * square(system.sum_of_strengths);
 }
 
 P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, std::size_t memory) {

@@ -79,7 +79,13 @@ double p3m_error_mesh(P3mSystem const& system, int order, std::array<std::size_t
 /// What is to be added to the energy of pairs within the cut-off plus half the sum of strength times mesh potential:
 /// the neutralising background, the mean of the near potential beyond the cut-off, and what a particle and its images
 /// do to itself in place of what the mesh makes of that (V. Ballenegger, J. J. Cerda, O. Lenz, C. Holm, J. Chem. Phys.
-/// 128, 034109 (2008)). Energies then are those of ewald_sums().
+/// 128, 034109 (2008)). Energies then are those of ewald_sums(). A part goes with the sum of squares of the strengths,
+/// the other with the square of their sum.
+struct P3mEnergyTerms {
+  double per_square = 0, per_total = 0;
+};
+P3mEnergyTerms p3m_energy_terms(P3mSystem const& system, P3mParameters const& parameters);
+/// All of it, for the strengths of the system.
 double p3m_energy_constant(P3mSystem const& system, P3mParameters const& parameters);
 
 /// Order, mesh, alpha and cut-off for which the estimated rms error of the force, near and mesh together, is `accuracy`

@@ -47,6 +47,7 @@ class MoleculeScheme final : public Scheme {
   void add_influences(double time) override;
   std::optional<std::uint64_t> revision() const override;
   EnergyAndVirial measure(double time = 0) override;
+  bool follows_box() const override { return true; }
   bool translation_invariant() const override { return box().all_open() && box().regions().empty(); }
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;

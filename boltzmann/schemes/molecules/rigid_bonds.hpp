@@ -31,6 +31,7 @@ class RigidBonds {
   void add(std::vector<BondMembers> const& bonds, double length);
 
   AnyEnsemble& ensemble() const { return ensemble_; }
+  Box const& box() const { return box_; }
   /// Distances that are kept: each takes a degree of freedom.
   std::size_t size() const { return bonds_.size(); }
   std::vector<BondMembers> const& bonds() const { return bonds_; }

@@ -106,6 +106,7 @@ struct PairScheme::Near {
   PairTask task, overwriting;
   PairKernel few = nullptr;        // the kernel for a handful of particles, if they are
   std::vector<double> images;      // rows of those beyond walls
+  bool filtered = false;           // some pairs are left out: the first images of those that are bonded
   double factor = 1;               // of all that the law gives: between some that are bonded
   std::vector<double> whole = {};  // what it gives before that
 
@@ -335,6 +336,7 @@ void PairScheme::add_near(AnyEnsemble& target, AnyEnsemble& source, PairKernels 
   near->task.same = &target == &source;
   near->task.cutoff2 = cutoff * cutoff;
   near->factor = factor;
+  near->filtered = !filter.start.empty();
   if (!near->all_pairs()) near->list = neighbourhood_.add(target, source, cutoff, std::move(filter));
   near_.push_back(std::move(near));
   changed();
@@ -656,10 +658,12 @@ bool PairScheme::velocity_dependent(AnyEnsemble const& ensemble) const {
 void PairScheme::box_changed() {
   for (auto const& near : near_)
     for (int a = 0; a < box().dimension(); ++a)
-      if (box().periodic(a) && near->cutoff > box().length(a))
-        throw PhysicsFailure(fmt::format("the box has shrunk to {} along {}, less than the cut-off {} of a law on '{}'",
-                                         spoken_units().text(box().length(a), dimensions::length), "xyz"[a],
-                                         spoken_units().text(near->cutoff, dimensions::length), near->target->name()));
+      if (box().periodic(a) && near->cutoff * (near->filtered ? 2 : 1) > box().length(a))
+        throw PhysicsFailure(
+            fmt::format("the box has shrunk to {} along {}, less than {}the cut-off {} of a law on '{}'",
+                        spoken_units().text(box().length(a), dimensions::length), "xyz"[a],
+                        near -> filtered ? "twice (for it leaves out bonded pairs) " : "",
+                        spoken_units().text(near->cutoff, dimensions::length), near->target->name()));
   neighbourhood_.stale();
 }
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -15,8 +17,12 @@ namespace {
 constexpr int most_shells = 60;         // each twice as wide as the one before
 constexpr double largest_ratio = 0.99;  // of one to the one before
 constexpr double negligible = 1e-16;
+constexpr std::size_t most_kinds = 64;
 
-/// The energy of a pair at a distance, of a law that knows nothing else.
+/// What a law reads of a particle.
+using Kind = std::vector<double>;
+
+/// The energy of a pair at a distance.
 class EnergyOfDistance {
  public:
   EnergyOfDistance(FormulaLaw const& law, AnyEnsemble const& a, AnyEnsemble const& b)
@@ -26,8 +32,17 @@ class EnergyOfDistance {
         inputs_(numbers_.inputs),
         square_(static_cast<std::size_t>(a.dimension())) {
     if (!program_.has_energy) throw Error("a tail needs the energy of the law; it has none");
-    if (!program_.along || !program_.of_p.empty() || !program_.of_q.empty())
-      throw Error("a tail is that of an energy which knows the distance of two particles, and nothing else of them");
+    if (!program_.along || program_.velocity_dependent)
+      throw Error(
+          "a tail is that of an energy which knows the distance of two particles and fields of them that do not "
+          "change, and nothing else");
+  }
+  std::vector<int> const& of_target() const { return program_.of_p; }
+  std::vector<int> const& of_source() const { return program_.of_q; }
+
+  void choose(Kind const& p, Kind const& q) {
+    set(program_.of_p, numbers_.of_target, p);
+    set(program_.of_q, numbers_.of_source, q);
   }
   double operator()(double r) {
     inputs_[0] = r;
@@ -37,11 +52,43 @@ class EnergyOfDistance {
   }
 
  private:
+  void set(std::vector<int> const& offsets, std::vector<PairNumbers::RowInput> const& rows, Kind const& values) {
+    for (std::size_t k = 0; k < offsets.size(); ++k)
+      for (auto const& row : rows)
+        if (row.offset == offsets[k]) inputs_[row.input] = values[k];
+  }
+
   PairProgram program_;
   PairNumbers const& numbers_;
   Calculation law_;
-  std::vector<double> inputs_;  // the separation, then its square
+  std::vector<double> inputs_;  // the separation, then its square, then fields
   std::size_t square_;
+};
+
+/// The kinds of particles of an ensemble that differ in these numbers of their rows.
+struct Kinds {
+  std::vector<Kind> all;
+  std::vector<double> count;
+  std::vector<std::size_t> of;  // each particle
+
+  Kinds(AnyEnsemble const& ensemble, std::vector<int> const& offsets) : of(ensemble.size()) {
+    std::map<Kind, std::size_t> numbers;
+    Kind values(offsets.size());
+    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      for (std::size_t k = 0; k < offsets.size(); ++k) values[k] = ensemble.row(i)[offsets[k]];
+      auto const [at, is_new] = numbers.try_emplace(values, all.size());
+      if (is_new) {
+        if (all.size() == most_kinds)
+          throw Error(fmt::format(
+              "a tail is that of at most {} kinds of particles; the fields that the law reads make more of '{}'",
+              most_kinds, ensemble.name()));
+        all.push_back(values);
+        count.push_back(0);
+      }
+      of[i] = at->second;
+      ++count[at->second];
+    }
+  }
 };
 
 /// The sphere of radius 1: 2, 2 pi, 4 pi.
@@ -92,11 +139,34 @@ double integral_beyond(double distance, int dimension, std::function<double(doub
       dimension, dimension, distance));
 }
 
+/// Of each particle of `a`, times the density of `b`.
+struct TailCorrection::Tail {
+  std::size_t a, b;  // in ensembles()
+  double cutoff;
+  int dimension;
+  EnergyOfDistance law;
+  struct Integrals {
+    double energy, virial;  // over space beyond the cut-off: of u, and of - r du/dr
+  };
+  std::map<std::pair<Kind, Kind>, Integrals> known = {};
+
+  Integrals const& between(Kind const& p, Kind const& q) {
+    auto const [at, is_new] = known.try_emplace({p, q});
+    if (!is_new) return at->second;
+    law.choose(p, q);
+    double const u = integral_beyond(cutoff, dimension, [&](double r) { return law(r); });
+    // By parts: the integral of - r u' r^(D-1) is R^D u(R) + D times that of u r^(D-1).
+    return at->second = {u, surface(dimension) * std::pow(cutoff, dimension) * law(cutoff) + dimension * u};
+  }
+};
+
 TailCorrection::TailCorrection(Box box) : Scheme(std::move(box)) {
   for (int a = 0; a < this->box().dimension(); ++a)
     if (!this->box().periodic(a))
       throw Error(fmt::format("a tail is that of surroundings without end; axis {} is not periodic", "xyz"[a]));
 }
+
+TailCorrection::~TailCorrection() = default;
 
 std::size_t TailCorrection::number_of(AnyEnsemble const& ensemble) const {
   auto const& all = ensembles();
@@ -107,15 +177,14 @@ void TailCorrection::between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& l
   if (!std::isfinite(cutoff) || !(cutoff > 0)) throw Error("a tail begins at a cut-off; there is none");
   if (law.at_cutoff != FormulaLaw::AtCutoff::cut)
     throw Error("a law that is shifted or switched ends at its cut-off; a tail belongs to one that is cut");
-  int const D = box().dimension();
-  EnergyOfDistance energy(law, a, b);
-  double const u = integral_beyond(cutoff, D, [&](double r) { return energy(r); });
-  // By parts: the integral of - r u' r^(D-1) is R^D u(R) + D times that of u r^(D-1).
-  double const w = surface(D) * std::pow(cutoff, D) * energy(cutoff) + D * u;
+  auto tail = std::make_unique<Tail>(Tail{0, 0, cutoff, box().dimension(), EnergyOfDistance(law, a, b)});
+  Kinds const of_a(a, tail->law.of_target()), of_b(b, tail->law.of_source());
+  for (Kind const& p : of_a.all)
+    for (Kind const& q : of_b.all) tail->between(p, q);
   add(a);
   add(b);
-  tails_.push_back({number_of(a), number_of(b), u, w});
-  if (&a != &b) tails_.push_back({number_of(b), number_of(a), u, w});
+  tail->a = number_of(a), tail->b = number_of(b);
+  tails_.push_back(std::move(tail));
   changed();
 }
 
@@ -124,21 +193,35 @@ EnergyAndVirial TailCorrection::measure(double) {
   measures.reciprocal = true;
   auto const& all = ensembles();
   int const D = box().dimension();
-  std::vector<double> energy(all.size(), 0.0), virial(all.size(), 0.0);  // of one particle, half of each of its pairs
-  for (auto const& tail : tails_) {
-    double const density = static_cast<double>(all[tail.b]->size()) / volume_of(box());
-    energy[tail.a] += 0.5 * density * tail.energy;
-    virial[tail.a] += 0.5 * density * tail.virial;
+  for (auto const* ensemble : all) {
+    measures.per_particle.emplace_back(ensemble->size(), 0.0);
+    measures.virial_per_particle.emplace_back(9 * ensemble->size(), 0.0);
   }
-  for (std::size_t e = 0; e < all.size(); ++e) {
-    double const n = static_cast<double>(all[e]->size());
-    measures.per_particle.emplace_back(all[e]->size(), energy[e]);
-    auto& each = measures.virial_per_particle.emplace_back(9 * all[e]->size(), 0.0);
-    measures.potential += n * energy[e];
-    for (int a = 0; a < D; ++a) {
-      measures.virial[static_cast<std::size_t>(a)][static_cast<std::size_t>(a)] += n * virial[e] / D;
-      for (std::size_t i = 0; i < all[e]->size(); ++i) each[9 * i + 4 * static_cast<std::size_t>(a)] = virial[e] / D;
+  double const volume = volume_of(box());
+  // Half of what particles of these kinds have with those of the other ensemble.
+  auto const give = [&](std::size_t e, Kinds const& kinds, std::vector<Tail::Integrals> const& sums) {
+    for (std::size_t i = 0; i < kinds.of.size(); ++i) {
+      auto const& [energy, virial] = sums[kinds.of[i]];
+      measures.per_particle[e][i] += energy;
+      measures.potential += energy;
+      for (int a = 0; a < D; ++a) {
+        measures.virial_per_particle[e][9 * i + 4 * static_cast<std::size_t>(a)] += virial / D;
+        measures.virial[static_cast<std::size_t>(a)][static_cast<std::size_t>(a)] += virial / D;
+      }
     }
+  };
+  for (auto const& tail : tails_) {
+    Kinds const of_a(*all[tail->a], tail->law.of_target()), of_b(*all[tail->b], tail->law.of_source());
+    std::vector<Tail::Integrals> sums_a(of_a.all.size()), sums_b(of_b.all.size());
+    for (std::size_t p = 0; p < of_a.all.size(); ++p)
+      for (std::size_t q = 0; q < of_b.all.size(); ++q) {
+        auto const [energy, virial] = tail->between(of_a.all[p], of_b.all[q]);
+        double const for_a = 0.5 * of_b.count[q] / volume, for_b = 0.5 * of_a.count[p] / volume;
+        sums_a[p].energy += for_a * energy, sums_a[p].virial += for_a * virial;
+        sums_b[q].energy += for_b * energy, sums_b[q].virial += for_b * virial;
+      }
+    give(tail->a, of_a, sums_a);
+    if (tail->a != tail->b) give(tail->b, of_b, sums_b);
   }
   return measures;
 }

@@ -12,6 +12,7 @@
 #include <boltzmann/schemes/scheme.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +26,11 @@ class TailCorrection final : public Scheme {
  public:
   /// Error unless all axes are periodic.
   explicit TailCorrection(Box box);
+  ~TailCorrection() override;
 
-  /// Of the energy of pairs within an ensemble, and between two. Error if the law is no energy, one that knows more than
-  /// the distance, or one that falls off no faster than 1/r^D, whose tail has no end.
+  /// Of the energy of pairs within an ensemble, and between two. It may know fields of the particles that do not change,
+  /// as long as these make at most 64 kinds of them: each two have an integral of their own. Error if the law is no energy,
+  /// one that knows more, or one that falls off no faster than 1/r^D, whose tail has no end.
   void internal(AnyEnsemble& ensemble, FormulaLaw const& law, double cutoff) {
     between(ensemble, ensemble, law, cutoff);
   }
@@ -36,19 +39,16 @@ class TailCorrection final : public Scheme {
   void add_influences(double) override {}
   std::optional<std::uint64_t> revision() const override { return revision_with({}); }
   EnergyAndVirial measure(double time = 0) override;
+  bool follows_box() const override { return true; }
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
   void make_reversible(double) override {}
 
  private:
-  /// Of each particle of `a`, times the density of `b`.
-  struct Tail {
-    std::size_t a, b;       // in ensembles()
-    double energy, virial;  // integrals over space beyond the cut-off: of u, and of - r du/dr
-  };
+  struct Tail;
   std::size_t number_of(AnyEnsemble const& ensemble) const;
 
-  std::vector<Tail> tails_;
+  std::vector<std::unique_ptr<Tail>> tails_;
 };
 
 /// The integral of u(r) over space beyond a distance, in D dimensions. Error if it has no end.
