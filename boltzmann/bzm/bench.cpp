@@ -1,8 +1,10 @@
 // bzm bench: how fast is this machine with this program? A few standard problems, run through the shipped laws.
+#include <boltzmann/bzm/bench_problems.hpp>
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
@@ -21,14 +23,6 @@
 
 namespace boltzmann::bzm {
 namespace {
-
-/// A simulation that is ready to run, and how many influences of one particle on another a step of it computes.
-struct Problem {
-  std::unique_ptr<AnyEnsemble> particles;
-  std::unique_ptr<PairScheme> scheme;
-  std::unique_ptr<Simulation> simulation;
-  double pairs = 0;
-};
 
 struct Row {
   std::string problem;
@@ -72,9 +66,9 @@ double pairs_within(AnyEnsemble const& particles, Box const& box, double cutoff)
   return 2 * counting.measure().potential;
 }
 
-/// Lennard-Jones at density 0.8442 and temperature 1.44, cut-off 2.5, periodic: the melt of every code's benchmarks.
-Problem melt() {
-  constexpr std::size_t cells = 20;
+}  // namespace
+
+Problem melt(std::size_t cells) {
   LatticeBlock const block{Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {cells, cells, cells}};
   auto const length = repeat_lengths(block, 3);
   Box const box(Vector{0.0, 0.0, 0.0}, Vector{length[0], length[1], length[2]}, Boundary::periodic);
@@ -91,6 +85,8 @@ Problem melt() {
   problem.pairs = pairs_within(*problem.particles, box, cutoff);
   return problem;
 }
+
+namespace {
 
 /// Softened gravity of all pairs.
 Problem stars() {
@@ -187,6 +183,7 @@ class FiguresFile {
 }  // namespace
 
 int bench(BenchOptions const& options) {
+  if (!team().alone()) return bench_on_ranks(options);
   std::string const instructions = to_string(instruction_set());
   FiguresFile figures(options.json);
   int const most = options.threads.value_or(default_threads());
@@ -197,7 +194,7 @@ int bench(BenchOptions const& options) {
     Problem (*make)();
   };
   constexpr Entry entries[] = {
-      {"Lennard-Jones melt", melt}, {"gravity, all pairs", stars}, {"chain of springs", chain}};
+      {"Lennard-Jones melt", [] { return melt(20); }}, {"gravity, all pairs", stars}, {"chain of springs", chain}};
 
   double const share = options.seconds / static_cast<double>(std::size(entries) * counts.size());
   fmt::print("bzm {}, instructions {}\n\n", described_version, instructions);

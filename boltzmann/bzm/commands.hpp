@@ -111,6 +111,7 @@ struct BenchOptions {
   std::string json;            ///< a file for the figures; empty: none
 };
 int bench(BenchOptions const& options);
+int bench_on_ranks(BenchOptions const& options);
 
 /// What a shell completes of a command; from the parser.
 struct CommandWords {

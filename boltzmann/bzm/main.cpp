@@ -362,6 +362,7 @@ class CommandLine {
     sub->add_option("--threads", bench_options_.threads, "each runs on one thread and on so many [all]")
         ->check(CLI::Range(1, 4096));
     sub->add_option("--json", bench_options_.json, "write the figures into this file too")->type_name("FILE");
+    ranks_options(sub);
 
     sub = command("completion", "print the completion script of a shell: eval \"$(bzm completion bash)\"",
                   [this] { return completion(shell_, command_words(app_)); });
@@ -395,7 +396,7 @@ int main(int argc, char** argv) {
   hdf5::leave_without_words();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
   std::string const command = argc > 1 ? argv[1] : "";
-  if (command != "run" && command != "resume") {  // what is no run is done once, whoever starts several
+  if (command != "run" && command != "resume" && command != "bench") {  // what is no run is done once, whoever starts several
     if (launched().rank > 0) return 0;
     stay_alone();
   }

@@ -1,0 +1,24 @@
+// What bzm bench runs. Private to this room.
+#pragma once
+
+#include <boltzmann/schemes/pair/pair_scheme.hpp>
+#include <boltzmann/simulation/simulation.hpp>
+
+#include <cstddef>
+#include <memory>
+
+namespace boltzmann::bzm {
+
+/// A simulation that is ready to run, and how many influences of one particle on another a step of it computes.
+struct Problem {
+  std::unique_ptr<AnyEnsemble> particles;
+  std::unique_ptr<PairScheme> scheme;
+  std::unique_ptr<Simulation> simulation;
+  double pairs = 0;
+};
+
+/// Lennard-Jones at density 0.8442 and temperature 1.44, cut-off 2.5, periodic: the melt of every code's benchmarks, of
+/// 4 cells^3 atoms.
+Problem melt(std::size_t cells);
+
+}  // namespace boltzmann::bzm
