@@ -273,7 +273,8 @@ OptionTable make_influence_options() {
                "`on` or `between`");
   all.add_said("by", "the name of an ensemble", "with `on`: who acts; nothing acts back", "the same as `on`");
   all.add_said("among", "a list of names of ensembles",
-               "within each of them and between each two, in place of `on` and `between`. A parameter may be a table "
+               "within each of them and between each two, in place of `on` and `between`. A parameter, and `cutoff`, "
+               "may be a table "
                "by names then, `{ argon = \"0.01 eV\", krypton = \"0.014 eV\", \"argon-krypton\" = \"0.012 eV\" }`",
                "`on` or `between`");
   all.add_said(

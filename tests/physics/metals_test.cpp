@@ -220,6 +220,46 @@ TEST(Metals, TheSiliconCrystalVibratesAndKeepsItsEnergy) {
   EXPECT_NEAR(mean / motion, 0.5, 0.03);
 }
 
+/// q6 of all bonds (0.57 in a perfect crystal, 0 in a melt), in the mean over some looks.
+double crystalline(ScenarioSimulation& run, int looks, int steps) {
+  std::vector<AnyEnsemble*> const all{&ensemble(run, "crystal"), &ensemble(run, "melt")};
+  BondOrder order({all[0], all[1]}, {.range = 3.3});
+  double sum = 0;
+  for (int look = 0; look < looks; ++look) {
+    run.simulation->run(static_cast<std::uint64_t>(steps));
+    std::vector<double> values;
+    order.measure({all, run.box(), nullptr, 1, 0, 0}, values);
+    sum += values[1] / looks;
+  }
+  return sum;
+}
+
+/// Crystal and melt side by side, at first and 3 ps later.
+std::pair<double, double> side_by_side(std::string const& temperature) {
+  Overrides overrides;
+  overrides.set = {"equilibrate.temperature=\"max(" + temperature + ", 3000 K - 1500 K/ps*time)\"",
+                   "dissipation.0.temperature=\"" + temperature + "\"",
+                   "barostat.temperature=\"" + temperature + "\"", "output.trajectory=0"};
+  auto const run = shipped("copper-melting", overrides);
+  EXPECT_EQ(ensemble(*run, "crystal").size() + ensemble(*run, "melt").size(), 1200u);
+  double const first = crystalline(*run, 10, 10);
+  run->simulation->run(900);
+  double const last = crystalline(*run, 10, 20);
+  std::printf("%s: q6 %.3f, then %.3f\n", temperature.c_str(), first, last);
+  return {first, last};
+}
+
+// This potential melts between 920 and 1000 K: long runs (docs/guide/metals.md), by which that of Mishin and others
+// melts between 1310 and 1350 K, where it should (1327 K).
+TEST(Metals, ACopperCrystalGrowsBelowItsMeltingPointAndMeltsAboveIt) {
+  auto const [half, grown] = side_by_side("720 K");
+  EXPECT_NEAR(half, 0.24, 0.06);
+  EXPECT_GT(grown, half + 0.02);
+  auto const [other_half, molten] = side_by_side("1200 K");
+  EXPECT_GT(other_half, 0.13);
+  EXPECT_LT(molten, 0.7 * other_half);
+}
+
 TEST(Metals, AKnockOnDisplacesAtomsAndItsEnergyStaysInTheCrystal) {
   auto const run = shipped("copper-cascade");
   auto& atoms = ensemble(*run, "copper");

@@ -59,6 +59,20 @@ TEST(Among, SharesWhatIsOneNumber) {
                                                                 "mixing = { depth = \"geometric\" }\n"));
 }
 
+TEST(Among, EachPairMayHaveItsCutoff) {
+  auto const with = [](std::string const& on, double depth, double cutoff) {
+    return pair(on, depth, 1) + "cutoff = " + std::to_string(cutoff) + "\n";
+  };
+  std::string const each = gas + with("on = \"a\"", 1, 2.5) + with("on = \"b\"", 2, 1.5) + with("on = \"c-d\"", 1, 2) +
+                           with("between = [\"a\", \"b\"]", 1, 3) + with("between = [\"a\", \"c-d\"]", 1, 2.25) +
+                           with("between = [\"b\", \"c-d\"]", 1, 1.75);
+  std::string const depths = "depth = { a = 1, b = 2, \"c-d\" = 1, \"a-b\" = 1, \"a-c-d\" = 1, \"b-c-d\" = 1 }\n";
+  EXPECT_EQ(end_of(each), end_of(gas + among + depths +
+                                 "r0 = 1\ncutoff = { a = 2.5, b = 1.5, \"c-d\" = 2, \"a-b\" = 3, \"b-c-d\" = 1.75 }\n"
+                                 "mixing.cutoff = \"arithmetic\"\n"));
+  EXPECT_NE(end_of(each), end_of(gas + among + depths + "r0 = 1\ncutoff = 2.5\n"));
+}
+
 TEST(Among, TypedLawsHaveTablesToo) {
   std::string const typed =
       "[[influences]]\nenergy = \"depth*((r0/r)^12 - 2*(r0/r)^6)\"\namong = [\"a\", \"b\", \"c-d\"]\n";
