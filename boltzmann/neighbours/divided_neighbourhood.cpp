@@ -73,8 +73,8 @@ void Neighbourhood::refresh_together(int threads) {
   if (!stale_ && (all.most[0] == 0 || lists_hold(std::bit_cast<double>(all.most[1])))) return;
   division_->make_whole();
   build(threads);
-  follow(threads);
   find_needed(threads);
+  follow(threads);
 }
 
 /// Whether no more rows, of all ranks, are further than sqrt(square) from their references. If so, all that is known
