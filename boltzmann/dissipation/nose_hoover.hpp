@@ -4,15 +4,14 @@
 #pragma once
 
 #include <boltzmann/dissipation/rescaling_bath.hpp>
+#include <boltzmann/dissipation/thermostat_chain.hpp>
 
 #include <vector>
 
 namespace boltzmann {
 
-/// dv = -u1 v dt, Q1 du1/dt = 2 K - f k T - Q1 u1 u2, Qj duj/dt = Q(j-1) u(j-1)^2 - k T - Qj uj u(j+1), with
-/// Q1 = f k T / rate^2 and Qj = k T / rate^2. Energy + bath_energy() is conserved at a constant temperature; heat() is
-/// what the bath has given. Over a step it is split by the sixth-order weights of Suzuki and Yoshida. A system that is
-/// not ergodic by itself (few harmonic particles) may need a longer chain, or a stochastic bath.
+/// A ThermostatChain on the kinetic energy of all. Energy + bath_energy() is conserved at a constant temperature; heat() is
+/// what the bath has given. A system that is not ergodic by itself (few harmonic particles) may need a longer chain, or a stochastic bath.
 class NoseHooverChain final : public RescalingBath {
  public:
   /// `length`: of the chain, 1 or more. Error otherwise, or if the temperature is not above 0.
@@ -31,7 +30,7 @@ class NoseHooverChain final : public RescalingBath {
   double factor(double kinetic, double degrees, double kT, StepContext const& context) override;
 
  private:
-  std::vector<double> rates_, integrals_;  // u, and their integrals over time
+  ThermostatChain chain_;
   double degrees_ = 0, kT_ = 0;
 };
 

@@ -20,6 +20,7 @@
 namespace boltzmann {
 namespace {
 
+constexpr double max_way_of_piston = 0.1;    // of the edges' logarithm, in half a move
 constexpr std::uint32_t first_number = 192;  // of barostats, among what random numbers of heat baths are for
 
 OptionTable make_barostat_options() {
@@ -37,6 +38,9 @@ OptionTable make_barostat_options() {
   all.add_said("axes", "x, y or z, or a list of them", "whose lengths change, periodic ones", "all");
   all.add("together", &B::together, flag(),
           "all of them by one factor, from their mean pressure; else each by its own, from the pressure along it");
+  all.add_of<B>(
+      "method", [](B& b) -> OptionPlace { return named_value(&b.method, barostat_method_words()); },
+      word(barostat_method_words().names()), "how the box moves: by noise, or as a piston does");
   all.add("every", &B::every, whole(1, std::numeric_limits<double>::infinity()), "steps from one move to the next");
   all.at("pressure").needed = "\"1 bar\"";
   all.at("temperature").needed = "\"300 K\"";
@@ -128,6 +132,16 @@ void calculate(StretchedSystem const& system, double time) {
 
 }  // namespace
 
+Words<BarostatMethod> const& barostat_method_words() {
+  static Words<BarostatMethod> const all{
+      "method of barostats",
+      {{BarostatMethod::cell_rescaling, "cell-rescaling",
+        "a random move, accepted or refused: volumes are distributed exactly (Bernetti and Bussi)"},
+       {BarostatMethod::mtk, "mtk",
+        "a piston with mass and a chain of thermostats, without noise (Martyna, Tobias and Klein)"}}};
+  return all;
+}
+
 OptionTable const& barostat_options() { return once<make_barostat_options>(); }
 
 StretchMeasures measure_stretch(StretchedSystem const& system, std::vector<int> const& axes) {
@@ -190,9 +204,11 @@ void Barostat::check(StretchedSystem const& system) const {
     if (!scheme->follows_box())
       throw Error(
           "barostat: the box is stretched where influences are those of pairs, of metals, inside of molecules and of a "
-          "mesh "
-          "with near pairs (P3M, 'accuracy'); other meshes, multipoles, smooth particles and bodies do not follow it");
+          "mesh with near pairs (P3M, 'accuracy'); other meshes, multipoles, smooth particles and bodies do not follow "
+          "it");
   if (!box.regions().empty()) throw Error("barostat: a box with regions can't be stretched");
+  if (options_.method == BarostatMethod::mtk && (!options_.together || !options_.axes.empty()))
+    throw Error("barostat: mtk stretches all axes together; leave out 'axes' and 'together', or take cell-rescaling");
   for (auto const& group : groups(box.dimension()))
     for (std::size_t k = 0; k < group.size(); ++k) {
       int const a = group[k];
@@ -232,8 +248,57 @@ double Barostat::act(StretchedSystem const& system, StepContext const& context) 
                     options_.pressure, options_.temperature));
   double work = 0;
   for (auto const& axes : groups(system.schemes.front()->box().dimension()))
-    work += move(system, axes, stream, context);
+    work += options_.method == BarostatMethod::mtk ? push(system, axes, context) : move(system, axes, stream, context);
   return work;
+}
+
+/// Chain, box, piston, box, chain: a symmetric step.
+double Barostat::push(StretchedSystem const& system, std::vector<int> const& axes, StepContext const& context) {
+  double const kT = boltzmann_constant_ * options_.temperature, dimension = static_cast<double>(axes.size());
+  double const duration = static_cast<double>(options_.every) * context.dt;
+  Box const& box = system.schemes.front()->box();
+  if (piston_mass_ == 0)
+    piston_mass_ = square(dimension) * box.volume() / (options_.compressibility * square(options_.rate));
+  auto const energy = [&] {
+    return 0.5 * piston_mass_ * square(piston_rate_) + options_.pressure * box.volume() +
+           chain_.energy(1, kT, options_.rate);
+  };
+  auto const cool = [&] {
+    piston_rate_ *= chain_.advance(0.5 * piston_mass_ * square(piston_rate_), 1, kT, options_.rate, 0.5 * duration);
+  };
+  bool const rigid = !rigid_bonds(system).empty();
+  double kept = 0, degrees = 0;
+  for (int const a : axes) kept += system.momentum_is_kept[static_cast<std::size_t>(a)] ? 1 : 0;
+  for (auto* ensemble : system.ensembles)
+    Bodies(system, *ensemble).each([&](auto const&, auto const&, auto const&) { degrees += dimension; });
+  double const part = (kept + dimension) / (degrees - kept);
+  auto const go = [&] {
+    double const way = 0.5 * duration * piston_rate_;
+    if (!(std::abs(way) < max_way_of_piston))
+      throw PhysicsFailure(
+          fmt::format("a barostat would make the edges of the box {:.3g} times as long in one move; give it a "
+                      "smaller rate, or let it move more often",
+                      std::exp(2 * way)));
+    std::array<double, 3> factors{1, 1, 1}, speeds{1, 1, 1};
+    for (int const a : axes) {
+      factors[static_cast<std::size_t>(a)] = std::exp(way);
+      speeds[static_cast<std::size_t>(a)] = std::exp(-(1 + part) * way);
+    }
+    stretch(system, factors, speeds);
+    if (rigid) calculate(system, context.time);
+  };
+  double const before = energy();
+  cool();
+  go();
+  auto const here = measure_stretch(system, axes);
+  piston_rate_ += duration / piston_mass_ *
+                  (2 * here.kinetic * (1 + part) + here.virial - dimension * options_.pressure * here.volume);
+  go();
+  cool();
+  for (auto* scheme : system.schemes)
+    if (scheme->box_settled() && rigid) calculate(system, context.time);
+  ++moves_, ++accepted_;
+  return before - energy();
 }
 
 double Barostat::move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream,
@@ -291,6 +356,10 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
 }
 
 void stretch(StretchedSystem const& system, std::array<double, 3> const& factors) {
+  stretch(system, factors, {1 / factors[0], 1 / factors[1], 1 / factors[2]});
+}
+
+void stretch(StretchedSystem const& system, std::array<double, 3> const& factors, std::array<double, 3> const& speeds) {
   Box const& first = system.schemes.front()->box();
   std::array<double, 3> middle{};
   for (int a = 0; a < first.dimension(); ++a) middle[a] = first.low(a) + 0.5 * first.length(a);
@@ -301,7 +370,7 @@ void stretch(StretchedSystem const& system, std::array<double, 3> const& factors
       for (int a = 0; a < first.dimension(); ++a) {
         if (factors[a] == 1) continue;
         double const centre = middle[a] + factors[a] * (body.centre[a] - middle[a]);
-        double const speed = common[a] + (body.velocity[a] - common[a]) / factors[a];
+        double const speed = common[a] + (body.velocity[a] - common[a]) * speeds[a];
         for (std::size_t k = 0; k < members.size(); ++k) {
           double* const row = ensemble->row(members[k]);
           row[a] = centre + arms[k][a];
@@ -323,15 +392,30 @@ void stretch(StretchedSystem const& system, std::array<double, 3> const& factors
 
 std::string Barostat::report() const {
   if (moves_ == 0) return "";
+  if (options_.method == BarostatMethod::mtk) return fmt::format("barostat: {} moves of the box", moves_);
   return fmt::format("barostat: {} of {} moves of the box accepted", accepted_, moves_);
 }
 
-std::vector<double> Barostat::state() const { return {static_cast<double>(moves_), static_cast<double>(accepted_)}; }
+std::vector<double> Barostat::state() const {
+  std::vector<double> state{static_cast<double>(moves_), static_cast<double>(accepted_)};
+  if (options_.method != BarostatMethod::mtk) return state;
+  state.insert(state.end(), {piston_mass_, piston_rate_});
+  state.insert(state.end(), chain_.rates.begin(), chain_.rates.end());
+  state.insert(state.end(), chain_.integrals.begin(), chain_.integrals.end());
+  return state;
+}
 
 void Barostat::restore(std::span<double const> state) {
-  if (state.size() != 2) throw Error("the checkpoint does not fit this simulation: it has no barostat");
+  if (state.size() != this->state().size())
+    throw Error("the checkpoint does not fit this simulation: it has no barostat, or one of another method");
   moves_ = static_cast<std::size_t>(state[0]);
   accepted_ = static_cast<std::size_t>(state[1]);
+  if (options_.method != BarostatMethod::mtk) return;
+  piston_mass_ = state[2];
+  piston_rate_ = state[3];
+  std::size_t const length = chain_.rates.size();
+  std::copy_n(state.begin() + 4, length, chain_.rates.begin());
+  std::copy_n(state.begin() + 4 + static_cast<std::ptrdiff_t>(length), length, chain_.integrals.begin());
 }
 
 }  // namespace boltzmann

@@ -1,9 +1,12 @@
 // Barostat: holds the pressure by stretching the box: stochastic cell rescaling (M. Bernetti and G. Bussi, J. Chem. Phys.
-// 153, 114107 (2020)), each move of which is accepted or refused, so that volumes are distributed exactly.
+// 153, 114107 (2020)), each move of which is accepted or refused, so that volumes are distributed exactly; or by a piston
+// with mass, without noise (G. J. Martyna, D. J. Tobias and M. L. Klein, J. Chem. Phys. 101, 4177 (1994)).
 #pragma once
 
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/core/unit_system.hpp>
+#include <boltzmann/core/words.hpp>
+#include <boltzmann/dissipation/thermostat_chain.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 
@@ -20,14 +23,18 @@ namespace boltzmann {
 
 class Stream;
 
+enum class BarostatMethod { cell_rescaling, mtk };
+Words<BarostatMethod> const& barostat_method_words();
+
 struct BarostatOptions {
   double pressure = 0;         ///< that it holds: energy over length^D
   double temperature = 0;      ///< of the ensemble, that of the heat bath beside it
   double compressibility = 0;  ///< - dV / (V dP), about; with the rate it says how fast the box follows
-  double rate = 0;             ///< a volume that is off comes back in 1 / rate
+  double rate = 0;  ///< a volume that is off comes back in 1 / rate, or swings by so many radians a time (mtk)
   std::vector<int> axes = {};  ///< whose lengths change; empty: all
   bool together = true;        ///< all of them by one factor; else each by its own, from the pressure along it
   std::int64_t every = 10;     ///< steps
+  BarostatMethod method = BarostatMethod::cell_rescaling;
 };
 OptionTable const& barostat_options();
 
@@ -45,6 +52,13 @@ struct StretchedSystem {
 /// with the box and momenta the other way, H changes, and the move is accepted with the probability of Metropolis and
 /// Hastings. So the ensemble does not depend on rate, compressibility or `every`. Particles that rigid bonds join, directly
 /// or by others, are moved as one: their centre of mass goes with the box, its momentum the other way.
+///
+/// MTK: of the edges' logarithm the rate u changes by W du/dt = D V (P(t) - P) + a 2 K, positions by u r, velocities by
+/// -(1 + a) u v, where K is the kinetic energy of f degrees of freedom that goes with the box, and a = (D + c) / f if c
+/// components of the momentum are kept and not in f: volumes have the same density then. W = D^2 V / (compressibility rate^2) at the
+/// start, so that they swing at this rate; a ThermostatChain acts on the piston. H + P V + W u^2 / 2 + that of the chain, less
+/// the heat of baths, is conserved but for errors of second order in the time between moves, which is the step of the piston
+/// (R. A. Lippert and others, J. Chem. Phys. 139, 164106 (2013)).
 class Barostat {
  public:
   /// Error if temperature, compressibility or rate is not positive, or something is not finite.
@@ -52,8 +66,8 @@ class Barostat {
 
   /// Refuses what can't be stretched: Error with one line.
   void check(StretchedSystem const& system) const;
-  /// After the step of this number. Returns the energy that the particles have got. PhysicsFailure if the box becomes
-  /// too small for a law.
+  /// After the step of this number. Returns the energy that the particles have got; MTK: what P V, piston and chain have
+  /// lost, which is that but for the errors of steps. PhysicsFailure if the box becomes too small for a law.
   double act(StretchedSystem const& system, StepContext const& context);
 
   std::int64_t every() const { return options_.every; }
@@ -75,18 +89,23 @@ class Barostat {
  private:
   std::vector<std::vector<int>> groups(int dimension) const;
   double move(StretchedSystem const& system, std::vector<int> const& axes, Stream& stream, StepContext const& context);
+  double push(StretchedSystem const& system, std::vector<int> const& axes, StepContext const& context);
 
   BarostatOptions options_;
   double boltzmann_constant_;
   std::function<double(double)> pressure_of_time_, temperature_of_time_;
   std::uint32_t number_ = 0;
   std::size_t moves_ = 0, accepted_ = 0;
+  double piston_mass_ = 0, piston_rate_ = 0;  // MTK: W, once it is known, and u
+  ThermostatChain chain_{3};
 };
 
 /// Stretches the boxes of all schemes about their middle by a factor along each axis, and the particles with them:
 /// positions by the factor, velocities (relative to the common one along axes whose momentum is kept) by its inverse.
 /// Of particles that rigid bonds join it is the centre of mass and its velocity that are stretched.
 void stretch(StretchedSystem const& system, std::array<double, 3> const& factors);
+/// The same with a factor of velocities by itself.
+void stretch(StretchedSystem const& system, std::array<double, 3> const& factors, std::array<double, 3> const& speeds);
 
 /// What the volume works against where these axes are stretched by one factor.
 struct StretchMeasures {
