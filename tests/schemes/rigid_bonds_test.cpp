@@ -154,6 +154,84 @@ TEST(RigidBonds, ConserveEnergyAndMomentumAndKeepTheirLengths) {
   EXPECT_NEAR(coarse / fine, 4, 1.5);
 }
 
+/// Triangles of any shape and masses, put off by some percent; bonds in any order and either way.
+struct Triangles {
+  static constexpr std::size_t count = 50;
+  static constexpr double lengths[3] = {1, 1.3, 0.6};  // of 0 and 1, 1 and 2, 2 and 0
+  Box box{{0., 0., 0.}, {20., 20., 20.}};
+  Ensemble<Newton<3>> atoms{"atoms", 3 * count};
+  std::vector<BondMembers> of_length[3];
+
+  Triangles() {
+    double const x = (1 + 0.36 - 1.69) / 2, corners[3][2] = {{0, 0}, {1, 0}, {x, std::sqrt(0.36 - x * x)}};
+    for (std::uint32_t i = 0; i < atoms.size(); ++i) {
+      Stream stream(test_seed(9), 0, i, Purpose::velocity);
+      auto const& corner = corners[i % 3];
+      double const turn = i / 3;
+      Vector<3> const at{10 + std::cos(turn) * corner[0], 10 + corner[1], 10 + std::sin(turn) * corner[0]};
+      for (int a = 0; a < 3; ++a) {
+        atoms[i].position[a] = at[a];
+        atoms[i].velocity[a] = stream.normal();
+      }
+      atoms[i].mass = 0.2 + 5 * stream.uniform();
+      std::uint32_t const next = i % 3 == 2 ? i - 2 : i + 1;
+      of_length[i % 3].push_back((i / 3 + i) % 2 == 0 ? BondMembers{i, next} : BondMembers{next, i});
+    }
+  }
+  std::unique_ptr<RigidBonds> rigid(double tolerance) {
+    auto bonds = std::make_unique<RigidBonds>(atoms, box, of_length[2], lengths[2], tolerance);
+    bonds->add(of_length[0], lengths[0]);
+    bonds->add(of_length[1], lengths[1]);
+    return bonds;
+  }
+  Vector<3> bond(BondMembers const& b) const {
+    return Vector<3>(atoms[b[1]].position) - Vector<3>(atoms[b[0]].position);
+  }
+  double kinetic() const {
+    double sum = 0;
+    for (auto const& p : atoms) sum += 0.5 * p.mass * norm2(Vector<3>(p.velocity));
+    return sum;
+  }
+};
+
+TEST(RigidBonds, TrianglesOfAnyShapeKeepLengthsMomentaAndWhatTheyGive) {
+  Triangles system;
+  auto const bonds = system.rigid(1e-13);
+  bonds->settle();
+  bonds->begin_step(1);
+  std::vector<Newton<3>> const were(system.atoms.begin(), system.atoms.end());
+  for (std::uint32_t i = 0; i < system.atoms.size(); ++i) {
+    Stream stream(test_seed(10), 0, i, Purpose::velocity);
+    for (int a = 0; a < 3; ++a) system.atoms[i].position[a] += 0.05 * stream.normal();
+  }
+  std::vector<Newton<3>> const off(system.atoms.begin(), system.atoms.end());
+  double const dt = 0.1;
+  bonds->correct_positions(dt, 1);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (auto const& b : system.of_length[k])
+      EXPECT_NEAR(magnitude(system.bond(b)), Triangles::lengths[k], 1e-12 * Triangles::lengths[k]);
+  // Pushes along the bonds before: no momentum, and about any point no torque at the places before.
+  for (std::size_t m = 0; m < Triangles::count; ++m) {
+    Vector<3> sum{0, 0, 0}, torque{0, 0, 0};
+    for (std::size_t i = 3 * m; i < 3 * m + 3; ++i) {
+      auto const& p = system.atoms[i];
+      auto const moved = Vector<3>(p.position) - Vector<3>(off[i].position);
+      EXPECT_NEAR(magnitude(moved * (1 / dt) - (Vector<3>(p.velocity) - Vector<3>(off[i].velocity))), 0, 1e-11);
+      sum += moved * double(p.mass);
+      torque += cross(Vector<3>(were[i].position), moved * double(p.mass));
+    }
+    EXPECT_NEAR(magnitude(sum), 0, 1e-12);
+    EXPECT_NEAR(magnitude(torque), 0, 1e-11);
+  }
+  double const before = system.kinetic(), added = bonds->correct_velocities(1);
+  EXPECT_NEAR(system.kinetic() - before, added, 1e-10 * before);
+  EXPECT_LT(added, -0.01 * before);
+  for (auto const& list : system.of_length)
+    for (auto const& b : list)
+      EXPECT_NEAR(dot(system.bond(b), Vector<3>(system.atoms[b[1]].velocity) - Vector<3>(system.atoms[b[0]].velocity)),
+                  0, 1e-12);
+}
+
 TEST(RigidBonds, HaveTheVirialOfTheirForces) {
   // What a step adds to the momentum of an atom beyond the influence is the force of its bonds; and for a gas of rigid
   // molecules that only centres of mass feel, atoms' pressure is molecules' pressure in the mean. Here: exactly, the sum

@@ -1,9 +1,10 @@
-// Each molecule's bonds in turn, until all of them hold.
+// Each molecule's bonds in turn, until all of them hold; those of a triangle all at once.
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
+#include <boltzmann/schemes/molecules/rigid_triangle.hpp>
 
 #include <fmt/format.h>
 
@@ -118,7 +119,25 @@ void RigidBonds::begin_step(int threads) {
 void RigidBonds::correct_positions(double dt, int threads) {
   int const D = box_.dimension();
   double const per_time = dt != 0 ? 1 / dt : 0;
+  auto const triangle_is_corrected = [&](std::size_t begin, std::size_t end) {
+    auto triangle = RigidTriangle::of({bonds_.data() + begin, end - begin});
+    if (!triangle) return false;
+    RigidTriangle::Bonds now;
+    for (std::size_t i = 0; i < 3; ++i) {
+      now[i] = between(bonds_[begin + i][0], bonds_[begin + i][1]);
+      triangle->inverse_masses[i] = member(triangle->particles[i]).inverse_mass;
+    }
+    RigidTriangle::Bonds const was{before_[begin], before_[begin + 1], before_[begin + 2]};
+    auto const push = triangle->pushes(was, now, {length_[begin], length_[begin + 1], length_[begin + 2]}, tolerance_);
+    for (std::size_t i = 0; push && i < 3; ++i) {
+      Member const p = member(triangle->particles[i]);
+      auto const change = triangle->momentum(i, was, *push) * p.inverse_mass;
+      for (int a = 0; a < D; ++a) p.position[a] += change[a], p.velocity[a] += change[a] * per_time;
+    }
+    return push.has_value();
+  };
   each_molecule(threads, [&](std::size_t begin, std::size_t end) {
+    if (triangle_is_corrected(begin, end)) return;
     bool holds = false;
     for (int turn = 0; turn < max_turns && !holds; ++turn) {
       holds = true;
@@ -154,9 +173,29 @@ void RigidBonds::correct_positions(double dt, int threads) {
 double RigidBonds::correct_velocities(int threads) {
   int const D = box_.dimension();
   std::vector<double> added(bonds_.size(), 0.0);
+  auto const triangle_is_corrected = [&](std::size_t begin, std::size_t end) {
+    auto triangle = RigidTriangle::of({bonds_.data() + begin, end - begin});
+    if (!triangle) return false;
+    RigidTriangle::Numbers along{};
+    RigidTriangle::Bonds const now{before_[begin], before_[begin + 1], before_[begin + 2]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle->inverse_masses[i] = member(triangle->particles[i]).inverse_mass;
+      Member const p = member(bonds_[begin + i][0]), q = member(bonds_[begin + i][1]);
+      for (int a = 0; a < D; ++a) along[i] += now[i][a] * (q.velocity[a] - p.velocity[a]);
+    }
+    auto const push = triangle->impulses(now, along);
+    for (std::size_t i = 0; push && i < 3; ++i) {
+      Member const p = member(triangle->particles[i]);
+      auto const change = triangle->momentum(i, now, *push) * p.inverse_mass;
+      for (int a = 0; a < D; ++a) p.velocity[a] += change[a];
+      added[begin + i] = -0.5 * (*push)[i] * along[i];  // the bonds' rates are zero after it
+    }
+    return push.has_value();
+  };
   each_molecule(threads, [&](std::size_t begin, std::size_t end) {
     bool holds = false;
     for (std::size_t k = begin; k < end; ++k) before_[k] = between(bonds_[k][0], bonds_[k][1]);  // no more needed
+    if (triangle_is_corrected(begin, end)) return;
     for (int turn = 0; turn < max_turns && !holds; ++turn) {
       holds = true;
       for (std::size_t k = begin; k < end; ++k) {
