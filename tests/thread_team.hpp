@@ -41,6 +41,15 @@ class ThreadTeam {
     return thrown;
   }
 
+  /// What a rank has done with others so far, and the bytes that it had to say then.
+  struct Sent {
+    std::uint64_t calls = 0, bytes = 0;
+  };
+  Sent sent(int rank) {
+    std::lock_guard const lock(mutex_);
+    return sent_[rank];
+  }
+
  private:
   struct Box {
     std::vector<std::string> posted;
@@ -58,6 +67,9 @@ class ThreadTeam {
     std::lock_guard const lock(member.team->mutex_);
     Box& box = member.team->boxes_[member.sent];
     box.posted.resize(static_cast<std::size_t>(member.team->size_));
+    Sent& sent = member.team->sent_[member.rank];
+    ++sent.calls;
+    sent.bytes += bytes.size();
     box.posted[static_cast<std::size_t>(member.rank)] = std::move(bytes);
     ++box.arrived;
     member.take = std::move(take);
@@ -154,6 +166,7 @@ class ThreadTeam {
   double patience_;
   std::mutex mutex_;
   std::map<std::uint64_t, Box> boxes_;
+  std::map<int, Sent> sent_;
   bool aborted_ = false;
 };
 

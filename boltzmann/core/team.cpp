@@ -115,9 +115,12 @@ void Team::wait() {
 }
 
 void Team::reduce(std::span<std::int64_t> numbers, int operation) {
-  if (alone() || numbers.empty()) return;
-  functions_->begin_reduce(of_, numbers.data(), static_cast<int>(numbers.size()), operation);
-  wait();
+  if (alone()) return;
+  constexpr std::size_t most = piece / sizeof(std::int64_t);
+  for (; !numbers.empty(); numbers = numbers.subspan(std::min(most, numbers.size()))) {
+    functions_->begin_reduce(of_, numbers.data(), static_cast<int>(std::min(most, numbers.size())), operation);
+    wait();
+  }
 }
 
 void Team::sum(std::span<std::int64_t> numbers) { reduce(numbers, boltzmann_team_sum); }

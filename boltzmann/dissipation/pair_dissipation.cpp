@@ -2,6 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/members.hpp>
 #include <boltzmann/dissipation/splitting.hpp>
@@ -295,6 +296,16 @@ void PairDissipation::Coupling::take_chunk(std::size_t chunk, NeighbourList cons
     while (taken % list_padding != 0) take(sentinel, 0);
   }
   for (std::size_t k = begin; k < end; ++k) row[k] = groups.data() + start[k - begin];
+}
+
+std::string PairDissipation::undivided() const {
+  if (method_ == DissipationMethod::shardlow) return "pairs that are taken one by one (shardlow)";
+  std::size_t chunks = 1;
+  for (auto const& member : members_)
+    if (member->dissipates)
+      chunks = std::max(chunks, (member->ensemble->size() + dissipation_chunk - 1) / dissipation_chunk);
+  if (chunks >= static_cast<std::size_t>(team().size())) return "";
+  return fmt::format("friction between so few pairs (a rank takes {} particles at least)", dissipation_chunk);
 }
 
 void PairDissipation::divide(Division* division) {

@@ -60,9 +60,7 @@ class PairDissipation final : public Dissipation {
   void update_derived_fields() override;
   double internal_energy() const override;
   double heat() const override { return heat_; }
-  std::string undivided() const override {
-    return method_ == DissipationMethod::shardlow ? "pairs that are taken one by one (shardlow)" : "";
-  }
+  std::string undivided() const override;
   void divide(Division* division) override;
   bool keeps_momentum() const override { return true; }
   std::vector<std::string> warnings(double step_size) override;

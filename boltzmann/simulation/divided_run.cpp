@@ -77,7 +77,7 @@ void Simulation::end_division() {
 void Simulation::gather_particles() const {
   division_->moved();  // some of their fields have been completed
   division_->make_whole();
-  division_->gather_influences();
+  if (!whole_.steps) division_->gather_influences();  // whole steps leave those that there were
 }
 
 void Simulation::check_moves_together() {

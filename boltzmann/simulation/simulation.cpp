@@ -40,6 +40,12 @@ void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
     for (int a = 0; a < ensemble.dimension(); ++a) ensemble.row(i)[velocity + a] += drift[a];
 }
 
+/// Whole steps hold particles of their own: in a divided run those of this rank, and only in that division.
+Dependence of_whole_steps(Dependence now, Division const* division) {
+  if (division && now.schemes) *now.schemes += division->id() * 0x9E3779B97F4A7C15U;
+  return now;
+}
+
 }  // namespace
 
 Simulation::Simulation(Scheme& scheme, double step_size) : step_size_(0) {
@@ -393,7 +399,8 @@ void Simulation::run(std::uint64_t steps, int direction) {
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
   bool const last = any_comes_last(schemes_);
-  FusedSteps* const whole = steps > 0 ? whole_steps(dt, now) : nullptr;
+  Division const* const division = divided ? division_.get() : nullptr;
+  FusedSteps* const whole = steps > 0 ? whole_steps(dt, of_whole_steps(now, division)) : nullptr;
   for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) {
     try {
       if (whole)
@@ -417,20 +424,20 @@ void Simulation::run(std::uint64_t steps, int direction) {
       if (!one.forgotten) one.observer(*this);
   }
   if (votes.stopped()) stop();
+  if (whole) {
+    whole->store();
+    influences_.outdated();
+  }
   if (divided) {
     update_derived_fields();
     gather_particles();
     end_division();
   }
-  if (whole) {
-    whole->store();
-    influences_.outdated();
-  }
   if (last) calculate(time());
   if (!divided) update_derived_fields();
   Dependence const then = dependence();
   influences_.end_run(then);
-  if (whole) whole_.are_for = then;
+  if (whole) whole_.are_for = of_whole_steps(then, division);
   votes.end([&] { return then.rows; });
 }
 

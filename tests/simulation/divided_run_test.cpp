@@ -3,6 +3,7 @@
 
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
+#include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/uniform.hpp>
 #include <boltzmann/loaders/lattice.hpp>
@@ -10,6 +11,7 @@
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -34,6 +36,13 @@ using test::ThreadTeam;
 struct World {
   std::vector<std::shared_ptr<void>> parts;
   Simulation* simulation = nullptr;
+
+  World() = default;
+  ~World() {
+    while (!parts.empty()) parts.pop_back();
+  }
+  World(World const&) = delete;
+  World& operator=(World const&) = delete;
 
   template <class T, class... Arguments>
   T& make(Arguments&&... arguments) {
@@ -62,10 +71,13 @@ std::string seen(Make const& make, std::uint64_t steps, std::uint64_t every, int
     }
     auto const state = at.state();
     add(state.data(), state.size());
+    if (team().first()) mesh_fields_of(at.schemes());  // as who writes them
     auto const measures = at.measure();
     double const numbers[] = {measures.potential, measures.external, measures.virial[0][0], measures.virial[0][1]};
     add(numbers, 4);
     for (auto const& energies : measures.per_particle) add(energies.data(), energies.size());
+    for (auto const* field : mesh_fields_of(at.schemes()))
+      for (auto const& component : field->components) add(component.data(), component.size());
   };
   simulation.observe(every, look);
   simulation.run(steps / 2);
@@ -278,15 +290,265 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"sod", {}, 10}, Shipped{"dam-break", {}, 6}, Shipped{"sedov", {}, 6},
                     Shipped{"gresho", {}, 6}, Shipped{"free-expansion", {}, 10}, Shipped{"penetration", {}, 6},
                     Shipped{"taylor-green", {}, 6}, Shipped{"convection", {}, 6}, Shipped{"pvdf-shock", {}, 4},
-                    Shipped{"hugoniot", {}, 4}, Shipped{"cavitation", {}, 4}, Shipped{"dpd-fluid", {}, 10},
-                    Shipped{"dpde-equilibrium", {}, 10}, Shipped{"nematic-discs", {}, 10}, Shipped{"copper-3d", {}, 10},
-                    Shipped{"silicon", {}, 10}, Shipped{"lattice-density", {}, 4}, Shipped{"free-expansion-1d", {}, 6},
-                    Shipped{"copper-10000", {}, 10}),
+                    Shipped{"hugoniot", {}, 4}, Shipped{"cavitation", {}, 4},
+                    Shipped{"dpd-fluid", {"ensembles.0.number=24576", "box.high=[20.2, 20.2, 20.2]"}, 6},
+                    Shipped{
+                        "dpde-equilibrium",
+                        {"ensembles.0.load.counts=[160, 160]", "box.high=['820.8 angstrom', '710.83365148 angstrom']"},
+                        6},
+                    Shipped{"nematic-discs", {}, 10}, Shipped{"copper-3d", {}, 10}, Shipped{"silicon", {}, 10},
+                    Shipped{"lattice-density", {}, 4}, Shipped{"free-expansion-1d", {}, 6},
+                    Shipped{"copper-10000", {}, 10}, Shipped{"two-stream", {}, 60},
+                    Shipped{"landau", {"ensembles.0.number=8000"}, 20}, Shipped{"langmuir", {}, 20},
+                    Shipped{"cold-beams", {"ensembles.0.number=2048", "ensembles.1.number=2048"}, 40},
+                    Shipped{"electron-gas-2d", {}, 15}),
     [](auto const& info) {
       std::string name = info.param.name;
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });
+
+// ---- particles on a mesh ----
+
+struct PlasmaOptions {
+  Boundary boundary = Boundary::periodic;
+  FieldBoundary ends = FieldBoundary::open;
+  Precision precision = Precision::full;
+  bool alike = true;  ///< else each electron has a mass of its own, and nothing goes by whole steps
+  bool pairs = false;
+  bool equal = false;  ///< numbers of both species
+};
+
+/// Electrons in a magnetic field among ions, at random, on a mesh.
+template <int D>
+Ensemble<Coulomb<D>>& plasma(World& world, PlasmaOptions const& options) {
+  auto& electrons = world.make<Ensemble<Coulomb<D>>>("electrons");
+  auto& ions = world.make<Ensemble<Coulomb<D>>>("ions");
+  Vector<D> low, high;
+  std::vector<std::size_t> cells;
+  for (int a = 0; a < D; ++a) {
+    low[a] = 0.1 * a, high[a] = 2 + 0.5 * a;
+    cells.push_back(12 + static_cast<std::size_t>(a));
+  }
+  auto& mesh = world.make<MeshScheme>(Box(low, high, options.boundary), cells, coulomb(0.5));
+  std::mt19937_64 random(test_seed(7));
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> normal;
+  double const margin = options.boundary == Boundary::open ? 0.3 : 0;  // nobody is to leave
+  electrons.resize(2000);
+  ions.resize(options.equal ? 2000 : 1100);
+  for (auto* ensemble : {&electrons, &ions})
+    for (auto& p : *ensemble) {
+      for (int a = 0; a < D; ++a) {
+        p.position[a] = low[a] + (high[a] - low[a]) * (margin + (1 - 2 * margin) * uniform(random));
+        p.velocity[a] = 0.1 * normal(random);
+      }
+      p.charge = ensemble == &electrons ? -5e-4 : 5e-4;
+      p.mass = ensemble == &ions ? 1e-2 : options.alike ? 5e-4 : 5e-4 * (1 + uniform(random));
+    }
+  mesh.add(electrons);
+  mesh.add(ions);
+  mesh.background(!options.equal);
+  mesh.assignment(D == 3 ? Assignment::tsc : Assignment::cic);
+  mesh.precision(options.precision);
+  if (options.boundary != Boundary::periodic)
+    for (int a = 0; a < D; ++a) mesh.boundary(a, options.ends);
+  if constexpr (D > 1) {
+    UniformMagneticField<D> field;
+    for (int a = 0; a < cross_dimension<D>; ++a) field.field[a] = 1.5 - 0.4 * a;
+    mesh.external(electrons, field);
+  }
+  if (options.pairs) mesh.pairs().internal(ions, Soft{0.02, 0.1}, 0.1);
+  world.simulation = &world.make<Simulation>(mesh, 0.02);
+  for (auto* ensemble : {&electrons, &ions}) world.simulation->integrate(*ensemble, Method::leap_frog);
+  return electrons;
+}
+
+template <int D>
+void expect_same_plasma(PlasmaOptions const& options, std::uint64_t steps = 24) {
+  expect_same_bits([&](World& world) { plasma<D>(world, options); }, steps, {2, 3, 8});
+}
+
+TEST(DividedMesh, ByWholeSteps) {
+  expect_same_plasma<3>({});
+  expect_same_plasma<2>({.precision = Precision::single});
+  expect_same_plasma<2>({.boundary = Boundary::reflecting, .ends = FieldBoundary::dirichlet});
+  expect_same_plasma<3>({.boundary = Boundary::open, .precision = Precision::single});
+}
+
+TEST(DividedMesh, ByStages) {
+  expect_same_plasma<1>({.alike = false});
+  expect_same_plasma<2>({.boundary = Boundary::reflecting, .ends = FieldBoundary::neumann, .alike = false});
+  expect_same_plasma<3>({.boundary = Boundary::open, .alike = false, .equal = true});
+}
+
+TEST(DividedMesh, BesidePairs) { expect_same_plasma<2>({.pairs = true}, 60); }
+
+TEST(DividedMesh, OfChargesThatGrow) {
+  ScenarioText const text{R"(
+[units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [8, 8]
+boundary = "periodic"
+[run]
+step = 0.05
+steps = 20
+[mesh]
+law = "coulomb"
+k = 1
+cells = 16
+background = true
+[[classes]]
+name = "Growing"
+base = "Coulomb"
+rate.charge = "cos(3*x)*mass - charge"
+[[ensembles]]
+name = "a"
+class = "Growing"
+number = 500
+mass = 1
+temperature = 0.1
+load = { kind = "random" }
+)",
+                          "growing.toml", "growing", ""};
+  expect_same_bits(
+      [&](World& world) {
+        world.parts.push_back(load_scenario(text));
+        world.simulation = std::static_pointer_cast<ScenarioSimulation>(world.parts.back())->simulation.get();
+      },
+      30, {2, 3, 8});
+}
+
+TEST(DividedMesh, AWholeStepIsAVoteAndASum) {
+  ThreadTeam ranks(3);
+  auto const thrown = ranks.run([&](Team& team) {
+    World world;
+    plasma<2>(world, {});
+    world.simulation->check();
+    Scheme& mesh = *world.simulation->schemes().front();
+    Division division(team);
+    std::vector<Mover> movers;
+    for (auto* ensemble : mesh.ensembles()) {
+      division.add(*ensemble);
+      movers.push_back({ensemble, true});
+    }
+    division.begin();
+    mesh.divide(&division);
+    auto const steps = mesh.fused_steps(movers, 0.02);
+    ASSERT_TRUE(steps);
+    auto const before = ranks.sent(team.rank());
+    for (int step = 0; step < 10; ++step) steps->step(0.02 * step);
+    auto const after = ranks.sent(team.rank());
+    EXPECT_EQ(after.calls - before.calls, 10U * 2);
+    // 16 numbers of the vote; the nodes of 12 x 13 cells that clouds in cells meet.
+    EXPECT_EQ(after.bytes - before.bytes, 10U * 8 * (16 + 14 * 15));
+  });
+  for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "");
+}
+
+/// Rows and state where a run stops.
+struct Stop {
+  std::vector<std::vector<double>> rows;
+  std::vector<double> state;
+};
+
+Stop run_from(Make const& make, Stop const* from, std::int64_t done, std::uint64_t steps) {
+  World world;
+  make(world);
+  Simulation& simulation = *world.simulation;
+  simulation.threads(1);
+  simulation.divide_from(0);
+  auto const all = supervised_by(simulation.schemes());
+  if (from) {
+    for (std::size_t e = 0; e < all.size(); ++e) std::copy(from->rows[e].begin(), from->rows[e].end(), all[e]->row(0));
+    simulation.restore(done, simulation.step_size(), simulation.seed(), from->state);
+  }
+  simulation.run(steps);
+  Stop stop;
+  for (auto* ensemble : all)
+    stop.rows.emplace_back(ensemble->row(0), ensemble->row(0) + ensemble->size() * ensemble->stride());
+  stop.state = simulation.state();
+  return stop;
+}
+
+void expect_to_go_on(Make const& make) {
+  Stop const whole = run_from(make, nullptr, 0, 40);
+  auto const on_ranks = [&](int size, Stop const* from, std::int64_t done) {
+    std::vector<Stop> all(static_cast<std::size_t>(size));
+    auto const thrown = ThreadTeam(size).run(
+        [&](Team& team) { all[static_cast<std::size_t>(team.rank())] = run_from(make, from, done, 20); });
+    for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "") << size << " ranks";
+    return all;
+  };
+  for (auto const& [before, after] : {std::pair(3, 2), std::pair(1, 3), std::pair(8, 1)}) {
+    Stop const middle = on_ranks(before, nullptr, 0).back();
+    for (auto const& end : on_ranks(after, &middle, 20)) {
+      EXPECT_EQ(end.rows, whole.rows) << before << " ranks, then " << after;
+      EXPECT_EQ(end.state, whole.state);
+    }
+  }
+}
+
+TEST(DividedMesh, GoesOnWithAnyNumberOfRanks) {
+  expect_to_go_on(scenario("two-stream"));
+  expect_to_go_on([](World& world) { plasma<2>(world, {.precision = Precision::single}); });
+  expect_to_go_on([](World& world) { plasma<3>(world, {.alike = false}); });
+}
+
+/// On any number of ranks all say what one says.
+void expect_line(Make const& make, std::string const& part) {
+  auto const run = [&] {
+    World world;
+    make(world);
+    world.simulation->divide_from(0);
+    world.simulation->run(20);
+  };
+  std::string line;
+  try {
+    run();
+  } catch (std::exception const& failure) {
+    line = failure.what();
+  }
+  EXPECT_NE(line.find(part), std::string::npos) << line;
+  for (int const size : {2, 5})
+    for (auto const& failure : ThreadTeam(size).run([&](Team&) { run(); }))
+      EXPECT_EQ(line_of(failure), line) << size << " ranks";
+}
+
+TEST(DividedMesh, FailsWithTheLineOfOneRank) {
+  for (bool const alike : {true, false}) {
+    PlasmaOptions const open{.boundary = Boundary::open, .alike = alike, .equal = true};
+    auto const with = [](PlasmaOptions const& options, auto const& change) {
+      return [=](World& world) { change(plasma<2>(world, options)); };
+    };
+    // Two on different ranks, in one step.
+    expect_line(with(open,
+                     [](auto& electrons) {
+                       for (std::size_t const i : {1900U, 700U}) {
+                         electrons[i].position = {1, 2.45};
+                         electrons[i].velocity = {0, 1.3};
+                       }
+                     }),
+                alike ? "step 2: particle 700 of 'electrons' has left the mesh along y"
+                      : "step 2: particle 700 of 'electrons' is outside the mesh: y = 2.50");
+    expect_line(with({.alike = alike},
+                     [](auto& electrons) {
+                       electrons[300].velocity = {0, 150};
+                       electrons[1500].velocity = {-200, 0};
+                     }),
+                alike ? "particle 1500 of 'electrons' moved 4 in one step" : "particle 300 of 'electrons' escaped");
+  }
+  // Where the particles of a second run are.
+  auto const later = [](World& world) {
+    auto& electrons = plasma<2>(world, {.boundary = Boundary::open, .equal = true});
+    world.simulation->divide_from(0);
+    world.simulation->run(3);
+    for (std::size_t const i : {1950U, 1201U}) electrons[i].position = {-0.25, 1};
+  };
+  expect_line(later, "particle 1201 of 'electrons' is outside");
+}
 
 }  // namespace
 }  // namespace boltzmann::divided_run_test

@@ -95,7 +95,7 @@ void MeshScheme::changed() {
 }
 
 std::optional<std::uint64_t> MeshScheme::revision() const {
-  if (density_assignment_ || potential_calculation_ || influence_field_ || interpolation_) return std::nullopt;
+  if (has_users_stage()) return std::nullopt;
   auto const pairs = pairs_.revision();
   return pairs ? std::optional(revision_with({*pairs})) : std::nullopt;
 }
@@ -248,7 +248,8 @@ void MeshScheme::add_influences(double time) {
   pairs_.threads(threads());
   if (!pairs_.ensembles().empty()) pairs_.add_influences(time);
   Work& work = this->work();
-  deposit(work);
+  measured_ = false;
+  division_ ? deposit_share(work) : deposit(work);
   solve(work, false);
   if (!interpolation_) pad(work.ghosts, work.field, false, work.padded, threads());
   std::vector<double> E;
@@ -256,7 +257,7 @@ void MeshScheme::add_influences(double time) {
     AnyEnsemble& ensemble = *loaded->ensemble;
     std::size_t const components = static_cast<std::size_t>(box().dimension()), stride = ensemble.influence_size();
     if (!interpolation_ && quantum_ == 0 && stride == components) {
-      if (ensemble.size() > 0) gather(work, *loaded, false, ensemble.influence(0), false);
+      if (ensemble.size() > 0) gather(work, *loaded, false, ensemble.influence(0), false, Whose::own);
       continue;
     }
     if (interpolation_) {
@@ -267,24 +268,25 @@ void MeshScheme::add_influences(double time) {
       for (std::size_t i = 0; i < E.size(); ++i) E[i] *= loaded->strengths[i / components];
     } else {
       E.resize(ensemble.size() * components);
-      gather(work, *loaded, false, E.data(), true);
+      gather(work, *loaded, false, E.data(), true, Whose::own);
     }
     double const rounding = 1.5 * 4503599627370496.0 * quantum_;
-    for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i)
-                   for (std::size_t a = 0; a < components; ++a) {
-                     double const e = E[i * components + a];
-                     ensemble.influence(i)[a] += quantum_ > 0 ? (e + rounding) - rounding : e;
-                   }
-               });
+    for_share(ensemble, 4096, threads_for(ensemble.size(), 1, threads()), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t a = 0; a < components; ++a) {
+          double const e = E[i * components + a];
+          ensemble.influence(i)[a] += quantum_ > 0 ? (e + rounding) - rounding : e;
+        }
+    });
   }
 }
 
 std::vector<MeshField const*> MeshScheme::mesh_fields() {
   Work& work = this->work();
-  deposit(work);
-  solve(work, true);
+  if (!measured_) {
+    deposit(work);
+    solve(work, true);
+  }
   return {&work.density, &work.potential, &work.field};
 }
 
@@ -294,10 +296,11 @@ EnergyAndVirial MeshScheme::measure(double time) {
   if (!pairs_.ensembles().empty()) measures = pairs_.measure(time);
   // Ends of a field have charges of their own, and nobody knows what a user's stage does.
   for (int a = 0; a < box().dimension(); ++a) measures.reciprocal = measures.reciprocal && box().periodic(a);
-  if (density_assignment_ || potential_calculation_ || influence_field_ || interpolation_) measures.reciprocal = false;
+  if (has_users_stage()) measures.reciprocal = false;
   Work& work = this->work();
-  deposit(work);
+  division_ ? deposit_share(work) : deposit(work);
   solve(work, true);
+  measured_ = division_ != nullptr;
   pad(work.ghosts, work.potential, true, work.padded, threads());
   // The pair scheme may supervise fewer ensembles, in another order.
   auto const& all = ensembles();
@@ -308,10 +311,12 @@ EnergyAndVirial MeshScheme::measure(double time) {
       if (pairs_.ensembles()[k] == all[e]) energies[e] = measures.per_particle[k];
   }
   ExactSum potential;
+  if (division_) division_->team().meet(Team::Occasion::gathers);
   for (auto const& loaded : loaded_) {
     std::size_t const size = loaded->ensemble->size();
     std::vector<double> energy(size);
-    gather(work, *loaded, true, energy.data(), true);
+    gather(work, *loaded, true, energy.data(), true, Whose::own);
+    if (division_) division_->gather(*loaded->ensemble, energy.data(), 1, 1);
     auto& own = energies[static_cast<std::size_t>(std::find(all.begin(), all.end(), loaded->ensemble) - all.begin())];
     for (std::size_t i = 0; i < size; ++i) {
       energy[i] *= 0.5;
@@ -390,9 +395,12 @@ std::string MeshScheme::report() const {
 std::vector<double> MeshScheme::state() const { return pairs_.state(); }
 void MeshScheme::restore(std::span<double const> state) { pairs_.restore(state); }
 
+bool MeshScheme::has_users_stage() const {
+  return density_assignment_ || potential_calculation_ || influence_field_ || interpolation_;
+}
+
 bool MeshScheme::plain() const {
-  return !density_assignment_ && !potential_calculation_ && !influence_field_ && !interpolation_ && quantum_ == 0 &&
-         !green_ && order_ <= highest_step_order;
+  return !has_users_stage() && quantum_ == 0 && !green_ && order_ <= highest_step_order;
 }
 
 std::unique_ptr<FusedSteps> MeshScheme::fused_steps(std::vector<Mover> const& movers, double dt) {

@@ -117,7 +117,7 @@ class MeshScheme : public Scheme {
   double constant() const { return law_.constant; }
   /// The nodes. Along open axes the mesh reaches beyond the box by some cells.
   MeshGrid const& grid();
-  /// Density, potential and field of the particles as they stand.
+  /// Density, potential and field of the particles as they stand. In a divided run, for observers, on any rank.
   std::vector<MeshField const*> mesh_fields() override;
 
   /// Those that make the field, then those that only pairs() knows.
@@ -129,6 +129,9 @@ class MeshScheme : public Scheme {
   void calculate(double time = 0) override;
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
+  std::string undivided() const override;
+  /// Each rank counts its particles onto the mesh; the whole of it is then solved by all.
+  void divide(Division* division) override;
   EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
@@ -165,10 +168,19 @@ class MeshScheme : public Scheme {
   void add_background(Work& work) const;
   void check_neutral() const;
   AssignTask task_for(Work const& work, Loaded const& loaded) const;
+  enum class Whose { everybody, own };  // particles of this rank's share
+  double scale_of_counts() const;
+  std::int64_t count(Work& work, double per_strength, Whose whose) const;
+  [[noreturn]] void refuse_outside(std::int64_t particle) const;
   void deposit(Work& work);
   void solve(Work& work, bool with_potential);
-  void gather(Work& work, Loaded& loaded, bool potential, double* result, bool overwrite);
+  void gather(Work& work, Loaded const& loaded, bool potential, double* result, bool overwrite, Whose whose) const;
   bool plain() const;
+  bool has_users_stage() const;
+
+  // divided_mesh.cpp: over the ranks of a team.
+  void deposit_share(Work& work);
+  void agree_on_strengths(Work& work);
 
   LaplaceLaw law_;
   PairScheme pairs_;
@@ -186,6 +198,9 @@ class MeshScheme : public Scheme {
   Interpolation interpolation_;
   std::vector<std::unique_ptr<Loaded>> loaded_;
   std::unique_ptr<Work> work_;
+  Division* division_ = nullptr;  // while a run is divided: then
+  bool agreed_ = false;           // strengths are those that all ranks know, and
+  bool measured_ = false;         // what is on the nodes is of the particles that observers see
   std::size_t solves_ = 0;
   mutable std::vector<AnyEnsemble*> supervised_;
 };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace boltzmann {
@@ -27,8 +28,8 @@ AssignTask MeshScheme::task_for(Work const& work, Loaded const& loaded) const {
   return task;
 }
 
-void MeshScheme::assign_density(MeshField& density) {
-  Work& work = this->work();
+/// Counts per unit of strength, of all particles.
+double MeshScheme::scale_of_counts() const {
   std::size_t particles = 0;
   double greatest = 0;
   for (auto const& loaded : loaded_) {
@@ -40,40 +41,59 @@ void MeshScheme::assign_density(MeshField& density) {
       greatest = std::max(greatest, std::abs(s));
     }
   }
-  double const per_strength = counts_per_strength(greatest, particles);
+  return counts_per_strength(greatest, particles);
+}
+
+/// Counts particles into the tallies. Gives the first that is not in the box.
+std::int64_t MeshScheme::count(Work& work, double per_strength, Whose whose) const {
   AssignKernels const kernels = for_instruction_set(
       [&](auto set) { return assign_kernels<decltype(set)::value>().of[box().dimension() - 1][order_ - 1]; });
   for (auto& array : work.tallies.arrays()) std::fill_n(array->data(), array->size(), 0);
-  for (auto const& loaded : loaded_) {
-    AnyEnsemble const& ensemble = *loaded->ensemble;
-    std::size_t const size = ensemble.size();
-    AssignTask task = task_for(work, *loaded);
+  for (std::size_t number = 0; number < loaded_.size(); ++number) {
+    AnyEnsemble const& ensemble = *loaded_[number]->ensemble;
+    AssignTask task = task_for(work, *loaded_[number]);
     task.per_strength = per_strength;
-    std::vector<AssignResult> results((size + mesh_grain - 1) / mesh_grain);
-    work.tallies.count(size, mesh_grain, threads_for(size, 1, threads()),
-                       [&](std::size_t begin, std::size_t end, std::int64_t* counts) {
-                         AssignTask mine = task;
-                         mine.counts = counts;
-                         kernels.assign(mine, results[begin / mesh_grain], begin, end);
-                       });
-    for (auto const& result : results)
-      if (result.outside != AssignResult::nobody) {
-        double const* x = ensemble.row(result.outside);
-        for (int a = 0; a < box().dimension(); ++a)
-          if (!(x[a] >= box().low(a) && x[a] <= box().high(a)))
-            throw PhysicsFailure(
-                std::isfinite(x[a])
-                    ? fmt::format("particle {} of '{}' is outside the mesh: {} = {}, the box goes from {} to {}",
-                                  result.outside, ensemble.name(), "xyz"[a], x[a], box().low(a), box().high(a))
-                    : fmt::format("particle {} of '{}' has a position that is not finite", result.outside,
-                                  ensemble.name()));
-      }
+    std::atomic<std::size_t> outside{AssignResult::nobody};
+    auto const some = [&](std::size_t begin, std::size_t end, std::int64_t* counts) {
+      AssignTask mine = task;
+      mine.counts = counts;
+      AssignResult result;
+      kernels.assign(mine, result, begin, end);
+      for (auto first = outside.load(); result.outside < first;)
+        if (outside.compare_exchange_weak(first, result.outside)) break;
+    };
+    Share const* const share = whose == Whose::own ? ensemble.share() : nullptr;
+    if (share)
+      work.tallies.count(share->stretches.size(), mesh_grain / Share::longest, threads_for(share->size, 1, threads()),
+                         [&](std::size_t begin, std::size_t end, std::int64_t* counts) {
+                           for (; begin < end; ++begin)
+                             some(share->stretches[begin].begin, share->stretches[begin].end, counts);
+                         });
+    else
+      work.tallies.count(ensemble.size(), mesh_grain, threads_for(ensemble.size(), 1, threads()), some);
+    if (outside != AssignResult::nobody) return loaded_particle(number, outside);
   }
-  auto& arrays = work.tallies.arrays();
-  if (arrays.empty()) work.tallies.count(0, 1, 1, [](std::size_t, std::size_t, std::int64_t*) {});
-  std::vector<std::int64_t> counts(arrays[0]->data(), arrays[0]->data() + arrays[0]->size());
-  for (std::size_t k = 1; k < arrays.size(); ++k)
-    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += (*arrays[k])[i];
+  return no_particle;
+}
+
+void MeshScheme::refuse_outside(std::int64_t particle) const {
+  auto const number = static_cast<std::size_t>(particle), i = number & ((std::size_t{1} << 40U) - 1);
+  AnyEnsemble const& ensemble = *loaded_[number >> 40U]->ensemble;
+  double const* x = ensemble.row(i);
+  for (int a = 0; a < box().dimension(); ++a)
+    if (!box().periodic(a) && std::isfinite(x[a]) && !(x[a] >= box().low(a) && x[a] <= box().high(a)))
+      throw PhysicsFailure(fmt::format("particle {} of '{}' is outside the mesh: {} = {}, the box goes from {} to {}",
+                                       i, ensemble.name(), "xyz"[a], x[a], box().low(a), box().high(a)));
+  bool const there = std::all_of(x, x + box().dimension(), [](double at) { return std::isfinite(at); });
+  throw PhysicsFailure(fmt::format("particle {} of '{}' has a {} that is not finite", i, ensemble.name(),
+                                   there ? "velocity" : "position"));
+}
+
+void MeshScheme::assign_density(MeshField& density) {
+  Work& work = this->work();
+  double const per_strength = scale_of_counts();
+  if (auto const outside = count(work, per_strength, Whose::everybody); outside != no_particle) refuse_outside(outside);
+  auto counts = work.tallies.sum();
   work.ghosts.fold(counts, 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
 }
 
@@ -87,6 +107,7 @@ void MeshScheme::calculate_field(MeshField const& potential, MeshField& field) {
 
 void MeshScheme::deposit(Work& work) {
   for (auto const& loaded : loaded_) loaded->refresh(threads());
+  agreed_ = false;  // other ranks may not have come here
   work.total_strength = total_strength();
   check_neutral();
   if (density_assignment_) {
@@ -168,7 +189,8 @@ void MeshScheme::solve(Work& work, bool with_potential) {
   check(work.field, static_cast<std::size_t>(work.grid.dimension));
 }
 
-void MeshScheme::gather(Work& work, Loaded& loaded, bool potential, double* result, bool overwrite) {
+void MeshScheme::gather(Work& work, Loaded const& loaded, bool potential, double* result, bool overwrite,
+                        Whose whose) const {
   AnyEnsemble const& ensemble = *loaded.ensemble;
   if (ensemble.size() == 0) return;
   int const D = box().dimension();
@@ -179,11 +201,15 @@ void MeshScheme::gather(Work& work, Loaded& loaded, bool potential, double* resu
   task.overwrite = overwrite;
   AssignKernels const kernels =
       for_instruction_set([&](auto set) { return assign_kernels<decltype(set)::value>().of[D - 1][order_ - 1]; });
-  for_ranges(ensemble.size(), mesh_grain, threads_for(ensemble.size(), 1, threads()),
-             [&](std::size_t begin, std::size_t end) {
-               AssignResult ignored;
-               kernels.interpolate(task, ignored, begin, end);
-             });
+  auto const some = [&](std::size_t begin, std::size_t end) {
+    AssignResult ignored;
+    kernels.interpolate(task, ignored, begin, end);
+  };
+  int const used = threads_for(ensemble.size(), 1, threads());
+  if (whose == Whose::own)
+    for_share(ensemble, mesh_grain, used, some);
+  else
+    for_ranges(ensemble.size(), mesh_grain, used, some);
 }
 
 void MeshScheme::interpolate(MeshField const& field, AnyEnsemble const& ensemble, std::vector<double>& E) {
@@ -193,7 +219,7 @@ void MeshScheme::interpolate(MeshField const& field, AnyEnsemble const& ensemble
       pad(work.ghosts, field, false, work.padded, threads());
       E.resize(ensemble.size() * static_cast<std::size_t>(ensemble.dimension()));
       Loaded unit{loaded->ensemble, loaded->kind, std::vector<double>(ensemble.size(), 1.0)};
-      gather(work, unit, false, E.data(), true);
+      gather(work, unit, false, E.data(), true, Whose::everybody);
       return;
     }
   throw Error(fmt::format("mesh: ensemble '{}' is not loaded", ensemble.name()));

@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <utility>
 
 namespace boltzmann {
@@ -47,18 +50,24 @@ class MeshSteps final : public FusedSteps {
   MeshSteps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt)
       : scheme_(scheme),
         work_(scheme.work()),
+        division_(scheme.division_),
         dimension_(scheme.box().dimension()),
         dt_(dt),
         kernels_(step_kernels<Real>(dimension_, scheme.order_)) {
     choose_slots();
     choose_bits();
-    for (auto& loaded : scheme.loaded_) {
+    std::int64_t outside = no_particle;
+    for (std::size_t number = 0; number < scheme.loaded_.size(); ++number) {
+      auto const& loaded = *scheme.loaded_[number];
       auto const mover =
-          std::find_if(movers.begin(), movers.end(), [&](Mover const& m) { return m.ensemble == loaded->ensemble; });
-      add_columns(*loaded, mover->moves);
+          std::find_if(movers.begin(), movers.end(), [&](Mover const& m) { return m.ensemble == loaded.ensemble; });
+      if (auto const i = add_columns(loaded, mover->moves); i != AssignResult::nobody)
+        outside = std::min(outside, loaded_particle(number, i));
     }
+    if (division_) outside = ~division_->team().meet(Team::Occasion::exchanges, {~outside}).most[0];
+    if (outside != no_particle) scheme_.refuse_outside(outside);
     count_units();
-    deposit();
+    for (auto& columns : columns_) run(columns, kernels_.deposit);
     solve();
   }
 
@@ -67,10 +76,10 @@ class MeshSteps final : public FusedSteps {
     for (auto& columns : columns_) {
       if (columns.moves) {
         accelerate(columns, time);
-        run(columns, kernels_.advance, true);
+        run(columns, kernels_.advance);
         columns.task.pending = true;
       } else {
-        run(columns, kernels_.deposit, true);
+        run(columns, kernels_.deposit);
       }
     }
     now_ = time + dt_;
@@ -92,12 +101,13 @@ class MeshSteps final : public FusedSteps {
     SourceKind kind;
     bool moves;
     double mass, strength;
-    std::size_t size;
+    std::size_t size;  // of this rank's share
     AlignedArray<Fixed> position[3], other_position[3];
     AlignedArray<Real> velocity[3], other_velocity[3];
     std::vector<std::uint32_t> order, other_order;  // the number of each particle
     StepTask<Real> task;
     double fastest = 0;    // square of a velocity in the last step
+    bool failed = false;   // there
     double travelled = 0;  // cells since the last sort
     int steps = 0;
   };
@@ -136,21 +146,37 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
+  /// What has happened to particles in a failing step: to those with the lowest numbers, however they are sorted.
+  struct Failure {
+    static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t not_finite = nobody, furthest = nobody, left = nobody;
+    int along = 0;       // the axis on which it has left
+    double fastest = 0;  // square of a velocity
+
+    void take(Failure const& other) {
+      not_finite = std::min(not_finite, other.not_finite);
+      if (other.fastest > fastest || (other.fastest == fastest && other.furthest < furthest))
+        fastest = other.fastest, furthest = other.furthest;
+      if (std::pair(other.left, other.along) < std::pair(left, along)) left = other.left, along = other.along;
+    }
+  };
+
   double position(Columns const& columns, int a, std::size_t i) const {
     return scheme_.box().low(a) + static_cast<double>(columns.position[a][i]) * part_[a];
   }
 
-  void add_columns(MeshScheme::Loaded const& loaded, bool moves) {
+  /// Gives the first particle that can't be where it is.
+  std::size_t add_columns(MeshScheme::Loaded const& loaded, bool moves) {
     AnyEnsemble& ensemble = *loaded.ensemble;
     Columns& columns = columns_.emplace_back();
     columns.ensemble = &ensemble;
     columns.kind = loaded.kind;
     columns.moves = moves;
-    columns.size = ensemble.size();
+    columns.size = ensemble.share() ? ensemble.share()->size : ensemble.size();
     columns.mass = ensemble.row(0)[loaded.kind.mass];
     columns.strength = loaded.strengths[0];
-    if (columns.size > std::numeric_limits<std::uint32_t>::max())
-      throw Error(fmt::format("mesh: '{}' has {} particles; at most {} are possible", ensemble.name(), columns.size,
+    if (ensemble.size() > std::numeric_limits<std::uint32_t>::max())
+      throw Error(fmt::format("mesh: '{}' has {} particles; at most {} are possible", ensemble.name(), ensemble.size(),
                               std::numeric_limits<std::uint32_t>::max()));
     std::size_t const padded = columns.size + column_padding;
     for (int a = 0; a < dimension_; ++a) {
@@ -158,11 +184,16 @@ class MeshSteps final : public FusedSteps {
       columns.velocity[a].resize(padded);
     }
     columns.order.resize(columns.size);
+    if (ensemble.share())
+      for (std::size_t k = 0; auto const& [begin, end] : ensemble.share()->stretches)
+        for (std::size_t i = begin; i < end; ++i) columns.order[k++] = static_cast<std::uint32_t>(i);
+    else
+      std::iota(columns.order.begin(), columns.order.end(), 0U);
     std::atomic<std::size_t> outside{AssignResult::nobody};
     for_ranges(columns.size, mesh_grain, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        double const* row = ensemble.row(i);
-        columns.order[i] = static_cast<std::uint32_t>(i);
+        std::size_t const number = columns.order[i];
+        double const* row = ensemble.row(number);
         for (int a = 0; a < dimension_; ++a) {
           Box const& box = scheme_.box();
           double const at = box.periodic(a) ? box.wrapped(row[a], a) : row[a];
@@ -170,7 +201,7 @@ class MeshSteps final : public FusedSteps {
           double const v = row[columns.kind.velocity + a];
           bool const inside = x >= 0 && x <= static_cast<double>(end_[a]) && std::isfinite(v);
           if (!inside)  // the first one, whoever comes first
-            for (auto first = outside.load(); i < first && !outside.compare_exchange_weak(first, i);) {
+            for (auto first = outside.load(); number < first && !outside.compare_exchange_weak(first, number);) {
             }
           // What rounds to the high edge of a periodic axis is at the low one.
           bool const wrapped = scheme_.box().periodic(a) && x >= static_cast<double>(end_[a]);
@@ -179,7 +210,6 @@ class MeshSteps final : public FusedSteps {
         }
       }
     });
-    if (outside != AssignResult::nobody) refuse(columns, outside);
     StepTask<Real>& task = columns.task;
     for (int a = 0; a < dimension_; ++a) {
       task.end[a] = end_[a];
@@ -199,20 +229,10 @@ class MeshSteps final : public FusedSteps {
     task.fastest_allowed = static_cast<Real>(std::min(longest * longest, 1e30));
     set_turn(columns);
     if (sorting()) sort(columns);
+    return outside;
   }
 
   bool sorting() const { return slots_ * (numbers_ * sizeof(Real) + width_ * 8) > slots_worth_sorting; }
-
-  [[noreturn]] void refuse(Columns const& columns, std::size_t i) const {
-    double const* row = columns.ensemble->row(i);
-    for (int a = 0; a < dimension_; ++a)
-      if (std::isfinite(row[a]) && !(row[a] >= scheme_.box().low(a) && row[a] <= scheme_.box().high(a)))
-        throw PhysicsFailure(fmt::format("particle {} of '{}' is outside the mesh: {} = {}, the box goes from {} to {}",
-                                         i, columns.ensemble->name(), "xyz"[a], row[a], scheme_.box().low(a),
-                                         scheme_.box().high(a)));
-    throw PhysicsFailure(
-        fmt::format("particle {} of '{}' has a position or velocity that is not finite", i, columns.ensemble->name()));
-  }
 
   /// The rotation of velocities in half a step: what it makes of the axes.
   void set_turn(Columns& columns) {
@@ -236,7 +256,7 @@ class MeshSteps final : public FusedSteps {
     std::size_t particles = 0;
     double greatest = 0;
     for (auto const& columns : columns_) {
-      particles += columns.size;
+      particles += columns.ensemble->size();
       greatest = std::max(greatest, std::abs(columns.strength));
     }
     double per_strength = counts_per_strength(greatest, particles);
@@ -252,8 +272,8 @@ class MeshSteps final : public FusedSteps {
     for (int a = 0; a < dimension_; ++a) columns.task.push[a] = static_cast<Real>(force[a] / columns.mass * dt_ / 2);
   }
 
-  /// Runs a kernel over all particles of an ensemble, counting if `counts`.
-  void run(Columns& columns, StepKernel<Real> kernel, bool counts) {
+  /// Runs a kernel over all particles of an ensemble, counting them.
+  void run(Columns& columns, StepKernel<Real> kernel) {
     StepTask<Real>& task = columns.task;
     for (int a = 0; a < dimension_; ++a) {
       task.position[a] = columns.position[a].data();
@@ -261,73 +281,89 @@ class MeshSteps final : public FusedSteps {
     }
     std::vector<StepResult> results((columns.size + mesh_grain - 1) / mesh_grain);
     int const threads = threads_for(columns.size, 1, scheme_.threads());
-    if (counts) {
-      tallies_.count(columns.size, mesh_grain, threads, [&](std::size_t begin, std::size_t end, std::int64_t* density) {
-        StepTask<Real> mine = task;
-        mine.density = density;
-        kernel(mine, results[begin / mesh_grain], begin, end);
-      });
-    } else {
-      for_ranges(columns.size, mesh_grain, threads,
-                 [&](std::size_t begin, std::size_t end) { kernel(task, results[begin / mesh_grain], begin, end); });
-    }
+    tallies_.count(columns.size, mesh_grain, threads, [&](std::size_t begin, std::size_t end, std::int64_t* density) {
+      StepTask<Real> mine = task;
+      mine.density = density;
+      kernel(mine, results[begin / mesh_grain], begin, end);
+    });
     // The kernel has moved what stands behind the last particle.
     for (std::size_t i = columns.size; i < columns.size + column_padding; ++i)
       for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
     columns.fastest = 0;
-    bool failed = false;
+    columns.failed = false;
     for (auto const& result : results) {
       columns.fastest = std::max(columns.fastest, result.fastest);
-      failed = failed || result.failed;
+      columns.failed = columns.failed || result.failed;
     }
-    if (failed) explain(columns);
+  }
+
+  /// Before the sum over all ranks.
+  void check_together() {
+    std::size_t failing = 0;  // the first of those that have failed, counted from the last
+    for (std::size_t c = 0; c < columns_.size() && failing == 0; ++c)
+      if (columns_[c].failed) failing = columns_.size() - c;
+    if (division_)
+      failing = static_cast<std::size_t>(
+          division_->team().meet(Team::Occasion::exchanges, {static_cast<std::int64_t>(failing)}).most[0]);
+    if (failing > 0) explain(columns_[columns_.size() - failing]);
+  }
+
+  Failure find_failure(Columns const& columns) const {
+    Failure all;
+    for (std::size_t i = 0; i < columns.size; ++i) {
+      Failure one;
+      std::uint32_t const number = columns.order[i];
+      for (int a = dimension_ - 1; a >= 0; --a) {
+        one.fastest += std::pow(static_cast<double>(columns.velocity[a][i]), 2);
+        // It was put on the low edge, so that it could do no harm.
+        if (columns.position[a][i] == 0 && columns.task.boundary[a] == StepBoundary::ends)
+          one.left = number, one.along = a;
+      }
+      if (std::isfinite(one.fastest))
+        one.furthest = number;
+      else
+        one.not_finite = number, one.fastest = 0;
+      all.take(one);
+    }
+    return all;
   }
 
   /// Somebody has failed: who?
   [[noreturn]] void explain(Columns const& columns) const {
     auto const& name = columns.ensemble->name();
-    std::size_t who = columns.size;
-    double fastest = 0;
-    for (std::size_t i = 0; i < columns.size; ++i) {
-      double square = 0;
-      for (int a = 0; a < dimension_; ++a) square += std::pow(static_cast<double>(columns.velocity[a][i]), 2);
-      if (!std::isfinite(square))
-        throw PhysicsFailure(
-            fmt::format("particle {} of '{}' has a velocity that is not finite", columns.order[i], name));
-      if (square > fastest) fastest = square, who = i;
-    }
-    double const allowed = scheme_.length_scale(*columns.ensemble), moved = std::sqrt(fastest) * std::abs(dt_);
+    Failure const mine = find_failure(columns);
+    Failure all = mine;
+    if (division_)
+      for (auto const& bytes : division_->team().gather({reinterpret_cast<char const*>(&mine), sizeof mine})) {
+        Failure one;
+        std::memcpy(&one, bytes.data(), sizeof one);
+        all.take(one);
+      }
+    if (all.not_finite != Failure::nobody)
+      throw PhysicsFailure(fmt::format("particle {} of '{}' has a velocity that is not finite", all.not_finite, name));
+    double const allowed = scheme_.length_scale(*columns.ensemble), moved = std::sqrt(all.fastest) * std::abs(dt_);
     if (moved > allowed)
       throw PhysicsFailure(fmt::format(
           "particle {} of '{}' moved {} in one step, further than the length {} of "
           "the box; take a step below {}",
-          columns.order[who], name, scheme_.spoken_units().text(moved, dimensions::length),
+          all.furthest, name, scheme_.spoken_units().text(moved, dimensions::length),
           scheme_.spoken_units().text(allowed, dimensions::length),
           scheme_.spoken_units().text(std::abs(dt_) * std::sqrt(0.1 * allowed / moved), dimensions::time, 3)));
-    // It was put on the low edge, so that it could do no harm.
-    for (std::size_t i = 0; i < columns.size; ++i)
-      for (int a = 0; a < dimension_; ++a)
-        if (columns.position[a][i] == 0 && columns.task.boundary[a] == StepBoundary::ends)
-          throw PhysicsFailure(
-              fmt::format("particle {} of '{}' has left the mesh along {}; make the box larger, or bound "
-                          "it",
-                          columns.order[i], name, "xyz"[a]));
+    if (all.left != Failure::nobody)
+      throw PhysicsFailure(
+          fmt::format("particle {} of '{}' has left the mesh along {}; make the box larger, or bound "
+                      "it",
+                      all.left, name, "xyz"[all.along]));
     throw PhysicsFailure(fmt::format("a particle of '{}' has left the mesh", name));
   }
 
-  void deposit() {
-    for (auto& columns : columns_) run(columns, kernels_.deposit, true);
-  }
-
-  /// From counts to the slots of the field.
-  void solve() {
-    ++scheme_.solves_;
+  /// What all particles count on the nodes, of all ranks.
+  void sum_counts() {
     Ghosts const& ghosts = work_.ghosts;
     std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
     auto const& arrays = tallies_.arrays();
     counts_.resize(ghosts.size());
-    std::size_t const grain = std::max<std::size_t>(1, 16384 / nx);
-    for_ranges(rows, grain, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+    for_ranges(rows, row_grain(), scheme_.threads(), [&](std::size_t begin, std::size_t end) {
       std::fill(counts_.begin() + static_cast<std::ptrdiff_t>(begin * nx),
                 counts_.begin() + static_cast<std::ptrdiff_t>(end * nx), 0);
       for (auto const& array : arrays)
@@ -339,11 +375,25 @@ class MeshSteps final : public FusedSteps {
               for (int k = 0; k < ghosts.order(); ++k) to[i + static_cast<std::size_t>(k)] += from[k];
         }
     });
+    check_together();
+    if (division_) division_->team().sum(counts_);
+  }
+
+  /// Rows of nodes that a thread takes at once.
+  std::size_t row_grain() const { return std::max<std::size_t>(1, 16384 / work_.ghosts.nodes(0)); }
+
+  /// From counts to the slots of the field.
+  void solve() {
+    sum_counts();
+    ++scheme_.solves_;
+    scheme_.measured_ = false;
+    Ghosts const& ghosts = work_.ghosts;
+    std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
     ghosts.fold(counts_, unit_, work_.density.components[0], scheme_.threads());
     scheme_.add_background(work_);
     work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components);
     int const order = ghosts.order();
-    for_ranges(rows, grain, scheme_.threads(), [&](std::size_t begin, std::size_t end) {
+    for_ranges(rows, row_grain(), scheme_.threads(), [&](std::size_t begin, std::size_t end) {
       std::vector<Real> line(nx);
       for (std::size_t row = begin; row < end; ++row) {
         std::size_t const j = row % ghosts.nodes(1), k = row / ghosts.nodes(1);
@@ -459,6 +509,7 @@ class MeshSteps final : public FusedSteps {
 
   MeshScheme& scheme_;
   MeshScheme::Work& work_;
+  Division* division_;  // of the run, in which columns are those of this rank's share
   int dimension_;
   double dt_;
   StepKernels<Real> kernels_;

@@ -3,6 +3,8 @@
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 
 namespace boltzmann {
@@ -19,6 +21,19 @@ void MeshScheme::Loaded::refresh(int threads) {
              [&](std::size_t begin, std::size_t end) {
                kind.strengths(ensemble->row(0), ensemble->stride(), begin, end, strengths.data());
              });
+}
+
+bool MeshScheme::Loaded::refresh_share(int threads) {
+  strengths.resize(ensemble->size());
+  std::atomic<bool> changed{false};
+  for_share(*ensemble, mesh_grain, threads_for(ensemble->share()->size, 1, threads),
+            [&](std::size_t begin, std::size_t end) {
+              std::array<double, Share::longest> before;
+              std::copy(strengths.data() + begin, strengths.data() + end, before.begin());
+              kind.strengths(ensemble->row(0), ensemble->stride(), begin, end, strengths.data());
+              if (!std::equal(strengths.data() + begin, strengths.data() + end, before.begin())) changed = true;
+            });
+  return changed;
 }
 
 MeshScheme::Work::Work(Ghosts the_ghosts, MeshGrid const& the_grid, std::array<FieldEnds, 3> const& ends,

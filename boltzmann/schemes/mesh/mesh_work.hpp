@@ -6,6 +6,8 @@
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/tallies.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -18,6 +20,8 @@ struct MeshScheme::Loaded {
 
   /// Asks the class for all strengths as they are now.
   void refresh(int threads);
+  /// The same for this rank's share. Whether one is another than before.
+  bool refresh_share(int threads);
 };
 
 struct MeshScheme::Work {
@@ -27,6 +31,7 @@ struct MeshScheme::Work {
   MeshField density, potential, field;
   Tallies tallies;                          ///< with ghosts
   double total_strength = 0;                ///< at the last deposit
+  double per_strength = 1;                  ///< counts, at the last deposit of a divided run
   std::vector<double> inside;               ///< the share of each node's cell that is in the box, when wanted
   std::vector<std::vector<double>> padded;  ///< the field (and the potential last) with ghosts, when wanted
 
@@ -45,5 +50,11 @@ void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vect
 
 /// Particles of one range of a loop.
 inline constexpr std::size_t mesh_grain = 1U << 14U;
+
+/// A particle as one number: ensembles in the order in which they were loaded, particles in that of their numbers.
+inline constexpr std::int64_t no_particle = std::numeric_limits<std::int64_t>::max();
+inline std::int64_t loaded_particle(std::size_t loaded, std::size_t i) {
+  return static_cast<std::int64_t>(loaded << 40U | i);
+}
 
 }  // namespace boltzmann

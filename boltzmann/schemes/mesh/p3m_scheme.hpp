@@ -37,6 +37,7 @@ class P3MScheme final : public MeshScheme {
   /// has grown. PhysicsFailure if that can't be.
   bool box_settled() override;
   void make_reversible(double quantum) override;
+  std::string undivided() const override { return "near pairs beside a mesh (P3M)"; }
   std::size_t bytes() const override;
   std::string summary() const override { return MeshScheme::summary() + ", and near pairs (P3M)"; }
   std::string report() const override;

@@ -69,6 +69,13 @@ class Tallies {
   }
   /// At least one.
   std::vector<std::unique_ptr<AlignedArray<std::int64_t>>>& arrays() { return arrays_; }
+  /// What all have counted, after count().
+  std::vector<std::int64_t> sum() const {
+    std::vector<std::int64_t> counts(size_);
+    for (auto const& array : arrays_)
+      for (std::size_t i = 0; i < size_; ++i) counts[i] += (*array)[i];
+    return counts;
+  }
 
  private:
   AlignedArray<std::int64_t>* take() {
