@@ -238,8 +238,8 @@ double crystalline(ScenarioSimulation& run, int looks, int steps) {
 std::pair<double, double> side_by_side(std::string const& temperature) {
   Overrides overrides;
   overrides.set = {"equilibrate.temperature=\"max(" + temperature + ", 3000 K - 1500 K/ps*time)\"",
-                   "dissipation.0.temperature=\"" + temperature + "\"",
-                   "barostat.temperature=\"" + temperature + "\"", "output.trajectory=0"};
+                   "dissipation.0.temperature=\"" + temperature + "\"", "barostat.temperature=\"" + temperature + "\"",
+                   "output.trajectory=0"};
   auto const run = shipped("copper-melting", overrides);
   EXPECT_EQ(ensemble(*run, "crystal").size() + ensemble(*run, "melt").size(), 1200u);
   double const first = crystalline(*run, 10, 10);
