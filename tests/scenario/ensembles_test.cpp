@@ -118,6 +118,12 @@ TEST(Barostats, StretchTheBox) {
   one->simulation->run(100);
   EXPECT_EQ(one->box().length(0), 12);
   EXPECT_NE(one->box().length(1), 12);
+  std::string gentle = barostat + "method = \"mtk\"\n";
+  gentle.replace(gentle.rfind("rate = 20"), 9, "rate = 2");
+  auto const piston = scenario(fluid + gentle);
+  piston->simulation->run(100);
+  EXPECT_NE(piston->box().volume(), 144);
+  expect_same_after_a_resume(fluid + gentle, 60, {20, 31});
 }
 
 TEST(Events, ChangeBathsLawsMethodsAndVelocities) {
@@ -208,6 +214,14 @@ TEST(Ensembles, MistakesAreToldInOneLine) {
   expect("[barostat]\npressure = 1\ntemperature = 1\nrate = 1\ncompressibility = 1\naxes = [\"x\", \"x\"]\n",
          {"axes: x is named twice"});
   expect("[barostat]\npressure = 1\ntemperature = 1\nrate = 1\ncompressibility = 1\naxes = \"z\"\n", {"axes"});
+  expect("[barostat]\npressure = 1\ntemperature = 1\nrate = 1\ncompressibility = 1\nmethod = \"mkt\"\n",
+         {"method", "mkt", "mtk"});
+  std::string cut = fluid;
+  cut.insert(cut.find("cutoff"), "shifted = false\n");
+  auto const jumps =
+      test::mistakes_of(cut + "[barostat]\npressure = 1\ntemperature = 1\nrate = 1\ncompressibility = 1\n");
+  ASSERT_EQ(jumps.size(), 1U);
+  EXPECT_NE(jumps[0].find("the energy of this law jumps at its cut-off"), std::string::npos) << jumps[0];
   expect("[[events]]\nat = 1\n", {"nothing happens", "'scale'"});
   expect("[[events]]\nat = -1\nscale = 2\n", {"at", "positive"});
   expect("[[events]]\nscale = 2\n", {"has no 'at'"});

@@ -262,7 +262,7 @@ TEST(BarostatOfMolecules, HasTheSameBitsOnAnyThreadsAndAfterAResume) {
   };
   auto const bits = run(1, 60, 60);
   EXPECT_TRUE(same(run(2, 60, 60), bits));
-  for (int const stop : {20, 30}) EXPECT_TRUE(same(run(1, stop, 60), bits)) << stop;
+  EXPECT_TRUE(same(run(1, 20, 60), bits));
 }
 
 TEST(BarostatOfMolecules, RefusesInOneLine) {
