@@ -216,7 +216,7 @@ TEST(BarostatOfMolecules, TheMeanPressureOfAtomsAndBondsIsTheOneThatIsHeld) {
   ions.simulation.run(15000);
   auto const found = estimate(pressures, 20);
   EXPECT_NEAR(found.mean, 3, 5 * found.error);
-  EXPECT_LT(found.error, 0.03);
+  EXPECT_LT(found.error, 0.02);
   auto const& barostat = *ions.simulation.barostats().front();
   EXPECT_GT(barostat.accepted(), barostat.moves() * 3 / 4);
 }
