@@ -135,10 +135,9 @@ void print_warnings(Simulation const& simulation, ProgressOptions const& options
   for (auto* dissipation : simulation.dissipations()) print(dissipation->warnings(simulation.step_size()));
   if (team().alone()) return;
   std::string const why = simulation.undivided();
-  print({why.empty()
-             ? fmt::format("{} ranks share the particles", team().size())
-             : fmt::format("warning: each of the {} ranks does all the work: runs with {} are not divided so far",
-                           team().size(), why)});
+  print({why.empty() ? fmt::format("{} ranks share the particles", team().size())
+                     : fmt::format("each of the {} ranks does all the work: runs with {} are not divided so far",
+                                   team().size(), why)});
 }
 
 bool rewrites_lines() {
