@@ -597,7 +597,7 @@ TEST(Completion, IsABashScriptThatKnowsTheCommands) {
   EXPECT_EQ(bash.status, 0);
   EXPECT_EQ(bash.out,
             "resume render\n--set --steps --seed --seeds\ncopper copper-10000 copper-3d "
-            "copper-cascade\nresults\nmine.cpp\nscenarios\n")
+            "copper-cascade copper-melting\nresults\nmine.cpp\nscenarios\n")
       << bash.err;
   expect_one_line(bzm({"completion", "fihs"}, folder.string()), 2, {"bash, zsh, fish", "did you mean 'fish'?"});
 }
@@ -617,7 +617,8 @@ TEST(Completion, IsAFishScriptThatKnowsTheCommands) {
       Process({"/usr/bin/env", "HOME=" + folder.string(), "fish", "--no-config", "complete.fish"}, folder.string())
           .wait();
   EXPECT_EQ(fish.status, 0) << fish.err;
-  EXPECT_EQ(fish.out, "render\nresume\n--threads\ncopper-3d\ncopper-10000\ncopper-cascade\nscenarios\n") << fish.err;
+  EXPECT_EQ(fish.out, "render\nresume\n--threads\ncopper-3d\ncopper-10000\ncopper-cascade\ncopper-melting\nscenarios\n")
+      << fish.err;
 }
 
 // zsh completes in a terminal only: what its own functions would be told is looked at.
