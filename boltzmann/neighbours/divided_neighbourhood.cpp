@@ -166,7 +166,8 @@ void Neighbourhood::find_needed(int threads) {
       std::fill(marks.begin() + static_cast<std::ptrdiff_t>(begin), marks.begin() + static_cast<std::ptrdiff_t>(end),
                 own_row);
     auto const rows = stretches_of(marks, read);
-    auto& numbers = needed.emplace_back(const_cast<AnyEnsemble*>(&copy.ensemble())).numbers;
+    needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
+    auto& numbers = needed.back().numbers;
     for (auto const& [begin, end] : rows) numbers.insert(numbers.end(), copy.order() + begin, copy.order() + end);
     copy.only(own_[e], rows, in_lists[e]);
   }
