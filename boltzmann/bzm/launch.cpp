@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 namespace boltzmann::bzm {
 namespace {
@@ -78,7 +79,9 @@ int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks) {
   setenv("BOLTZMANN_MPI", std::filesystem::absolute(plugin.path).c_str(), 1);
   std::vector<std::string> line{launcher};
   if (open_mpi) {
-    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    // Where ranks have a processor each, one that waits for a moment (Team) keeps it.
+    bool const enough = ranks.hosts.empty() && *ranks.count <= static_cast<int>(std::thread::hardware_concurrency());
+    setenv("OMPI_MCA_mpi_yield_when_idle", enough ? "0" : "1", 0);
     // More ranks than processors are allowed; what it has to say of exit statuses, ranks have said.
     line.insert(line.end(), {"--oversubscribe", "--quiet", "-x", "BOLTZMANN_MPI"});
   }

@@ -2,6 +2,7 @@
 #include <boltzmann/core/team_functions.h>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/shared_processors.hpp>
 #include <boltzmann/core/team.hpp>
 
 #include <fmt/format.h>
@@ -93,7 +94,8 @@ int exit_status(std::exception_ptr const& failure) { return describe(failure).st
 Team::Team(BoltzmannTeamFunctions const& functions, void* of, int rank, int size)
     : functions_(&functions), of_(of), rank_(rank), size_(size) {}
 
-/// Soon awake at first; then it leaves the processor to others, who may be what it waits for.
+/// Awake at first, if it has a processor of its own; then it leaves the processor to others, who may be what it waits
+/// for.
 void Team::wait() {
   ++counts_.collectives;
   if (functions_->done(of_) != 0) return;
@@ -106,6 +108,7 @@ void Team::wait() {
           "rank {}, which {}, has waited {:.3g} s for others, which have not come so far; every rank must do "
           "the same (BOLTZMANN_PATIENCE sets how many seconds a rank waits)",
           rank_, words(occasion_), waited));
+    if (waited < 2e-4 && processors_suffice()) continue;
     if (waited < 1e-3)
       std::this_thread::yield();
     else

@@ -143,15 +143,9 @@ Pool& pool() {
 
 namespace {
 std::atomic<int> processes{1};
-}
+std::atomic<bool> shared{false};
 
-void share_processors(int of) { processes = std::max(1, of); }
-
-int default_threads() {
-  static int const told = [] {
-    char const* wanted = std::getenv("OMP_NUM_THREADS");
-    return wanted ? std::atoi(wanted) : 0;
-  }();
+int processors() {
   static int const count = [] {
 #if defined(__linux__)
     cpu_set_t mine;
@@ -159,7 +153,23 @@ int default_threads() {
 #endif
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }();
-  return told > 0 ? told : std::max(1, count / processes);
+  return count;
+}
+}  // namespace
+
+void share_processors(int of) {
+  processes = std::max(1, of);
+  shared = true;
+}
+
+bool processors_suffice() { return shared && processes * default_threads() <= processors(); }
+
+int default_threads() {
+  static int const told = [] {
+    char const* wanted = std::getenv("OMP_NUM_THREADS");
+    return wanted ? std::atoi(wanted) : 0;
+  }();
+  return told > 0 ? told : std::max(1, processors() / processes);
 }
 
 namespace detail {
