@@ -212,11 +212,4 @@ void RowExchange::send(Division& division) {
   division.team().exchange(messages);
 }
 
-std::size_t RowExchange::received_rows() const {
-  std::size_t rows = 0;
-  for (auto const& from : receives_)
-    for (auto const& numbers : from) rows += numbers.size();
-  return rows;
-}
-
 }  // namespace boltzmann

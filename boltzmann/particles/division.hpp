@@ -24,7 +24,7 @@ namespace boltzmann {
 class Division {
  public:
   using Owners = std::vector<std::uint16_t>;  ///< the rank of each particle
-  static constexpr int most_ranks = 65535;
+  static constexpr int most_ranks = 65536;
 
   explicit Division(Team& team);
   /// Ensembles are whole again.
@@ -121,8 +121,6 @@ class RowExchange {
         for (auto const i : receives_[r][e]) take(e, i, from), from += count(e);
     }
   }
-
-  std::size_t received_rows() const;
 
  private:
   using Numbers = std::vector<std::vector<std::uint32_t>>;  // of each ensemble

@@ -25,6 +25,7 @@ LargestMove over_all_ranks(Team& team, LargestMove const& mine) {
 }  // namespace
 
 std::string Simulation::undivided() const {
+  if (team().size() > Division::most_ranks) return "more than 65,536 ranks";
   for (auto const* dissipation : dissipations_)
     if (auto why = dissipation->undivided(); !why.empty()) return why;
   if (!barostats_.empty()) return "a barostat";
