@@ -328,10 +328,10 @@ void PairDissipation::take_lists() {
   for (auto& coupling : couplings_) {
     Coupling& c = *coupling;
     Member const& m = *c.target;
-    if (c.builds == neighbourhood.builds() && c.moves == neighbourhood.moves()) continue;
+    if (c.builds == neighbourhood.version() && c.moves == neighbourhood.moves()) continue;
     NeighbourList const& list = neighbourhood.list(c.list);
     std::vector<std::size_t> chunks;
-    if (c.builds == neighbourhood.builds() && c.moves + 1 == neighbourhood.moves()) {
+    if (c.builds == neighbourhood.version() && c.moves + 1 == neighbourhood.moves()) {
       for (std::uint32_t const row : list.rebuilt()) {  // ascending
         std::size_t const chunk = row / dissipation_chunk;
         if (chunks.empty() || chunks.back() != chunk) chunks.push_back(chunk);
@@ -342,7 +342,7 @@ void PairDissipation::take_lists() {
       for (auto& length : c.length) length.resize(m.owned());
       chunks = own_chunks(m);
     }
-    c.builds = neighbourhood.builds();
+    c.builds = neighbourhood.version();
     c.moves = neighbourhood.moves();
     for_ranges(chunks.size(), 1, threads_for(m.owned(), 2, threads()), [&](std::size_t first, std::size_t last) {
       for (std::size_t n = first; n < last; ++n) c.take_chunk(chunks[n], list);

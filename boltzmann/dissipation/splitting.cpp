@@ -10,8 +10,8 @@ namespace boltzmann {
 void PairDissipation::Splitting::take_pairs(Neighbourhood const& neighbourhood,
                                             std::vector<std::unique_ptr<Member>>& members,
                                             std::vector<std::unique_ptr<Coupling>> const& couplings, int threads) {
-  if (builds == neighbourhood.builds() && moves == neighbourhood.moves()) return;
-  builds = neighbourhood.builds();
+  if (builds == neighbourhood.version() && moves == neighbourhood.moves()) return;
+  builds = neighbourhood.version();
   moves = neighbourhood.moves();
   std::size_t chunks = 0;
   for (auto& member : members) {

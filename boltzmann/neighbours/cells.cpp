@@ -16,27 +16,46 @@ constexpr std::size_t points_per_task = 2048;  // points
 
 }  // namespace
 
-Cells::Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
-    : reach_(reach) {
-  grid_.dimension = dimension;
-  // Not many more cells than points: those of far-away particles are folded onto the others.
-  double const most = std::min(4.0 * static_cast<double>(count) + 64, 4e9);  // and numbers of 32 bits
-  std::array<double, 3> along{1, 1, 1};
-  for (int a = 0; a < dimension; ++a) {
-    grid_.edge[a] = reach * (a == 0 ? first_edge : other_edge);
-    grid_.inverse_edge[a] = 1 / grid_.edge[a];
-    double lowest = count ? rows[a] : 0, highest = lowest;
+Bounds Bounds::of(int dimension, double const* rows, std::size_t stride, std::size_t count) {
+  Bounds extent;
+  for (int a = 0; a < dimension && count > 0; ++a) {
+    double lowest = rows[a], highest = lowest;
     for (std::size_t i = 1; i < count; ++i) {
       lowest = std::min(lowest, rows[i * stride + a]);
       highest = std::max(highest, rows[i * stride + a]);
     }
-    along[a] = std::min(most, std::floor((highest - lowest) * grid_.inverse_edge[a]) + 2);
+    extent.low[a] = lowest;
+    extent.high[a] = highest;
+  }
+  return extent;
+}
+
+Grid Cells::grid_for(int dimension, Bounds const& extent, std::size_t count, double reach) {
+  Grid grid;
+  grid.dimension = dimension;
+  // Not many more cells than points: those of far-away particles are folded onto the others.
+  double const most = std::min(4.0 * static_cast<double>(count) + 64, 4e9);  // and numbers of 32 bits
+  std::array<double, 3> along{1, 1, 1};
+  for (int a = 0; a < dimension; ++a) {
+    grid.edge[a] = reach * (a == 0 ? first_edge : other_edge);
+    grid.inverse_edge[a] = 1 / grid.edge[a];
+    along[a] = std::min(most, grid.cells_of(a, extent.low[a], extent.high[a]));
   }
   while (along[0] * along[1] * along[2] > most) {
     double& longest = *std::max_element(along.begin(), along.end());
     longest = std::ceil(0.8 * longest);
   }
-  for (int a = 0; a < dimension; ++a) grid_.count[a] = static_cast<std::int64_t>(along[a]);
+  for (int a = 0; a < dimension; ++a) {
+    grid.count[a] = static_cast<std::int64_t>(along[a]);
+    // What near() asks of the largest block, and where points have no cell of their own.
+    double const largest = (2 + largest_block[a]) * reach * grid.inverse_edge[a] + 3;
+    grid.by_number[a] = along[a] < largest || grid.folds(a, extent.low[a], extent.high[a]);
+  }
+  return grid;
+}
+
+Cells::Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
+    : grid_(grid), reach_(reach) {
   start_.assign(grid_.cells() + 1, 0);
   items_.resize(count);
   std::vector<std::uint32_t> cell(count);

@@ -10,13 +10,27 @@
 
 namespace boltzmann {
 
+/// Between which coordinates points are.
+struct Bounds {
+  std::array<double, 3> low{}, high{};
+  /// Of points at rows + i * stride, i < count; zero of none.
+  static Bounds of(int dimension, double const* rows, std::size_t stride, std::size_t count);
+};
+
 /// A grid fine enough to find what is within `reach`, and the points in each cell. The number of cells is kept in
 /// proportion to the number of points, whatever their extent.
 class Cells {
  public:
   Cells() = default;
   /// Points at rows + i * stride, i < count, `dimension` coordinates each, all finite.
-  Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads = 1);
+  Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads = 1)
+      : Cells(grid_for(dimension, Bounds::of(dimension, rows, stride, count), count, reach), rows, stride, count, reach,
+              threads) {}
+  /// The same in a grid that is given.
+  Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads);
+
+  /// The grid for so many points of that extent.
+  static Grid grid_for(int dimension, Bounds const& extent, std::size_t count, double reach);
 
   /// The points in cell order, those of one cell in the order they were given.
   std::vector<std::uint32_t> const& items() const { return items_; }

@@ -9,7 +9,7 @@
 namespace boltzmann {
 namespace {
 
-enum : char { unread, own_row, read };
+enum : char { of_others, own_row };
 
 /// Of rows with this mark.
 std::vector<Stretch> stretches_of(std::vector<char> const& marks, char mark) {
@@ -28,14 +28,20 @@ void Neighbourhood::divide(Division* division, int threads) {
     if (!complete_ && division->id() != last_division_) complete(threads);
     division_ = division;
     last_division_ = division->id();
-    if (stale_ || lists_.empty()) return;
+    division_->gathers(this, [this] { gather_references(); });
+    if (stale_ || lists_.empty() || is_part()) return;
     if (complete_) share_out();
     take_shares();
     complete_ = false;
     return find_needed(threads);
   }
   if (!divided()) return;
+  division_->gathers(this, {});
   division_ = nullptr;
+  if (is_part()) {
+    if (!references_known_) stale_ = true;
+    return;
+  }
   bool const current = std::all_of(copies_.begin(), copies_.end(), [](auto const& copy) { return copy.is_current(); });
   for (auto& copy : copies_) copy.everything();
   if (current && !stale_) follow(threads);  // what is not this rank's has not been
@@ -44,6 +50,7 @@ void Neighbourhood::divide(Division* division, int threads) {
 /// With lists for those rows that have none, where a run is not divided any more.
 void Neighbourhood::complete(int threads) {
   if (complete_) return;
+  if (is_part()) return become_whole(threads);
   for (auto& list : lists_) {
     std::vector<Stretch> missing;
     std::size_t end = 0;
@@ -71,39 +78,45 @@ void Neighbourhood::refresh_together(int threads) {
   auto const all =
       team.meet(Team::Occasion::follows, {changed ? 1 : 0, std::bit_cast<std::int64_t>(largest_displacement2())});
   if (!stale_ && (all.most[0] == 0 || lists_hold(std::bit_cast<double>(all.most[1])))) return;
-  division_->make_whole();
   build(threads);
   find_needed(threads);
   follow(threads);
 }
 
-/// Whether no more rows, of all ranks, are further than sqrt(square) from their references. If so, all that is known
-/// about them is known to every rank.
-bool Neighbourhood::few_beyond(double square, std::size_t most) {
-  std::size_t count = 0;
-  for (auto const& copy : copies_) count += copy.beyond(square, most + 1).size();
-  if (division_->sum(count) > most) return false;
-  division_->make_whole();
-  for (auto& copy : copies_) copy.everything();
+/// After lists have changed: those that they read now.
+void Neighbourhood::follow_others() {
+  find_needed(1);
+  if (!division_->is_whole()) exchange_.bring_rows(*division_);
   follow(1);
-  return true;
 }
 
-/// Each rank gets as many rows, in the order in which they are sorted.
-void Neighbourhood::share_out() {
+/// Where the rows of each rank begin, and one more: each gets as many, in the order in which they are sorted.
+std::vector<std::size_t> Neighbourhood::cuts(std::size_t rows) const {
   auto const ranks = static_cast<std::size_t>(division_->team().size());
+  std::vector<std::size_t> cuts;
+  for (std::size_t r = 0; r < ranks; ++r)
+    cuts.push_back(std::min((rows * r / ranks + cut_at_ / 2) / cut_at_ * cut_at_, rows));
+  cuts.push_back(rows);
+  return cuts;
+}
+
+void Neighbourhood::share_out() {
   for (auto const& copy : copies_) {
     Division::Owners owners(copy.owned());
-    auto const cut = [&](std::size_t r) {
-      std::size_t const even = copy.owned() * r / ranks;
-      return r == ranks ? copy.owned() : (even + cut_at_ / 2) / cut_at_ * cut_at_;
-    };
-    for (std::size_t r = 0; r < ranks; ++r)
-      for (std::size_t k = cut(r); k < std::min(cut(r + 1), copy.owned()); ++k)
-        owners[copy.order()[k]] = static_cast<std::uint16_t>(r);
+    auto const cut = cuts(copy.owned());
+    for (std::size_t r = 0; r + 1 < cut.size(); ++r)
+      for (std::size_t k = cut[r]; k < cut[r + 1]; ++k) owners[copy.order()[k]] = static_cast<std::uint16_t>(r);
     division_->owners(copy.ensemble(), std::move(owners));
   }
   take_shares();
+}
+
+/// Those of a build in parts come to all ranks, with all rows.
+void Neighbourhood::gather_references() {
+  if (!is_part() || references_known_) return;
+  auto const D = static_cast<std::size_t>(box_->dimension());
+  for (auto& copy : copies_) division_->gather(copy.ensemble(), copy.references_by_number().data(), D, D);
+  references_known_ = true;
 }
 
 void Neighbourhood::take_shares() {
@@ -112,7 +125,7 @@ void Neighbourhood::take_shares() {
     auto const& owners = division_->owners(copy.ensemble());
     std::vector<char> marks(copy.owned());
     for (std::size_t k = 0; k < marks.size(); ++k)
-      marks[k] = owners[copy.order()[k]] == division_->team().rank() ? own_row : unread;
+      marks[k] = owners[copy.order()[k]] == division_->team().rank() ? own_row : of_others;
     own_[e] = stretches_of(marks, own_row);
   }
 }
@@ -147,8 +160,9 @@ std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
 void Neighbourhood::find_needed(int threads) {
   row_of_.resize(copies_.size());
   for (std::size_t e = 0; e < copies_.size(); ++e) {
-    row_of_[e].resize(copies_[e].owned());
-    for (std::uint32_t k = 0; k < copies_[e].owned(); ++k) row_of_[e][copies_[e].order()[k]] = k;
+    SortedCopy const& copy = copies_[e];
+    row_of_[e].resize(copy.owned());
+    for (std::size_t n = 0; n < copy.known(); ++n) row_of_[e][copy.order()[copy.known(n)]] = copy.known(n);
   }
   auto in_lists = rows_in_lists(threads);
   if (also_read_)
@@ -159,17 +173,22 @@ void Neighbourhood::find_needed(int threads) {
   std::vector<RowExchange::Needed> needed;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     SortedCopy& copy = copies_[e];
-    std::vector<char> marks(copy.owned(), unread);
-    for (std::size_t k = 0; k <= copy.total(); ++k)
-      if (in_lists[e][k] && k != copy.sentinel()) marks[copy.owner(k)] = read;
-    for (auto const& [begin, end] : own_[e])
-      std::fill(marks.begin() + static_cast<std::ptrdiff_t>(begin), marks.begin() + static_cast<std::ptrdiff_t>(end),
-                own_row);
-    auto const rows = stretches_of(marks, read);
+    auto& read = in_lists[e];
+    for (std::size_t k = copy.sentinel() + 1; k <= copy.total(); ++k)
+      if (read[k]) read[copy.owner(k)] = 1;
+    std::vector<Stretch> rows;
+    for (std::size_t n = 0; n < copy.known(); ++n) {
+      std::uint32_t const k = copy.known(n);
+      if (!read[k] || is_own(copy, k)) continue;
+      if (!rows.empty() && rows.back().end == k)
+        ++rows.back().end;
+      else
+        rows.push_back({k, k + std::size_t{1}});
+    }
     needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
     auto& numbers = needed.back().numbers;
     for (auto const& [begin, end] : rows) numbers.insert(numbers.end(), copy.order() + begin, copy.order() + end);
-    copy.only(own_[e], rows, in_lists[e]);
+    copy.only(own_[e], rows, read);
   }
   exchange_.plan(*division_, std::move(needed));
 }

@@ -6,11 +6,17 @@
 
 namespace boltzmann {
 
+/// How far a block whose neighbours are found together may extend along each axis, in units of the reach.
+inline constexpr double largest_block[3] = {1.5, 0.6, 0.6};
+
 /// Cells of given edges that fill all of space, folded onto `count` of them along each axis: those a multiple of
 /// `count` apart are one. So there are as many as wanted, however far particles are from each other.
 struct Grid {
   int dimension = 1;
   std::int64_t count[3] = {1, 1, 1};  ///< along each axis, the first runs fastest
+  /// Along such an axis cells are visited in the order of their numbers, along others in that of space: where cells are
+  /// folded, or so few that a range may be all of them, it would begin elsewhere for another block.
+  bool by_number[3] = {false, false, false};
   double edge[3] = {1, 1, 1}, inverse_edge[3] = {1, 1, 1};
 
   std::size_t cells() const { return static_cast<std::size_t>(count[0] * count[1] * count[2]); }
@@ -20,11 +26,27 @@ struct Grid {
     return static_cast<std::size_t>(cell);
   }
 
+  /// The cell along an axis, not folded; those beyond `most` are one.
+  [[gnu::always_inline]] std::int64_t along(int axis, double x) const {
+    double c = x * inverse_edge[axis];
+    c = c < -most ? -most : c > most ? most : c;
+    auto const truncated = static_cast<std::int64_t>(c);
+    return truncated - (c < static_cast<double>(truncated) ? 1 : 0);
+  }
+
+  /// How many cells points between two coordinates may have along an axis, and whether there are fewer.
+  double cells_of(int axis, double low, double high) const {
+    return __builtin_floor((high - low) * inverse_edge[axis]) + 2;
+  }
+  bool folds(int axis, double low, double high) const {
+    return static_cast<double>(count[axis]) < cells_of(axis, low, high);
+  }
+
   /// The runs of cells that near() finds at most.
   static constexpr int most_runs = 128;
 
   /// Calls visit(first, last) for runs of cells that together hold every point within `reach` of the block from `least`
-  /// to `greatest` (and some further ones), each cell once.
+  /// to `greatest` (and some further ones), each cell once. Two cells come in the same order for every block.
   template <class Visit>
   [[gnu::always_inline]] void near(double const* least, double const* greatest, double reach, Visit visit) const {
     std::int64_t from[3] = {0, 0, 0}, to[3] = {0, 0, 0};
@@ -41,9 +63,12 @@ struct Grid {
     }
     // Where rounding is wider than the reach (1e14 of it from the origin) everything is near.
     if ((to[1] - from[1] + 1) * (to[2] - from[2] + 1) > most_runs / 2) return visit(std::size_t{0}, cells() - 1);
-    for (std::int64_t k = from[2]; k <= to[2]; ++k) {
+    std::int64_t const turn2 = first_turn(2, from[2], to[2]), turn1 = first_turn(1, from[1], to[1]);
+    for (std::int64_t n2 = from[2]; n2 <= to[2]; ++n2) {
+      std::int64_t const k = turned(n2, turn2, from[2], to[2]);
       double const dz = dimension > 2 ? distance(2, k, to[2] - from[2], least[2], greatest[2], slack) : 0;
-      for (std::int64_t j = from[1]; j <= to[1]; ++j) {
+      for (std::int64_t n1 = from[1]; n1 <= to[1]; ++n1) {
+        std::int64_t const j = turned(n1, turn1, from[1], to[1]);
         double const dy = dimension > 1 ? distance(1, j, to[1] - from[1], least[1], greatest[1], slack) : 0;
         double const rest = wide * wide - (dy * dy + dz * dz);
         if (rest < 0) continue;
@@ -58,8 +83,9 @@ struct Grid {
         if (end <= count[0]) {
           visit(static_cast<std::size_t>(row + start), static_cast<std::size_t>(row + end - 1));
         } else {
+          if (by_number[0]) visit(static_cast<std::size_t>(row), static_cast<std::size_t>(row + end - count[0] - 1));
           visit(static_cast<std::size_t>(row + start), static_cast<std::size_t>(row + count[0] - 1));
-          visit(static_cast<std::size_t>(row), static_cast<std::size_t>(row + end - count[0] - 1));
+          if (!by_number[0]) visit(static_cast<std::size_t>(row), static_cast<std::size_t>(row + end - count[0] - 1));
         }
       }
     }
@@ -72,19 +98,22 @@ struct Grid {
  private:
   static constexpr double most = 1e15;
 
-  /// The cell along an axis, not folded; those beyond `most` are one.
-  [[gnu::always_inline]] std::int64_t along(int axis, double x) const {
-    double c = x * inverse_edge[axis];
-    c = c < -most ? -most : c > most ? most : c;
-    auto const truncated = static_cast<std::int64_t>(c);
-    return truncated - (c < static_cast<double>(truncated) ? 1 : 0);
-  }
   [[gnu::always_inline]] std::int64_t folded(int axis, std::int64_t cell) const {
     std::int64_t const n = count[axis];
     if (cell >= 0 && cell < n) return cell;
     if (cell < 0 && cell >= -n) return cell + n;
     std::int64_t const rest = cell % n;
     return rest < 0 ? rest + n : rest;
+  }
+  /// How many of the cells of a range, which begins at `from`, are visited last.
+  [[gnu::always_inline]] std::int64_t first_turn(int axis, std::int64_t from, std::int64_t to) const {
+    if (!by_number[axis]) return 0;
+    std::int64_t const before = count[axis] - folded(axis, from);
+    return before <= to - from ? before : 0;
+  }
+  [[gnu::always_inline]] static std::int64_t turned(std::int64_t n, std::int64_t turn, std::int64_t from,
+                                                    std::int64_t to) {
+    return n + turn <= to ? n + turn : n + turn - (to - from + 1);
   }
   /// How far the block is at least from every point of a cell (all that are folded onto it, if `others` go round).
   [[gnu::always_inline]] double distance(int axis, std::int64_t cell, std::int64_t others, double least,

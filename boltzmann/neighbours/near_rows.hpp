@@ -154,7 +154,8 @@ template <int W>
 /// by what the rounding to steps may be wrong.
 template <int W, int D>
 [[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end, NearRows& out) {
-  double const longest[3] = {1.5 * task.reach, 0.6 * task.reach, 0.6 * task.reach};
+  double longest[3];
+  for (int a = 0; a < 3; ++a) longest[a] = largest_block[a] * task.reach;
   Grid const grid = *task.grid;
   float ring2[list_rings];
   for (int r = 0; r < list_rings; ++r)

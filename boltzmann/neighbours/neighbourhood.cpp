@@ -37,6 +37,10 @@ std::string skin_refused(double cutoff, double skin) {
                      skin, most, cutoff, std::pow(1 + skin / cutoff, 3));
 }
 
+Neighbourhood::~Neighbourhood() {
+  if (divided()) division_->gathers(this, {});
+}
+
 std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter) {
   check_cutoff(cutoff);
   for (std::size_t n = 0; n < lists_.size(); ++n)
@@ -101,8 +105,11 @@ double Neighbourhood::rows_around_one() const {
 void Neighbourhood::build(int threads) {
   if (auto line = skin_refused(longest_cutoff(), skin()); !line.empty()) throw Error(line);
   double const reach = longest_cutoff() + skin();
-  for (auto& copy : copies_) copy.build(reach, threads_for(copy.ensemble().size(), 1, threads));
-  if (divided()) share_out();
+  if (!divided() || !build_in_parts(threads)) {
+    if (divided()) division_->make_whole();
+    for (auto& copy : copies_) copy.build(reach, threads_for(copy.ensemble().size(), 1, threads));
+    if (divided()) share_out();
+  }
   find_neighbours(threads);
   if (!skin_) choose_skin(threads);
 }
@@ -143,6 +150,7 @@ void Neighbourhood::find_neighbours(int threads) {
   ring_ = 0;
   found_again_ = 0;
   ++builds_;
+  ++version_;
 }
 
 void Neighbourhood::move(std::vector<Moved> const& moved) {
@@ -166,8 +174,8 @@ void Neighbourhood::move(std::vector<Moved> const& moved) {
       if (copy == list.target) rows.insert(rows.end(), own.begin(), own.end());
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    found_again_ += static_cast<double>(rows.size());
     if (divided()) std::erase_if(rows, [&](std::uint32_t row) { return !is_own(*list.target, row); });
+    found_again_ += static_cast<double>(sum(rows.size()));
     list.list.rebuild(*list.target, *list.source, rows);
   }
   ++moves_;
@@ -181,16 +189,18 @@ double Neighbourhood::largest_displacement2() const {
 
 /// Gives those that are further than sqrt(square) from their references new ones, if they are no more than `most`.
 bool Neighbourhood::move_beyond(double square, std::size_t most) {
-  if (divided() && !few_beyond(square, most)) return false;
   std::vector<Moved> moved;
   std::size_t count = 0;
   for (auto& copy : copies_) {
-    moved.push_back({&copy, copy.beyond(square, most + 1 - count)});
+    moved.push_back({&copy, copy.beyond(square, most + 1 - std::min(count, most))});
     count += moved.back().rows.size();
-    if (count > most) return false;
   }
-  if (count > 0) move(moved);
-  if (divided()) find_needed(1);
+  count = sum(count);
+  if (count > most) return false;
+  if (count == 0) return true;
+  if (divided()) tell_moved(moved);
+  move(moved);
+  if (divided()) follow_others();
   return true;
 }
 
@@ -228,6 +238,7 @@ void Neighbourhood::refresh(int threads) {
   for (auto& copy : copies_)
     if (copy.owned() != copy.ensemble().size()) stale_ = true;
   if (divided()) return refresh_together(threads);
+  if (is_part() && !stale_) become_whole(threads);
   if (!stale_ && (!follow(threads) || lists_hold(largest_displacement2()))) return complete(threads);
   build(threads);
   follow(threads);

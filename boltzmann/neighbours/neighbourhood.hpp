@@ -30,6 +30,7 @@ class Neighbourhood {
   /// than longer lists (soft spheres, polymers), the first build chooses a longer one.
   explicit Neighbourhood(Box const& box, double cutoff = std::numeric_limits<double>::infinity())
       : box_(&box), cutoff_(cutoff) {}
+  ~Neighbourhood();
   Neighbourhood(Neighbourhood const&) = delete;
   Neighbourhood& operator=(Neighbourhood const&) = delete;
 
@@ -61,7 +62,7 @@ class Neighbourhood {
   void divide(Division* division, int threads);
   /// Rows that are read besides those in lists: add(ensemble, i) tells a particle; asked for after each build.
   using AlsoRead = std::function<void(std::function<void(AnyEnsemble const& ensemble, std::uint32_t i)> const& add)>;
-  void also_read(AlsoRead also) { also_read_ = std::move(also); }
+  void also_read(AlsoRead also) { also_read_ = std::move(also); }  // none: builds need not know all particles
   /// The rows of a target whose lists there are: all, or those of this rank's share.
   std::vector<Stretch> const& own(SortedCopy const& copy) const;
 
@@ -114,6 +115,8 @@ class Neighbourhood {
 
   /// How often lists were built, and how often neighbours were found anew around fast particles alone.
   std::size_t builds() const { return builds_; }
+  /// Changes whenever rows, images or lists are others than before, by a build or otherwise; moves apart.
+  std::size_t version() const { return version_; }
   std::size_t moves() const { return moves_; }
   std::size_t bytes() const;
 
@@ -141,13 +144,30 @@ class Neighbourhood {
 
   // divided_neighbourhood.cpp: over the ranks of a team.
   void refresh_together(int threads);
-  bool few_beyond(double square, std::size_t most);
+  void follow_others();
   bool is_own(SortedCopy const& copy, std::uint32_t row) const;
   void share_out();
   void take_shares();
   void find_needed(int threads);
   std::vector<std::vector<char>> rows_in_lists(int threads) const;
   void complete(int threads);
+  std::vector<std::size_t> cuts(std::size_t rows) const;
+  bool is_part() const { return !copies_.empty() && copies_.front().is_part(); }
+
+  // build_in_parts.cpp: the same where no rank knows all particles.
+  struct Sorting;
+  bool build_in_parts(int threads);
+  void agree_on_extents(std::vector<Sorting>& all, double reach);
+  bool agree_on_order(std::vector<Sorting>& all, double reach);
+  std::vector<std::vector<std::uint32_t>> readers(std::vector<Sorting> const& all, std::size_t e, double reach) const;
+  void build_part(Sorting const& one, std::vector<std::uint32_t> const& numbers, std::size_t e, double reach,
+                  int threads);
+  void become_whole(int threads);
+  void tell_moved(std::vector<Moved>& moved);
+  /// How far beyond what its lists need a rank knows particles.
+  double margin() const { return skin(); }
+  void gather_references();
+
   double rows_around_one() const;
   double longest_cutoff() const;
 
@@ -158,13 +178,14 @@ class Neighbourhood {
   int ring_ = 0;
   double found_again_ = 0;   // rows found anew since the lists were built
   std::size_t entries_ = 0;  // of all lists, on all ranks, at the build
-  std::size_t builds_ = 0, moves_ = 0;
+  std::size_t builds_ = 0, moves_ = 0, version_ = 0;
   Division* division_ = nullptr;  // while a run is divided
   std::uint64_t last_division_ = 0;
   std::size_t cut_at_ = 1;
   AlsoRead also_read_;
   RowExchange exchange_;
-  bool complete_ = true;  // every row has its lists
+  bool complete_ = true;          // every row has its lists
+  bool references_known_ = true;  // of all particles, where sorted copies are parts
   std::deque<SortedCopy> copies_;
   std::deque<std::vector<Stretch>> own_;            // rows of each copy, of which there are lists
   std::vector<std::vector<std::uint32_t>> row_of_;  // of each particle in each copy, while a run is divided

@@ -73,7 +73,7 @@ void SortedCopy::build(double reach, int threads) {
       for (int a = 0; a < dimension; ++a) {
         double const x = ensemble_->row(i)[a];
         if (!std::isfinite(x)) not_finite(*ensemble_, i);
-        references[i * dimension + a] = box_->periodic(a) ? box_->wrapped(x, a) : x;
+        references[i * dimension + a] = reference_of(x, a);
       }
   });
   build(reach, references, threads);
@@ -84,6 +84,64 @@ void SortedCopy::build(double reach, std::span<double const> references, int thr
 }
 
 void SortedCopy::build(double reach, std::span<double const> references, Box::Edges const& edges, int threads) {
+  begin_build(reach, edges);
+  part_ = false;
+  known_.clear();
+  sort(reach, references, threads);
+  add_ghosts(threads);
+  finish_build({}, threads);
+  everything();
+}
+
+void SortedCopy::build_part(double reach, Part part, int threads) {
+  begin_build(reach, box_->edges());
+  part_ = true;
+  known_ = std::move(part.rows);
+  std::size_t const all = ensemble_->size();
+  auto const D = static_cast<std::size_t>(box_->dimension());
+  order_.resize(all);
+  references_.resize(4 * all);
+  steps_.resize(4 * all);
+  built_by_number_.resize(D * all);
+  for_ranges(known_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      std::uint32_t const i = part.particles[n];
+      double* const built = built_by_number_.data() + D * i;
+      for (std::size_t a = 0; a < D; ++a) built[a] = reference_of(ensemble_->row(i)[a], static_cast<int>(a));
+      order_[known_[n]] = i;
+      take_reference(known_[n], built);
+    }
+  });
+  add_ghosts(threads);
+  finish_build(part.grid, threads);
+}
+
+double SortedCopy::reference_of(double x, int axis) const { return box_->periodic(axis) ? box_->wrapped(x, axis) : x; }
+
+/// The reference of a row, D numbers.
+void SortedCopy::take_reference(std::size_t k, double const* reference) {
+  for (int a = 0; a < 4; ++a) {
+    double const x = a < box_->dimension() ? reference[a] : 0;
+    references_[4 * k + a] = x;
+    steps_[4 * k + a] = in_steps(x, reach_);
+  }
+}
+
+std::vector<double> SortedCopy::references_of(std::span<std::uint32_t const> particles) const {
+  auto const D = static_cast<std::size_t>(box_->dimension());
+  std::vector<double> references(D * particles.size());
+  auto to = references.begin();
+  for (std::uint32_t const i : particles)
+    for (std::size_t a = 0; a < D; ++a) {
+      double const x = ensemble_->row(i)[a];
+      if (!std::isfinite(x)) not_finite(*ensemble_, i);
+      *to++ = reference_of(x, static_cast<int>(a));
+    }
+  return references;
+}
+
+/// Told before anything is made: it would fill all memory.
+void SortedCopy::check_reach(double reach, Box::Edges const& edges) const {
   for (int a = 0; a < box_->dimension(); ++a)
     if (box_->boundary(a) == Boundary::mirror && box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) &&
         reach > edges[3 + a] - edges[a])
@@ -91,7 +149,6 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
           "neighbours of '{}' are found up to a distance of {}, the walls of axis {} are {} apart: they must "
           "not be nearer to each other than that",
           ensemble_->name(), reach, "xyz"[a], edges[3 + a] - edges[a]));
-  // Told before they are made: they would fill all memory.
   double images = static_cast<double>(ensemble_->size());
   for (int a = 0; a < box_->dimension(); ++a) {
     if (!box_->periodic(a)) continue;
@@ -103,6 +160,10 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
     images *= 1 + 2 * reach / box_->length(a);
   }
   if (images >= static_cast<double>(max_rows)) too_many_rows(images);
+}
+
+void SortedCopy::begin_build(double reach, Box::Edges const& edges) {
+  check_reach(reach, edges);
   reach_ = reach;
   built_edges_ = edges;
   images_ = Images(*box_, edges);
@@ -110,18 +171,21 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
   built_.clear();
   moved_images_.clear();
   free_.clear();
-  sort(reach, references, threads);
-  add_ghosts(threads);
+}
+
+void SortedCopy::finish_build(std::optional<Grid> const& grid, int threads) {
   if (total() >= max_rows) too_many_rows(static_cast<double>(total()));
   capacity_ = 0;
   make_room(total() + 1);
-  everything();
-  sort_all(threads);
+  sort_all(grid, threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
-  for (std::size_t b = 0; b < all_blocks(); ++b)
-    std::fill_n(block(b), row_block * ((b < blocks() ? owned() : total()) + 1), nowhere);
+  for (std::size_t b = 0; b < all_blocks(); ++b) {
+    std::size_t const from = part_ ? owned() : 0;
+    for (std::uint32_t const k : known_) std::fill_n(block(b) + row_block * k, row_block, nowhere);
+    std::fill_n(block(b) + row_block * from, row_block * ((b < blocks() ? owned() : total()) + 1 - from), nowhere);
+  }
 }
 
 void SortedCopy::everything() {
@@ -160,24 +224,22 @@ void SortedCopy::too_many_rows(double count) const {
                           ensemble_->name(), count, max_rows - 1));
 }
 
-void SortedCopy::sort(double reach, std::span<double const> references, int threads) {
-  int const dimension = box_->dimension();
+double SortedCopy::sorting_reach(double reach, Box::Edges const& edges) const {
   // Cells that are not all but empty, or their order would be that of distant particles.
   double const size = static_cast<double>(ensemble_->size() + 1);
   double volume = 1;
-  for (int a = 0; a < dimension; ++a) volume *= built_edges_[3 + a] - built_edges_[a];
-  double const spacing = std::pow(volume / size, 1.0 / dimension);
-  double const edge = std::max(reach, 2.5 * spacing);
-  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), edge, threads).items();
+  for (int a = 0; a < box_->dimension(); ++a) volume *= edges[3 + a] - edges[a];
+  return std::max(reach, 2.5 * std::pow(volume / size, 1.0 / box_->dimension()));
+}
+
+void SortedCopy::sort(double reach, std::span<double const> references, int threads) {
+  int const dimension = box_->dimension();
+  double const cell = sorting_reach(reach, built_edges_);
+  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), cell, threads).items();
   references_.resize(4 * owned());
   steps_.resize(4 * owned());
   for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      for (int a = 0; a < 4; ++a) {
-        double const x = a < dimension ? references[order_[k] * dimension + a] : 0;
-        references_[4 * k + a] = x;
-        steps_[4 * k + a] = in_steps(x, reach_);
-      }
+    for (std::size_t k = begin; k < end; ++k) take_reference(k, references.data() + order_[k] * dimension);
   });
 }
 
@@ -231,18 +293,20 @@ void SortedCopy::add_ghosts(int threads) {
   edges_ = box_->edges();
   find_image_maps();
   if (max_images_ == 0) return;
-  struct Part {
+  struct Found {
     std::vector<std::uint32_t> source, turns;
   };
-  std::vector<Part> parts((owned() + refresh_grain - 1) / refresh_grain);
-  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    Part& part = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
-    for (std::size_t k = begin; k < end; ++k)
-      images_.each(references_.data() + 4 * k, reach_, [&](Turns const& turns, auto const&) {
+  std::vector<Found> parts((known() + refresh_grain - 1) / refresh_grain);
+  for_ranges(known(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    Found& part = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
+    for (std::size_t n = begin; n < end; ++n) {
+      std::uint32_t const k = known(n);
+      images_.each(references_.data() + 4 * std::size_t{k}, reach_, [&](Turns const& turns, auto const&) {
         if (turns == Turns{}) return;
-        part.source.push_back(static_cast<std::uint32_t>(k));
+        part.source.push_back(k);
         part.turns.push_back(code_of(turns));
       });
+    }
   });
   for (auto const& part : parts) {
     ghost_source_.insert(ghost_source_.end(), part.source.begin(), part.source.end());
@@ -278,23 +342,26 @@ void SortedCopy::move_ghosts(std::size_t first_block, std::size_t last_block, st
   neighbour_kernels().images(task, begin, end);
 }
 
-void SortedCopy::sort_all(int threads) {
+/// All rows that are known, in the cells of a grid, or of one that they need.
+void SortedCopy::sort_all(std::optional<Grid> const& grid, int threads) {
   int const dimension = box_->dimension();
-  std::vector<double> at(total() * dimension);
-  for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      std::size_t const source = k < owned() ? k : ghost_source_[k - owned()];
-      auto const& turns = turns_[k < owned() ? code_of({0, 0, 0}) : ghost_turns_[k - owned()]];
-      for (int a = 0; a < dimension; ++a) at[k * dimension + a] = images_.at(a, turns[a], references_[4 * source + a]);
+  std::size_t const rows = known(), count = rows + ghost_source_.size();
+  std::vector<double> at(count * dimension);
+  for_ranges(count, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      std::size_t const source = n < rows ? known(n) : ghost_source_[n - rows];
+      auto const& turns = turns_[n < rows ? code_of({0, 0, 0}) : ghost_turns_[n - rows]];
+      for (int a = 0; a < dimension; ++a) at[n * dimension + a] = images_.at(a, turns[a], references_[4 * source + a]);
     }
   });
-  cells_ = Cells(dimension, at.data(), dimension, total(), reach_, threads);
+  cells_ = grid ? Cells(*grid, at.data(), dimension, count, reach_, threads)
+                : Cells(dimension, at.data(), dimension, count, reach_, threads);
   auto const& items = cells_.items();
-  for (int a = 0; a < 3; ++a) position_[a].resize(total() + candidate_padding);
-  item_.resize(total() + candidate_padding);
-  for_ranges(total(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+  for (int a = 0; a < 3; ++a) position_[a].resize(count + candidate_padding);
+  item_.resize(count + candidate_padding);
+  for_ranges(count, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      item_[s] = item_of_row(items[s] < owned() ? items[s] : items[s] + 1);
+      item_[s] = item_of_row(items[s] < rows ? known(items[s]) : items[s] - rows + owned() + 1);
       for (int a = 0; a < dimension; ++a) position_[a][s] = in_steps(at[items[s] * dimension + a], reach_);
     }
   });
@@ -309,12 +376,12 @@ void SortedCopy::find_not_finite() const {
           not_finite(*ensemble_, order_[k]);
 }
 
-bool SortedCopy::refresh(int threads) {
+RefreshTask SortedCopy::refresh_task() const {
   RefreshTask task;
   task.ensemble = ensemble_->row(0);
   task.order = order_.data();
   task.stride = ensemble_->stride();
-  task.copy = rows_.data();
+  task.copy = const_cast<double*>(rows_.data());
   task.block_stride = block_stride();
   task.reference = references_.data();
   task.dimension = box_->dimension();
@@ -323,6 +390,11 @@ bool SortedCopy::refresh(int threads) {
       task.period[a] = box_->length(a);
       task.inverse_period[a] = 1 / box_->length(a);
     }
+  return task;
+}
+
+bool SortedCopy::refresh(int threads) {
+  RefreshTask const task = refresh_task();
   RefreshKernel const kernel = neighbour_kernels().refresh;
   std::atomic<bool> changed{false}, finite{true};
   for_ranges(pieces_.size(), refresh_grain / together, threads, [&](std::size_t begin, std::size_t end) {
@@ -492,7 +564,41 @@ void SortedCopy::owned_near(double const* x, double reach, std::vector<std::uint
   for (std::size_t s = 0; s + candidate_padding < moved_item_.size(); ++s) take(moved_position_, s, moved_item_[s]);
 }
 
+bool SortedCopy::knows(std::uint32_t k, std::uint32_t particle) const {
+  return order_[k] == particle && (!part_ || std::binary_search(known_.begin(), known_.end(), k));
+}
+
+std::uint32_t SortedCopy::learn(std::uint32_t row_of_all, std::uint32_t particle, double const* reference) {
+  std::uint32_t k = row_of_all;
+  auto place = std::lower_bound(known_.begin(), known_.end(), k);
+  while (place != known_.end() && *place == k) {
+    ++place;
+    if (++k < owned()) continue;
+    k = 0;
+    place = known_.begin();
+  }
+  known_.insert(place, k);
+  order_[k] = particle;
+  take_reference(k, reference);
+  return k;
+}
+
+void SortedCopy::refresh_row(std::uint32_t k) { neighbour_kernels().refresh(refresh_task(), k, k + 1); }
+
+double SortedCopy::left_build_by(std::uint32_t k) const {
+  double square = 0;
+  for (int a = 0; a < box_->dimension(); ++a) {
+    double const built = part_ ? built_by_number_[order_[k] * static_cast<std::size_t>(box_->dimension()) + a]
+                               : references_[4 * std::size_t{k} + a];
+    double d = rows_[row_block * std::size_t{k} + a] - built;
+    if (box_->periodic(a)) d -= box_->length(a) * std::nearbyint(d / box_->length(a));
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+
 std::vector<double> SortedCopy::built_references() const {
+  if (part_) return built_by_number_;
   int const dimension = box_->dimension();
   std::vector<double> references(owned() * dimension);
   for (std::size_t k = 0; k < owned(); ++k)
@@ -520,8 +626,9 @@ NearTask SortedCopy::near_task() const {
 
 std::size_t SortedCopy::bytes() const {
   auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
-  return of(order_) + of(rows_) + of(references_) + of(steps_) + of(ghost_source_) + of(ghost_turns_) + of(largest2_) +
-         of(cells_.items()) + of(cells_.start()) + of(position_[0]) + of(position_[1]) + of(position_[2]) + of(item_);
+  return of(order_) + of(known_) + of(built_by_number_) + of(rows_) + of(references_) + of(steps_) + of(ghost_source_) +
+         of(ghost_turns_) + of(largest2_) + of(cells_.items()) + of(cells_.start()) + of(position_[0]) +
+         of(position_[1]) + of(position_[2]) + of(item_);
 }
 
 }  // namespace boltzmann

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,39 @@ class SortedCopy {
   void build(double reach, std::span<double const> references, int threads = 1);
   /// And with walls where they stood at an earlier build (built_edges()).
   void build(double reach, std::span<double const> references, Box::Edges const& edges, int threads = 1);
+
+  /// What one rank of a team sees of a build that is all ranks' together.
+  struct Part {
+    std::vector<std::uint32_t> particles;  ///< that it knows, in the order of
+    std::vector<std::uint32_t> rows;       ///< their rows, ascending
+    Grid grid;                             ///< for the references of all rows, images included
+  };
+  /// The build of which this is a part: rows are sorted among themselves as all are, the others stay unknown, and there
+  /// are images of those that are known alone. Positions are finite.
+  void build_part(double reach, Part part, int threads);
+  /// Whether only a part is known. If so, everything() is not to be followed.
+  bool is_part() const { return part_; }
+  /// Whether a row is known, and this particle's.
+  bool knows(std::uint32_t k, std::uint32_t particle) const;
+  /// A particle becomes known, with its reference; its row here, which is the one that it has among all rows if no other
+  /// known one is taken for it.
+  std::uint32_t learn(std::uint32_t row_of_all, std::uint32_t particle, double const* reference);
+  /// A row as the ensemble has it now.
+  void refresh_row(std::uint32_t k);
+  /// How far a known row is from where it was at the build.
+  double left_build_by(std::uint32_t k) const;
+  /// References at the build for all particles, in the ensemble's order; where only a part is known, those of others
+  /// are to be written here.
+  std::vector<double>& references_by_number() { return built_by_number_; }
+  /// What build() refuses, and the positions of now as references, dimension() numbers for each of these particles.
+  /// PhysicsFailure if one is not finite.
+  void check_reach(double reach, Box::Edges const& edges) const;
+  std::vector<double> references_of(std::span<std::uint32_t const> particles) const;
+  /// The reach for which cells are made that sort rows.
+  double sorting_reach(double reach, Box::Edges const& edges) const;
+  /// The rows that are known, ascending: known(n), n < known().
+  std::size_t known() const { return part_ ? known_.size() : owned(); }
+  std::uint32_t known(std::size_t n) const { return part_ ? known_[n] : static_cast<std::uint32_t>(n); }
 
   /// Copies the ensemble's rows of now into the sorted copy's order and moves the images along, those beyond walls as
   /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
@@ -133,10 +167,15 @@ class SortedCopy {
   };
 
   [[noreturn]] void too_many_rows(double count) const;
+  double reference_of(double x, int axis) const;
+  void begin_build(double reach, Box::Edges const& edges);
+  void finish_build(std::optional<Grid> const& grid, int threads);
+  void take_reference(std::size_t k, double const* reference);
   void sort(double reach, std::span<double const> references, int threads);
   void add_ghosts(int threads);
-  void sort_all(int threads);
+  void sort_all(std::optional<Grid> const& grid, int threads);
   void make_room(std::size_t rows);
+  RefreshTask refresh_task() const;
   std::size_t all_blocks() const { return blocks() + extra_blocks_; }
   void find_image_maps();
   std::uint32_t code_of(Turns const& turns) const;
@@ -149,7 +188,10 @@ class SortedCopy {
   Box const* box_;
   double reach_ = 0;
   std::vector<std::uint32_t> order_;  // owned row -> particle
-  std::size_t capacity_ = 0;          // rows
+  bool part_ = false;
+  std::vector<std::uint32_t> known_;     // rows, where part_
+  std::vector<double> built_by_number_;  // references of all particles, where part_
+  std::size_t capacity_ = 0;             // rows
   AlignedVector<double> rows_;
   AlignedVector<double> references_;         // of owned rows, 4 a row
   std::vector<std::uint32_t> ghost_source_;  // the owned row that each ghost is an image of

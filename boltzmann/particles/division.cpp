@@ -52,6 +52,7 @@ std::size_t Division::place(AnyEnsemble const& ensemble) const {
 }
 
 void Division::divide(Part& part) {
+  part.owners_known = true;
   auto const ranks = static_cast<std::size_t>(team_.size());
   part.of_rank.assign(ranks, {});
   part.sizes.assign(ranks, 0);
@@ -67,7 +68,8 @@ void Division::divide(Part& part) {
 }
 
 void Division::owners(AnyEnsemble const& ensemble, Owners owners) {
-  if (gather_carried_) gather_carried_(ensemble);
+  if (carried_)
+    for (auto const& [numbers, count] : carried_(ensemble)) gather(ensemble, numbers, count, count);
   Part& part = parts_[place(ensemble)];
   part.owners = std::move(owners);
   divide(part);
@@ -86,6 +88,107 @@ void Division::follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& foll
   owners(leader, part.owners);
 }
 
+void Division::take(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& own) {
+  Part& part = parts_[place(ensemble)];
+  part.owners_known = false;
+  part.share.stretches.clear();
+  part.share.size = 0;
+  for (std::size_t n = 0, next = 0; n < own.size(); n = next) {
+    while (next < own.size() && own[next] - own[n] == next - n) ++next;
+    part.share.add(own[n], own[n] + (next - n));
+  }
+  auto at = own.begin();
+  std::uint32_t first = 0;
+  for (auto* follower : part.followers) {
+    auto const size = static_cast<std::uint32_t>(follower->size());
+    auto const end = std::lower_bound(at, own.end(), first + size);
+    std::vector<std::uint32_t> numbers(at, end);
+    for (auto& number : numbers) number -= first;
+    take(*follower, numbers);
+    first += size;
+    at = end;
+  }
+  whole_ = false;
+}
+
+std::vector<Division::Held> Division::held(AnyEnsemble const& ensemble) const {
+  std::vector<Held> all;
+  auto const add = [&](AnyEnsemble& one, std::size_t first) {
+    if (one.size() == 0) return;
+    all.push_back({one.row(0), one.stride(), one.doubles(), first, one.size()});
+    if (!carried_) return;
+    for (auto const& [numbers, count] : carried_(one)) all.push_back({numbers, count, count, first, one.size()});
+  };
+  add(*ensembles_[place(ensemble)], 0);
+  std::size_t first = 0;
+  for (auto* follower : part(ensemble).followers) {
+    add(*follower, first);
+    first += follower->size();
+  }
+  return all;
+}
+
+// One message: numbers, as doubles, then what is held of each.
+std::vector<std::vector<std::uint32_t>> Division::hand_over(AnyEnsemble const& ensemble,
+                                                            std::vector<std::vector<std::uint32_t>> to) {
+  auto const all_held = held(ensemble);
+  auto const ranks = static_cast<std::size_t>(team_.size()), mine = static_cast<std::size_t>(team_.rank());
+  std::vector<std::vector<double>> sent(ranks), received(ranks);
+  std::vector<std::uint64_t> sizes(2 * ranks);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == mine) continue;
+    auto& buffer = sent[r];
+    buffer.assign(to[r].begin(), to[r].end());
+    for (std::uint32_t const i : to[r])
+      for (auto const& one : all_held)
+        if (double const* const from = one.of(i)) buffer.insert(buffer.end(), from, from + one.count);
+    sizes[2 * r] = to[r].size();
+    sizes[2 * r + 1] = buffer.size();
+  }
+  auto const all = all_sizes(team_, sizes);
+  std::vector<Team::Message> messages;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == mine) continue;
+    received[r].resize(all[r][2 * mine + 1]);
+    messages.push_back({static_cast<int>(r), true, received[r].data(), received[r].size() * sizeof(double)});
+    messages.push_back({static_cast<int>(r), false, sent[r].data(), sent[r].size() * sizeof(double)});
+  }
+  team_.exchange(messages);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == mine) continue;
+    auto const count = static_cast<std::ptrdiff_t>(all[r][2 * mine]);
+    to[r].assign(received[r].begin(), received[r].begin() + count);
+    auto from = received[r].begin() + count;
+    for (std::uint32_t const i : to[r])
+      for (auto const& one : all_held)
+        if (double* const at = one.of(i)) {
+          std::copy_n(from, one.count, at);
+          from += static_cast<std::ptrdiff_t>(one.count);
+        }
+  }
+  return to;
+}
+
+void Division::gathers(void const* whose, std::function<void()> gather) {
+  std::erase_if(gathers_, [&](auto const& one) { return one.first == whose; });
+  if (gather) gathers_.emplace_back(whose, std::move(gather));
+}
+
+/// Every rank tells which particles it has.
+void Division::learn_owners(Part& part) {
+  if (part.owners_known) return;
+  std::vector<Stretch> const& mine = part.share.stretches;
+  auto const all = team_.gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    std::vector<Stretch> stretches(all[r].size() / sizeof(Stretch));
+    std::memcpy(stretches.data(), all[r].data(), all[r].size());
+    for (auto const& [begin, end] : stretches)
+      std::fill(part.owners.begin() + static_cast<std::ptrdiff_t>(begin),
+                part.owners.begin() + static_cast<std::ptrdiff_t>(end), static_cast<std::uint16_t>(r));
+  }
+  divide(part);
+}
+
 void Division::begin() {
   for (std::size_t e = 0; e < parts_.size(); ++e) ensembles_[e]->share(&parts_[e].share);
   goes_on_ = whole_ = true;
@@ -100,6 +203,7 @@ void Division::make_whole() {
   if (whole_) return;
   team_.meet(Team::Occasion::gathers);
   for (auto* ensemble : ensembles_) gather(*ensemble, ensemble->row(0), ensemble->stride(), ensemble->doubles());
+  for (auto const& [whose, gather] : gathers_) gather();
   whole_ = true;
 }
 
@@ -117,7 +221,8 @@ void Division::gather_influences() {
 
 void Division::gather(AnyEnsemble const& ensemble, double* numbers, std::size_t stride, std::size_t count) {
   if (count == 0) return;
-  Part const& part = this->part(ensemble);
+  Part& part = parts_[place(ensemble)];
+  learn_owners(part);
   auto const ranks = static_cast<std::size_t>(team_.size()), mine = static_cast<std::size_t>(team_.rank());
   received_.resize(ranks);
   sent_.resize(1);

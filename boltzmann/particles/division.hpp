@@ -42,6 +42,25 @@ class Division {
   /// Ensembles whose particles have the owners of consecutive particles of `leader`, whatever these become.
   void follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& followers);
   Owners const& owners(AnyEnsemble const& ensemble) const { return part(ensemble).owners; }
+  /// Particles change hands among a few ranks: from now on this one has those of `own` (ascending), of which it knows all
+  /// that is held of a particle (held()), and `owners` of particles that it reads are written in owners_here(). Who has
+  /// the others it asks when it has to know (make_whole()).
+  void take(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& own);
+  Owners& owners_here(AnyEnsemble const& ensemble) { return parts_[place(ensemble)].owners; }
+  /// What is held of particles: `count` numbers of particle i, at `numbers` + (i - first) * `stride`, where i - `first`
+  /// is less than `size`.
+  struct Held {
+    double* numbers;
+    std::size_t stride, count, first, size;
+    double* of(std::size_t i) const { return i - first < size ? numbers + (i - first) * stride : nullptr; }
+  };
+  /// All that is held of an ensemble's particles, and of the followers' that they stand for, by whoever advances them:
+  /// rows, and what integrators carry.
+  std::vector<Held> held(AnyEnsemble const& ensemble) const;
+  /// It goes, of particles that this rank has, to[r] to rank r. What comes: the numbers from each rank, and from itself
+  /// those that stay. For all ranks.
+  std::vector<std::vector<std::uint32_t>> hand_over(AnyEnsemble const& ensemble,
+                                                    std::vector<std::vector<std::uint32_t>> to);
 
   /// From here on, where all rows are known everywhere, ensembles know their shares; and none any more, until it begins
   /// again.
@@ -49,8 +68,11 @@ class Division {
   void end();
   bool goes_on() const { return goes_on_; }
 
-  /// What else is held of particles, by integrators inside a step: a call that gathers it, before they change hands.
-  void carry(std::function<void(AnyEnsemble const&)> gather_carried) { gather_carried_ = std::move(gather_carried); }
+  /// What else is held of an ensemble's particles, by integrators inside a step: where, and how many numbers of each.
+  using Carried = std::vector<std::pair<double*, std::size_t>>;
+  void carry(std::function<Carried(AnyEnsemble const&)> carried) { carried_ = std::move(carried); }
+  /// Called where all rows have come to all ranks, by all of them: what else is known of particles comes along.
+  void gathers(void const* whose, std::function<void()> gather);
   /// Tells divisions apart.
   std::uint64_t id() const { return id_; }
 
@@ -77,17 +99,20 @@ class Division {
     std::vector<std::vector<Stretch>> of_rank;
     std::vector<std::size_t> sizes;
     std::vector<AnyEnsemble*> followers;
+    bool owners_known = true;  // of all particles
   };
   std::size_t place(AnyEnsemble const& ensemble) const;
   Part const& part(AnyEnsemble const& ensemble) const { return parts_[place(ensemble)]; }
   void divide(Part& part);
+  void learn_owners(Part& part);
 
   Team& team_;
   std::vector<AnyEnsemble*> ensembles_;
   std::deque<Part> parts_;  // whose shares ensembles know
   bool goes_on_ = false, whole_ = true;
   std::uint64_t id_;
-  std::function<void(AnyEnsemble const&)> gather_carried_;
+  std::function<Carried(AnyEnsemble const&)> carried_;
+  std::vector<std::pair<void const*, std::function<void()>>> gathers_;
   std::vector<std::vector<double>> sent_, received_;  // of each rank
 };
 

@@ -55,9 +55,10 @@ bool Simulation::divide() {
     division_ = std::make_unique<Division>(here);
     for (auto* ensemble : ensembles_) division_->add(*ensemble);
     division_->carry([this](AnyEnsemble const& ensemble) {
+      Division::Carried all;
       if (Part* const part = part_of(ensemble))
-        for (auto const& [numbers, count] : part->integrator->carried())
-          division_->gather(ensemble, numbers, count, count);
+        for (auto const& [numbers, count] : part->integrator->carried()) all.emplace_back(numbers, count);
+      return all;
     });
   }
   division_->begin();

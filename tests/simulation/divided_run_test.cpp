@@ -150,6 +150,41 @@ TEST(DividedRun, OfAFluidBetweenWallsInTwoDimensions) {
   expect_same_bits([](World& world) { melt<2>(world, 34, 1.0, Boundary::reflecting); }, 120);
 }
 
+// Around those that are ahead of all others neighbours are found anew alone, and ranks hear of particles that come from
+// further than they have been told.
+TEST(DividedRun, OfAFewThatAreAheadOfAllOthers) {
+  std::size_t moves = 0;
+  auto const make = [](World& world) {
+    melt<2>(world, 44, 0.05, Boundary::periodic);
+    auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+    auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(scheme.ensembles()[0]);
+    for (std::size_t const i : {100U, 1333U, 1900U}) atoms[i].velocity = {i == 1333 ? -25.0 : 15.0, 20.0};
+  };
+  expect_same_bits(make, 80, {2, 5});
+  World world;
+  make(world);
+  world.simulation->run(80);
+  moves = static_cast<PairScheme*>(world.parts[1].get())->neighbourhood().moves();
+  EXPECT_GT(moves, 10U);
+}
+
+TEST(DividedRun, OfTwoSpecies) {
+  for (Boundary const boundary : {Boundary::periodic, Boundary::reflecting})
+    expect_same_bits(
+        [=](World& world) {
+          melt<3>(world, 6, 3.0, boundary);
+          auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+          auto& atoms = *dynamic_cast<Ensemble<Newton<3>>*>(scheme.ensembles()[0]);
+          auto& small = world.make<Ensemble<Newton<3>>>("small");
+          block_load(small, {Lattice::fcc, 2.3, {3, 3, 3}, {0.9, 0.9, 0.9}});
+          maxwellian_load(small, {.temperature = 1.0, .seed = test_seed(5)});
+          scheme.internal(small, LennardJones{0.7, 1.0}, 1.5);
+          scheme.between(atoms, small, LennardJones{0.6, 1.0}, 2.0);
+          world.simulation = &world.make<Simulation>(scheme, 0.002);
+        },
+        60, {2, 3});
+}
+
 /// The line with which a run ends: on one rank, and the same on all of several.
 std::string failure_of(Make const& make, int size) {
   std::vector<std::exception_ptr> thrown;

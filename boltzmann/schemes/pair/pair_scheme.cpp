@@ -414,12 +414,13 @@ void PairScheme::divide(Division* division) {
   division_ = division;
   reads_all_ = std::any_of(near_.begin(), near_.end(), [](auto const& near) { return near->all_pairs(); });
   for (auto const& connected : connected_) reads_all_ = reads_all_ || !neighbourhood_.has(*connected->ensemble);
-  neighbourhood_.also_read([this](auto const& add) {
+  Neighbourhood::AlsoRead const partners = [this](auto const& add) {
     for (auto const& connected : connected_)
       for (auto const& [begin, end] : connected->ensemble->share()->stretches)
         for (std::size_t k = connected->list.start[begin]; k < connected->list.start[end]; ++k)
           add(*connected->ensemble, connected->list.index[k]);
-  });
+  };
+  neighbourhood_.also_read(connected_.empty() ? nullptr : partners);
   neighbourhood_.divide(division, threads());
 }
 

@@ -272,8 +272,8 @@ void SmoothScheme::reach(double cutoff) {
 /// Which sorted rows are whose: with one ensemble, all, unless this rank has a share.
 void SmoothScheme::find_members() {
   bool const all = loaded_.size() == 1 && !division_;
-  if (all || members_of_build_ == hood_->builds()) return;
-  members_of_build_ = hood_->builds();
+  if (all || members_of_build_ == hood_->version()) return;
+  members_of_build_ = hood_->version();
   SortedCopy const& copy = hood_->target(0);
   for (auto& loaded : loaded_) loaded->members.clear();
   for (auto const& [begin, end] : hood_->own(copy))

@@ -1,0 +1,416 @@
+// Lists over the ranks of a team, built without any rank that knows all particles: ranks agree on where rows lie in the
+// order of all, particles go to whoever advances or reads them, and each rank sorts those alone.
+//
+// The order of rows is that of cells, and cells run along the first axis fastest. So a rank's share is a run of grid
+// lines (in 1D of cells): here *units*, of which every rank knows how many particles each has. What others need of a
+// unit is then geometry.
+#include <boltzmann/neighbours/neighbourhood.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace boltzmann {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Lists are found by positions that are rounded to a millionth of the reach.
+constexpr double rounding = 1e-5;
+
+/// Particles of an ensemble as bits, which come out in ascending order.
+class Numbers {
+ public:
+  explicit Numbers(std::size_t size) : words_(size / 64 + 1) {}
+  void add(std::uint32_t i) { words_[i / 64] |= std::uint64_t{1} << (i % 64); }
+  std::vector<std::uint32_t> ascending() const {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t w = 0; w < words_.size(); ++w)
+      for (std::uint64_t bits = words_[w]; bits != 0; bits &= bits - 1)
+        numbers.push_back(static_cast<std::uint32_t>(64 * w + static_cast<std::size_t>(std::countr_zero(bits))));
+    return numbers;
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+struct Interval {
+  double low, high;
+  double distance(Interval const& other) const { return std::max({0.0, low - other.high, other.low - high}); }
+};
+/// Of space along the axes that tell units apart: the second and the third one, in 1D the first.
+using Place = std::array<Interval, 2>;
+
+double distance2(Place const& a, Place const& b) {
+  double square = 0;
+  for (int n = 0; n < 2; ++n) square += a[n].distance(b[n]) * a[n].distance(b[n]);
+  return square;
+}
+
+/// What all ranks have to agree on.
+struct Extents {
+  Bounds rows, images;
+  double count = 0;  ///< of images
+
+  void add(Extents const& other) {
+    for (int a = 0; a < 3; ++a) {
+      rows.low[a] = std::min(rows.low[a], other.rows.low[a]), rows.high[a] = std::max(rows.high[a], other.rows.high[a]);
+      images.low[a] = std::min(images.low[a], other.images.low[a]);
+      images.high[a] = std::max(images.high[a], other.images.high[a]);
+    }
+    count += other.count;
+  }
+};
+
+Extents nothing() {
+  Extents none;
+  for (auto* extent : {&none.rows, &none.images}) extent->low.fill(infinite), extent->high.fill(-infinite);
+  return none;
+}
+
+bool is_folded(Grid const& grid, Bounds const& bounds) {
+  for (int a = 0; a < grid.dimension; ++a)
+    if (grid.folds(a, bounds.low[a], bounds.high[a])) return true;
+  return false;
+}
+
+}  // namespace
+
+/// One sorted copy, and what all ranks know of its rows.
+struct Neighbourhood::Sorting {
+  SortedCopy* copy;
+  std::vector<std::uint32_t> own;  ///< numbers of this rank's particles before, ascending
+  std::vector<double> references;  ///< theirs
+  Extents extents = nothing();
+  Grid grid, cells;  ///< that sorts rows, and that lists are found with
+  int dimension = 1;
+  std::vector<std::size_t> start;  ///< the first row of each unit, and one more
+  std::vector<std::size_t> cut;    ///< the first row of each rank, and one more
+
+  std::array<int, 2> axes() const { return dimension == 1 ? std::array{0, 1} : std::array{1, 2}; }
+  std::int64_t along(int n) const { return axes()[n] < dimension ? grid.count[axes()[n]] : 1; }
+  std::size_t units() const { return static_cast<std::size_t>(along(0) * along(1)); }
+  std::size_t unit_of(double const* x) const {
+    std::size_t const cell = grid.cell_of(x);
+    return dimension == 1 ? cell : cell / static_cast<std::size_t>(grid.count[0]);
+  }
+  /// The cell along an axis, as it is in space.
+  std::int64_t unfolded(int axis, std::int64_t folded) const {
+    std::int64_t const n = grid.count[axis], lowest = grid.along(axis, extents.rows.low[axis]);
+    std::int64_t const turns = (folded - lowest) % n;
+    return lowest + (turns < 0 ? turns + n : turns);
+  }
+  Interval cells_along(int n, std::int64_t first, std::int64_t last) const {
+    int const axis = axes()[n];
+    if (axis >= dimension) return {-infinite, infinite};
+    return {grid.edge[axis] * static_cast<double>(unfolded(axis, first)),
+            grid.edge[axis] * static_cast<double>(unfolded(axis, last) + 1)};
+  }
+  /// Where units [first, last] of one line of them are.
+  void add_line(std::int64_t line, std::int64_t first, std::int64_t last, std::vector<Place>& places) const {
+    Interval const across = cells_along(1, line, line);
+    for (std::int64_t begin = first, end = first; begin <= last; begin = end) {
+      for (end = begin + 1; end <= last && unfolded(axes()[0], end) == unfolded(axes()[0], end - 1) + 1;) ++end;
+      places.push_back({cells_along(0, begin, end - 1), across});
+    }
+  }
+  /// Where the rows of a rank may be.
+  std::vector<Place> places_of(std::size_t rank) const {
+    std::vector<Place> places;
+    if (cut[rank] == cut[rank + 1]) return places;
+    auto const unit_at = [&](std::size_t row) {
+      return std::upper_bound(start.begin(), start.end(), row) - start.begin() - 1;
+    };
+    std::int64_t const n = along(0), first = unit_at(cut[rank]), last = unit_at(cut[rank + 1] - 1);
+    for (std::int64_t line = first / n; line <= last / n; ++line) {
+      std::int64_t const from = line == first / n ? first % n : 0, to = line == last / n ? last % n : n - 1;
+      if (from > 0 || to < n - 1) {
+        add_line(line, from, to, places);
+        continue;
+      }
+      Interval const across = cells_along(1, line, line);
+      bool const goes_on = !places.empty() && places.back()[0].low == -infinite && places.back()[1].high == across.low;
+      if (goes_on)
+        places.back()[1].high = across.high;
+      else
+        places.push_back({Interval{-infinite, infinite}, across});
+    }
+    return places;
+  }
+  std::size_t rank_at(std::size_t row) const {
+    return static_cast<std::size_t>(std::upper_bound(cut.begin(), cut.end(), row) - cut.begin()) - 1;
+  }
+};
+
+/// References of this rank's particles, and how far all ranks' reach.
+void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
+  for (auto& one : all) {
+    AnyEnsemble const& ensemble = one.copy->ensemble();
+    for (auto const& [begin, end] : ensemble.share()->stretches)
+      for (std::size_t i = begin; i < end; ++i) one.own.push_back(static_cast<std::uint32_t>(i));
+    one.references = one.copy->references_of(one.own);
+    one.dimension = box_->dimension();
+    Images const images(*box_);
+    auto const take = [&](Bounds& extent, double const* x) {
+      for (int a = 0; a < one.dimension; ++a)
+        extent.low[a] = std::min(extent.low[a], x[a]), extent.high[a] = std::max(extent.high[a], x[a]);
+    };
+    for (std::size_t n = 0; n < one.own.size(); ++n) {
+      double const* const x = one.references.data() + n * static_cast<std::size_t>(one.dimension);
+      take(one.extents.rows, x);
+      images.each(x, reach, [&](Turns const& turns, auto const& at) {
+        take(one.extents.images, at.data());
+        if (turns != Turns{}) ++one.extents.count;
+      });
+    }
+  }
+  Team& team = division_->team();
+  team.meet(Team::Occasion::gathers);
+  std::vector<Extents> mine;
+  for (auto& one : all) mine.push_back(std::exchange(one.extents, nothing()));
+  for (auto const& bytes : team.gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]}))
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      Extents other;
+      std::memcpy(&other, bytes.data() + e * sizeof other, sizeof other);
+      all[e].extents.add(other);
+    }
+}
+
+/// The grids, how many rows each unit has, and where ranks begin. False if cells are folded, so that a unit has no place.
+bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
+  std::vector<std::int64_t> counts;
+  for (auto& one : all) {
+    std::size_t const size = one.copy->owned();
+    if (size == 0) return false;
+    Extents const& extents = one.extents;
+    double const sorting = one.copy->sorting_reach(reach, box_->edges());
+    one.grid = Cells::grid_for(one.dimension, extents.rows, size, sorting);
+    one.cells = Cells::grid_for(one.dimension, extents.images, size + static_cast<std::size_t>(extents.count), reach);
+    if (is_folded(one.grid, extents.rows)) return false;
+  }
+  for (auto const& one : all) {
+    std::size_t const at = counts.size();
+    counts.resize(at + one.units());
+    for (std::size_t n = 0; n < one.own.size(); ++n)
+      ++counts[at + one.unit_of(one.references.data() + n * static_cast<std::size_t>(one.dimension))];
+  }
+  division_->team().sum(counts);
+  auto next = counts.begin();
+  for (auto& one : all) {
+    one.start = {0};
+    for (std::size_t u = 0; u < one.units(); ++u)
+      one.start.push_back(one.start.back() + static_cast<std::size_t>(*next++));
+    one.cut = cuts(one.copy->owned());
+  }
+  return true;
+}
+
+/// To which ranks this rank's particles go: those that advance them or read them.
+std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorting> const& all, std::size_t e,
+                                                               double reach) const {
+  Sorting const& one = all[e];
+  auto const ranks = static_cast<std::size_t>(division_->team().size());
+  double const wide = reach * (1 + rounding) + margin(), wide2 = wide * wide;
+  std::vector<std::vector<Place>> places(ranks);
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    bool const in_list = std::any_of(lists_.begin(), lists_.end(), [&](List const& list) {
+      return list.target == all[t].copy && list.source == one.copy;
+    });
+    for (std::size_t r = 0; in_list && r < ranks; ++r)
+      for (auto const& place : all[t].places_of(r)) places[r].push_back(place);
+  }
+  Images const images(*box_);
+  auto const axes = one.axes();
+  // Where an interval along an axis is seen.
+  auto const seen = [&](int n, Interval const& x) {
+    std::vector<Interval> images_of{x};
+    int const axis = axes[n];
+    if (axis >= one.dimension) return images_of;
+    for (int turn = 1, most = images.most(axis, wide); turn <= most; ++turn)
+      for (int const sign : {-1, 1}) {
+        double const low = images.at(axis, sign * turn, x.low), high = images.at(axis, sign * turn, x.high);
+        images_of.push_back({std::min(low, high), std::max(low, high)});
+      }
+    return images_of;
+  };
+  struct Reader {
+    std::size_t rank;
+    bool all;  // reads every particle of the unit
+  };
+  auto const readers_of = [&](std::size_t unit) {
+    std::vector<Reader> readers;
+    std::size_t const begin = one.start[unit], end = one.start[unit + 1];
+    std::size_t const first = one.rank_at(begin), last = one.rank_at(end - 1);
+    auto const n = one.along(0), at = static_cast<std::int64_t>(unit);
+    auto const inner = seen(0, one.cells_along(0, at % n, at % n)), outer = seen(1, one.cells_along(1, at / n, at / n));
+    for (std::size_t r = 0; r < ranks; ++r) {
+      bool const near = std::any_of(places[r].begin(), places[r].end(), [&](Place const& place) {
+        for (auto const& a : inner)
+          for (auto const& b : outer)
+            if (distance2(place, {a, b}) <= wide2) return true;
+        return false;
+      });
+      // Whose a particle is in a unit that is cut is known to those who have the whole unit.
+      bool const owns = r >= first && r <= last;
+      if (owns || near) readers.push_back({r, owns || first != last});
+    }
+    return readers;
+  };
+  std::vector<std::vector<Reader>> of_unit(one.units());
+  std::vector<std::vector<std::uint32_t>> to(ranks);
+  for (std::size_t k = 0; k < one.own.size(); ++k) {
+    double const* const x = one.references.data() + k * static_cast<std::size_t>(one.dimension);
+    std::size_t const unit = one.unit_of(x);
+    auto& readers = of_unit[unit];
+    if (readers.empty()) readers = readers_of(unit);
+    for (auto const& [rank, every] : readers) {
+      bool reads = every;
+      if (!reads)
+        images.each(x, wide, [&](Turns const&, auto const& at) {
+          if (reads) return;
+          Place here;
+          for (int n = 0; n < 2; ++n) here[n] = {at[axes[n] % 3], at[axes[n] % 3]};
+          if (one.dimension < 3) here[1] = {0, 0};
+          reads = std::any_of(places[rank].begin(), places[rank].end(),
+                              [&](Place const& place) { return distance2(place, here) <= wide2; });
+        });
+      if (reads) to[rank].push_back(one.own[k]);
+    }
+  }
+  return to;
+}
+
+/// This rank's part of a build, from the particles that it knows now.
+void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> const& numbers, std::size_t e,
+                               double reach, int threads) {
+  auto const rank = static_cast<std::size_t>(division_->team().rank());
+  auto const D = static_cast<std::size_t>(one.dimension);
+  std::vector<double> const at = one.copy->references_of(numbers);
+  Cells const sorted(one.grid, at.data(), D, numbers.size(), one.copy->sorting_reach(reach, box_->edges()), threads);
+  SortedCopy::Part part;
+  part.grid = one.cells;
+  part.particles.reserve(numbers.size());
+  part.rows.reserve(numbers.size());
+  auto& owners = division_->owners_here(one.copy->ensemble());
+  Numbers own(one.copy->owned());
+  std::size_t row = 0, last = one.units();
+  for (auto const n : sorted.items()) {
+    std::uint32_t const i = numbers[n];
+    std::size_t const unit = one.unit_of(at.data() + D * n);
+    row = unit == last ? row + 1 : one.start[unit];
+    last = unit;
+    part.particles.push_back(i);
+    part.rows.push_back(static_cast<std::uint32_t>(row));
+    std::size_t const owner = one.rank_at(row);
+    owners[i] = static_cast<std::uint16_t>(owner);
+    if (owner == rank) own.add(i);
+  }
+  own_[e].clear();
+  if (one.cut[rank] < one.cut[rank + 1]) own_[e].push_back({one.cut[rank], one.cut[rank + 1]});
+  division_->take(one.copy->ensemble(), own.ascending());
+  one.copy->build_part(reach, std::move(part), threads);
+}
+
+bool Neighbourhood::build_in_parts(int threads) {
+  // Where all know all there is nothing to send.
+  if (division_->is_whole() || also_read_) return false;
+  double const reach = longest_cutoff() + skin();
+  std::vector<Sorting> all(copies_.size());
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    all[e].copy = &copies_[e];
+    copies_[e].check_reach(reach, box_->edges());
+  }
+  agree_on_extents(all, reach);
+  if (!agree_on_order(all, reach)) return false;
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    AnyEnsemble const& ensemble = copies_[e].ensemble();
+    Numbers known(ensemble.size());
+    for (auto const& numbers : division_->hand_over(ensemble, readers(all, e, reach)))
+      for (auto const i : numbers) known.add(i);
+    build_part(all[e], known.ascending(), e, reach, threads);
+  }
+  references_known_ = false;
+  return true;
+}
+
+/// Where only parts were known: from the references of all, which have been gathered.
+void Neighbourhood::become_whole(int threads) {
+  double const reach = longest_cutoff() + skin();
+  for (auto& copy : copies_) {
+    std::vector<std::uint32_t> particles;
+    std::vector<double> references;
+    for (auto const row : copy.moved()) {
+      particles.push_back(copy.order()[row]);
+      double const* const reference = copy.references() + 4 * std::size_t{row};
+      references.insert(references.end(), reference, reference + 3);
+    }
+    auto const built = copy.built_references();
+    copy.build(reach, built, copy.built_edges(), threads_for(copy.owned(), 1, threads));
+    std::vector<std::uint32_t> row_of(copy.owned());
+    for (std::uint32_t k = 0; k < copy.owned(); ++k) row_of[copy.order()[k]] = k;
+    for (auto& particle : particles) particle = row_of[particle];
+    copy.move(particles, references);
+  }
+  if (divided())
+    take_shares();
+  else
+    for (std::size_t e = 0; e < copies_.size(); ++e) own_[e] = {{0, copies_[e].owned()}};
+  for (auto& list : lists_)
+    list.list.build(*list.target, *list.source, list.cutoff, skin(), own(*list.target),
+                    threads_for(list.target->owned(), 4, threads));
+  complete_ = !divided();
+  ++version_;
+}
+
+/// Rows that get new references become known to all ranks, as they are now: `moved` becomes that of all.
+void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
+  auto const D = static_cast<std::size_t>(box_->dimension());
+  auto const size = [](SortedCopy const& copy) { return copy.ensemble().doubles(); };
+  std::vector<double> mine;  // of each copy, row, particle, whether it is further than the margin, reference, numbers
+  for (std::size_t e = 0; e < copies_.size(); ++e)
+    for (std::uint32_t const k : moved[e].rows) {
+      std::uint32_t const i = copies_[e].order()[k];
+      double const* const reference = copies_[e].references() + 4 * std::size_t{k};
+      double const* const row = copies_[e].ensemble().row(i);
+      mine.insert(mine.end(), {static_cast<double>(e), static_cast<double>(k), static_cast<double>(i),
+                               copies_[e].left_build_by(k) > margin() ? 1.0 : 0.0});
+      mine.insert(mine.end(), reference, reference + D);
+      mine.insert(mine.end(), row, row + size(copies_[e]));
+    }
+  Team& team = division_->team();
+  team.meet(Team::Occasion::gathers);
+  auto const all = team.gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
+  std::vector<std::vector<std::uint32_t>> of_all(moved.size());  // the rows that they have among all
+  for (auto& one : moved) one.rows.clear();
+  bool too_far = false;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    std::vector<double> numbers(all[r].size() / sizeof(double));
+    std::memcpy(numbers.data(), all[r].data(), all[r].size());
+    for (auto at = numbers.data(), end = at + numbers.size(); at < end;) {
+      auto const e = static_cast<std::size_t>(at[0]);
+      auto const k = static_cast<std::uint32_t>(at[1]), i = static_cast<std::uint32_t>(at[2]);
+      too_far = too_far || at[3] != 0;
+      SortedCopy& copy = copies_[e];
+      auto* const ensemble = const_cast<AnyEnsemble*>(&copy.ensemble());
+      std::copy_n(at + 4 + D, size(copy), ensemble->row(i));
+      division_->owners_here(*ensemble)[i] = static_cast<std::uint16_t>(r);
+      std::uint32_t& row = row_of_[e][i];
+      if (!copy.knows(row, i)) row = copy.learn(k, i, at + 4);
+      copy.refresh_row(row);
+      moved[e].rows.push_back(row);
+      of_all[e].push_back(k);
+      at += 4 + D + size(copy);
+    }
+  }
+  // Around those that have gone further than a margin some are not known.
+  if (!is_part() || !too_far) return;
+  division_->make_whole();
+  become_whole(1);
+  follow(1);
+  for (std::size_t e = 0; e < copies_.size(); ++e) moved[e].rows = std::move(of_all[e]);
+}
+
+}  // namespace boltzmann
