@@ -1,5 +1,6 @@
-// Lists over the ranks of a team: every rank sorts all particles where lists are built, gets a part of the order, has
-// the lists of its own rows, and between builds hears of those rows that they name.
+// Lists over the ranks of a team: each rank has the lists of a stretch of all rows, in the order in which they are
+// sorted, and between builds hears of those rows that they name. Builds where every rank knows all particles; those in
+// parts are in build_in_parts.cpp.
 #include <boltzmann/neighbours/neighbourhood.hpp>
 
 #include <algorithm>
