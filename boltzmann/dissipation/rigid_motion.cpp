@@ -22,7 +22,13 @@ class RigidLeapFrog final : public Integrator {
   Method method() const override { return inner_->method(); }
   int stages() const override { return inner_->stages(); }
   double time_after(int stage) const override { return inner_->time_after(stage); }
-  std::string undivided() const override { return "rigid bonds"; }
+  std::vector<Carried> carried() override { return inner_->carried(); }
+  std::string undivided() const override { return inner_->undivided(); }
+  void divide(Division* division) override {
+    inner_->divide(division);
+    if (division) bonds_->keep_together(*division);
+  }
+  bool has_groups() const override { return true; }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

@@ -22,7 +22,12 @@ class RigidVelocities final : public Dissipation {
   explicit RigidVelocities(std::shared_ptr<RigidBonds> bonds) : bonds_(std::move(bonds)) {}
   std::vector<AnyEnsemble*> ensembles() const override { return {&bonds_->ensemble()}; }
   void check() override {}
-  void advance(StepContext const&) override { heat_ += bonds_->correct_velocities(threads()); }
+  void advance(StepContext const&) override { heat_ += bonds_->correct_velocities(threads(), division()); }
+  std::string undivided() const override { return ""; }
+  void divide(Division* division) override {
+    Dissipation::divide(division);
+    if (division) bonds_->keep_together(*division);
+  }
   double heat() const override { return heat_; }
   bool keeps_momentum() const override { return true; }
   std::size_t rigid_bonds() const override { return bonds_->size(); }

@@ -84,6 +84,8 @@ class WithDrivenFields final : public Integrator {
     return all;
   }
   std::string undivided() const override { return inner_->undivided(); }
+  void divide(Division* division) override { inner_->divide(division); }
+  bool has_groups() const override { return inner_->has_groups(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
   EquationsOfMotion* equations_of_motion() override { return inner_->equations_of_motion(); }

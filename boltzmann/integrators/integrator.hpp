@@ -16,6 +16,7 @@
 namespace boltzmann {
 
 class AnyEnsemble;
+class Division;
 
 /// How an ensemble is advanced. The orders hold where all ensembles that influence each other have the same method, and
 /// for the leap-frogs where influences depend on positions (and time) only; otherwise the result is first order in the
@@ -113,6 +114,10 @@ class Integrator {
   virtual std::vector<Carried> carried() { return {}; }
   /// Why it advances all particles on every rank of a team, in one line; empty if each rank advances its share.
   virtual std::string undivided() const { return ""; }
+  /// From here on shares are advanced (AnyEnsemble::share()); null: all again. For all ranks.
+  virtual void divide(Division* /*division*/) {}
+  /// Whether some particles are advanced together, so that one rank must have them (Division::keep_together).
+  virtual bool has_groups() const { return false; }
   /// What a method without stages works on, which advances all ensembles together; null for methods of stages.
   virtual EquationsOfMotion* equations_of_motion() { return nullptr; }
   /// Puts the state on a grid (reversible leap-frog only).

@@ -316,7 +316,7 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
 
 bool Neighbourhood::build_in_parts(int threads) {
   // Where all know all there is nothing to send.
-  if (division_->is_whole() || also_read_) return false;
+  if (division_->is_whole() || also_read_ || division_->needs_all()) return false;
   double const reach = longest_cutoff() + skin();
   std::vector<Sorting> all(copies_.size());
   for (std::size_t e = 0; e < copies_.size(); ++e) {
@@ -332,6 +332,7 @@ bool Neighbourhood::build_in_parts(int threads) {
       for (auto const i : numbers) known.add(i);
     build_part(all[e], known.ascending(), e, reach, threads);
   }
+  changes_ = division_->changes();
   references_known_ = false;
   return true;
 }

@@ -22,17 +22,44 @@ std::vector<Stretch> stretches_of(std::vector<char> const& marks, char mark) {
   return stretches;
 }
 
+/// Of stretches, what is not in others; both are ascending.
+std::vector<Stretch> without(std::vector<Stretch> const& all, std::vector<Stretch> const& others) {
+  std::vector<Stretch> rest;
+  auto other = others.begin();
+  for (auto [begin, end] : all) {
+    for (; other != others.end() && other->begin < end; ++other) {
+      if (begin < other->begin) rest.push_back({begin, other->begin});
+      begin = std::max(begin, other->end);
+      if (other->end > end) break;
+    }
+    if (begin < end) rest.push_back({begin, end});
+  }
+  return rest;
+}
+
 }  // namespace
 
 void Neighbourhood::divide(Division* division, int threads) {
   if (division) {
-    if (!complete_ && division->id() != last_division_) complete(threads);
+    // That others have to be built is known from the next refresh on, and in states, as on one rank.
+    bool const fit = std::all_of(copies_.begin(), copies_.end(),
+                                 [](auto const& copy) { return copy.owned() == copy.ensemble().size(); });
+    bool const old = stale_ || !fit;
+    if (!old && !complete_ && division->id() != last_division_) complete(threads);
     division_ = division;
     last_division_ = division->id();
     division_->gathers(this, [this] { gather_references(); });
-    if (stale_ || lists_.empty() || is_part()) return;
+    if (lists_.empty()) return;
+    std::vector<AnyEnsemble const*> ensembles;
+    for (auto const& copy : copies_) ensembles.push_back(&copy.ensemble());
+    division_->lead(this, std::move(ensembles));
+    if (old) return;
+    if (is_part()) {  // and nobody else gives particles away
+      changes_ = division_->changes();
+      return;
+    }
     if (complete_) share_out();
-    take_shares();
+    take_over(threads);
     complete_ = false;
     return find_needed(threads);
   }
@@ -70,6 +97,11 @@ void Neighbourhood::refresh_together(int threads) {
   Team& team = division_->team();
   bool changed = false;
   if (!stale_) {
+    if (changes_ != division_->changes()) {  // by other lists
+      division_->make_whole();
+      take_over(threads);
+      find_needed(threads);
+    }
     if (!division_->is_whole()) {
       team.meet(Team::Occasion::exchanges);
       exchange_.bring_rows(*division_);
@@ -101,7 +133,9 @@ std::vector<std::size_t> Neighbourhood::cuts(std::size_t rows) const {
   return cuts;
 }
 
+/// Each rank gets its stretch of rows, or those that other lists have given it.
 void Neighbourhood::share_out() {
+  if (!division_->leads(this)) return take_shares();
   for (auto const& copy : copies_) {
     Division::Owners owners(copy.owned());
     auto const cut = cuts(copy.owned());
@@ -120,7 +154,20 @@ void Neighbourhood::gather_references() {
   references_known_ = true;
 }
 
+/// Shares are others than before: rows that come to this rank get lists.
+void Neighbourhood::take_over(int threads) {
+  auto const before = own_;
+  take_shares();
+  for (auto& list : lists_) {
+    std::size_t e = 0;
+    while (&copies_[e] != list.target) ++e;
+    auto const missing = without(own_[e], before[e]);
+    if (!missing.empty()) list.list.build_more(*list.target, *list.source, missing, threads);
+  }
+}
+
 void Neighbourhood::take_shares() {
+  changes_ = division_->changes();
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     SortedCopy const& copy = copies_[e];
     auto const& owners = division_->owners(copy.ensemble());
@@ -166,11 +213,12 @@ void Neighbourhood::find_needed(int threads) {
     for (std::size_t n = 0; n < copy.known(); ++n) row_of_[e][copy.order()[copy.known(n)]] = copy.known(n);
   }
   auto in_lists = rows_in_lists(threads);
-  if (also_read_)
-    also_read_([&](AnyEnsemble const& ensemble, std::uint32_t i) {
-      for (std::size_t e = 0; e < copies_.size(); ++e)
-        if (&copies_[e].ensemble() == &ensemble) in_lists[e][row_of_[e][i]] = 1;
-    });
+  Division::Add const add = [&](AnyEnsemble const& ensemble, std::uint32_t i) {
+    for (std::size_t e = 0; e < copies_.size(); ++e)
+      if (&copies_[e].ensemble() == &ensemble) in_lists[e][row_of_[e][i]] = 1;
+  };
+  if (also_read_) also_read_(add);
+  if (division_->leads(this)) division_->add_also_read(add);
   std::vector<RowExchange::Needed> needed;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     SortedCopy& copy = copies_[e];

@@ -235,13 +235,18 @@ bool Neighbourhood::lists_hold(double largest2) {
 
 void Neighbourhood::refresh(int threads) {
   if (lists_.empty()) return;
-  for (auto& copy : copies_)
-    if (copy.owned() != copy.ensemble().size()) stale_ = true;
+  find_resized();
   if (divided()) return refresh_together(threads);
   if (is_part() && !stale_) become_whole(threads);
   if (!stale_ && (!follow(threads) || lists_hold(largest_displacement2()))) return complete(threads);
   build(threads);
   follow(threads);
+}
+
+/// Nothing is known of ensembles with other numbers of particles.
+void Neighbourhood::find_resized() {
+  for (auto& copy : copies_)
+    if (copy.owned() != copy.ensemble().size()) stale_ = true;
 }
 
 bool Neighbourhood::follow(int threads) {

@@ -132,6 +132,7 @@ class Neighbourhood {
   };
 
   bool divided() const { return division_ != nullptr; }
+  void find_resized();
   bool follow(int threads);
   bool lists_hold(double largest2);
   bool move_beyond(double square, std::size_t most);
@@ -148,6 +149,7 @@ class Neighbourhood {
   bool is_own(SortedCopy const& copy, std::uint32_t row) const;
   void share_out();
   void take_shares();
+  void take_over(int threads);
   void find_needed(int threads);
   std::vector<std::vector<char>> rows_in_lists(int threads) const;
   void complete(int threads);
@@ -179,8 +181,8 @@ class Neighbourhood {
   double found_again_ = 0;   // rows found anew since the lists were built
   std::size_t entries_ = 0;  // of all lists, on all ranks, at the build
   std::size_t builds_ = 0, moves_ = 0, version_ = 0;
-  Division* division_ = nullptr;  // while a run is divided
-  std::uint64_t last_division_ = 0;
+  Division* division_ = nullptr;                   // while a run is divided
+  std::uint64_t last_division_ = 0, changes_ = 0;  // of owners, when shares were taken
   std::size_t cut_at_ = 1;
   AlsoRead also_read_;
   RowExchange exchange_;

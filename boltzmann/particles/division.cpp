@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstring>
+#include <numeric>
 
 namespace boltzmann {
 namespace {
@@ -67,11 +69,25 @@ void Division::divide(Part& part) {
   }
 }
 
+/// What is kept together gets one owner.
+void Division::join(Part& part) const {
+  auto const join_from = [&](std::size_t first, std::vector<std::uint32_t> const& with) {
+    for (std::size_t i = 0; i < with.size(); ++i) part.owners[first + i] = part.owners[first + with[i]];
+  };
+  join_from(0, part.with);
+  for (std::size_t first = 0; auto const* follower : part.followers) {
+    join_from(first, this->part(*follower).with);
+    first += follower->size();
+  }
+}
+
 void Division::owners(AnyEnsemble const& ensemble, Owners owners) {
   if (carried_)
     for (auto const& [numbers, count] : carried_(ensemble)) gather(ensemble, numbers, count, count);
+  ++changes_;
   Part& part = parts_[place(ensemble)];
   part.owners = std::move(owners);
+  join(part);
   divide(part);
   auto first = part.owners.begin();
   for (auto* follower : std::vector(part.followers)) {
@@ -85,10 +101,12 @@ void Division::follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& foll
   add(leader);
   Part& part = parts_[place(leader)];
   part.followers = followers;
+  points_ = &leader;
   owners(leader, part.owners);
 }
 
 void Division::take(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& own) {
+  ++changes_;
   Part& part = parts_[place(ensemble)];
   part.owners_known = false;
   part.share.stretches.clear();
@@ -189,9 +207,49 @@ void Division::learn_owners(Part& part) {
   divide(part);
 }
 
+void Division::keep_together(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& with) {
+  Part& part = parts_[place(ensemble)];
+  keeps_together_ = true;
+  std::vector<std::uint32_t> root = part.with;
+  if (root.empty()) {
+    root.resize(ensemble.size());
+    std::iota(root.begin(), root.end(), 0U);
+  }
+  auto const find = [&](std::uint32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (std::uint32_t i = 0; i < with.size(); ++i) {
+    auto const a = find(i), b = find(with[i]);
+    root[std::max(a, b)] = std::min(a, b);
+  }
+  for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
+  if (root == part.with) return;
+  part.with = std::move(root);
+  owners(ensemble, part.owners);
+}
+
+void Division::lead(void const* lists, std::vector<AnyEnsemble const*> brought) {
+  bool const may = !points_ || std::find(brought.begin(), brought.end(), points_) != brought.end();
+  if (!leader_ && may) leader_ = lists;
+  if (leader_ == lists)
+    brought_ = std::move(brought);
+  else
+    several_ = true;
+}
+
+bool Division::brings(AnyEnsemble const& ensemble) const {
+  return std::find(brought_.begin(), brought_.end(), &ensemble) != brought_.end();
+}
+
 void Division::begin() {
   for (std::size_t e = 0; e < parts_.size(); ++e) ensembles_[e]->share(&parts_[e].share);
   goes_on_ = whole_ = true;
+  leader_ = nullptr;
+  points_ = nullptr;
+  brought_.clear();
+  also_read_.clear();
+  several_ = false;
 }
 
 void Division::end() {
@@ -242,6 +300,11 @@ void Division::gather(AnyEnsemble const& ensemble, double* numbers, std::size_t 
   team_.exchange(messages);
   for (std::size_t r = 0; r < ranks; ++r)
     if (r != mine) over(r, received_[r].data(), [&](double const* from, double* to) { std::copy_n(from, count, to); });
+}
+
+double Division::least(double mine) {
+  auto const bits = std::bit_cast<std::int64_t>(mine);
+  return std::bit_cast<double>(~team_.meet(Team::Occasion::gathers, {~bits}).most[0]);
 }
 
 std::size_t Division::sum(std::size_t mine) {

@@ -61,6 +61,27 @@ class Division {
   /// those that stay. For all ranks.
   std::vector<std::vector<std::uint32_t>> hand_over(AnyEnsemble const& ensemble,
                                                     std::vector<std::vector<std::uint32_t>> to);
+  /// From now on particle i of an ensemble has the owner that particle with[i] has, whoever it would be otherwise: what
+  /// is advanced as one (rigid molecules) has one owner.
+  void keep_together(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& with);
+  /// How often particles have got other owners.
+  std::uint64_t changes() const { return changes_; }
+
+  /// Of several neighbour lists one says who owns what, until the division ends: the first that asks, or that of the
+  /// points which others follow. It brings the rows of these ensembles to those who read them.
+  void lead(void const* lists, std::vector<AnyEnsemble const*> brought);
+  bool leads(void const* lists) const { return leader_ == lists; }
+  bool brings(AnyEnsemble const& ensemble) const;
+  /// From here on it is asked too seldom for that.
+  void brings_nothing() { brought_.clear(); }
+  /// Rows that are read besides those in lists, until the division ends: rows(add) calls add(ensemble, i) for each.
+  using Add = std::function<void(AnyEnsemble const& ensemble, std::uint32_t i)>;
+  void also_read(std::function<void(Add const& add)> rows) { also_read_.push_back(std::move(rows)); }
+  void add_also_read(Add const& add) const {
+    for (auto const& rows : also_read_) rows(add);
+  }
+  /// Whether all rows have to be known everywhere where particles get other owners.
+  bool needs_all() const { return several_ || keeps_together_ || !also_read_.empty(); }
 
   /// From here on, where all rows are known everywhere, ensembles know their shares; and none any more, until it begins
   /// again.
@@ -86,6 +107,8 @@ class Division {
   void gather_influences();
   /// So does any array: `count` doubles of each particle, from each `stride` doubles.
   void gather(AnyEnsemble const& ensemble, double* numbers, std::size_t stride, std::size_t count);
+  /// The least of positive numbers over all ranks.
+  double least(double mine);
   /// The sum over all ranks.
   std::size_t sum(std::size_t mine);
   /// They become those of all ranks. What a rank has failed of until then, all throw.
@@ -99,20 +122,27 @@ class Division {
     std::vector<std::vector<Stretch>> of_rank;
     std::vector<std::size_t> sizes;
     std::vector<AnyEnsemble*> followers;
-    bool owners_known = true;  // of all particles
+    bool owners_known = true;         // of all particles
+    std::vector<std::uint32_t> with;  // see keep_together(): no later than the particle; empty: each by itself
   };
   std::size_t place(AnyEnsemble const& ensemble) const;
   Part const& part(AnyEnsemble const& ensemble) const { return parts_[place(ensemble)]; }
   void divide(Part& part);
   void learn_owners(Part& part);
+  void join(Part& part) const;
 
   Team& team_;
   std::vector<AnyEnsemble*> ensembles_;
   std::deque<Part> parts_;  // whose shares ensembles know
   bool goes_on_ = false, whole_ = true;
-  std::uint64_t id_;
   std::function<Carried(AnyEnsemble const&)> carried_;
   std::vector<std::pair<void const*, std::function<void()>>> gathers_;
+  std::uint64_t id_, changes_ = 0;
+  void const* leader_ = nullptr;
+  AnyEnsemble const* points_ = nullptr;  // that others follow
+  std::vector<AnyEnsemble const*> brought_;
+  std::vector<std::function<void(Add const&)>> also_read_;
+  bool several_ = false, keeps_together_ = false;
   std::vector<std::vector<double>> sent_, received_;  // of each rank
 };
 

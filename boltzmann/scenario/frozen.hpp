@@ -27,6 +27,8 @@ class Frozen final : public Integrator {
   std::span<std::uint32_t const> resting() const override { return which_; }
   std::vector<Carried> carried() override { return inner_->carried(); }
   std::string undivided() const override { return inner_->undivided(); }
+  void divide(Division* division) override { inner_->divide(division); }
+  bool has_groups() const override { return inner_->has_groups(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

@@ -147,8 +147,14 @@ class Scheme {
   virtual std::string undivided() const { return "a scheme of its own kind"; }
   /// Whether it is its neighbour lists that say who owns which particles.
   virtual bool shares_out() const { return false; }
+  /// Whether these are of points of its own, which the particles follow, so that no other lists can say it.
+  virtual bool has_points() const { return false; }
+  /// In a run with several schemes, before all of them calculate: rows come to those who read them, and lists that don't
+  /// hold any more are built, by which particles get other owners.
+  virtual void bring_particles() {}
   /// From here on influences of this rank's shares are wanted (AnyEnsemble::share()), and who reads rows of others asks
-  /// for them; null: all again. For all ranks, as is everything that calculates in between.
+  /// for them; null: all again. For all ranks, as is everything that calculates in between. Ensembles may have other
+  /// sizes than at the last calculation.
   virtual void divide(Division* /*division*/) {}
 
   /// Memory that the scheme itself holds (not the ensembles), in bytes.

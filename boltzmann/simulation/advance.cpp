@@ -41,16 +41,24 @@ void Simulation::calculate(double time, std::int64_t step) {
   } else if (schemes_.size() == 1) {
     schemes_.front()->calculate(time);
   } else {
-    for (auto* ensemble : ensembles_) ensemble->clear_influence();
-    for (auto* scheme : schemes_) {
-      std::int64_t const steps = every(*scheme);
-      if (steps == 1)
-        scheme->add_influences(time);
-      else if (step % steps == 0)
-        add_impulse(*scheme, time, steps);
-    }
+    add_all_influences(time, step);
   }
   influences_.calculated();
+}
+
+/// Of several schemes, in their order. In a run that is divided particles change hands before that.
+void Simulation::add_all_influences(double time, std::int64_t step) {
+  if (is_divided())
+    for (auto* scheme : with_lists_)
+      if (step % every(*scheme) == 0) scheme->bring_particles();
+  for (auto* ensemble : ensembles_) ensemble->clear_influence();
+  for (auto* scheme : schemes_) {
+    std::int64_t const steps = every(*scheme);
+    if (steps == 1)
+      scheme->add_influences(time);
+    else if (step % steps == 0)
+      add_impulse(*scheme, time, steps);
+  }
 }
 
 /// As much as a scheme gives in so many steps.
@@ -80,10 +88,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     dissipation->advance(context);
     if (division_) division_->moved();
   }
-  if (division_ && division_->goes_on())
-    check_moves_together();
-  else
-    for (auto const& part : parts_) check_moves(part);
+  check_moves();
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))
       throw PhysicsFailure(
@@ -115,7 +120,7 @@ void Simulation::advance(double start, double dt) {
 /// Puts back what has left the box during a step.
 void Simulation::keep_in_box(Part& part) {
   try {
-    Division* const division = division_ && division_->goes_on() ? division_.get() : nullptr;
+    Division* const division = is_divided() ? division_.get() : nullptr;
     work_ += part.home->box().apply(*part.ensemble, part.home->threads(), division);
   } catch (PhysicsFailure const& failure) {
     throw PhysicsFailure(failure.what() + advice());
@@ -123,7 +128,11 @@ void Simulation::keep_in_box(Part& part) {
 }
 
 StretchedSystem Simulation::stretched_system() {
-  return {schemes_, ensembles_, momentum_is_kept_, [this] { return measure(); }};
+  return {schemes_, ensembles_, momentum_is_kept_, [this] { return measure(); },
+          [this](double time) {
+            add_all_influences(time, 0);
+            if (is_divided()) division_->gather_influences();
+          }};
 }
 
 /// After a step that is done but not counted yet.
@@ -131,6 +140,7 @@ void Simulation::stretch_box(double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
   for (auto const& barostat : barostats_) {
     if ((step_ + 1) % barostat->every() != 0) continue;
+    if (is_divided()) gather_particles();  // all ranks stretch all
     work_ += barostat->act(stretched_system(), context);
     influences_.outdated();
   }
@@ -171,7 +181,7 @@ void Simulation::advance_in_substeps(double dt) {
   };
   calculate(start);
   std::vector<Moved> const moving = moved();
-  double allowed = longest_substep(*substeps_, moving, schemes_);
+  double allowed = longest_substep_now(moving);
   for (std::uint64_t at = 0; at < whole;) {
     std::uint64_t size = at == 0 ? whole : at & (~at + 1);
     while (size > 0 && longer(size, allowed)) size /= 2;
@@ -183,13 +193,13 @@ void Simulation::advance_in_substeps(double dt) {
             fmt::format("substeps would have to be shorter than a 10^12th of the step, {}", told_time(allowed)));
       advance(moment(at), static_cast<double>(size) * unit);
       calculate(moment(at + size));
-      double const at_end = longest_substep(*substeps_, moving, schemes_);
+      double const at_end = longest_substep_now(moving);
       fits = !longer(size, at_end);
       if (fits) {
         allowed = at_end;
         at += size;
         ++substep_counts_.done;
-        for (auto const& part : parts_) check_moves(part);
+        check_moves();
       } else {
         restore_rows();
         move_walls(moment(at));
@@ -199,6 +209,12 @@ void Simulation::advance_in_substeps(double dt) {
       }
     }
   }
+  before_substep_.clear();
+}
+
+double Simulation::longest_substep_now(std::vector<Moved> const& moving) {
+  double const longest = longest_substep(*substeps_, moving, schemes_);
+  return is_divided() ? division_->least(longest) : longest;
 }
 
 /// Rows and influences, for a substep that may be too long.
@@ -221,6 +237,7 @@ void Simulation::restore_rows() {
     std::copy_n(from + rows, influences.size(), influences.begin());
     from += rows + influences.size();
   }
+  if (division_) division_->moved();
   influences_.calculated();
 }
 
@@ -249,6 +266,11 @@ std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
     movers.push_back({part.ensemble, method == Method::leap_frog});
   }
   return schemes_.front()->fused_steps(movers, dt);
+}
+
+void Simulation::check_moves() {
+  if (is_divided()) return check_moves_together();
+  for (auto const& part : parts_) check_move(part, part.integrator->largest_move());
 }
 
 void Simulation::check_move(Part const& part, LargestMove const& move) const {

@@ -124,12 +124,6 @@ double virial_inside(StretchedSystem const& system, std::vector<int> const& axes
   return virial;
 }
 
-/// The influences on all particles as they are now.
-void calculate(StretchedSystem const& system, double time) {
-  for (auto* ensemble : system.ensembles) ensemble->clear_influence();
-  for (auto* scheme : system.schemes) scheme->add_influences(time);
-}
-
 }  // namespace
 
 Words<BarostatMethod> const& barostat_method_words() {
@@ -285,7 +279,7 @@ double Barostat::push(StretchedSystem const& system, std::vector<int> const& axe
       speeds[static_cast<std::size_t>(a)] = std::exp(-(1 + part) * way);
     }
     stretch(system, factors, speeds);
-    if (rigid) calculate(system, context.time);
+    if (rigid) system.calculate(context.time);
   };
   double const before = energy();
   cool();
@@ -296,7 +290,7 @@ double Barostat::push(StretchedSystem const& system, std::vector<int> const& axe
   go();
   cool();
   for (auto* scheme : system.schemes)
-    if (scheme->box_settled() && rigid) calculate(system, context.time);
+    if (scheme->box_settled() && rigid) system.calculate(context.time);
   ++moves_, ++accepted_;
   return before - energy();
 }
@@ -330,7 +324,7 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
     kept += system.momentum_is_kept[static_cast<std::size_t>(a)] ? 1 : 0;
   }
   stretch(system, factors);
-  if (rigid) calculate(system, context.time);
+  if (rigid) system.calculate(context.time);
   auto const after = measure_stretch(system, axes);
   double const gained = after.potential - before.potential + after.kinetic - before.kinetic;
   double const back = root - mean(after), forth = drawn - centre;
@@ -341,7 +335,7 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
     ++accepted_;
     bool others = false;
     for (auto* scheme : system.schemes) others = scheme->box_settled() || others;
-    if (others && rigid) calculate(system, context.time);
+    if (others && rigid) system.calculate(context.time);
     return others ? gained + measure_stretch(system, axes).potential - after.potential : gained;
   }
   for (auto* scheme : system.schemes) {

@@ -39,12 +39,13 @@ struct BarostatOptions {
 OptionTable const& barostat_options();
 
 /// What a barostat acts on. `measure` gives energies and virial of particles and box as they are (where there are rigid
-/// bonds, for the influences as they are).
+/// bonds, for the influences as they are), `calculate` the influences on all at a time.
 struct StretchedSystem {
   std::span<Scheme* const> schemes;
   std::span<AnyEnsemble* const> ensembles;
   std::array<bool, 3> momentum_is_kept;
   std::function<EnergyAndVirial()> measure;
+  std::function<void(double time)> calculate = {};
 };
 
 /// Volumes V have the density exp(-(H + P V) / kT) dV, and particles belong to it. The root of V is moved as the

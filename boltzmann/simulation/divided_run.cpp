@@ -1,9 +1,11 @@
 // A run over the ranks of a team: each advances its share of the particles, and all have the bits of one.
 #include <boltzmann/core/team.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace boltzmann {
 namespace {
@@ -28,14 +30,15 @@ std::string Simulation::undivided() const {
   if (team().size() > Division::most_ranks) return "more than 65,536 ranks";
   for (auto const* dissipation : dissipations_)
     if (auto why = dissipation->undivided(); !why.empty()) return why;
-  if (!barostats_.empty()) return "a barostat";
-  if (!changes_.empty()) return "adaptations of the particles";
-  if (!events_.empty()) return "events";
-  if (substeps_) return "steps that are divided into substeps";
   if (!gauss_radau_.parts().empty()) return "gauss-radau";
-  if (!slow_.empty()) return "forces that are calculated every few steps";
-  if (std::count_if(schemes_.begin(), schemes_.end(), [](auto const* scheme) { return scheme->shares_out(); }) > 1)
-    return "several schemes that have neighbour lists";
+  auto const lists = schemes_with_lists();
+  if (lists.size() > 1 && lists[1]->has_points()) return "several schemes that have points of their own";
+  bool const groups =
+      std::any_of(parts_.begin(), parts_.end(), [](auto& part) { return part.integrator->has_groups(); });
+  for (auto const* dissipation : dissipations_)
+    if ((groups || lists.size() > 1) && dynamic_cast<PairDissipation const*>(dissipation))
+      return groups ? "friction between pairs of rigid molecules"
+                    : "friction between pairs beside several schemes that have lists";
   for (auto const* scheme : schemes_) {
     if (auto why = scheme->undivided(); !why.empty()) return why;
   }
@@ -47,32 +50,76 @@ std::string Simulation::undivided() const {
   return particles < divided_from_ ? "few particles" : "";
 }
 
-/// Whether the run goes on by shares from here.
-bool Simulation::divide() {
+/// In the order in which they say who owns what: first of all who has points of its own, then who is asked often.
+std::vector<Scheme*> Simulation::schemes_with_lists() const {
+  std::vector<Scheme*> lists;
+  std::copy_if(schemes_.begin(), schemes_.end(), std::back_inserter(lists),
+               [](auto const* scheme) { return scheme->shares_out(); });
+  std::stable_partition(lists.begin(), lists.end(), [this](auto const* scheme) { return every(*scheme) == 1; });
+  std::stable_partition(lists.begin(), lists.end(), [](auto const* scheme) { return scheme->has_points(); });
+  return lists;
+}
+
+/// What is held of particles besides their rows until the step is done.
+std::vector<Integrator::Carried> Simulation::held_inside_step(AnyEnsemble const& of) {
+  Part* const part = part_of(of);
+  if (!part) return {};
+  auto all = part->integrator->carried();
+  if (before_substep_.empty()) return all;
+  double* kept = before_substep_.data();
+  for (auto const* ensemble : ensembles_) {
+    std::size_t const size = ensemble->size(), rows = size * ensemble->stride(),
+                      influences = ensemble->influences().size();
+    if (ensemble == &of && size > 0) {
+      all.push_back({kept, ensemble->stride()});
+      all.push_back({kept + rows, ensemble->influence_size()});
+      for (std::size_t at = size * ensemble->influence_size(); at < influences; at += size * ensemble->rate_stride())
+        all.push_back({kept + rows + at, ensemble->rate_stride()});
+    }
+    kept += rows + influences;
+  }
+  return all;
+}
+
+/// The run goes on by shares from here, if it can.
+void Simulation::divide() {
   Team& here = team();
-  if (here.alone() || here.depth() != 1 || !undivided().empty()) return false;
-  if (!division_ || &division_->team() != &here) {
+  if (here.alone() || here.depth() != 1 || !undivided().empty()) return;
+  auto const fits = [this](auto const* ensemble) { return division_->owners(*ensemble).size() == ensemble->size(); };
+  if (!division_ || &division_->team() != &here || !std::all_of(ensembles_.begin(), ensembles_.end(), fits)) {
     division_ = std::make_unique<Division>(here);
     for (auto* ensemble : ensembles_) division_->add(*ensemble);
     division_->carry([this](AnyEnsemble const& ensemble) {
       Division::Carried all;
-      if (Part* const part = part_of(ensemble))
-        for (auto const& [numbers, count] : part->integrator->carried()) all.emplace_back(numbers, count);
+      for (auto const& [numbers, count] : held_inside_step(ensemble)) all.emplace_back(numbers, count);
       return all;
     });
   }
   division_->begin();
+  for (auto& part : parts_) part.integrator->divide(division_.get());
   for (auto* dissipation : dissipations_) dissipation->divide(division_.get());
-  for (auto* scheme : schemes_) scheme->divide(division_.get());
-  return true;
+  // Those with lists last, of which the first leads: it asks what the others read.
+  for (auto* scheme : schemes_)
+    if (!scheme->shares_out()) scheme->divide(division_.get());
+  with_lists_ = schemes_with_lists();
+  for (auto* scheme : with_lists_) scheme->divide(division_.get());
+  if (!with_lists_.empty() && every(*with_lists_.front()) > 1) division_->brings_nothing();
 }
 
 /// Everything is everybody's again, as far as it is known here.
 void Simulation::end_division() {
-  if (!division_ || !division_->goes_on()) return;
+  if (!is_divided()) return;
+  for (auto& part : parts_) part.integrator->divide(nullptr);
   for (auto* dissipation : dissipations_) dissipation->divide(nullptr);
   for (auto* scheme : schemes_) scheme->divide(nullptr);
   division_->end();
+}
+
+/// Before all ranks alike change something that is everybody's; divide() follows.
+void Simulation::interrupt_division() {
+  if (!is_divided()) return;
+  gather_particles();
+  end_division();
 }
 
 /// For whoever looks at them.

@@ -14,13 +14,16 @@ struct Moved {
   std::span<std::uint32_t const> resting;  ///< the numbers of those that stay
   double length;                           ///< over which its law changes; infinite: unknown
 
-  /// Calls f(i) for each particle that moves.
+  /// Calls f(i) for each particle that moves, in a run that is divided for those of this rank's share.
   template <class F>
   void each(F const& f) const {
     std::vector<bool> rests(resting.empty() ? 0 : ensemble->size());
     for (std::uint32_t const i : resting) rests[i] = true;
-    for (std::size_t i = 0; i < ensemble->size(); ++i)
-      if (rests.empty() || !rests[i]) f(i);
+    auto const those_of = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (rests.empty() || !rests[i]) f(i);
+    };
+    for_share(*ensemble, ensemble->size() + 1, 1, those_of);
   }
 };
 

@@ -260,10 +260,12 @@ void Simulation::adapt_now() {
     for (auto const& part : parts_) all.push_back(part.ensemble->size());
     return all;
   };
-  bool completed = false;
+  bool completed = false, changed = false;
   for (auto const& change : changes_) {
     if (step_ % change.every != 0 || change.forgotten) continue;
     if (!completed) update_derived_fields();
+    interrupt_division();
+    changed = true;
     auto const before = rows_checksum(ensembles_);
     auto const sizes_before = sizes();
     try {
@@ -282,6 +284,7 @@ void Simulation::adapt_now() {
       throw PhysicsFailure(fmt::format("step {}: {}", step_, failure.what()));
     }
   }
+  if (changed) divide();
 }
 
 void Simulation::happen_now() {
@@ -289,6 +292,7 @@ void Simulation::happen_now() {
   for (auto const& event : events_) {
     if (event.step != step_) continue;
     if (!some) update_derived_fields();
+    interrupt_division();
     some = true;
     try {
       event.happen();
@@ -301,6 +305,7 @@ void Simulation::happen_now() {
   check();
   influences_.particles_changed();
   take_particles();
+  divide();
 }
 
 bool Simulation::observation_due() const {
@@ -311,7 +316,7 @@ bool Simulation::observation_due() const {
 void Simulation::observe_now() const {
   if (!observation_due()) return;
   update_derived_fields();
-  if (division_ && division_->goes_on()) gather_particles();
+  if (is_divided()) gather_particles();
   std::size_t const count = observations_.size();  // others may come
   for (std::size_t k = 0; k < count; ++k)
     if (auto const& one = observations_[k]; !one.forgotten && one.due(step_)) one.observer(*this);
@@ -385,7 +390,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     observe_now();
   }
   Dependence const now = dependence();
-  bool const divided = divide();
+  divide();
   struct Together {
     Simulation* simulation;
     ~Together() {
@@ -399,7 +404,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
   double const dt = direction * step_size_;
   bool const last = any_comes_last(schemes_);
-  Division const* const division = divided ? division_.get() : nullptr;
+  Division const* const division = is_divided() ? division_.get() : nullptr;
   FusedSteps* const whole = steps > 0 ? whole_steps(dt, of_whole_steps(now, division)) : nullptr;
   for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) {
     try {
@@ -428,6 +433,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     whole->store();
     influences_.outdated();
   }
+  bool const divided = is_divided();
   if (divided) {
     update_derived_fields();
     gather_particles();

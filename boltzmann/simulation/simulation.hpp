@@ -236,24 +236,30 @@ class Simulation {
   void move_walls(double time);
   void calculate(double time) { calculate(time, step_); }
   void calculate(double time, std::int64_t step);
+  void add_all_influences(double time, std::int64_t step);
   void add_impulse(Scheme& scheme, double time, std::int64_t times);
   void advance(double dt, std::vector<Dissipation*> const& dissipations);
   void advance(double start, double dt);
   void keep_in_box(Part& part);
   void advance_by_gauss_radau(double dt);
   void advance_in_substeps(double dt);
+  double longest_substep_now(std::vector<Moved> const& moving);
   void keep_rows();
   void restore_rows();
   std::unique_ptr<FusedSteps> fused_steps(double dt);
   FusedSteps* whole_steps(double dt, Dependence const& now);
   Dependence dependence() const;
-  void check_moves(Part const& part) const { check_move(part, part.integrator->largest_move()); }
+  void check_moves();
   void check_move(Part const& part, LargestMove const& move) const;
   std::string advice() const;
 
   // divided_run.cpp: over the ranks of a team.
-  bool divide();
+  bool is_divided() const { return division_ && division_->goes_on(); }
+  std::vector<Scheme*> schemes_with_lists() const;
+  std::vector<Integrator::Carried> held_inside_step(AnyEnsemble const& ensemble);
+  void divide();
   void end_division();
+  void interrupt_division();
   void gather_particles() const;
   void check_moves_together();
 
@@ -307,6 +313,7 @@ class Simulation {
   int stages_ = 0;
   Freshness influences_;
   std::unique_ptr<Division> division_;
+  std::vector<Scheme*> with_lists_;  // while it goes on, the one first that says who owns what
   std::size_t divided_from_ = 1000;
   struct {
     std::unique_ptr<FusedSteps> steps = {};

@@ -207,8 +207,7 @@ TEST(BarostatOfMolecules, PressureIsTheSlopeOfTheEnergyWhereMoleculesStayRigid) 
 
 TEST(BarostatOfMolecules, TheMeanPressureOfAtomsAndBondsIsTheOneThatIsHeld) {
   Ions ions(periodic_box<3>(6), 1e-3);
-  ions.simulation.add(
-      Barostat({.pressure = 3, .temperature = 1.5, .compressibility = 0.1, .rate = 4, .every = 5}, 1));
+  ions.simulation.add(Barostat({.pressure = 3, .temperature = 1.5, .compressibility = 0.1, .rate = 4, .every = 5}, 1));
   ions.simulation.run(2000);
   std::vector<double> pressures;
   ions.simulation.observe(

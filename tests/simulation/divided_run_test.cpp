@@ -1,146 +1,31 @@
 // Runs that are divided over ranks, which are threads here: each has computed a part, and all have the bits of one rank.
-#include "tests/thread_team.hpp"
+#include "tests/simulation/divided_runs.hpp"
 
 #include <boltzmann/laws/laplace.hpp>
-#include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/soft.hpp>
 #include <boltzmann/laws/uniform.hpp>
-#include <boltzmann/loaders/lattice.hpp>
-#include <boltzmann/loaders/random_load.hpp>
-#include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/vortex.hpp>
-#include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
-#include <boltzmann/schemes/pair/pair_scheme.hpp>
-#include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <random>
 
 namespace boltzmann::divided_run_test {
 namespace {
 
+using test::expect_same_bits;
 using test::line_of;
+using test::Make;
+using test::melt;
+using test::scenario;
 using test::ThreadTeam;
-
-/// Ensembles, schemes and a simulation that live as long as it.
-struct World {
-  std::vector<std::shared_ptr<void>> parts;
-  Simulation* simulation = nullptr;
-
-  World() = default;
-  ~World() {
-    while (!parts.empty()) parts.pop_back();
-  }
-  World(World const&) = delete;
-  World& operator=(World const&) = delete;
-
-  template <class T, class... Arguments>
-  T& make(Arguments&&... arguments) {
-    auto made = std::make_shared<T>(std::forward<Arguments>(arguments)...);
-    parts.push_back(made);
-    return *made;
-  }
-};
-using Make = std::function<void(World&)>;
-
-/// All that is seen of a run: rows, influences, energies and states, as they were looked at and at the end.
-std::string seen(Make const& make, std::uint64_t steps, std::uint64_t every, int threads, std::string* why = nullptr) {
-  World world;
-  make(world);
-  Simulation& simulation = *world.simulation;
-  simulation.threads(threads);
-  simulation.divide_from(0);
-  std::string all;
-  auto const add = [&](double const* numbers, std::size_t count) {
-    all.append(reinterpret_cast<char const*>(numbers), count * sizeof(double));
-  };
-  auto const look = [&](Simulation const& at) {
-    for (auto const* ensemble : at.ensembles()) {
-      add(ensemble->row(0), ensemble->size() * ensemble->stride());
-      add(ensemble->influences().data(), ensemble->influences().size());
-    }
-    auto const state = at.state();
-    add(state.data(), state.size());
-    if (team().first()) mesh_fields_of(at.schemes());  // as who writes them
-    auto const measures = at.measure();
-    double const numbers[] = {measures.potential, measures.external, measures.virial[0][0], measures.virial[0][1]};
-    add(numbers, 4);
-    for (auto const& energies : measures.per_particle) add(energies.data(), energies.size());
-    for (auto const* field : mesh_fields_of(at.schemes()))
-      for (auto const& component : field->components) add(component.data(), component.size());
-  };
-  simulation.observe(every, look);
-  simulation.run(steps / 2);
-  simulation.run(steps - steps / 2);
-  look(simulation);  // outside of a run every rank has all lists
-  if (why) *why = simulation.undivided();
-  return all;
-}
-
-/// The first number that differs; empty: none.
-std::string differs_at(std::string const& one, std::string const& other) {
-  if (one.size() != other.size()) return "sizes " + std::to_string(one.size()) + " and " + std::to_string(other.size());
-  for (std::size_t k = 0; k < one.size(); k += sizeof(double))
-    if (std::memcmp(one.data() + k, other.data() + k, sizeof(double)) != 0) {
-      double numbers[2];
-      std::memcpy(numbers, one.data() + k, sizeof(double));
-      std::memcpy(numbers + 1, other.data() + k, sizeof(double));
-      return "number " + std::to_string(k / sizeof(double)) + " of " + std::to_string(one.size() / sizeof(double)) +
-             ": " + std::to_string(numbers[0]) + " and " + std::to_string(numbers[1]);
-    }
-  return "";
-}
-
-void expect_same_bits(Make const& make, std::uint64_t steps, std::vector<int> const& sizes = {2, 3, 5, 8}) {
-  std::string why = "not asked";
-  auto const wanted = seen(make, steps, 7, 1, &why);
-  ASSERT_EQ(why, "") << "it is to be divided";
-  for (int const size : sizes) {
-    std::vector<std::string> all(static_cast<std::size_t>(size));
-    auto const thrown = ThreadTeam(size).run(
-        [&](Team& team) { all[static_cast<std::size_t>(team.rank())] = seen(make, steps, 7, size == 3 ? 2 : 1); });
-    for (auto const& failure : thrown) ASSERT_EQ(line_of(failure), "") << size << " ranks";
-    for (auto const& one : all) ASSERT_EQ(differs_at(one, wanted), "") << size << " ranks";
-  }
-}
-
-/// A Lennard-Jones crystal that melts.
-template <int D>
-void melt(World& world, int cells, double temperature, Boundary boundary) {
-  auto& atoms = world.make<Ensemble<Newton<D>>>("atoms");
-  double const spacing = 1.15, side = (D == 3 ? std::sqrt(2.0) : 1) * spacing * cells;
-  Vector<D> low, high;
-  for (int a = 0; a < D; ++a) low[a] = 0, high[a] = side;
-  auto& scheme = world.make<PairScheme>(Box(low, high, boundary), 2.5);
-  auto const count = static_cast<std::size_t>(cells);
-  block_load(atoms, {D == 3 ? Lattice::fcc : Lattice::square,
-                     spacing,
-                     {count, count, D == 3 ? count : 1},
-                     {0.3, 0.3, D == 3 ? 0.3 : 0}});
-  maxwellian_load(atoms, {.temperature = temperature, .seed = test_seed(3)});
-  scheme.internal(atoms, LennardJones{1.0, 1.0});
-  world.simulation = &world.make<Simulation>(scheme, 0.004);
-}
-
-/// A scenario, as it is run.
-Make scenario(char const* name, std::vector<std::string> const& set = {}) {
-  return [=](World& world) {
-    Overrides overrides;
-    overrides.set = set;
-    world.parts.push_back(load_scenario(find_scenario(name), overrides));
-    world.simulation = std::static_pointer_cast<ScenarioSimulation>(world.parts.back())->simulation.get();
-  };
-}
+using test::World;
 
 TEST(DividedRun, OfAFluidInThreeDimensions) {
   expect_same_bits([](World& world) { melt<3>(world, 7, 2.0, Boundary::periodic); }, 60);

@@ -60,11 +60,16 @@ void ManyBodyScheme::box_changed() {
   hood_.stale();
 }
 
-/// Copies all places into the points. PhysicsFailure if one is not finite.
-void ManyBodyScheme::copy_places() {
+/// As many points as particles.
+void ManyBodyScheme::count_points() {
   std::size_t count = 0;
   for (auto const& loaded : loaded_) count += loaded.ensemble->size();
   if (points_->size() != count) points_->resize(count);
+}
+
+/// Copies all places into the points. PhysicsFailure if one is not finite.
+void ManyBodyScheme::copy_places() {
+  count_points();
   auto const D = static_cast<std::size_t>(box().dimension());
   bool const elements = passes().first > D;
   std::size_t first = 0;
@@ -146,9 +151,14 @@ void ManyBodyScheme::find_answers(Passes const& passes, double* energies) {
   for (std::size_t k = 0; k < sorted.size(); ++k) energies[copy.order()[k]] += sorted[k];
 }
 
+void ManyBodyScheme::bring_particles() {
+  find_neighbours();
+  brought_ = true;
+}
+
 void ManyBodyScheme::add_influences(double) {
   ++calculations_;
-  find_neighbours();
+  if (!std::exchange(brought_, false)) find_neighbours();
   if (points_->size() == 0) return;
   Passes const passes = this->passes();
   find_answers(passes, nullptr);
@@ -216,9 +226,11 @@ void ManyBodyScheme::divide(Division* division) {
   if (division) {
     std::vector<AnyEnsemble*> all;
     for (auto const& loaded : loaded_) all.push_back(loaded.ensemble);
+    count_points();
     division->follow(*points_, all);
   }
   division_ = division;
+  brought_ = false;
   hood_.divide(division, threads());
 }
 

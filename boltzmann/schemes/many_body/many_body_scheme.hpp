@@ -32,6 +32,8 @@ class ManyBodyScheme : public Scheme {
   void make_reversible(double quantum) override;
   std::string undivided() const override { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
   bool shares_out() const override { return true; }
+  bool has_points() const override { return true; }
+  void bring_particles() override;
   void divide(Division* division) override;
   std::size_t bytes() const override;
   std::string report() const override;
@@ -73,6 +75,7 @@ class ManyBodyScheme : public Scheme {
   };
 
   void check_box() const;
+  void count_points();
   void copy_places();
   void find_neighbours();
   void find_answers(Passes const& passes, double* energies);
@@ -83,6 +86,7 @@ class ManyBodyScheme : public Scheme {
   double cutoff_, quantum_ = 0;
   std::size_t calculations_ = 0;
   Division* division_ = nullptr;         // while a run is divided
+  bool brought_ = false;                 // for the calculation that comes
   std::unique_ptr<AnyEnsemble> points_;  // the places of all atoms, ensemble after ensemble
   Neighbourhood hood_;
   std::size_t list_ = 0;

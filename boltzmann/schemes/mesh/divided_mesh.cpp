@@ -15,6 +15,11 @@ void MeshScheme::divide(Division* division) {
   pairs_.divide(division);
 }
 
+void MeshScheme::bring_particles() {
+  pairs_.threads(threads());
+  if (!pairs_.ensembles().empty()) pairs_.bring_particles();
+}
+
 /// Strengths of this rank's particles as they are now; where any rank has others than before, those of all.
 void MeshScheme::agree_on_strengths(Work& work) {
   bool changed = !agreed_;

@@ -130,8 +130,10 @@ class MeshScheme : public Scheme {
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   std::string undivided() const override;
+  bool shares_out() const override { return pairs_.shares_out(); }
   /// Each rank counts its particles onto the mesh; the whole of it is then solved by all.
   void divide(Division* division) override;
+  void bring_particles() override;
   EnergyAndVirial measure(double time = 0) override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;

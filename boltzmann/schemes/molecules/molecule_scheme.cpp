@@ -50,6 +50,9 @@ struct MoleculeScheme::Group {
   std::vector<std::uint32_t> slot;  // of each member: where the force on it goes
   std::vector<std::size_t> start;   // of each particle: its first slot
   std::vector<double> forces;
+  // In a run that is divided, of tuples that have a particle of this rank's share:
+  std::vector<std::uint32_t> own_members = {}, own_slot = {};
+  std::uint64_t division = 0, changes = 0;  // when they were found
 
   std::size_t count() const { return members.size() / each; }
 
@@ -61,6 +64,22 @@ struct MoleculeScheme::Group {
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
     for (auto const i : members) slot.push_back(static_cast<std::uint32_t>(next[i]++));
     forces.resize(members.size() * static_cast<std::size_t>(ensemble->dimension()));
+  }
+
+  /// Those that a share needs, unless they are known.
+  void find_own(Division const& of) {
+    if (division == of.id() && changes == of.changes()) return;
+    division = of.id();
+    changes = of.changes();
+    std::vector<std::uint32_t> tuple_of(members.size());  // that fills a slot
+    for (std::size_t k = 0; k < members.size(); ++k) tuple_of[slot[k]] = static_cast<std::uint32_t>(k / each);
+    std::vector<bool> own(count());
+    for (auto const& [begin, end] : ensemble->share()->stretches)
+      for (std::size_t k = start[begin]; k < start[end]; ++k) own[tuple_of[k]] = true;
+    own_members.clear();
+    own_slot.clear();
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (own[k / each]) own_members.push_back(members[k]), own_slot.push_back(slot[k]);
   }
 
   TupleTask task(Box const& box) const {
@@ -81,21 +100,28 @@ struct MoleculeScheme::Group {
     return t;
   }
 
-  void add_influences(Box const& box, double quantum, int threads) {
+  void add_influences(Box const& box, double quantum, Division const* divided, int threads) {
     TupleTask t = task(box);
+    std::size_t tuples = count();
+    if (divided) {
+      find_own(*divided);
+      t.members = own_members.data();
+      t.slot = own_slot.data();
+      tuples = own_members.size() / each;
+    }
     t.influence = forces.data();
     t.rounding = 1.5 * 4503599627370496.0 * quantum;
-    for_ranges(count(), tuples_grain, threads_for(count(), tuple_work, threads),
+    for_ranges(tuples, tuples_grain, threads_for(tuples, tuple_work, threads),
                [&](std::size_t begin, std::size_t end) { kernels.forces(law.get(), t, begin, end); });
     std::size_t const D = static_cast<std::size_t>(ensemble->dimension());
-    for_ranges(ensemble->size(), members_grain, threads_for(ensemble->size(), 1, threads),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   double* const influence = ensemble->influence(i);
-                   for (std::size_t k = start[i]; k < start[i + 1]; ++k)
-                     for (std::size_t a = 0; a < D; ++a) influence[a] += forces[k * D + a];
-                 }
-               });
+    for_share(*ensemble, members_grain, threads_for(ensemble->size(), 1, threads),
+              [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                  double* const influence = ensemble->influence(i);
+                  for (std::size_t k = start[i]; k < start[i + 1]; ++k)
+                    for (std::size_t a = 0; a < D; ++a) influence[a] += forces[k * D + a];
+                }
+              });
   }
 };
 
@@ -139,7 +165,22 @@ void MoleculeScheme::keeps(std::shared_ptr<RigidBonds const> bonds) {
 }
 
 void MoleculeScheme::add_influences(double) {
-  for (auto const& group : groups_) group->add_influences(box(), quantum_, threads());
+  for (auto const& group : groups_) {
+    if (division_ && !division_->brings(*group->ensemble)) division_->make_whole();
+    group->add_influences(box(), quantum_, division_, threads());
+  }
+}
+
+/// Rows of members elsewhere come with those of neighbours, where there are lists.
+void MoleculeScheme::divide(Division* division) {
+  division_ = division;
+  if (!division) return;
+  division->also_read([this](Division::Add const& add) {
+    for (auto const& group : groups_) {
+      group->find_own(*division_);
+      for (auto const i : group->own_members) add(*group->ensemble, i);
+    }
+  });
 }
 
 std::optional<std::uint64_t> MoleculeScheme::revision() const {
@@ -148,8 +189,9 @@ std::optional<std::uint64_t> MoleculeScheme::revision() const {
   return revision_with({});
 }
 
-/// Each member has an equal share of what its tuple has.
+/// Each member has an equal share of what its tuple has. Every rank measures all, for whom all rows are brought.
 EnergyAndVirial MoleculeScheme::measure(double) {
+  if (division_) division_->make_whole();
   auto measures = EnergyAndVirial::known();
   measures.reciprocal = true;
   auto const& all = ensembles();

@@ -52,6 +52,8 @@ class MoleculeScheme final : public Scheme {
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override { quantum_ = quantum; }
+  std::string undivided() const override { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
+  void divide(Division* division) override;
   std::size_t bytes() const override;
   std::string summary() const override;
   std::vector<double> state() const override { return {quantum_}; }
@@ -79,6 +81,7 @@ class MoleculeScheme final : public Scheme {
   void add_tuples(AnyEnsemble& ensemble, std::size_t each, std::vector<std::uint32_t> members, FormulaLaw const& law);
 
   double quantum_ = 0;
+  Division* division_ = nullptr;  // while a run is divided
   std::vector<std::unique_ptr<Group>> groups_;
   std::vector<std::shared_ptr<RigidBonds const>> rigid_;
 };

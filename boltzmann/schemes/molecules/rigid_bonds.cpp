@@ -17,6 +17,7 @@ namespace {
 
 constexpr int max_turns = 1000;
 constexpr std::size_t molecules_grain = 256;
+constexpr std::uint32_t no_molecule = ~std::uint32_t{0};
 
 }  // namespace
 
@@ -72,8 +73,15 @@ void RigidBonds::find_molecules() {
   std::vector<BondMembers> bonds;
   std::vector<double> lengths;
   start_.clear();
+  first_of_.resize(particles_);
+  for (std::uint32_t i = 0; i < particles_; ++i) first_of_[i] = find(i);
+  molecule_.assign(particles_, no_molecule);
   for (auto const k : order) {
-    if (bonds.empty() || find(bonds.back()[0]) != find(bonds_[k][0])) start_.push_back(bonds.size());
+    auto const first = first_of_[bonds_[k][0]];
+    if (molecule_[first] == no_molecule) {
+      molecule_[first] = static_cast<std::uint32_t>(start_.size());
+      start_.push_back(bonds.size());
+    }
     bonds.push_back(bonds_[k]);
     lengths.push_back(length_[k]);
   }
@@ -99,13 +107,29 @@ Vector<3> RigidBonds::between(std::uint32_t i, std::uint32_t j) const {
   return d;
 }
 
-template <class Function>
-void RigidBonds::each_molecule(int threads, Function const& function) const {
+void RigidBonds::check_size() const {
   if (ensemble_.size() != particles_)
     throw Error(fmt::format("ensemble '{}' had {} particles when it got rigid bonds, now it has {}", ensemble_.name(),
                             particles_, ensemble_.size()));
+}
+
+void RigidBonds::keep_together(Division& division) const {
+  check_size();
+  division.keep_together(ensemble_, first_of_);
+}
+
+template <class Function>
+void RigidBonds::each_molecule(int threads, Function const& function) const {
+  check_size();
   std::size_t const molecules = start_.size() - 1;
-  for_ranges(molecules, molecules_grain, threads_for(molecules, 8, threads), [&](std::size_t begin, std::size_t end) {
+  int const used = threads_for(molecules, 8, threads);
+  if (Share const* const share = ensemble_.share())
+    return for_stretches(share->stretches, used, [&](Stretch const* one, Stretch const* last) {
+      for (; one != last; ++one)
+        for (std::size_t i = one->begin; i < one->end; ++i)
+          if (auto const m = molecule_[i]; m != no_molecule) function(start_[m], start_[m + 1]);
+    });
+  for_ranges(molecules, molecules_grain, used, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) function(start_[m], start_[m + 1]);
   });
 }
@@ -170,7 +194,7 @@ void RigidBonds::correct_positions(double dt, int threads) {
   });
 }
 
-double RigidBonds::correct_velocities(int threads) {
+double RigidBonds::correct_velocities(int threads, Division* division) {
   int const D = box_.dimension();
   std::vector<double> added(bonds_.size(), 0.0);
   auto const triangle_is_corrected = [&](std::size_t begin, std::size_t end) {
@@ -225,6 +249,7 @@ double RigidBonds::correct_velocities(int threads) {
   });
   ExactSum work;
   work.add(added);
+  if (division) division->sum(work);
   return work.value();
 }
 
@@ -245,7 +270,9 @@ void RigidBonds::add_virial(std::vector<double>& per_particle) const {
   for (std::uint32_t i = 0; i < particles_; ++i)
     for (int a = 0; a < D; ++a) acceleration[i][a] = ensemble_.influence(i)[a] * member(i).inverse_mass;
   std::vector<double> tension(bonds_.size(), 0.0);  // q pulls p with tension times the vector from p to q
-  each_molecule(1, [&](std::size_t begin, std::size_t end) {
+  check_size();
+  for (std::size_t m = 0; m + 1 < start_.size(); ++m) {
+    std::size_t const begin = start_[m], end = start_[m + 1];
     for (int turn = 0; turn < max_turns; ++turn) {
       double largest = 0, greatest = 0;
       for (std::size_t k = begin; k < end; ++k) {
@@ -263,7 +290,7 @@ void RigidBonds::add_virial(std::vector<double>& per_particle) const {
       }
       if (largest <= 1e-13 * greatest) break;
     }
-  });
+  }
   for (std::size_t k = 0; k < bonds_.size(); ++k) {
     Vector<3> const d = between(bonds_[k][0], bonds_[k][1]);
     for (auto const i : bonds_[k])

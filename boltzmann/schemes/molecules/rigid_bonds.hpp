@@ -4,6 +4,7 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/neighbours/bonds.hpp>
+#include <boltzmann/particles/division.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <array>
@@ -36,6 +37,10 @@ class RigidBonds {
   std::size_t size() const { return bonds_.size(); }
   std::vector<BondMembers> const& bonds() const { return bonds_; }
 
+  /// In a run that is divided, what follows is of the molecules of this rank's share, each of which has one owner from now
+  /// on.
+  void keep_together(Division& division) const;
+
   /// Puts positions exactly where the bonds want them, and takes from velocities what stretches bonds: the start of a run.
   /// Error if a bond is off by more than a quarter of its length.
   void settle(int threads = 1);
@@ -44,10 +49,10 @@ class RigidBonds {
   /// Moves positions back onto the lengths, and changes velocities by as much over dt. PhysicsFailure if they can't be
   /// found.
   void correct_positions(double dt, int threads);
-  /// Takes from velocities what stretches bonds; the kinetic energy that this adds.
-  double correct_velocities(int threads);
+  /// Takes from velocities what stretches bonds; the kinetic energy that this adds, in a run that is divided on all ranks.
+  double correct_velocities(int threads, Division* division = nullptr);
   /// The virial of the forces in the bonds, for the positions, velocities and influences of now: that of each bond belongs
-  /// half to each end. Adds to 9 numbers a particle.
+  /// half to each end. Adds to 9 numbers a particle, of all molecules.
   void add_virial(std::vector<double>& per_particle) const;
 
  private:
@@ -59,6 +64,7 @@ class RigidBonds {
   Member member(std::uint32_t i) const;
   Vector<3> between(std::uint32_t i, std::uint32_t j) const;
   void find_molecules();
+  void check_size() const;
   template <class Function>
   void each_molecule(int threads, Function const& function) const;
 
@@ -69,7 +75,9 @@ class RigidBonds {
   int velocity_ = 0, mass_ = 0;
   std::vector<BondMembers> bonds_;
   std::vector<double> length_;
-  std::vector<std::size_t> start_;  // of each molecule, in the order of its bonds
+  std::vector<std::size_t> start_;       // of each molecule, in the order of its bonds
+  std::vector<std::uint32_t> first_of_;  // of each particle: the first one of its molecule
+  std::vector<std::uint32_t> molecule_;  // of each particle that is the first one: its molecule
   std::vector<Vector<3>> before_;
 };
 

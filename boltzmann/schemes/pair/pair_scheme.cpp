@@ -412,6 +412,7 @@ std::string PairScheme::undivided() const {
 
 void PairScheme::divide(Division* division) {
   division_ = division;
+  brought_ = false;
   reads_all_ = std::any_of(near_.begin(), near_.end(), [](auto const& near) { return near->all_pairs(); });
   for (auto const& connected : connected_) reads_all_ = reads_all_ || !neighbourhood_.has(*connected->ensemble);
   Neighbourhood::AlsoRead const partners = [this](auto const& add) {
@@ -426,9 +427,14 @@ void PairScheme::divide(Division* division) {
 
 /// Of other ranks, before influences are calculated: those near to this one's, by the lists; of ensembles that act
 /// without lists all.
-void PairScheme::bring_particles() {
+void PairScheme::find_rows() {
   if (division_ && reads_all_) division_->make_whole();
   neighbourhood_.refresh(threads());
+}
+
+void PairScheme::bring_particles() {
+  find_rows();
+  brought_ = true;
 }
 
 /// The targets of a law that belong to this rank, by ranges.
@@ -445,7 +451,7 @@ void PairScheme::over_targets(Near const& near, PairTask const& task, std::size_
 
 void PairScheme::calculate(double time, bool overwrite) {
   ++calculations_;
-  bring_particles();
+  if (!std::exchange(brought_, false)) find_rows();
   // The first law on an ensemble stores, further ones add.
   std::vector<AnyEnsemble*> clear;
   if (overwrite) clear = ensembles();
@@ -518,7 +524,7 @@ EnergyAndVirial PairScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal =
       std::none_of(external_.begin(), external_.end(), [](auto const& external) { return external->traits.moves(); });
-  bring_particles();
+  find_rows();
   auto const& all = ensembles();
   measures.per_particle.resize(all.size());
   auto& virial = measures.virial_per_particle;

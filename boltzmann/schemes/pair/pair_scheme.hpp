@@ -150,6 +150,7 @@ class PairScheme final : public Scheme {
   void make_reversible(double quantum) override;
   std::string undivided() const override;
   bool shares_out() const override { return !neighbourhood_.empty(); }
+  void bring_particles() override;
   void divide(Division* division) override;
   std::size_t bytes() const override;
   /// Warns of steps in which particles that meet move further than a quarter of the length over which the law between
@@ -221,7 +222,7 @@ class PairScheme final : public Scheme {
   struct External;
 
   void calculate(double time, bool overwrite);
-  void bring_particles();
+  void find_rows();
   template <class Kernel>
   void over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads, Kernel const& kernel) const;
   void gather_measures(EnergyAndVirial& measures, std::vector<std::vector<double>>& field);
@@ -236,6 +237,7 @@ class PairScheme final : public Scheme {
   std::size_t calculations_ = 0;
   Division* division_ = nullptr;  // while a run is divided
   bool reads_all_ = false;        // of what other ranks own
+  bool brought_ = false;          // for the calculation that comes
   Neighbourhood neighbourhood_;
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;

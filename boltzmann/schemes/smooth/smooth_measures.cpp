@@ -142,7 +142,7 @@ double SmoothScheme::courant_step() {
     AnyEnsemble const& ensemble = *loaded->ensemble;
     auto const range = ensemble.field("range").offset, speed = ensemble.field("sound_speed").offset,
                mass = ensemble.field("mass").offset;
-    for (std::size_t i = 0; i < ensemble.size(); ++i) {
+    auto const allowed_by = [&](std::size_t i) {
       double const* p = ensemble.row(i);
       double const h = smoothing_length(shape_) * p[range];
       double force2 = 0;
@@ -152,9 +152,12 @@ double SmoothScheme::courant_step() {
       longest = std::min(longest, std::min(sound, push));
       if (loaded->kernels.diffusivity)
         longest = std::min(longest, 0.125 * h * h / loaded->kernels.diffusivity(loaded->material.get(), p));
-    }
+    };
+    for_share(ensemble, ensemble.size() + 1, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) allowed_by(i);
+    });
   }
-  return longest;
+  return division_ ? division_->least(longest) : longest;
 }
 
 std::string SmoothScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {

@@ -259,7 +259,7 @@ void SmoothScheme::prepare() {
   }
   if (auto line = too_long(box(), longest_, hood_->cutoff(0) + hood_->skin()); !line.empty()) {
     if (vary) line += "; 'longest' of the variable range limits it";
-    if (calculations_ > 1) throw PhysicsFailure(line);
+    if (calculations_ > 1 || division_) throw PhysicsFailure(line);
     throw Error(line);
   }
 }
@@ -381,11 +381,21 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
   parameters_.push = loaded_.front()->kernels.push;
 }
 
-void SmoothScheme::find(Until until) {
+void SmoothScheme::find_places() {
   take_places();
   if (points_->size() == 0) return;
   prepare();
   hood_->refresh(threads());
+}
+
+void SmoothScheme::bring_particles() {
+  find_places();
+  brought_ = true;
+}
+
+void SmoothScheme::find(Until until) {
+  if (!std::exchange(brought_, false)) find_places();
+  if (points_->size() == 0) return;
   find_members();
   SortedCopy& copy = hood_->copy(*points_);
   Recipe const recipe = this->recipe();
@@ -443,10 +453,12 @@ void SmoothScheme::divide(Division* division) {
   if (division) {
     std::vector<AnyEnsemble*> all;
     for (auto const& loaded : loaded_) all.push_back(loaded->ensemble);
+    if (points_->size() != count()) points_->resize(count());
     division->follow(*points_, all);
   }
   division_ = division;
   members_of_build_ = 0;
+  brought_ = false;
   if (hood_) hood_->divide(division, threads());
 }
 

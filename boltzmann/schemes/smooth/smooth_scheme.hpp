@@ -97,6 +97,8 @@ class SmoothScheme final : public Scheme {
   void make_reversible(double quantum) override;
   std::string undivided() const override { return ""; }
   bool shares_out() const override { return true; }
+  bool has_points() const override { return true; }
+  void bring_particles() override;
   void divide(Division* division) override;
   std::size_t bytes() const override;
   std::vector<std::string> warnings(double step_size) override;
@@ -128,6 +130,7 @@ class SmoothScheme final : public Scheme {
   };
   Recipe recipe() const;
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
+  void find_places();
   void find(Until until);
   Tensor<3> stress();
   /// Of each particle: its grad-h factor, and two ranges that are too short and too long.
@@ -156,6 +159,7 @@ class SmoothScheme final : public Scheme {
   double skin_ = -1;                     // not chosen
   double longest_ = 0, shortest_ = 0;    // ranges of the particles
   Division* division_ = nullptr;         // while a run is divided
+  bool brought_ = false;                 // for the calculation that comes
   std::unique_ptr<AnyEnsemble> points_;  // the places of all particles, ensemble after ensemble
   std::unique_ptr<Neighbourhood> hood_;  // of the points; none before the first calculation
   std::vector<std::unique_ptr<Loaded>> loaded_;

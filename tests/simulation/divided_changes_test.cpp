@@ -1,0 +1,360 @@
+// Divided runs in which something changes between steps or particles hang together: events, adaptations, barostats,
+// molecules, several lists, substeps. All have the bits of one rank.
+#include "tests/simulation/divided_runs.hpp"
+
+#include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/pair_dissipation.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
+#include <boltzmann/laws/angular.hpp>
+#include <boltzmann/laws/materials/ideal_gas.hpp>
+#include <boltzmann/laws/soft.hpp>
+#include <boltzmann/laws/spring.hpp>
+#include <boltzmann/laws/uniform.hpp>
+#include <boltzmann/neighbours/bonds.hpp>
+#include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
+#include <boltzmann/schemes/smooth/smooth_scheme.hpp>
+#include <boltzmann/simulation/velocity_changes.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/seed.hpp>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace boltzmann::divided_changes_test {
+namespace {
+
+using test::expect_same_bits;
+using test::Make;
+using test::melt;
+using test::scenario;
+using test::World;
+
+template <class T>
+T& part_of(World& world, std::size_t number) {
+  return *static_cast<T*>(world.parts[number].get());
+}
+
+// ---- Events ----
+
+TEST(DividedEvents, ChangeVelocitiesLawsAndMethods) {
+  expect_same_bits(
+      [](World& world) {
+        melt<2>(world, 30, 1.0, Boundary::reflecting);
+        auto& atoms = part_of<Ensemble<Newton<2>>>(world, 0);
+        auto& scheme = part_of<PairScheme>(world, 1);
+        Simulation& simulation = *world.simulation;
+        simulation.happen(
+            0.02,
+            [&] {
+              kick({{&atoms, {3, 5, 700}}}, {0.5, -0.2, 0});
+            },
+            false);
+        simulation.happen(
+            0.05, [&] { scheme.internal(atoms, Soft{.repulsion = 0.1, .range = 1.7}, 1.7); }, true);
+        simulation.happen(
+            0.05, [&] { scheme.skin(0.4); }, true);
+        simulation.happen(
+            0.09, [&] { simulation.integrate(atoms, Method::rk2); }, true);
+        simulation.happen(
+            0.1,
+            [&] {
+              scheme.external(atoms, UniformGravity<2>{{0.1, 0}});
+            },
+            true);
+      },
+      40, {2, 3, 5});
+}
+
+TEST(DividedEvents, OfScenarios) {
+  ScenarioText const text{R"(
+[units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [24, 24]
+boundary = "periodic"
+[run]
+step = 0.005
+steps = 60
+cutoff = 2.5
+[[ensembles]]
+name = "atoms"
+class = "Newton"
+temperature = 0.5
+load = { kind = "lattice", lattice = "square", spacing = 1.2 }
+[[influences]]
+law = "lennard-jones"
+on = "atoms"
+depth = 1
+r0 = 1.12
+[[dissipation]]
+kind = "langevin"
+on = "atoms"
+temperature = 0.5
+rate = 1
+[[events]]
+at = 0.05
+set = { "dissipation.0.temperature" = 1.5 }
+[[events]]
+at = 0.1
+temperature = 0.1
+where = "x < 8"
+[[events]]
+at = 0.1
+kick = [0.5, 0]
+where = "y < 4"
+)",
+                          "events.toml", "events", ""};
+  expect_same_bits(scenario(text), 40, {2, 3, 5});
+}
+
+// ---- Adaptations ----
+
+TEST(DividedAdaptations, PutAtomsInAndTakeThemOut) {
+  expect_same_bits(
+      [](World& world) {
+        melt<2>(world, 26, 0.5, Boundary::reflecting);
+        auto& atoms = part_of<Ensemble<Newton<2>>>(world, 0);
+        auto& times = world.make<int>(0);
+        world.simulation->adapt(5, [&] {
+          switch (++times % 4) {
+            case 0:
+              return;  // nothing
+            case 1:
+              return atoms.resize(atoms.size() - 37);
+            case 2:
+              atoms[11].velocity[0] += 0.3;
+              return;
+            default:
+              Newton<2> atom = atoms[atoms.size() - 1];
+              atom.position[1] += 1.15;
+              atoms.add(atom);
+          }
+        });
+      },
+      50, {2, 3, 5});
+}
+
+TEST(DividedAdaptations, OfMetals) {
+  expect_same_bits(
+      [](World& world) {
+        scenario("copper-3d")(world);
+        auto& copper = *world.simulation->schemes()[0]->ensembles()[0];
+        world.simulation->adapt(4, [&] { copper.resize(copper.size() - 3); });
+      },
+      12, {2, 3});
+}
+
+TEST(DividedAdaptations, RezoneAGas) {
+  ScenarioText const text{R"toml(
+[units]
+base = "si"
+[box]
+low = [0, 0]
+high = [1, 1]
+boundary = ["periodic", "mirror"]
+[run]
+step = 0.005
+steps = 40
+[smooth]
+[[smooth.rezone]]
+every = 5
+on = "gas"
+split_above = "1.1 kg/m^2"
+smallest_mass = "1 g"
+merge_below = "900 g/m^2"
+largest_mass = 0.005
+merge_within = 0.7
+[[ensembles]]
+name = "gas"
+class = "Smooth"
+range = 0.13
+integrator = "leap-frog"
+load = { kind = "fill", spacing = 0.05 }
+formulas = { density = "(1 + 0.4*sin(2*pi*x/(1 m)))*(1 kg/m^2)", specific_energy = "1" }
+material = { kind = "ideal-gas", gamma = 1.4, specific_heat = 1 }
+)toml",
+                          "rezone.toml", "rezone", ""};
+  expect_same_bits(scenario(text), 22, {2, 3, 5});
+}
+
+TEST(DividedAdaptations, RemeshVortices) { expect_same_bits(scenario("lamb-oseen-exchange"), 9, {2, 3}); }
+
+// ---- Barostats ----
+
+void hold_pressure(World& world, BarostatMethod method, bool together) {
+  BarostatOptions options{.pressure = 0.5, .temperature = 1, .compressibility = 0.1, .rate = 5};
+  options.every = 4;
+  options.method = method;
+  options.together = together;
+  world.simulation->add(Barostat(options, 1));
+}
+
+void add_bath(World& world, AnyEnsemble& ensemble) {
+  auto& bath = world.make<LangevinBath>(1.0, 1.0, 1.0);
+  bath.on(ensemble);
+  world.simulation->add(bath);
+}
+
+TEST(DividedBarostats, StretchAFluid) {
+  for (auto const method : {BarostatMethod::cell_rescaling, BarostatMethod::mtk})
+    expect_same_bits(
+        [&](World& world) {
+          melt<3>(world, 5, 1.0, Boundary::periodic);
+          add_bath(world, part_of<Ensemble<Newton<3>>>(world, 0));
+          hold_pressure(world, method, method == BarostatMethod::mtk);
+        },
+        18, {2, 3, 5});
+}
+
+TEST(DividedBarostats, StretchAMetal) {
+  expect_same_bits(scenario("copper-melting", {"equilibrate.time=9 fs", "barostat.every=3"}), 8, {2, 3});
+}
+
+// ---- Molecules ----
+
+struct ChainOptions {
+  std::size_t each = 5;  // particles of a molecule
+  bool rigid = false;    // bonds; and of triangles the third side
+  bool lists = true;     // a law between all that has a cut-off
+  bool scaled = false;   // it is left out between neighbours, and halved between next ones
+  bool pressure = false;
+};
+
+/// Molecules at places of a cubic lattice, zigzags along x (three particles: equilateral triangles).
+void chains(World& world, ChainOptions const& options) {
+  auto& atoms = world.make<Ensemble<Newton<3>>>("atoms");
+  std::size_t const each = options.each, side = 4;
+  double const width = 2.4, length = std::max(width, 0.9 * static_cast<double>(each));
+  std::array<double, 3> const edge{length * side, width * side, width * side};
+  Box const box(Vector{0.0, 0.0, 0.0}, Vector{edge[0], edge[1], edge[2]}, Boundary::periodic);
+  for (std::size_t m = 0; m < side * side * side; ++m)
+    for (std::size_t k = 0; k < each; ++k) {
+      Newton<3> atom{};
+      atom.mass = 1 + 0.5 * static_cast<double>(k % 2);
+      atom.position = {length * static_cast<double>(m % side) + 0.5 * std::sqrt(3.0) * static_cast<double>(k),
+                       width * (static_cast<double>(m / side % side) + 0.07 * static_cast<double>(m % 5)) +
+                           0.5 * static_cast<double>(k % 2),
+                       width * static_cast<double>(m / side / side)};
+      if (each == 3)
+        atom.position[0] -= 0.5 * std::sqrt(3.0) * static_cast<double>(k) - 0.5 * static_cast<double>(k),
+            atom.position[1] += (0.5 * std::sqrt(3.0) - 0.5) * static_cast<double>(k % 2);
+      atoms.add(atom);
+    }
+  maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(5)});
+  auto const bonds = chain_bonds(atoms.size(), each);
+  auto rigid_bonds = bonds;
+  if (each == 3)
+    for (auto const& bond : repeated(std::vector<BondMembers>{{0, 2}}, 3, atoms.size())) rigid_bonds.push_back(bond);
+
+  auto& molecules = world.make<MoleculeScheme>(box);
+  auto& pairs = world.make<PairScheme>(box, 2.4);
+  if (options.scaled) pairs.bonded_factors(atoms, bonds, {0, 0.5});
+  if (options.lists) pairs.internal(atoms, Soft{.repulsion = 4, .range = 2.4}, 2.4);
+  if (each > 3) {
+    molecules.angles(atoms, angles_along(bonds), HarmonicAngle{.stiffness = 10, .rest_angle = 2});
+    molecules.dihedrals(atoms, dihedrals_along(bonds), FourierDihedral{.stiffness = 2, .multiplicity = 3, .phase = 0});
+  }
+  if (!options.rigid) pairs.connect(atoms, connections_of(bonds), Spring{.stiffness = 100, .rest_length = 1});
+  pairs.add(atoms);
+  molecules.add(atoms);
+  world.simulation = &world.make<Simulation>(molecules, 0.01);
+  world.simulation->add(pairs);
+  add_bath(world, atoms);
+  if (options.rigid) {
+    auto const rigid = std::make_shared<RigidBonds>(atoms, molecules.box(), rigid_bonds, 1);
+    rigid->settle();
+    molecules.keeps(rigid);
+    world.simulation->integrate(atoms, with_rigid_bonds(rigid, make_integrator(atoms, Method::leap_frog)));
+    world.simulation->add(world.make<RigidVelocities>(rigid));
+  }
+  if (options.pressure) hold_pressure(world, BarostatMethod::cell_rescaling, true);
+}
+
+void expect_same_chains(ChainOptions const& options) {
+  expect_same_bits([&](World& world) { chains(world, options); }, 40, {2, 3, 5});
+}
+
+TEST(DividedMolecules, BendAndTurn) { expect_same_chains({}); }
+TEST(DividedMolecules, LeaveOutBondedPairs) { expect_same_chains({.scaled = true}); }
+TEST(DividedMolecules, WithoutLists) { expect_same_chains({.lists = false}); }
+TEST(DividedMolecules, OfRigidBonds) { expect_same_chains({.each = 4, .rigid = true}); }
+TEST(DividedMolecules, OfRigidTriangles) { expect_same_chains({.each = 3, .rigid = true}); }
+TEST(DividedMolecules, UnderAPressure) {
+  expect_same_chains({.pressure = true});
+  expect_same_chains({.each = 3, .rigid = true, .pressure = true});
+}
+TEST(DividedMolecules, OfAMelt) { expect_same_bits(scenario("polymer-melt"), 30, {2, 3, 5}); }
+
+// ---- Several lists ----
+
+/// Atoms of a melt, others among them which no list of the first scheme knows, and a second law with lists between all.
+void two_lists(World& world, std::int64_t every_first, std::int64_t every_second) {
+  melt<2>(world, 24, 1.0, Boundary::periodic);
+  auto& atoms = part_of<Ensemble<Newton<2>>>(world, 0);
+  auto& first = part_of<PairScheme>(world, 1);
+  auto& others = world.make<Ensemble<Newton<2>>>("others");
+  for (std::size_t i = 0; i < atoms.size(); i += 3) {
+    Newton<2> other = atoms[i];
+    other.position = other.position + 0.57;
+    other.mass = 0.3;
+    others.add(other);
+  }
+  auto& second = world.make<PairScheme>(first.box(), 1.9);
+  second.internal(others, Soft{.repulsion = 1, .range = 1.9}, 1.9);
+  second.between(atoms, others, Soft{.repulsion = 0.5, .range = 1.2}, 1.2);
+  second.internal(atoms, Soft{.repulsion = 0.2, .range = 3}, 3);
+  world.simulation->add(second);
+  if (every_first > 1) world.simulation->every(every_first, first);
+  if (every_second > 1) world.simulation->every(every_second, second);
+}
+
+TEST(DividedLists, OfTwoSchemes) {
+  expect_same_bits([](World& world) { two_lists(world, 1, 1); }, 60, {2, 3, 5});
+}
+
+TEST(DividedLists, OfForcesOfEveryFewSteps) {
+  expect_same_bits([](World& world) { two_lists(world, 1, 3); }, 60, {2, 3, 5});
+  expect_same_bits([](World& world) { two_lists(world, 4, 1); }, 60, {3});
+}
+
+TEST(DividedLists, BesideAMetal) {
+  expect_same_bits(
+      [](World& world) {
+        scenario("copper-3d")(world);
+        Scheme& metal = *world.simulation->schemes()[0];
+        auto& copper = dynamic_cast<Ensemble<Newton<3>>&>(*metal.ensembles()[0]);
+        auto& pairs = world.make<PairScheme>(metal.box(), 3.0);
+        pairs.internal(copper, Soft{.repulsion = 1e-3, .range = 3}, 3.0);
+        world.simulation->add(pairs);
+      },
+      16, {2, 3});
+}
+
+// ---- Substeps ----
+
+TEST(DividedSubsteps, FollowWhatIsFastest) {
+  expect_same_bits(
+      [](World& world) {
+        melt<2>(world, 26, 2.0, Boundary::reflecting);
+        auto& atoms = part_of<Ensemble<Newton<2>>>(world, 0);
+        atoms[40].velocity = {12, 5};
+        world.simulation->divide_steps({.distance = 0.01});
+      },
+      14, {2, 3, 5});
+}
+
+TEST(DividedSubsteps, OfTwoLists) {
+  expect_same_bits(
+      [](World& world) {
+        two_lists(world, 1, 1);
+        world.simulation->divide_steps({.distance = 0.02, .energy = 0.1});
+      },
+      14, {2, 3});
+}
+
+}  // namespace
+}  // namespace boltzmann::divided_changes_test
