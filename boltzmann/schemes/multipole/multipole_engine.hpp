@@ -44,6 +44,8 @@ class MultipoleEngine {
   virtual void add(double const* places, std::size_t count) = 0;
   virtual std::size_t count() const = 0;
 
+  /// The ranks of this team, all of which have collected the same, do it together from here on; null: no more.
+  virtual void divide(Team* team) = 0;
   virtual void choose(MultipoleChoice const& choice) = 0;
   virtual void calculate(bool with_potential, int threads) = 0;
   /// Whether calculations note how near particles come to what acts on them: see MultipoleField.
@@ -72,7 +74,7 @@ class MultipoleEngine {
   };
   virtual Squares compare(int part, std::size_t i, double const* found, double const* exact) const = 0;
 
-  /// Adds what the last calculation has found to the influences.
+  /// Adds what the last calculation has found to the influences (of this rank's share, in a divided run).
   virtual void add_influences(std::vector<LoadedSources> const& loaded, int threads) const = 0;
   virtual EnergyAndVirial measure(std::vector<LoadedSources> const& loaded) const = 0;
   /// Whether particles at one place push each other to infinity.
@@ -125,6 +127,7 @@ class EngineOf : public MultipoleEngine {
     }
   }
   std::size_t count() const final { return points_.size(); }
+  void divide(Team* team) final { multipoles_.divide(team); }
   void choose(MultipoleChoice const& choice) final { multipoles_.choose(choice); }
   void calculate(bool with_potential, int threads) final { multipoles_.calculate(points_, with_potential, threads); }
   void watch(bool yes) final { multipoles_.watch(yes); }

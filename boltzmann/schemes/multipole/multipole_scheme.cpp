@@ -228,7 +228,24 @@ std::vector<VortexSource> MultipoleScheme::vortices() const {
   return all;
 }
 
+/// While all ranks of a divided run calculate.
+class MultipoleScheme::Together {
+ public:
+  explicit Together(MultipoleScheme& scheme) : engine_(*scheme.engine_) {
+    if (!scheme.division_) return;
+    scheme.division_->make_whole();
+    engine_.divide(&scheme.division_->team());
+  }
+  ~Together() { engine_.divide(nullptr); }
+  Together(Together const&) = delete;
+  Together& operator=(Together const&) = delete;
+
+ private:
+  MultipoleEngine& engine_;
+};
+
 void MultipoleScheme::add_influences(double /*time*/) {
+  Together const together(*this);
   calculate_field(false);
   last_ = chosen_and_taken();
   engine_->add_influences(loaded_, threads());
@@ -249,6 +266,7 @@ class MultipoleScheme::Look {
 
 EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
   Look const look(*this);
+  Together const together(*this);
   calculate_field(true);
   return engine_->measure(loaded_);
 }

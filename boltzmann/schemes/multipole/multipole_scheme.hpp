@@ -120,6 +120,9 @@ class MultipoleScheme final : public Scheme {
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
+  std::string undivided() const override { return ""; }
+  /// All ranks have all particles, and each finds what a part of them feels.
+  void divide(Division* division) override { division_ = division; }
   std::size_t bytes() const override;
   std::string summary() const override;
   std::string report() const override;
@@ -129,6 +132,7 @@ class MultipoleScheme final : public Scheme {
  private:
   MultipoleScheme(Box box, double tolerance, std::optional<LaplaceLaw> law);
   class Look;
+  class Together;
   class Watched;
 
   void load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts);
@@ -152,6 +156,7 @@ class MultipoleScheme final : public Scheme {
   std::optional<LaplaceLaw> law_;
   std::optional<VortexLaw> vortex_law_;
   double tolerance_;
+  Division* division_ = nullptr;  // while a run is divided
   std::vector<LoadedSources> loaded_;
   std::unique_ptr<MultipoleEngine> engine_;
   double criterion_ = 0;  // the error that one interaction may make; 0: not chosen yet

@@ -1,0 +1,64 @@
+// Cuts by the work of before, and the messages that bring together what ranks have found.
+#include <boltzmann/schemes/multipole/leaf_shares.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace boltzmann {
+
+LeafShares::Cuts LeafShares::even(std::size_t items, std::size_t multiple) const {
+  Cuts cuts;
+  std::size_t const parts = (items + multiple - 1) / multiple;
+  for (std::size_t r = 0; r <= ranks(); ++r) cuts.push_back(std::min(items, parts * r / ranks() * multiple));
+  return cuts;
+}
+
+LeafShares::Cuts LeafShares::balanced(std::size_t items) const {
+  if (cuts_.size() != ranks() + 1) return even(items);
+  Cuts cuts;
+  for (double const cut : cuts_) cuts.push_back(static_cast<std::size_t>(cut * static_cast<double>(items)));
+  cuts.back() = items;
+  return cuts;
+}
+
+/// Cuts where all work would be in equal parts if that of each stretch were spread evenly over it.
+void LeafShares::took(Cuts const& cuts, std::vector<double> const& work) {
+  double const all = std::accumulate(work.begin(), work.end(), 0.0), items = static_cast<double>(cuts.back());
+  if (!(all > 0)) return;
+  std::vector<double> next{0};
+  double before = 0;
+  for (std::size_t r = 0; r < work.size(); ++r) {
+    double const begin = static_cast<double>(cuts[r]) / items, end = static_cast<double>(cuts[r + 1]) / items;
+    while (next.size() < work.size()) {
+      double const wanted = all * static_cast<double>(next.size()) / static_cast<double>(work.size());
+      if (wanted > before + work[r]) break;
+      next.push_back(work[r] > 0 ? begin + (end - begin) * (wanted - before) / work[r] : begin);
+    }
+    before += work[r];
+  }
+  next.resize(work.size(), 1);
+  next.push_back(1);
+  cuts_ = std::move(next);
+}
+
+void LeafShares::bring(std::vector<Found> const& arrays) const {
+  std::vector<Team::Message> messages;
+  auto const part = [](Found const& array, std::size_t r) {
+    std::size_t const begin = (*array.cuts)[r], end = (*array.cuts)[r + 1];
+    return std::pair(static_cast<char*>(array.first) + begin * array.bytes, (end - begin) * array.bytes);
+  };
+  for (std::size_t r = 0; r < ranks(); ++r) {
+    if (r == rank()) continue;
+    for (Found const& array : arrays) {
+      auto const [theirs, their_size] = part(array, r);
+      auto const [mine, my_size] = part(array, rank());
+      messages.push_back({static_cast<int>(r), true, theirs, their_size});
+      messages.push_back({static_cast<int>(r), false, mine, my_size});
+    }
+  }
+  team_->meet(Team::Occasion::exchanges);
+  team_->exchange(messages);
+}
+
+}  // namespace boltzmann
