@@ -130,6 +130,7 @@ class MeshScheme : public Scheme {
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   std::string undivided() const override;
+  bool shares_out() const override { return pairs_.shares_out(); }
   /// Each rank counts its particles onto the mesh; the whole of it is then solved by all.
   void divide(Division* division) override;
   EnergyAndVirial measure(double time = 0) override;
@@ -150,6 +151,8 @@ class MeshScheme : public Scheme {
   /// Adds the virial of what the mesh gives, or says why it can't be had.
   virtual void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
                           EnergyAndVirial& measures) const;
+  /// While a run is divided.
+  Division* division() const { return division_; }
   /// From now on assignment(), form() and boundary() are refused.
   void chosen_by_accuracy() { chosen_by_accuracy_ = true; }
 

@@ -24,6 +24,7 @@ struct P3MScheme::Near {
   std::unique_ptr<AnyEnsemble> sources;
   int amount;  ///< where the strength stands in a row
   PairScheme scheme;
+  std::unique_ptr<Division> division;  ///< of the sources alone, by their lists: who owns particles is another matter
 
   Near(std::unique_ptr<AnyEnsemble> ensemble, int amount, Box const& box, EwaldShort const& law, double cutoff)
       : sources(std::move(ensemble)), amount(amount), scheme(box, cutoff) {
@@ -37,6 +38,22 @@ struct P3MScheme::Near {
   static std::unique_ptr<Near> make(Box const& box, EwaldShort const& law, double cutoff) {
     return std::make_unique<Near>(std::make_unique<Ensemble<PointSource<D>>>("sources"),
                                   offset_of<PointSource<D>>(&PointSource<D>::amount), box, law, cutoff);
+  }
+
+  /// From here on by this team, on each rank of which all sources are known; null: no more.
+  void divide(Team* team) {
+    if (!team) {
+      if (!division || !division->goes_on()) return;
+      scheme.divide(nullptr);
+      return division->end();
+    }
+    if (division && division->goes_on()) return;
+    if (!division || &division->team() != team || division->owners(*sources).size() != sources->size()) {
+      division = std::make_unique<Division>(*team);
+      division->add(*sources);
+    }
+    division->begin();
+    scheme.divide(division.get());
   }
 };
 
@@ -185,20 +202,39 @@ void P3MScheme::copy_particles() {
   near_->scheme.threads(threads());
 }
 
+void P3MScheme::divide(Division* division) {
+  MeshScheme::divide(division);
+  if (!division && near_) near_->divide(nullptr);
+}
+
+/// As all particles are now. In a divided run, where these are known everywhere, the sources are divided from here on.
+void P3MScheme::update_sources() {
+  copy_particles();
+  if (division()) near_->divide(&division()->team());
+}
+
 std::vector<MeshField const*> P3MScheme::mesh_fields() {
   tune();
   return MeshScheme::mesh_fields();
 }
 
 void P3MScheme::add_influences(double time) {
+  if (division()) division()->make_whole();
   tune();
   MeshScheme::add_influences(time);
-  copy_particles();
+  update_sources();
   near_->scheme.calculate(time);
+  AnyEnsemble& sources = *near_->sources;
+  if (division()) {
+    division()->team().meet(Team::Occasion::exchanges);
+    near_->division->gather(sources, sources.influence(0), sources.influence_size(), sources.influence_size());
+  }
   std::size_t at = 0;
   for (auto* ensemble : Scheme::ensembles()) {
-    for (std::size_t i = 0; i < ensemble->size(); ++i)
-      for (int a = 0; a < box().dimension(); ++a) ensemble->influence(i)[a] += near_->sources->influence(at + i)[a];
+    for_share(*ensemble, 4096, threads_for(ensemble->size(), 1, threads()), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (int a = 0; a < box().dimension(); ++a) ensemble->influence(i)[a] += sources.influence(at + i)[a];
+    });
     at += ensemble->size();
   }
 }
@@ -261,9 +297,10 @@ void P3MScheme::add_virial(MeshField const& density, MeshField const& potential,
 }
 
 EnergyAndVirial P3MScheme::measure(double time) {
+  if (division()) division()->make_whole();
   tune();
   EnergyAndVirial measures = MeshScheme::measure(time);
-  copy_particles();
+  update_sources();
   EnergyAndVirial const near = near_->scheme.measure(time);
   measures.reciprocal = measures.reciprocal && near.reciprocal;
   P3mSystem const system = this->system();
