@@ -2,7 +2,6 @@
 #include <boltzmann/schemes/multipole/leaf_shares.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace boltzmann {
@@ -22,22 +21,28 @@ LeafShares::Cuts LeafShares::balanced(std::size_t items) const {
   return cuts;
 }
 
-/// Cuts where all work would be in equal parts if that of each stretch were spread evenly over it.
-void LeafShares::took(Cuts const& cuts, std::vector<double> const& work) {
-  double const all = std::accumulate(work.begin(), work.end(), 0.0), items = static_cast<double>(cuts.back());
+/// Cuts where all work would be in equal shares if that of each part were spread evenly over it.
+void LeafShares::took(Cuts const& cuts, std::vector<Work> const& work) {
+  double all = 0;
+  for (Work const& of_rank : work)
+    for (auto const part : of_rank) all += static_cast<double>(part);
   if (!(all > 0)) return;
+  auto const items = static_cast<double>(cuts.back());
   std::vector<double> next{0};
   double before = 0;
   for (std::size_t r = 0; r < work.size(); ++r) {
     double const begin = static_cast<double>(cuts[r]) / items, end = static_cast<double>(cuts[r + 1]) / items;
-    while (next.size() < work.size()) {
-      double const wanted = all * static_cast<double>(next.size()) / static_cast<double>(work.size());
-      if (wanted > before + work[r]) break;
-      next.push_back(work[r] > 0 ? begin + (end - begin) * (wanted - before) / work[r] : begin);
+    for (std::size_t k = 0; k < parts; ++k) {
+      auto const of_part = static_cast<double>(work[r][k]);
+      while (next.size() < work.size()) {
+        double const wanted = all * static_cast<double>(next.size()) / static_cast<double>(work.size());
+        if (wanted > before + of_part) break;
+        double const part = static_cast<double>(k) + (of_part > 0 ? (wanted - before) / of_part : 0);
+        next.push_back(begin + (end - begin) * part / parts);
+      }
+      before += of_part;
     }
-    before += work[r];
   }
-  next.resize(work.size(), 1);
   next.push_back(1);
   cuts_ = std::move(next);
 }

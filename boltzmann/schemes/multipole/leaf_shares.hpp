@@ -3,7 +3,9 @@
 
 #include <boltzmann/core/team.hpp>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace boltzmann {
@@ -25,8 +27,10 @@ class LeafShares {
   Cuts even(std::size_t items, std::size_t multiple = 1) const;
   /// As much work for each of so many items, as far as is known from calculations before.
   Cuts balanced(std::size_t items) const;
-  /// What each rank had to do in stretches cut so.
-  void took(Cuts const& cuts, std::vector<double> const& work);
+  /// What each rank had to do in the parts of its stretch, equal in items, from the first on, where they were cut so.
+  static constexpr std::size_t parts = 32;
+  using Work = std::array<std::uint64_t, parts>;
+  void took(Cuts const& cuts, std::vector<Work> const& work);
 
   /// An array of which each rank has found its stretch.
   struct Found {

@@ -81,6 +81,7 @@ struct MultipoleField<Kind>::Workspace {
   std::vector<Softened> softened;
   Scratch scratch;
   std::size_t translations = 0, pairs = 0;
+  LeafShares::Work work{};  ///< in parts of this rank's stretch
 };
 
 template <class Kind>
@@ -330,7 +331,11 @@ void MultipoleField<Kind>::visit(Visit visit, Workspace& work, std::vector<Visit
     work.shifted[i].radius = tree_.nodes()[work.far[i].node].radius;
     work.shifted[i].numbers = moments(work.far[i].node);
   }
-  if (begins_own(node)) work.translations += Kind::densities * work.far.size();
+  if (begins_own(node)) {
+    std::size_t const translations = Kind::densities * work.far.size();
+    work.translations += translations;
+    work.work[part_of(node)] += static_cast<std::uint64_t>(work_of({0, translations, 0}));
+  }
   for (int k = 0; k < Kind::densities; ++k) {
     std::size_t const from = k * tables_.size();
     double* const local = visit.local.data() + from;
@@ -550,6 +555,7 @@ void MultipoleField<Kind>::add_near(Law const& law, PairTask const& task, Worksp
 template <class Kind>
 void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work) {
   auto const& particles = tree_.particles();
+  std::size_t const before = work.pairs;
   // The leaf's own stand first, so that the kernel knows who is the same.
   work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
   work.bare.clear();
@@ -588,6 +594,8 @@ void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit,
   add_softening(own, visit, work, task.influence, potential);
   for (Other const& other : work.outside) add_outside(own, other, task.influence, potential, work.scratch);
   if (watched_) note_nearness(leaf, visit, work);
+  auto const evaluations = static_cast<double>(leaf.size() * (1 + work.outside.size())) * pairs_of_an_evaluation_;
+  work.work[part_of(leaf)] += work.pairs - before + static_cast<std::uint64_t>(evaluations);
 }
 
 /// Of the edge of a target to what acts on its local expansion.
@@ -651,21 +659,31 @@ std::size_t MultipoleField<Kind>::between_leaves(std::size_t particle) const {
 
 /// What each rank has found, and what it took.
 template <class Kind>
-void MultipoleField<Kind>::bring_fields() {
-  std::vector<MultipoleCost> costs(shares_.ranks());
-  costs[shares_.rank()] = cost_;
+void MultipoleField<Kind>::bring_fields(LeafShares::Work const& work) {
+  struct Took {
+    std::size_t translations, pairs;
+    LeafShares::Work work;
+  };
+  std::vector<Took> took(shares_.ranks());
+  took[shares_.rank()] = {cost_.translations, cost_.pairs, work};
   auto const one_each = shares_.even(shares_.ranks());
   shares_.bring({{sorted_field_.data(), Kind::width * sizeof(double), &cuts_},
                  {sorted_potential_.data(), with_potential_ ? sizeof(double) : 0, &cuts_},
                  {sorted_nearness_.data(), watched_ ? sizeof(float) : 0, &cuts_},
-                 {costs.data(), sizeof costs[0], &one_each}});
+                 {took.data(), sizeof took[0], &one_each}});
   cost_.translations = cost_.pairs = 0;
-  std::vector<double> work;
-  for (std::size_t r = 0; r < costs.size(); ++r) {
-    cost_.translations += costs[r].translations, cost_.pairs += costs[r].pairs;
-    work.push_back(work_of(costs[r]) + pairs_of_an_evaluation_ * static_cast<double>(cuts_[r + 1] - cuts_[r]));
+  std::vector<LeafShares::Work> all;
+  for (Took const& one : took) {
+    cost_.translations += one.translations, cost_.pairs += one.pairs;
+    all.push_back(one.work);
   }
-  shares_.took(cuts_, work);
+  shares_.took(cuts_, all);
+}
+
+/// Of this rank's stretch, for whoever balances the work.
+template <class Kind>
+std::size_t MultipoleField<Kind>::part_of(TreeNode const& node) const {
+  return (node.begin - own_.begin) * LeafShares::parts / (own_.end - own_.begin);
 }
 
 template <class Kind>
@@ -694,15 +712,19 @@ void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_pot
     std::swap(open, next);
   }
   std::atomic<std::size_t> translations = work.translations, pairs = work.pairs;
+  std::array<std::atomic<std::uint64_t>, LeafShares::parts> parts;
+  for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = work.work[k];
   for_ranges(open.size(), 1, threads_for(count, 8, threads), [&](std::size_t begin, std::size_t end) {
     Workspace own;
     for (std::size_t i = begin; i < end; ++i) visit_below(std::move(open[i]), own);
     translations += own.translations;
     pairs += own.pairs;
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += own.work[k];
   });
   cost_.translations = translations;
   cost_.pairs = pairs;
-  if (!cuts_.empty()) bring_fields();
+  std::copy(parts.begin(), parts.end(), work.work.begin());
+  if (!cuts_.empty()) bring_fields(work.work);
   put_in_order(threads);
 }
 

@@ -112,7 +112,7 @@ class MultipoleField {
   void bring_moments();
   void share_out();
   std::size_t between_leaves(std::size_t particle) const;
-  void bring_fields();
+  void bring_fields(LeafShares::Work const& work);
   /// Whether some of its leaves are this rank's, and whether its first is.
   bool has_own(TreeNode const& node) const { return node.begin < own_.end && node.end > own_.begin; }
   bool begins_own(TreeNode const& node) const { return node.begin < own_.end && node.begin >= own_.begin; }
@@ -153,6 +153,7 @@ class MultipoleField {
   void add_softening(Cluster const& target, Visit const& visit, Workspace& work, double* field,
                      double* potential) const;
   double work_of(MultipoleCost const& cost) const;
+  std::size_t part_of(TreeNode const& node) const;
   void put_in_order(int threads);
 
   Law law_;
