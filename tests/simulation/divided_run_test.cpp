@@ -24,6 +24,7 @@
 #include <tests/seed.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -559,17 +560,15 @@ TEST(DividedMesh, FailsWithTheLineOfOneRank) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fields, DividedScenario,
-    testing::Values(Shipped{"plummer", {"ensembles.0.number=2500"}, 20},
+    testing::Values(Shipped{"plummer", {"ensembles.0.number=2000"}, 14},
                     Shipped{"galaxies",
-                            {"ensembles.0.number=700", "ensembles.1.number=700", "ensembles.2.number=300",
+                            {"ensembles.0.number=600", "ensembles.1.number=600", "ensembles.2.number=300",
                              "ensembles.3.number=300"},
-                            8},
-                    Shipped{"ion-cluster", {"ensembles.0.number=1000"}, 6}, Shipped{"madelung", {}, 8},
-                    Shipped{"kelvin-helmholtz",
-                            {"ensembles.0.load.spacing=0.00025", "ensembles.0.load.low=[0, -0.000125]",
-                             "ensembles.0.load.high=[1, 0.000125]"},
-                            4},
-                    Shipped{"vortex-ring", {}, 3}, Shipped{"molten-salt", {}, 20}),
+                            7},
+                    Shipped{"madelung", {"multipole.tolerance=1e-3", "multipole.grid=[6, 6, 4]"}, 4},
+                    Shipped{"kelvin-helmholtz", {}, 2},
+                    Shipped{"vortex-ring", {"multipole.tolerance=0.02", "ensembles.0.load.layers=2"}, 2},
+                    Shipped{"molten-salt", {"mesh.accuracy=1e-3"}, 7}),
     [](auto const& info) {
       std::string name = info.param.name;
       std::replace(name.begin(), name.end(), '-', '_');
@@ -598,7 +597,7 @@ Ensemble<Kepler<3>>& cluster(World& world, std::size_t count, Box const& box = B
 
 // Longer than until the accuracy is looked at again.
 TEST(DividedMultipoles, OfStarsAndDust) {
-  expect_same_bits([](World& world) { cluster(world, 1500); }, 80, {2, 3, 8});
+  expect_same_bits([](World& world) { cluster(world, 1300); }, 72, {2, 3});
 }
 
 TEST(DividedMultipoles, ABoxThatRepeatsAndFewerBranchesThanRanks) {
@@ -620,7 +619,7 @@ TEST(DividedMultipoles, OfVorticesBetweenWalls) {
         std::uniform_real_distribution<double> uniform(0, 1);
         for (auto& p : vortices) {
           p.position = {2 * uniform(random), 0.05 + 0.9 * uniform(random)};
-          p.vorticity = 1e-3 * (uniform(random) - 0.3);
+          p.vorticity = {1e-3 * (uniform(random) - 0.3)};
           p.core = 0.02 * uniform(random);
         }
         scheme.add(vortices);
@@ -690,7 +689,7 @@ TEST(DividedFlow, AroundABodyOfPanels) {
           double const r = 1.3 + 2 * uniform(random), angle = 2 * pi * uniform(random);
           p.position = {r * std::cos(angle), r * std::sin(angle)};
         };
-        for (auto& p : vortices) place(p), p.vorticity = 0.02 * uniform(random), p.core = 0.1;
+        for (auto& p : vortices) place(p), p.vorticity = {0.02 * uniform(random)}, p.core = 0.1;
         for (auto& p : tracers) place(p);
         bodies.add_body(body, circle_outline({0, 0}, 1, 120));
         for (AnyEnsemble* ensemble : {static_cast<AnyEnsemble*>(&vortices), static_cast<AnyEnsemble*>(&tracers)})
@@ -705,9 +704,9 @@ TEST(DividedFlow, AroundABodyOfPanels) {
       16, {2, 3, 8});
 }
 
-// Three ranks, each of which sends its rows to two others, then the moments of its branches with what follows from them,
-// then what its particles feel: six waits.
-TEST(DividedMultipoles, ACalculationIsThreeVotesAndThreeExchanges) {
+// Three ranks, each of which sends its rows of two ensembles to two others, then the moments of its branches with what
+// follows from them, then what its particles feel, each behind a vote.
+TEST(DividedMultipoles, ACalculationIsThreeVotesAndFourExchanges) {
   constexpr std::size_t size = 3, count = 9000;
   std::array<Team::Counts, size> sent;
   MultipoleAccuracy taken;
@@ -725,7 +724,7 @@ TEST(DividedMultipoles, ACalculationIsThreeVotesAndThreeExchanges) {
     division.moved();
     scheme.calculate();
     auto const after = team.counts();
-    EXPECT_EQ(after.collectives - before.collectives, 6U);
+    EXPECT_EQ(after.collectives - before.collectives, 3U + 2 + 1 + 1);
     EXPECT_EQ(after.messages - before.messages, (size - 1) * (2 + 2 + 2));
     sent[static_cast<std::size_t>(team.rank())].bytes = after.bytes - before.bytes;
     division.end();
@@ -738,15 +737,15 @@ TEST(DividedMultipoles, ACalculationIsThreeVotesAndThreeExchanges) {
   for (auto const& one : sent) bytes += one.bytes;
   std::uint64_t const rows = (size - 1) * (count + count / 4) * (64 + 24);
   std::uint64_t const of_a_node = 8 * ExpansionTables(3, taken.order).size() + 48;
-  EXPECT_GT(bytes, rows + (size - 1) * taken.nodes * of_a_node * 9 / 10);
-  EXPECT_LT(bytes, rows + (size - 1) * taken.nodes * of_a_node + 3000);
+  EXPECT_GT(bytes, rows + (size - 1) * taken.nodes * of_a_node / 2) << taken.nodes << " of order " << taken.order;
+  EXPECT_LT(bytes, rows + (size - 1) * taken.nodes * of_a_node + 3000) << taken.nodes << " of order " << taken.order;
 }
 
 /// Charges of two kinds that are kept apart, by P3M.
 template <int D>
 void salt(World& world, bool background) {
-  auto& anions = world.make<Ensemble<Coulomb<D>>>("anions", 400);
-  auto& cations = world.make<Ensemble<Coulomb<D>>>("cations", background ? 250 : 400);
+  auto& anions = world.make<Ensemble<Coulomb<D>>>("anions", 200);
+  auto& cations = world.make<Ensemble<Coulomb<D>>>("cations", background ? 150 : 200);
   Vector<D> low, high;
   for (int a = 0; a < D; ++a) low[a] = 0, high[a] = D == 3 ? 4 + a : 10 + 2 * a;
   auto& scheme = world.make<P3MScheme>(Box(low, high, Boundary::periodic), coulomb(1), 1e-3);
@@ -763,15 +762,15 @@ void salt(World& world, bool background) {
   scheme.background(background);
   scheme.pairs().internal(anions, Soft{1.0, 0.5}, 0.5);
   scheme.pairs().internal(cations, Soft{1.0, 0.4}, 0.4);
-  world.simulation = &world.make<Simulation>(scheme, 0.01);
+  world.simulation = &world.make<Simulation>(scheme, 0.002);
 }
 
 TEST(DividedP3m, InThreeDimensionsBesidePairs) {
-  expect_same_bits([](World& world) { salt<3>(world, false); }, 60, {2, 3, 5});
+  expect_same_bits([](World& world) { salt<3>(world, false); }, 40, {2, 3, 5});
 }
 
 TEST(DividedP3m, InTwoDimensionsWithABackground) {
-  expect_same_bits([](World& world) { salt<2>(world, true); }, 40, {2, 3, 8});
+  expect_same_bits([](World& world) { salt<2>(world, true); }, 30, {2, 3});
 }
 
 TEST(DividedP3m, GoesOnWithAnyNumberOfRanks) {
@@ -779,16 +778,16 @@ TEST(DividedP3m, GoesOnWithAnyNumberOfRanks) {
 }
 
 TEST(DividedMultipoles, GoesOnWithAnyNumberOfRanks) {
-  expect_to_go_on([](World& world) { cluster(world, 1500); });
+  expect_to_go_on([](World& world) { cluster(world, 1300); });
 }
 
 TEST(DividedMultipoles, FailsWithTheLineOfOneRank) {
   expect_line(
       [](World& world) {
-        auto& stars = cluster(world, 1500);
+        auto& stars = cluster(world, 1300);
         world.simulation->divide_from(0);
         world.simulation->run(2);
-        for (std::size_t const i : {1400U, 900U}) stars[i].position[1] = std::numeric_limits<double>::quiet_NaN();
+        for (std::size_t const i : {1200U, 900U}) stars[i].position[1] = std::numeric_limits<double>::quiet_NaN();
       },
       "particle 900 of 'stars'");
 }

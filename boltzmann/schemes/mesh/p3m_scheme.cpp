@@ -16,6 +16,8 @@ namespace boltzmann {
 namespace {
 
 constexpr double max_growth_of_error = 1.5;  // in a box that changes
+/// What is chosen decides on bits, so it can't be for the threads of the machine, or of a rank.
+constexpr int typical_threads = 2;
 
 }  // namespace
 
@@ -130,7 +132,7 @@ bool P3MScheme::box_settled() {
                                   p3m_error_mesh(system, parameters_.order, parameters_.cells, parameters_.alpha));
   if (error <= max_growth_of_error * chosen) return false;
   try {
-    choose(tune_p3m(system, chosen, threads()));
+    choose(tune_p3m(system, chosen, typical_threads));
   } catch (Error const& refusal) {
     throw PhysicsFailure(fmt::format("the box has changed, and its mesh can't be chosen anew: {}", refusal.what()));
   }
@@ -151,13 +153,13 @@ void P3MScheme::tune() {
   if (!(mean > 0)) {  // nobody is there, or without strength
     P3mSystem one = system;
     one.particles = 2, one.sum_of_squares = 2;
-    choose(tune_p3m(one, 1e-3 * std::abs(system.constant) / std::pow(box().volume(), (D - 1.0) / D), threads()));
+    choose(tune_p3m(one, 1e-3 * std::abs(system.constant) / std::pow(box().volume(), (D - 1.0) / D), typical_threads));
     tuned_ = true;
     return;
   }
   // With a first choice one learns how large forces are here. (Those of this law: what else acts says nothing about
   // it.)
-  choose(tune_p3m(system, 0.01 * mean, threads()));
+  choose(tune_p3m(system, 0.01 * mean, typical_threads));
   copy_particles();
   near_->scheme.calculate();
   MeshField const& field = *MeshScheme::mesh_fields().back();
@@ -174,7 +176,7 @@ void P3MScheme::tune() {
   }
   double const rms = std::sqrt(squares.value() / particles);
   double const scale = std::isfinite(rms) && rms > 0.05 * mean ? rms : mean;
-  choose(tune_p3m(system, accuracy_ * scale, threads()));
+  choose(tune_p3m(system, accuracy_ * scale, typical_threads));
   tuned_ = true;  // and not before: who is stopped on the way begins again
 }
 

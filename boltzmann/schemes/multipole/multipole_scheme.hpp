@@ -144,6 +144,7 @@ class MultipoleScheme final : public Scheme {
   void choose_and_calculate(bool with_potential);
   ErrorSamples choose_samples() const;
   std::size_t leaf() const;
+  bool sums_directly() const;
   bool everything_is_summed() const;
   MultipoleAccuracy chosen_and_taken() const;
   void tune(bool with_potential);
@@ -163,6 +164,7 @@ class MultipoleScheme final : public Scheme {
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
   std::size_t until_check_ = 0;
+  std::uint64_t counted_ = 0;              // the checksum of the last influences' particles, if they counted for that
   std::optional<MultipoleAccuracy> last_;  // of the last influences
   bool background_ = false;
   std::optional<MeshGrid> grid_;
