@@ -97,6 +97,7 @@ void CylinderFlow::find_images() {
 }
 
 void CylinderFlow::add_influences(double /*time*/) {
+  if (division_) division_->make_whole();
   find_images();
   for (auto const& carried : carried_) carry(*carried.ensemble);
 }
@@ -128,18 +129,18 @@ void CylinderFlow::carry(AnyEnsemble& ensemble) {
   task.overwrite = true;
   task.influence = velocity_.data();
   double const work = static_cast<double>(sources * ensemble.size());
-  for_ranges(ensemble.size(), grain * (1 + 2048 / (sources + 1)),
-             threads_for(static_cast<std::size_t>(work), 0.125, threads()), [&](std::size_t begin, std::size_t end) {
-               kernel(&law, task, begin, end);
-               for (std::size_t i = begin; i < end; ++i) {
-                 double const* const row = ensemble.row(i);
-                 if (!outside(row)) continue;
-                 Complex const z(row[0] - options_.centre[0], row[1] - options_.centre[1]);
-                 Complex const flow = std::conj(stream) - stream * square / (z * z);  // u - i v
-                 ensemble.influence(i)[0] += velocity_[2 * i] + flow.real();
-                 ensemble.influence(i)[felt > 1 ? 1 : 0] += velocity_[2 * i + 1] - flow.imag();
-               }
-             });
+  for_share(ensemble, grain * (1 + 2048 / (sources + 1)), threads_for(static_cast<std::size_t>(work), 0.125, threads()),
+            [&](std::size_t begin, std::size_t end) {
+              kernel(&law, task, begin, end);
+              for (std::size_t i = begin; i < end; ++i) {
+                double const* const row = ensemble.row(i);
+                if (!outside(row)) continue;
+                Complex const z(row[0] - options_.centre[0], row[1] - options_.centre[1]);
+                Complex const flow = std::conj(stream) - stream * square / (z * z);  // u - i v
+                ensemble.influence(i)[0] += velocity_[2 * i] + flow.real();
+                ensemble.influence(i)[felt > 1 ? 1 : 0] += velocity_[2 * i + 1] - flow.imag();
+              }
+            });
 }
 
 EnergyAndVirial CylinderFlow::measure(double /*time*/) {

@@ -52,6 +52,9 @@ class CylinderFlow final : public Scheme {
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
+  std::string undivided() const override { return ""; }
+  /// All ranks find all images, and each what it carries of its share.
+  void divide(Division* division) override { division_ = division; }
   std::size_t bytes() const override;
   std::string summary() const override;
 
@@ -65,6 +68,7 @@ class CylinderFlow final : public Scheme {
   bool outside(double const* position) const;
 
   CylinderOptions options_;
+  Division* division_ = nullptr;  // while a run is divided
   std::vector<Carried> carried_;
   std::vector<double> images_;  // rows of Vortex<2>
   std::vector<double> velocity_;

@@ -152,6 +152,8 @@ class MeshScheme : public Scheme {
   /// Adds the virial of what the mesh gives, or says why it can't be had.
   virtual void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
                           EnergyAndVirial& measures) const;
+  /// While a run is divided.
+  Division* division() const { return division_; }
   /// From now on assignment(), form() and boundary() are refused.
   void chosen_by_accuracy() { chosen_by_accuracy_ = true; }
 

@@ -16,6 +16,8 @@ namespace boltzmann {
 namespace {
 
 constexpr double max_growth_of_error = 1.5;  // in a box that changes
+/// What is chosen decides on bits, so it can't be for the threads of the machine, or of a rank.
+constexpr int typical_threads = 2;
 
 }  // namespace
 
@@ -24,6 +26,7 @@ struct P3MScheme::Near {
   std::unique_ptr<AnyEnsemble> sources;
   int amount;  ///< where the strength stands in a row
   PairScheme scheme;
+  std::unique_ptr<Division> division;  ///< of the sources alone, by their lists: who owns particles is another matter
 
   Near(std::unique_ptr<AnyEnsemble> ensemble, int amount, Box const& box, EwaldShort const& law, double cutoff)
       : sources(std::move(ensemble)), amount(amount), scheme(box, cutoff) {
@@ -37,6 +40,22 @@ struct P3MScheme::Near {
   static std::unique_ptr<Near> make(Box const& box, EwaldShort const& law, double cutoff) {
     return std::make_unique<Near>(std::make_unique<Ensemble<PointSource<D>>>("sources"),
                                   offset_of<PointSource<D>>(&PointSource<D>::amount), box, law, cutoff);
+  }
+
+  /// From here on by this team, on each rank of which all sources are known; null: no more.
+  void divide(Team* team) {
+    if (!team) {
+      if (!division || !division->goes_on()) return;
+      scheme.divide(nullptr);
+      return division->end();
+    }
+    if (division && division->goes_on()) return;
+    if (!division || &division->team() != team || division->owners(*sources).size() != sources->size()) {
+      division = std::make_unique<Division>(*team);
+      division->add(*sources);
+    }
+    division->begin();
+    scheme.divide(division.get());
   }
 };
 
@@ -113,7 +132,7 @@ bool P3MScheme::box_settled() {
                                   p3m_error_mesh(system, parameters_.order, parameters_.cells, parameters_.alpha));
   if (error <= max_growth_of_error * chosen) return false;
   try {
-    choose(tune_p3m(system, chosen, threads()));
+    choose(tune_p3m(system, chosen, typical_threads));
   } catch (Error const& refusal) {
     throw PhysicsFailure(fmt::format("the box has changed, and its mesh can't be chosen anew: {}", refusal.what()));
   }
@@ -134,13 +153,13 @@ void P3MScheme::tune() {
   if (!(mean > 0)) {  // nobody is there, or without strength
     P3mSystem one = system;
     one.particles = 2, one.sum_of_squares = 2;
-    choose(tune_p3m(one, 1e-3 * std::abs(system.constant) / std::pow(box().volume(), (D - 1.0) / D), threads()));
+    choose(tune_p3m(one, 1e-3 * std::abs(system.constant) / std::pow(box().volume(), (D - 1.0) / D), typical_threads));
     tuned_ = true;
     return;
   }
   // With a first choice one learns how large forces are here. (Those of this law: what else acts says nothing about
   // it.)
-  choose(tune_p3m(system, 0.01 * mean, threads()));
+  choose(tune_p3m(system, 0.01 * mean, typical_threads));
   copy_particles();
   near_->scheme.calculate();
   MeshField const& field = *MeshScheme::mesh_fields().back();
@@ -157,7 +176,7 @@ void P3MScheme::tune() {
   }
   double const rms = std::sqrt(squares.value() / particles);
   double const scale = std::isfinite(rms) && rms > 0.05 * mean ? rms : mean;
-  choose(tune_p3m(system, accuracy_ * scale, threads()));
+  choose(tune_p3m(system, accuracy_ * scale, typical_threads));
   tuned_ = true;  // and not before: who is stopped on the way begins again
 }
 
@@ -185,20 +204,39 @@ void P3MScheme::copy_particles() {
   near_->scheme.threads(threads());
 }
 
+void P3MScheme::divide(Division* division) {
+  MeshScheme::divide(division);
+  if (!division && near_) near_->divide(nullptr);
+}
+
+/// As all particles are now. In a divided run, where these are known everywhere, the sources are divided from here on.
+void P3MScheme::update_sources() {
+  copy_particles();
+  if (division()) near_->divide(&division()->team());
+}
+
 std::vector<MeshField const*> P3MScheme::mesh_fields() {
   tune();
   return MeshScheme::mesh_fields();
 }
 
 void P3MScheme::add_influences(double time) {
+  if (division()) division()->make_whole();
   tune();
   MeshScheme::add_influences(time);
-  copy_particles();
+  update_sources();
   near_->scheme.calculate(time);
+  AnyEnsemble& sources = *near_->sources;
+  if (division()) {
+    division()->team().meet(Team::Occasion::exchanges);
+    near_->division->gather(sources, sources.influence(0), sources.influence_size(), sources.influence_size());
+  }
   std::size_t at = 0;
   for (auto* ensemble : Scheme::ensembles()) {
-    for (std::size_t i = 0; i < ensemble->size(); ++i)
-      for (int a = 0; a < box().dimension(); ++a) ensemble->influence(i)[a] += near_->sources->influence(at + i)[a];
+    for_share(*ensemble, 4096, threads_for(ensemble->size(), 1, threads()), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (int a = 0; a < box().dimension(); ++a) ensemble->influence(i)[a] += sources.influence(at + i)[a];
+    });
     at += ensemble->size();
   }
 }
@@ -261,9 +299,10 @@ void P3MScheme::add_virial(MeshField const& density, MeshField const& potential,
 }
 
 EnergyAndVirial P3MScheme::measure(double time) {
+  if (division()) division()->make_whole();
   tune();
   EnergyAndVirial measures = MeshScheme::measure(time);
-  copy_particles();
+  update_sources();
   EnergyAndVirial const near = near_->scheme.measure(time);
   measures.reciprocal = measures.reciprocal && near.reciprocal;
   P3mSystem const system = this->system();

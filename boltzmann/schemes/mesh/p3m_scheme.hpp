@@ -37,7 +37,8 @@ class P3MScheme final : public MeshScheme {
   /// has grown. PhysicsFailure if that can't be.
   bool box_settled() override;
   void make_reversible(double quantum) override;
-  std::string undivided() const override { return "near pairs beside a mesh (P3M)"; }
+  /// All ranks have all particles; each finds what acts on a part of the sources, by lists that have a part of space.
+  void divide(Division* division) override;
   std::size_t bytes() const override;
   std::string summary() const override { return MeshScheme::summary() + ", and near pairs (P3M)"; }
   std::string report() const override;
@@ -59,6 +60,7 @@ class P3MScheme final : public MeshScheme {
   void solve_in_this_box();
   P3mSystem system() const;
   void copy_particles();
+  void update_sources();
 
   LaplaceLaw near_law_;
   double accuracy_, quantum_ = 0;

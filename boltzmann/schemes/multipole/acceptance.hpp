@@ -67,6 +67,12 @@ class AcceptanceCriterion {
     else
       return law_.softening * law_.softening;
   }
+  /// Calls function(first, bytes of a node) for each array of what is known of nodes.
+  template <class Function>
+  void each_array(Function const& function) {
+    function(limits_.data(), sizeof(Limits));
+    if constexpr (Kind::own_cores) function(cores_.data(), sizeof(Cores));
+  }
   std::size_t bytes() const { return limits_.capacity() * sizeof(Limits) + cores_.capacity() * sizeof(Cores); }
 
  private:

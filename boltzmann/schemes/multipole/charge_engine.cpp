@@ -65,12 +65,11 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
     std::size_t at = 0;
     for (auto const& one : loaded) {
       AnyEnsemble& ensemble = *one.ensemble;
-      for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads),
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i)
-                     for (std::size_t a = 0; a < D; ++a)
-                       ensemble.influence(i)[a] += strengths_[at + i] * this->field()[(at + i) * D + a];
-                 });
+      for_share(ensemble, 4096, threads_for(ensemble.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t a = 0; a < D; ++a)
+            ensemble.influence(i)[a] += strengths_[at + i] * this->field()[(at + i) * D + a];
+      });
       at += ensemble.size();
     }
   }

@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -43,7 +45,11 @@ class MultipoleEngine {
   /// Places that feel, behind the particles.
   virtual void add(double const* places, std::size_t count) = 0;
   virtual std::size_t count() const = 0;
+  /// Of what has been collected.
+  virtual std::uint64_t checksum() const = 0;
 
+  /// The ranks of this team, all of which have collected the same, do it together from here on; null: no more.
+  virtual void divide(Team* team) = 0;
   virtual void choose(MultipoleChoice const& choice) = 0;
   virtual void calculate(bool with_potential, int threads) = 0;
   /// Whether calculations note how near particles come to what acts on them: see MultipoleField.
@@ -72,7 +78,7 @@ class MultipoleEngine {
   };
   virtual Squares compare(int part, std::size_t i, double const* found, double const* exact) const = 0;
 
-  /// Adds what the last calculation has found to the influences.
+  /// Adds what the last calculation has found to the influences (of this rank's share, in a divided run).
   virtual void add_influences(std::vector<LoadedSources> const& loaded, int threads) const = 0;
   virtual EnergyAndVirial measure(std::vector<LoadedSources> const& loaded) const = 0;
   /// Whether particles at one place push each other to infinity.
@@ -125,6 +131,16 @@ class EngineOf : public MultipoleEngine {
     }
   }
   std::size_t count() const final { return points_.size(); }
+  std::uint64_t checksum() const final {
+    std::uint64_t sum = 0xcbf29ce484222325;  // Fowler, Noll and Vo's, of words
+    auto const add = [&](double number) { sum = (sum ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3; };
+    for (Point const& p : points_) {
+      for (int a = 0; a < D; ++a) add(p.position[a]);
+      for (int k = 0; k < Kind::densities; ++k) add(Kind::amount(p, k));
+    }
+    return sum;
+  }
+  void divide(Team* team) final { multipoles_.divide(team); }
   void choose(MultipoleChoice const& choice) final { multipoles_.choose(choice); }
   void calculate(bool with_potential, int threads) final { multipoles_.calculate(points_, with_potential, threads); }
   void watch(bool yes) final { multipoles_.watch(yes); }

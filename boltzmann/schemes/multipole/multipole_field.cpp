@@ -81,6 +81,7 @@ struct MultipoleField<Kind>::Workspace {
   std::vector<Softened> softened;
   Scratch scratch;
   std::size_t translations = 0, pairs = 0;
+  LeafShares::Work work{};  ///< in parts of this rank's stretch
 };
 
 template <class Kind>
@@ -154,13 +155,47 @@ void MultipoleField<Kind>::gather(int threads) {
   moments_.resize(nodes.size() * numbers() / 4);
   acceptance_.start(choice_.order, choice_.error, nodes.size());
   auto const& branches = tree_.branches();
+  Stretch const own = own_branches();
   int const useful = threads_for(tree_.particles().size(), 4, threads);
-  for_ranges(branches.size(), 1, useful, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k)
+  for_ranges(own.end - own.begin, 1, useful, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = own.begin + first; k < own.begin + last; ++k)
       for (std::size_t i = branches[k].end; i-- > branches[k].begin;) gather(i);
   });
+  if (own.end - own.begin < branches.size()) bring_moments();
   for (std::size_t i = branches.empty() ? nodes.size() : branches.front().begin; i-- > 0;) gather(i);
   softest_ = acceptance_.softest2();
+}
+
+/// Branches of nodes of which each rank gathers as many, or all: then there are no cuts.
+template <class Kind>
+LeafShares::Cuts MultipoleField<Kind>::cuts_of_branches() const {
+  auto const& branches = tree_.branches();
+  if (!shares_.divided() || branches.size() < shares_.ranks()) return {};
+  LeafShares::Cuts cuts;
+  for (std::size_t const node : shares_.even(tree_.nodes().size() - branches.front().begin))
+    cuts.push_back(static_cast<std::size_t>(
+        std::find_if(branches.begin(), branches.end(),
+                     [&](auto const& branch) { return branch.begin >= branches.front().begin + node; }) -
+        branches.begin()));
+  cuts.front() = 0, cuts.back() = branches.size();
+  return cuts;
+}
+
+template <class Kind>
+Stretch MultipoleField<Kind>::own_branches() const {
+  auto const cuts = cuts_of_branches();
+  if (cuts.empty()) return {0, tree_.branches().size()};
+  return {cuts[shares_.rank()], cuts[shares_.rank() + 1]};
+}
+
+/// What each rank has gathered of its branches.
+template <class Kind>
+void MultipoleField<Kind>::bring_moments() {
+  auto cuts = cuts_of_branches();
+  for (auto& cut : cuts) cut = cut < tree_.branches().size() ? tree_.branches()[cut].begin : tree_.nodes().size();
+  std::vector<LeafShares::Found> arrays{{moments_.data(), numbers() * sizeof(double), &cuts}};
+  acceptance_.each_array([&](void* first, std::size_t bytes) { arrays.push_back({first, bytes, &cuts}); });
+  shares_.bring(arrays);
 }
 
 /// How far a node has to be from a target's centre to act on all of it by an expansion.
@@ -296,7 +331,11 @@ void MultipoleField<Kind>::visit(Visit visit, Workspace& work, std::vector<Visit
     work.shifted[i].radius = tree_.nodes()[work.far[i].node].radius;
     work.shifted[i].numbers = moments(work.far[i].node);
   }
-  work.translations += Kind::densities * work.far.size();
+  if (begins_own(node)) {
+    std::size_t const translations = Kind::densities * work.far.size();
+    work.translations += translations;
+    work.work[part_of(node)] += static_cast<std::uint64_t>(work_of({0, translations, 0}));
+  }
   for (int k = 0; k < Kind::densities; ++k) {
     std::size_t const from = k * tables_.size();
     double* const local = visit.local.data() + from;
@@ -334,6 +373,8 @@ void MultipoleField<Kind>::visit(Visit visit, Workspace& work, std::vector<Visit
     kernels_.hand_down(tables_.view(), visit.local.data() + from, node.radius, children.data(), locals.data(),
                        node.children);
   }
+  auto const of_others = [&](Visit const& one) { return !has_own(tree_.nodes()[one.node]); };
+  next.erase(std::remove_if(next.begin() + static_cast<std::ptrdiff_t>(first), next.end(), of_others), next.end());
 }
 
 template <class Kind>
@@ -514,6 +555,7 @@ void MultipoleField<Kind>::add_near(Law const& law, PairTask const& task, Worksp
 template <class Kind>
 void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work) {
   auto const& particles = tree_.particles();
+  std::size_t const before = work.pairs;
   // The leaf's own stand first, so that the kernel knows who is the same.
   work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
   work.bare.clear();
@@ -552,6 +594,8 @@ void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit,
   add_softening(own, visit, work, task.influence, potential);
   for (Other const& other : work.outside) add_outside(own, other, task.influence, potential, work.scratch);
   if (watched_) note_nearness(leaf, visit, work);
+  auto const evaluations = static_cast<double>(leaf.size() * (1 + work.outside.size())) * pairs_of_an_evaluation_;
+  work.work[part_of(leaf)] += work.pairs - before + static_cast<std::uint64_t>(evaluations);
 }
 
 /// Of the edge of a target to what acts on its local expansion.
@@ -589,6 +633,59 @@ void MultipoleField<Kind>::note_nearness(TreeNode const& leaf, Visit const& visi
   }
 }
 
+/// Each rank calculates for the leaves of a stretch of particles. (One leaf is so small that all do it.)
+template <class Kind>
+void MultipoleField<Kind>::share_out() {
+  own_ = {0, tree_.particles().size()};
+  cuts_.clear();
+  if (!shares_.divided() || tree_.nodes().size() == 1) return;
+  cuts_ = shares_.balanced(own_.end);
+  for (auto& cut : cuts_) cut = between_leaves(cut);
+  own_ = {cuts_[shares_.rank()], cuts_[shares_.rank() + 1]};
+}
+
+/// The first leaf that begins with this particle or behind it.
+template <class Kind>
+std::size_t MultipoleField<Kind>::between_leaves(std::size_t particle) const {
+  TreeNode const* node = &tree_.nodes().front();
+  if (particle >= node->end) return node->end;
+  while (!node->leaf()) {
+    TreeNode const* child = tree_.nodes().data() + node->child;
+    while (particle >= child->end) ++child;
+    node = child;
+  }
+  return particle == node->begin ? particle : node->end;
+}
+
+/// What each rank has found, and what it took.
+template <class Kind>
+void MultipoleField<Kind>::bring_fields(LeafShares::Work const& work) {
+  struct Took {
+    std::size_t translations, pairs;
+    LeafShares::Work work;
+  };
+  std::vector<Took> took(shares_.ranks());
+  took[shares_.rank()] = {cost_.translations, cost_.pairs, work};
+  auto const one_each = shares_.even(shares_.ranks());
+  shares_.bring({{sorted_field_.data(), Kind::width * sizeof(double), &cuts_},
+                 {sorted_potential_.data(), with_potential_ ? sizeof(double) : 0, &cuts_},
+                 {sorted_nearness_.data(), watched_ ? sizeof(float) : 0, &cuts_},
+                 {took.data(), sizeof took[0], &one_each}});
+  cost_.translations = cost_.pairs = 0;
+  std::vector<LeafShares::Work> all;
+  for (Took const& one : took) {
+    cost_.translations += one.translations, cost_.pairs += one.pairs;
+    all.push_back(one.work);
+  }
+  shares_.took(cuts_, all);
+}
+
+/// Of this rank's stretch, for whoever balances the work.
+template <class Kind>
+std::size_t MultipoleField<Kind>::part_of(TreeNode const& node) const {
+  return (node.begin - own_.begin) * LeafShares::parts / (own_.end - own_.begin);
+}
+
 template <class Kind>
 void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_potential, int threads) {
   with_potential_ = Kind::potential && with_potential;
@@ -601,26 +698,33 @@ void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_pot
   if (count == 0) return put_in_order(threads);
   gather(threads);
   choose_images();
+  share_out();
   // The uppermost nodes one by one, until there are enough for all threads.
   Workspace work;
   std::vector<Visit> open, next;
   std::vector<Other> roots(images_.size());
   for (std::size_t i = 0; i < roots.size(); ++i) roots[i].image = static_cast<std::uint32_t>(i);
-  open.push_back({0, std::vector<double>(numbers(), 0.0), std::make_shared<std::vector<Other> const>(roots)});
+  if (has_own(tree_.nodes().front()))
+    open.push_back({0, std::vector<double>(numbers(), 0.0), std::make_shared<std::vector<Other> const>(roots)});
   while (!open.empty() && open.size() < parallel_visits) {
     next.clear();
     for (auto& one : open) visit(std::move(one), work, next);
     std::swap(open, next);
   }
   std::atomic<std::size_t> translations = work.translations, pairs = work.pairs;
+  std::array<std::atomic<std::uint64_t>, LeafShares::parts> parts;
+  for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = work.work[k];
   for_ranges(open.size(), 1, threads_for(count, 8, threads), [&](std::size_t begin, std::size_t end) {
     Workspace own;
     for (std::size_t i = begin; i < end; ++i) visit_below(std::move(open[i]), own);
     translations += own.translations;
     pairs += own.pairs;
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += own.work[k];
   });
   cost_.translations = translations;
   cost_.pairs = pairs;
+  std::copy(parts.begin(), parts.end(), work.work.begin());
+  if (!cuts_.empty()) bring_fields(work.work);
   put_in_order(threads);
 }
 
@@ -668,15 +772,24 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
   task.target_row_stride = task.source_row_stride = row_stride<typename Kind::Source>;
   task.same = task.overwrite = true;
   task.influence = field.data();
+  // Each rank does a part of the samples.
+  constexpr std::size_t samples = 16;
+  LeafShares::Cuts const cuts = shares_.divided() ? shares_.even(chosen.size(), samples) : LeafShares::Cuts();
+  Stretch const own =
+      cuts.empty() ? Stretch{0, chosen.size()} : Stretch{cuts[shares_.rank()], cuts[shares_.rank() + 1]};
   auto const add_pairs = [&](Law const& law) {
-    for_ranges(chosen.size(), 16, threads_for(chosen.size() * sources.size(), 0.125, threads),
+    for_ranges(own.end - own.begin, samples, threads_for(chosen.size() * sources.size(), 0.125, threads),
                [&](std::size_t begin, std::size_t end) {
-                 Kind::near(kernels_, law, false,
-                            [&](PairKernel near, void const* own) { near(own, task, begin, end); });
+                 Kind::near(kernels_, law, false, [&](PairKernel near, void const* kernels_law) {
+                   near(kernels_law, task, own.begin + begin, own.begin + end);
+                 });
                });
   };
+  auto const bring = [&] {
+    if (!cuts.empty()) shares_.bring({{field.data(), Kind::width * sizeof(double), &cuts}});
+  };
   add_pairs(law_);
-  if (lattice_.periodic_axes() == 0 || chosen.empty()) return field;
+  if (lattice_.periodic_axes() == 0 || chosen.empty()) return bring(), field;
 
   // Images: nearby ones like the box itself, all others by expansions of the highest order about the middle of all.
   MultipoleField whole(law_, lattice_);
@@ -699,6 +812,7 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
       add_pairs(law);
     }
   }
+  bring();
   std::vector<double> local(whole.numbers(), 0.0);
   FarImages const far(D, lattice_, distance_of(images.back()), highest_expansion_order);
   for (int k = 0; k < Kind::densities; ++k) {
@@ -713,8 +827,8 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
 }
 
 template <class Kind>
-double MultipoleField<Kind>::work() const {
-  return static_cast<double>(cost_.pairs) + static_cast<double>(cost_.translations) * pairs_of_a_translation_;
+double MultipoleField<Kind>::work_of(MultipoleCost const& cost) const {
+  return static_cast<double>(cost.pairs) + static_cast<double>(cost.translations) * pairs_of_a_translation_;
 }
 
 template <class Kind>

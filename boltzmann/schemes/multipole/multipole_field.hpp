@@ -5,11 +5,14 @@
 // in their children or its own; a node hands what it has down to its children, and a leaf evaluates it and sums the
 // near particles directly. Every target owns its sums, so that the result has the same bits for any number of threads.
 // In a periodic box it meets the nodes of images nearby, too; all further images act on the expansion of the root.
+// Ranks of a team that all have the particles share the moments of branches, the targets, and samples.
 #pragma once
 
+#include <boltzmann/particles/share.hpp>
 #include <boltzmann/schemes/multipole/acceptance.hpp>
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
+#include <boltzmann/schemes/multipole/leaf_shares.hpp>
 #include <boltzmann/schemes/multipole/multipole_kernels.hpp>
 #include <boltzmann/schemes/multipole/multipole_kinds.hpp>
 #include <boltzmann/schemes/multipole/softening.hpp>
@@ -49,6 +52,9 @@ class MultipoleField {
 
   void choose(MultipoleChoice const& choice);
   MultipoleChoice const& choice() const { return choice_; }
+  /// From here on the ranks of this team calculate together, all with the same particles, and have the bits of one that
+  /// calculates alone; null: no more.
+  void divide(Team* team) { shares_.divide(team); }
 
   /// What each of these particles (finite positions) feels, charges as a field on unit strength, and their potential if
   /// that is wanted.
@@ -67,7 +73,7 @@ class MultipoleField {
                              int threads) const;
   MultipoleCost const& cost() const { return cost_; }
   /// The same in one number: pairs that take about as long.
-  double work() const;
+  double work() const { return work_of(cost_); }
   std::size_t bytes() const;
 
  private:
@@ -101,6 +107,15 @@ class MultipoleField {
     double numbers[4];
   };
 
+  Stretch own_branches() const;
+  LeafShares::Cuts cuts_of_branches() const;
+  void bring_moments();
+  void share_out();
+  std::size_t between_leaves(std::size_t particle) const;
+  void bring_fields(LeafShares::Work const& work);
+  /// Whether some of its leaves are this rank's, and whether its first is.
+  bool has_own(TreeNode const& node) const { return node.begin < own_.end && node.end > own_.begin; }
+  bool begins_own(TreeNode const& node) const { return node.begin < own_.end && node.begin >= own_.begin; }
   std::size_t index_of(TreeNode const& node) const { return static_cast<std::size_t>(&node - tree_.nodes().data()); }
   Cluster particles_of(TreeNode const& node) const;
   static NodeParticles amounts_of(Cluster const& target, int density, std::vector<PlacedAmount>& copy);
@@ -137,6 +152,8 @@ class MultipoleField {
   void add_softening(Visit& visit, Workspace const& work) const;
   void add_softening(Cluster const& target, Visit const& visit, Workspace& work, double* field,
                      double* potential) const;
+  double work_of(MultipoleCost const& cost) const;
+  std::size_t part_of(TreeNode const& node) const;
   void put_in_order(int threads);
 
   Law law_;
@@ -156,6 +173,9 @@ class MultipoleField {
   std::vector<double> sorted_field_, sorted_potential_, field_, potential_;
   std::vector<float> sorted_nearness_, nearness_;
   MultipoleCost cost_;
+  LeafShares shares_;
+  LeafShares::Cuts cuts_;  // of the particles in the order of leaves, if ranks share them: between leaves
+  Stretch own_{0, 0};      // of these: those for which this rank calculates
   double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0, pairs_of_a_curl_ = 0;  // what takes as long
   bool with_potential_ = false, watched_ = false;
 };

@@ -199,6 +199,8 @@ MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, ErrorSamp
   }
 }
 
+bool MultipoleScheme::sums_directly() const { return engine_->count() <= summed_directly && !repeats(box()); }
+
 bool MultipoleScheme::everything_is_summed() const { return engine_->cost().translations == 0 && !repeats(box()); }
 
 void MultipoleScheme::calculate_field(bool with_potential) {
@@ -207,7 +209,7 @@ void MultipoleScheme::calculate_field(bool with_potential) {
 }
 
 void MultipoleScheme::choose_and_calculate(bool with_potential) {
-  if (engine_->count() <= summed_directly && !repeats(box())) {
+  if (sums_directly()) {
     measured_ = 0;
     engine_->choose({2, engine_->count() + 1, 1});
     engine_->calculate(with_potential, threads());
@@ -228,27 +230,56 @@ std::vector<VortexSource> MultipoleScheme::vortices() const {
   return all;
 }
 
+/// While all ranks of a divided run calculate.
+class MultipoleScheme::Together {
+ public:
+  explicit Together(MultipoleScheme& scheme) : engine_(*scheme.engine_) {
+    if (!scheme.division_) return;
+    scheme.division_->make_whole();
+    engine_.divide(&scheme.division_->team());
+  }
+  ~Together() { engine_.divide(nullptr); }
+  Together(Together const&) = delete;
+  Together& operator=(Together const&) = delete;
+
+ private:
+  MultipoleEngine& engine_;
+};
+
 void MultipoleScheme::add_influences(double /*time*/) {
+  Together const together(*this);
   calculate_field(false);
   last_ = chosen_and_taken();
+  counted_ = sums_directly() ? 0 : engine_->checksum();
   engine_->add_influences(loaded_, threads());
 }
 
 /// Looking changes nothing that the next calculation depends on.
 class MultipoleScheme::Look {
  public:
-  explicit Look(MultipoleScheme& scheme) : scheme_(scheme), state_(scheme.state()) {}
-  ~Look() { scheme_.restore(state_); }
+  explicit Look(MultipoleScheme& scheme)
+      : scheme_(scheme),
+        criterion_(scheme.criterion_),
+        measured_(scheme.measured_),
+        order_(scheme.order_),
+        until_check_(scheme.until_check_) {}
+  ~Look() {
+    scheme_.criterion_ = criterion_, scheme_.measured_ = measured_;
+    scheme_.order_ = order_, scheme_.until_check_ = until_check_;
+  }
   Look(Look const&) = delete;
   Look& operator=(Look const&) = delete;
 
  private:
   MultipoleScheme& scheme_;
-  std::vector<double> state_;
+  double criterion_, measured_;
+  int order_;
+  std::size_t until_check_;
 };
 
 EnergyAndVirial MultipoleScheme::measure(double /*time*/) {
   Look const look(*this);
+  Together const together(*this);
   calculate_field(true);
   return engine_->measure(loaded_);
 }
@@ -411,8 +442,14 @@ std::string MultipoleScheme::report() const {
       static_cast<double>(last_->pairs));
 }
 
+/// Where particles are those of the last influences, whoever goes on from here calculates these once more.
 std::vector<double> MultipoleScheme::state() const {
-  return {criterion_, measured_, static_cast<double>(order_), static_cast<double>(until_check_)};
+  std::size_t again = 0;
+  if (counted_ != 0) {
+    engine_->collect(loaded_, background_, threads());
+    again = engine_->checksum() == counted_ ? 1 : 0;
+  }
+  return {criterion_, measured_, static_cast<double>(order_), static_cast<double>(until_check_ + again)};
 }
 
 void MultipoleScheme::restore(std::span<double const> state) {
@@ -420,6 +457,7 @@ void MultipoleScheme::restore(std::span<double const> state) {
     throw Error(fmt::format("multipoles: the state of a checkpoint has 4 numbers, not {}", state.size()));
   criterion_ = state[0], measured_ = state[1];
   order_ = static_cast<int>(state[2]), until_check_ = static_cast<std::size_t>(state[3]);
+  counted_ = 0;
 }
 
 }  // namespace boltzmann

@@ -120,6 +120,9 @@ class MultipoleScheme final : public Scheme {
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
+  std::string undivided() const override { return ""; }
+  /// All ranks have all particles, and each finds what a part of them feels.
+  void divide(Division* division) override { division_ = division; }
   std::size_t bytes() const override;
   std::string summary() const override;
   std::string report() const override;
@@ -129,6 +132,7 @@ class MultipoleScheme final : public Scheme {
  private:
   MultipoleScheme(Box box, double tolerance, std::optional<LaplaceLaw> law);
   class Look;
+  class Together;
   class Watched;
 
   void load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts);
@@ -140,6 +144,7 @@ class MultipoleScheme final : public Scheme {
   void choose_and_calculate(bool with_potential);
   ErrorSamples choose_samples() const;
   std::size_t leaf() const;
+  bool sums_directly() const;
   bool everything_is_summed() const;
   MultipoleAccuracy chosen_and_taken() const;
   void tune(bool with_potential);
@@ -152,12 +157,14 @@ class MultipoleScheme final : public Scheme {
   std::optional<LaplaceLaw> law_;
   std::optional<VortexLaw> vortex_law_;
   double tolerance_;
+  Division* division_ = nullptr;  // while a run is divided
   std::vector<LoadedSources> loaded_;
   std::unique_ptr<MultipoleEngine> engine_;
   double criterion_ = 0;  // the error that one interaction may make; 0: not chosen yet
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
   std::size_t until_check_ = 0;
+  std::uint64_t counted_ = 0;              // the checksum of the last influences' particles, if they counted for that
   std::optional<MultipoleAccuracy> last_;  // of the last influences
   bool background_ = false;
   std::optional<MeshGrid> grid_;

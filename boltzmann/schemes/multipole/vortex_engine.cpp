@@ -75,12 +75,10 @@ class VortexEngine final : public EngineOf<Kind> {
     for (auto const& one : loaded) {
       AnyEnsemble& ensemble = *one.ensemble;
       std::size_t const felt = std::min<std::size_t>(Kind::width, ensemble.influence_size());
-      for_ranges(ensemble.size(), 4096, threads_for(ensemble.size(), 1, threads),
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i)
-                     for (std::size_t a = 0; a < felt; ++a)
-                       ensemble.influence(i)[a] += this->field()[(at + i) * Kind::width + a];
-                 });
+      for_share(ensemble, 4096, threads_for(ensemble.size(), 1, threads), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t a = 0; a < felt; ++a) ensemble.influence(i)[a] += this->field()[(at + i) * Kind::width + a];
+      });
       at += ensemble.size();
     }
   }

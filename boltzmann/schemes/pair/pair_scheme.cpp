@@ -405,9 +405,7 @@ void PairScheme::complete(double) {
 void PairScheme::add_influences(double time) { calculate(time, false); }
 
 std::string PairScheme::undivided() const {
-  if (quantum_ > 0) return "the reversible leap-frog";
-  if (box().any_wall()) return "images of vortices beyond walls";
-  return "";
+  return quantum_ > 0 ? "the reversible leap-frog" : "";
 }
 
 void PairScheme::divide(Division* division) {
@@ -479,8 +477,8 @@ void PairScheme::calculate(double time, bool overwrite) {
     check_walls(box(), *near->target, *near->source, near->cutoff);
     PairTask const beyond = near->task_of_images(box());
     std::size_t const pairs = beyond.targets * beyond.sources;
-    for_ranges(beyond.targets, near->grain(), threads_for(pairs, pair_work, threads()),
-               [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), beyond, begin, end); });
+    over_targets(*near, beyond, pairs, threads(),
+                 [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), beyond, begin, end); });
   }
   for (auto* ensemble : clear) ensemble->clear_influence();
   for (auto const& connected : connected_) {

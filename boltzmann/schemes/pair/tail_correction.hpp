@@ -43,6 +43,7 @@ class TailCorrection final : public Scheme {
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
   void make_reversible(double) override {}
+  std::string undivided() const override { return ""; }
 
  private:
   struct Tail;

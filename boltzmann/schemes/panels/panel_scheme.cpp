@@ -47,6 +47,11 @@ void PanelScheme::add(AnyEnsemble& ensemble) {
 }
 
 void PanelScheme::find_sheet() {
+  if (division_) {
+    division_->team().meet(Team::Occasion::exchanges);
+    for (auto* body : bodies_)
+      division_->gather(*body, body->influence(0), body->influence_size(), body->influence_size());
+  }
   std::size_t at = 0;
   for (auto* body : bodies_)
     for (std::size_t i = 0; i < body->size(); ++i, ++at) {
@@ -74,20 +79,27 @@ void PanelScheme::find_sheet() {
 }
 
 void PanelScheme::carry(AnyEnsemble& ensemble) {
-  std::size_t const count = ensemble.size();
+  std::vector<Stretch> const everybody{{0, ensemble.size()}};
+  auto const& own = ensemble.share() ? ensemble.share()->stretches : everybody;
+  auto const over_own = [&](auto const& function) {
+    std::size_t at = 0;
+    for (auto const& [begin, end] : own)
+      for (std::size_t i = begin; i < end; ++i) function(i, at++);
+  };
+  std::size_t const count = ensemble.share() ? ensemble.share()->size : ensemble.size();
   for (auto* array : {&x_, &y_, &u_, &v_}) array->resize(std::max(array->size(), count + places_padding));
-  for (std::size_t i = 0; i < count; ++i) {
-    x_[i] = ensemble.row(i)[0], y_[i] = ensemble.row(i)[1];
-    if (!std::isfinite(x_[i]) || !std::isfinite(y_[i]))
+  over_own([&](std::size_t i, std::size_t at) {
+    x_[at] = ensemble.row(i)[0], y_[at] = ensemble.row(i)[1];
+    if (!std::isfinite(x_[at]) || !std::isfinite(y_[at]))
       throw PhysicsFailure(fmt::format("the position of particle {} of '{}' is not finite", i, ensemble.name()));
-  }
+  });
   std::fill_n(u_.begin(), count + places_padding, 0.0);
   std::fill_n(v_.begin(), count + places_padding, 0.0);
   sheet_.add_velocities(x_.data(), y_.data(), u_.data(), v_.data(), count, threads());
-  for (std::size_t i = 0; i < count; ++i) {
+  over_own([&](std::size_t i, std::size_t at) {
     double* const influence = ensemble.influence(i);
-    influence[0] += u_[i], influence[1] += v_[i];
-  }
+    influence[0] += u_[at], influence[1] += v_[at];
+  });
 }
 
 void PanelScheme::add_influences(double /*time*/) {

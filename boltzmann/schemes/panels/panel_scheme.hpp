@@ -49,6 +49,9 @@ class PanelScheme final : public Scheme, public AfterOthers {
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
   void make_reversible(double quantum) override;
+  std::string undivided() const override { return ""; }
+  /// All ranks find the sheet, and each what it carries of its share.
+  void divide(Division* division) override { division_ = division; }
   std::size_t bytes() const override;
   std::string summary() const override;
   std::vector<double> state() const override { return sheet_.strengths(); }
@@ -59,6 +62,7 @@ class PanelScheme final : public Scheme, public AfterOthers {
   void carry(AnyEnsemble& ensemble);
 
   PanelSheet sheet_;
+  Division* division_ = nullptr;  // while a run is divided
   std::vector<AnyEnsemble*> bodies_, carried_;
   std::vector<double> normal_velocity_, x_, y_, u_, v_;
 };
