@@ -135,6 +135,7 @@ class PairScheme final : public Scheme {
   SmallSystem small_system() override;
   EnergyAndVirial measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
+  RateSource* rate_source(AnyEnsemble const& ensemble) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
   bool follows_box() const override { return true; }
   /// Lists are built anew. PhysicsFailure if a cut-off is longer than a periodic axis now.
@@ -221,6 +222,8 @@ class PairScheme final : public Scheme {
   struct External;
 
   void calculate(double time, bool overwrite);
+  External* only_rates(AnyEnsemble const& ensemble) const;
+  void clear_driven(AnyEnsemble& ensemble) const;
   void bring_particles();
   template <class Kernel>
   void over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads, Kernel const& kernel) const;
