@@ -2,6 +2,7 @@
 // threads.
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/laws/fene.hpp>
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
@@ -31,6 +32,7 @@ struct Run {
   double temperature, cutoff, skin, dt, knock_on_energy;
   std::uint64_t warm_up, steps;
   int threads;
+  bool typed;  // the law as a formula
 };
 
 template <int D>
@@ -51,7 +53,10 @@ void run(Run const& r) {
   scheme.skin(r.skin);
   scheme.shifted(false);
   scheme.threads(r.threads);
-  scheme.internal(atoms, LennardJones{.depth = 1, .r0 = std::pow(2.0, 1.0 / 6)});
+  if (r.typed)
+    scheme.internal(atoms, FormulaLaw::energy("4*((1/r)^12 - (1/r)^6)"));
+  else
+    scheme.internal(atoms, LennardJones{.depth = 1, .r0 = std::pow(2.0, 1.0 / 6)});
   double const start = scheme.measure().potential / static_cast<double>(atoms.size());
 
   Simulation simulation(scheme, r.dt);
@@ -144,11 +149,12 @@ void run_polymer(std::size_t count, Run const& r) {
 
 int main(int argc, char** argv) try {
   if (argc != 7) {
-    std::fprintf(stderr,
-                 "usage: %s melt CELLS WARM_UP STEPS THREADS SKIN, or copper | knock-on COLUMNS ... (rows are 8/5 of "
-                 "columns), or polymer CELLS ... (4 CELLS^3 beads from polymer.data, which polymer-start CELLS 0 0 1 0 "
-                 "writes; skin 0: ours); in units of sigma\n",
-                 argv[0]);
+    std::fprintf(
+        stderr,
+        "usage: %s melt | typed CELLS WARM_UP STEPS THREADS SKIN, or copper | knock-on COLUMNS ... (rows are 8/5 of "
+        "columns), or polymer CELLS ... (4 CELLS^3 beads from polymer.data, which polymer-start CELLS 0 0 1 0 "
+        "writes; skin 0: ours); in units of sigma\n",
+        argv[0]);
     return 2;
   }
   std::size_t const count = std::strtoul(argv[2], nullptr, 10);
@@ -162,7 +168,8 @@ int main(int argc, char** argv) try {
     write_polymer(count);
   } else if (std::strcmp(argv[1], "polymer") == 0) {
     run_polymer(count, r);
-  } else if (std::strcmp(argv[1], "melt") == 0) {
+  } else if (std::strcmp(argv[1], "melt") == 0 || std::strcmp(argv[1], "typed") == 0) {
+    r.typed = std::strcmp(argv[1], "typed") == 0;
     r.block = {Lattice::fcc, spacing_for_density(Lattice::fcc, 3, 0.8442), {count, count, count}};
     r.temperature = 1.44;
     r.cutoff = 2.5;

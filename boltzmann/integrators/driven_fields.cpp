@@ -58,7 +58,8 @@ class FieldEquations final : public EquationsOfMotion {
   std::size_t numbers_ = 0;
 };
 
-class WithDrivenFields final : public Integrator {
+/// Fields beside whatever moves: in blocks, within the integrator's own loop where it takes them along.
+class WithDrivenFields final : public Integrator, private Companion {
  public:
   WithDrivenFields(std::unique_ptr<Integrator> inner, AnyEnsemble& ensemble)
       : inner_(std::move(inner)), ensemble_(ensemble), equations_(ensemble), numbers_(equations_.numbers()) {
@@ -67,6 +68,8 @@ class WithDrivenFields final : public Integrator {
     bool const newton = ensemble.moves_as() == typeid(Newton<1>) || ensemble.moves_as() == typeid(Newton<2>) ||
                         ensemble.moves_as() == typeid(Newton<3>);
     if (method() == Method::leap_frog && newton && velocity) velocity_ = velocity->offset;
+    arrays_ = ensemble.driven().size();
+    for (auto const& field : ensemble.driven()) arrays_ += field.diffuses ? 1 : 0;
   }
 
   Method method() const override { return inner_->method(); }
@@ -88,65 +91,130 @@ class WithDrivenFields final : public Integrator {
   bool has_groups() const override { return inner_->has_groups(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
+  /// Those of leap-frog belong to the state between its steps, and stay with the scheme.
+  void rates_from(RateSource* source) override {
+    bool const fits = arrays_ * ensemble_.rate_stride() <= most_numbers;
+    source_ = fits && method() != Method::leap_frog ? source : nullptr;
+  }
   EquationsOfMotion* equations_of_motion() override { return inner_->equations_of_motion(); }
   EquationsOfMotion* equations_of_fields() { return equations_of_motion() ? &equations_ : nullptr; }
 
   Motion advance(int stage, StepContext const& context) override {
     inner_->threads(threads_);
-    double const dt = context.dt;
-    if (velocity_ >= 0 && stage == 0) keep_velocities();
-    if (velocity_ >= 0 && stage == 1) take_back_velocities();
+    stage_ = stage;
+    context_ = &context;
+    not_finite_ = LargestMove::nobody;
+    make_room();
+    bool const together = inner_->accompany(this);
+    if (!together) over_particles([this](std::size_t begin, std::size_t end) { before(begin, end); });
     Motion const motion = inner_->advance(stage, context);
-    if (velocity_ >= 0 && stage == 0) predict_velocities();
-    advance_fields(stage, dt);
+    if (!together)
+      over_particles([this](std::size_t begin, std::size_t end) { after(begin, end, rates_of(ensemble_)); });
+    inner_->accompany(nullptr);
+    // At the first stage rates may be those of before: what holds, or has been restored, is in the ensemble.
+    if (source_) source_->take(together && stage + 1 < stages());
     move_ = inner_->largest_move();
-    if (stage + 1 == stages()) {
-      diffuse(context);
-      take_periods_off();
-      find_not_finite();
-    }
+    move_.not_finite = std::min(move_.not_finite, not_finite_);
     return motion;
   }
 
  private:
+  static constexpr std::size_t most_numbers = 48;  // of a particle's rates, for a block of which there is room
+
+  void make_room() {
+    std::size_t const size = ensemble_.size();
+    start_.resize(numbers_ * size);
+    if (method() == Method::rk4) sum_.resize(numbers_ * size);
+    if (velocity_ >= 0) velocities_.resize(static_cast<std::size_t>(ensemble_.dimension()) * size);
+  }
+
+  // ---- Blocks ----
+
+  void around(std::size_t begin, std::size_t end, Own const& own) override {
+    if (!source_ || !source_->taken()) {
+      before(begin, end);
+      own(begin, end);
+      return after(begin, end, rates_of(ensemble_));
+    }
+    std::size_t const D = ensemble_.rate_stride();
+    double numbers[most_numbers * most_particles];
+    RatePlaces rates{numbers, D * most_particles, most_particles, 1};
+    for (std::size_t k = 0; k < arrays_; ++k)
+      for (std::size_t c = 0; c < components(k); ++c) std::fill_n(rates.of(k, c, 0), end - begin, 0.0);
+    source_->evaluate(begin, end, rates);
+    before(begin, end);
+    own(begin, end);
+    after(begin, end, rates, begin);
+  }
+  void before(std::size_t begin, std::size_t end) {
+    if (velocity_ < 0) return;
+    if (stage_ == 0)
+      each_velocity(begin, end, [](double& v, double& kept) { kept = v; });
+    else if (stage_ == 1)
+      each_velocity(begin, end, [](double& v, double& kept) { v = kept; });
+  }
+  /// `first`: the particle whose rates come first.
+  void after(std::size_t begin, std::size_t end, RatePlaces const& rates, std::size_t first = 0) {
+    if (velocity_ >= 0 && stage_ == 0) predict_velocities(begin, end);
+    Block const block{begin, end, first, &rates};
+    advance_fields(block);
+    if (stage_ + 1 < stages()) return;
+    diffuse(block);
+    take_periods_off(block);
+    find_not_finite(block);
+  }
+  /// Of driven field k, or of a diffusion coefficient.
+  std::size_t components(std::size_t k) const {
+    return k < ensemble_.driven().size() ? static_cast<std::size_t>(ensemble_.driven()[k].components) : 1;
+  }
+  template <class F>
+  void over_particles(F const& f) {
+    for_share(ensemble_, field_grain, threads_for(ensemble_.size(), 1, threads_), f);
+  }
+
   // ---- Fields ----
 
-  void advance_fields(int stage, double dt) {
-    start_.resize(numbers_ * ensemble_.size());
+  struct Block {
+    std::size_t begin, end, first;
+    RatePlaces const* rates;
+    std::size_t size() const { return end - begin; }
+  };
+
+  void advance_fields(Block const& block) {
+    double const dt = context_->dt;
     switch (method()) {
       case Method::euler:
-        return each([dt](double& x, double&, double&, double rate) { x += dt * rate; });
+        return each(block, [dt](double& x, double&, double&, double rate) { x += dt * rate; });
       case Method::leap_frog:
-        if (stage == 0)
-          return each([dt](double& x, double& first, double&, double rate) {
+        if (stage_ == 0)
+          return each(block, [dt](double& x, double& first, double&, double rate) {
             first = rate;
             x += dt * rate;
           });
-        return each([dt](double& x, double& first, double&, double rate) { x += 0.5 * dt * (rate - first); });
+        return each(block, [dt](double& x, double& first, double&, double rate) { x += 0.5 * dt * (rate - first); });
       case Method::rk2:
       case Method::random_walk:
-        if (stage == 0)
-          return each([dt](double& x, double& x0, double&, double rate) {
+        if (stage_ == 0)
+          return each(block, [dt](double& x, double& x0, double&, double rate) {
             x0 = x;
             x = x0 + 0.5 * dt * rate;
           });
-        return each([dt](double& x, double& x0, double&, double rate) { x = x0 + dt * rate; });
+        return each(block, [dt](double& x, double& x0, double&, double rate) { x = x0 + dt * rate; });
       default:
-        return by_rk4(stage, dt);
+        return by_rk4(block, dt);
     }
   }
-  void by_rk4(int stage, double dt) {
-    sum_.resize(start_.size());
-    if (stage == 0)
-      return each([dt](double& x, double& x0, double& sum, double rate) {
+  void by_rk4(Block const& block, double dt) {
+    if (stage_ == 0)
+      return each(block, [dt](double& x, double& x0, double& sum, double rate) {
         x0 = x;
         sum = rate;
         x = x0 + 0.5 * dt * rate;
       });
-    if (stage == 3)
-      return each([dt](double& x, double& x0, double& sum, double rate) { x = x0 + dt / 6 * (sum + rate); });
-    double const h = stage == 1 ? 0.5 * dt : dt;
-    each([h](double& x, double& x0, double& sum, double rate) {
+    if (stage_ == 3)
+      return each(block, [dt](double& x, double& x0, double& sum, double rate) { x = x0 + dt / 6 * (sum + rate); });
+    double const h = stage_ == 1 ? 0.5 * dt : dt;
+    each(block, [h](double& x, double& x0, double& sum, double rate) {
       sum += 2 * rate;
       x = x0 + h * rate;
     });
@@ -154,84 +222,66 @@ class WithDrivenFields final : public Integrator {
 
   /// f(x, number at the start of the step, sum of rates, rate) for every number that is driven.
   template <class F>
-  void each(F const& f) {
-    over_particles([ this, f ](std::size_t begin, std::size_t end) __attribute__((noinline)) {
-      std::size_t const stride = ensemble_.rate_stride(), row = ensemble_.stride();
-      std::size_t first = 0;
-      for (std::size_t k = 0; k < ensemble_.driven().size(); ++k) {
-        auto const field = ensemble_.driven()[k];
-        if (field.sum) continue;
-        std::size_t const components = static_cast<std::size_t>(field.components);
-        double const* const rates = ensemble_.rate(k);
-        double* const rows = ensemble_.row(0) + field.offset;
-        for (std::size_t c = 0; c < components; ++c, ++first) {
-          double *const start = start_.data() + first * ensemble_.size(), *const sum =
-                                                                              sum_.data() +
-                                                                              first *
-                                                                                  (sum_.empty() ? 0 : ensemble_.size());
-          double none = 0;
-          bool const summed = !sum_.empty();
-          for (std::size_t i = begin; i < end; ++i)
-            f(rows[i * row + c], start[i], summed ? sum[i] : none, rates[i * stride + c]);
-        }
+  __attribute__((noinline)) void each(Block const& block, F const& f) {
+    std::size_t const row = ensemble_.stride(), size = ensemble_.size(), count = block.size();
+    double* start = start_.data() + block.begin;
+    double* sum = sum_.empty() ? start : sum_.data() + block.begin;
+    for (std::size_t k = 0; k < ensemble_.driven().size(); ++k) {
+      auto const field = ensemble_.driven()[k];
+      if (field.sum) continue;
+      for (std::size_t c = 0; c < components(k); ++c, start += size, sum += size) {
+        double* const x = ensemble_.row(block.begin) + field.offset + c;
+        double const* const rate = block.rates->of(k, c, block.begin - block.first);
+        std::size_t const step = block.rates->particle;
+        for (std::size_t i = 0; i < count; ++i) f(x[i * row], start[i], sum[i], rate[i * step]);
       }
-    });
-  }
-  template <class F>
-  void over_particles(F const& f) {
-    for_share(ensemble_, field_grain, threads_for(ensemble_.size(), 1, threads_), f);
+    }
   }
 
   /// A random step of variance 2 D dt; the coefficients stand behind the rates.
-  void diffuse(StepContext const& context) {
+  void diffuse(Block const& block) {
     std::size_t place = ensemble_.driven().size();
     for (std::size_t k = 0; k < ensemble_.driven().size(); ++k) {
       auto const field = ensemble_.driven()[k];
       if (!field.diffuses) continue;
-      double const* const coefficients = ensemble_.rate(place++);
-      over_particles([&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          double const deviation = std::sqrt(2 * coefficients[i * ensemble_.rate_stride()] * std::abs(context.dt));
-          // Fields of one particle have ids of their own.
-          Stream stream(context.seed, context.step, (static_cast<std::uint64_t>(k) << 48) | i,
-                        Purpose::field_diffusion);
-          double* const x = ensemble_.row(i) + field.offset;
-          for (int c = 0; c < field.components; ++c) x[c] += deviation * stream.normal();
-        }
-      });
+      double const* const coefficients = block.rates->of(place++, 0, block.begin - block.first);
+      for (std::size_t i = block.begin; i < block.end; ++i) {
+        double const coefficient = coefficients[(i - block.begin) * block.rates->particle];
+        double const deviation = std::sqrt(2 * coefficient * std::abs(context_->dt));
+        // Fields of one particle have ids of their own.
+        Stream stream(context_->seed, context_->step, (static_cast<std::uint64_t>(k) << 48) | i,
+                      Purpose::field_diffusion);
+        double* const x = ensemble_.row(i) + field.offset;
+        for (int c = 0; c < field.components; ++c) x[c] += deviation * stream.normal();
+      }
     }
   }
 
   /// Angles and the like are taken back into their period.
-  void take_periods_off() {
+  void take_periods_off(Block const& block) {
     for (auto const& field : ensemble_.driven()) {
       if (!(field.period > 0)) continue;
-      over_particles([&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          for (int c = 0; c < field.components; ++c) {
-            double& x = ensemble_.row(i)[field.offset + c];
-            if (!(std::abs(x) <= 0.5 * field.period)) x -= field.period * std::nearbyint(x / field.period);
-          }
-      });
+      for (std::size_t i = block.begin; i < block.end; ++i)
+        for (int c = 0; c < field.components; ++c) {
+          double& x = ensemble_.row(i)[field.offset + c];
+          if (!(std::abs(x) <= 0.5 * field.period)) x -= field.period * std::nearbyint(x / field.period);
+        }
     }
   }
 
   /// The first particle that has a field which is not finite.
-  void find_not_finite() {
-    std::mutex found;
-    over_particles([&](std::size_t begin, std::size_t end) {
-      for (auto const& field : ensemble_.driven())
-        for (int c = 0; c < field.components; ++c) {
-          double zero = 0;  // 0 times any number is 0, or NaN
-          for (std::size_t i = begin; i < end; ++i) zero += 0 * ensemble_.row(i)[field.offset + c];
-          for (std::size_t i = begin; i < end && zero != 0; ++i)
-            if (!std::isfinite(ensemble_.row(i)[field.offset + c])) {
-              std::lock_guard const lock(found);
-              move_.not_finite = std::min(move_.not_finite, i);
-              break;
-            }
-        }
-    });
+  void find_not_finite(Block const& block) {
+    for (auto const& field : ensemble_.driven())
+      for (int c = 0; c < field.components; ++c) {
+        double zero = 0;  // 0 times any number is 0, or NaN
+        for (std::size_t i = block.begin; i < block.end; ++i) zero += 0 * ensemble_.row(i)[field.offset + c];
+        for (std::size_t i = block.begin; i < block.end && zero != 0; ++i)
+          if (!std::isfinite(ensemble_.row(i)[field.offset + c])) {
+            std::lock_guard const lock(found_);
+            not_finite_ = std::min(not_finite_, i);
+            break;
+          }
+      }
   }
 
   // ---- Velocities ----
@@ -240,35 +290,32 @@ class WithDrivenFields final : public Integrator {
   // gets its own back.
 
   template <class F>
-  void each_velocity(F const& f) {
+  void each_velocity(std::size_t begin, std::size_t end, F const& f) {
     std::size_t const D = static_cast<std::size_t>(ensemble_.dimension());
-    velocities_.resize(D * ensemble_.size());
-    over_particles([&, D](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t c = 0; c < D; ++c)
-          f(ensemble_.row(i)[static_cast<std::size_t>(velocity_) + c], velocities_[i * D + c]);
-    });
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t c = 0; c < D; ++c)
+        f(ensemble_.row(i)[static_cast<std::size_t>(velocity_) + c], velocities_[i * D + c]);
   }
-  void keep_velocities() {
-    each_velocity([](double& v, double& kept) { kept = v; });
-  }
-  void predict_velocities() {
-    each_velocity([](double& v, double& kept) {
+  void predict_velocities(std::size_t begin, std::size_t end) {
+    each_velocity(begin, end, [](double& v, double& kept) {
       double const half = v;
       v = half + (half - kept);
       kept = half;
     });
   }
-  void take_back_velocities() {
-    each_velocity([](double& v, double& kept) { v = kept; });
-  }
 
   std::unique_ptr<Integrator> inner_;
   AnyEnsemble& ensemble_;
   FieldEquations equations_;
-  std::size_t numbers_;
-  int velocity_ = -1;  // where it stands in a row, if it is predicted
+  std::size_t numbers_, arrays_ = 0;  // that are advanced; of rates and diffusion coefficients
+  int velocity_ = -1;                 // where it stands in a row, if it is predicted
+  RateSource* source_ = nullptr;
   std::vector<double> start_, sum_, velocities_;
+  // Of the stage at hand:
+  int stage_ = 0;
+  StepContext const* context_ = nullptr;
+  std::mutex found_;
+  std::size_t not_finite_ = LargestMove::nobody;
 };
 
 }  // namespace

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <boltzmann/core/words.hpp>
+#include <boltzmann/schemes/rate_source.hpp>
 #include <boltzmann/schemes/rotation.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -92,6 +94,17 @@ class EquationsOfMotion {
   virtual void rates(double* rates) = 0;
 };
 
+/// Goes through the particles with an integrator, in blocks whose rows stay in the first-level cache meanwhile.
+class Companion {
+ public:
+  virtual ~Companion() = default;
+  static constexpr std::size_t most_particles = 128;  ///< of a block
+  /// Calls own(begin, end) once, the integrator's work on these particles; no more than most_particles. On several
+  /// threads, if the integrator has some.
+  using Own = std::function<void(std::size_t begin, std::size_t end)>;
+  virtual void around(std::size_t begin, std::size_t end, Own const& own) = 0;
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -127,6 +140,10 @@ class Integrator {
   virtual bool takes_rotations() const { return false; }
   /// The rotations of all steps to come, in place of those before.
   virtual void rotate(std::vector<Rotation> /*rotations*/) {}
+  /// The rates of its fields, which it may take (RateSource::take()); null: there are none that could be taken.
+  virtual void rates_from(RateSource* /*source*/) {}
+  /// Whether it takes the companion along, in the stages to come; null: nobody. Some work on all particles at once.
+  virtual bool accompany(Companion* /*companion*/) { return false; }
 
   /// Of the last step that was finished (the square of a distance); the next stage 0 begins another.
   LargestMove const& largest_move() const { return move_; }

@@ -10,6 +10,7 @@
 #include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/smooth.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -91,6 +92,10 @@ class MethodOf : public Integrator {
  public:
   explicit MethodOf(AnyEnsemble& ensemble, Method method) : ensemble_(ensemble), method_(method) {}
   Method method() const override { return method_; }
+  bool accompany(Companion* companion) override {
+    companion_ = companion;
+    return true;
+  }
 
  protected:
   /// Calls rate(member, derivative) for every field of particle i that changes in time (Eq 3.5, 3.8, ...). All
@@ -112,13 +117,16 @@ class MethodOf : public Integrator {
   /// registers.
   template <class Function>
   void each(Function const& function) {
-    auto const loop = [&function](Stretch const* first, Stretch const* last)
+    auto const own_loop = [&function](Stretch const* first, Stretch const* last)
         __attribute__((noinline, optimize("no-tree-vectorize"))) {
       Function const own = function;
       LargestMove part;
       for (; first != last; ++first)
         for (std::size_t i = first->begin, end = first->end; i < end; ++i) own(i, part);
       return part;
+    };
+    auto const loop = [&own_loop, this](Stretch const* first, Stretch const* last) {
+      return companion_ ? in_blocks(*companion_, own_loop, first, last) : own_loop(first, last);
     };
     move_ = {};
     if (Share const* const share = ensemble_.whole().share()) {
@@ -144,6 +152,22 @@ class MethodOf : public Integrator {
     for (auto const& part : parts) move_.take(part);
   }
 
+  /// The same loop, block by block, with a companion around each.
+  template <class Loop>
+  static LargestMove in_blocks(Companion& companion, Loop const& loop, Stretch const* first, Stretch const* last) {
+    LargestMove all;
+    Companion::Own const own = [&all, &loop](std::size_t begin, std::size_t end) {
+      Stretch const block{begin, end};
+      all.take(loop(&block, &block + 1));
+    };
+    for (; first != last; ++first)
+      for (std::size_t begin = first->begin, end = begin; begin < first->end; begin = end) {
+        end = std::min(begin + Companion::most_particles, first->end);
+        companion.around(begin, end, own);
+      }
+    return all;
+  }
+
   /// Of an array with an entry for each particle, or none.
   template <class T>
   static void carry(std::vector<T>& of_particles, std::vector<Integrator::Carried>& all) {
@@ -156,6 +180,7 @@ class MethodOf : public Integrator {
 
  private:
   Method method_;
+  Companion* companion_ = nullptr;
 };
 
 template <class P>
@@ -348,6 +373,8 @@ class LeapFrog final : public Alternating<P> {
   using Alternating<P>::Alternating;
   bool takes_rotations() const override { return true; }
   void rotate(std::vector<Rotation> rotations) override { rotations_ = std::move(rotations); }
+  /// Rotations turn all before others are moved.
+  bool accompany(Companion* companion) override { return rotations_.empty() && MethodOf<P>::accompany(companion); }
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
     auto const plain = [](double& x, double dx) { x += dx; };

@@ -8,6 +8,7 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/fused_steps.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
+#include <boltzmann/schemes/rate_source.hpp>
 #include <boltzmann/schemes/rotation.hpp>
 
 #include <array>
@@ -120,6 +121,8 @@ class Scheme {
   /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
   /// more, until they are asked for again with `taken` false.
   virtual std::vector<Rotation> rotations(AnyEnsemble const& /*ensemble*/, bool /*taken*/) { return {}; }
+  /// All that the rates of this ensemble's fields consist of, not taken; null: there are none, or laws add to them.
+  virtual RateSource* rate_source(AnyEnsemble const& /*ensemble*/) { return nullptr; }
 
   /// Whether influences on this ensemble are known to depend on velocities.
   virtual bool velocity_dependent(AnyEnsemble const& /*ensemble*/) const { return false; }

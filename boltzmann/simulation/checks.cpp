@@ -97,6 +97,10 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   for (auto* scheme : schemes_)
     for (auto const& rotation : scheme->rotations(ensemble, takes)) rotations.push_back(rotation);
   if (takes) part->integrator->rotate(std::move(rotations));
+  std::vector<RateSource*> sources;
+  for (auto* scheme : schemes_)
+    if (auto* source = scheme->rate_source(ensemble)) sources.push_back(source);
+  part->integrator->rates_from(sources.size() == 1 ? sources.front() : nullptr);
   part->stages = part->integrator->stages();
   part->time_after.clear();
   for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));

@@ -4,6 +4,7 @@
 #include <boltzmann/laws/interaction.hpp>
 #include <boltzmann/particles/rows.hpp>
 #include <boltzmann/schemes/pair/pair_kernels.hpp>
+#include <boltzmann/schemes/rate_source.hpp>
 #include <boltzmann/schemes/rotation.hpp>
 
 #include <cstddef>
@@ -17,8 +18,11 @@ struct ExternalTask {
   std::uint32_t const* only = nullptr;  ///< the particles it acts on; null: all
   double time = 0;
   double* influence = nullptr;
-  double* energy = nullptr;     ///< measuring: energy of each particle in the field
-  std::size_t rate_stride = 0;  ///< of rates: doubles from those of one driven field to those of the next
+  double* energy = nullptr;  ///< measuring: energy of each particle in the field
+  // Of rates, which have no influence:
+  RatePlaces rates, sums;  ///< where they come, and where sums of particle 0 are
+  std::size_t first = 0;   ///< the particle whose rates come first
+  bool store = false;      ///< they are stored, else added
 };
 
 using ExternalKernel = void (*)(void const* law, ExternalTask const& task, std::size_t begin, std::size_t end);

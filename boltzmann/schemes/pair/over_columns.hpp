@@ -116,9 +116,52 @@ void begin_row(PairProgram const& law, FormulaProgram const& program, Workspace<
   run_row<W>(work, program);
 }
 
+/// Leading steps that have a loop of their own, in which nothing asks which step it is.
+enum class Lead { nothing, reciprocal, root, reciprocal_and_root, any };
+
+/// From the entries of a list, packs of them: q.position - p.position and its square into the first columns, and what
+/// the leading steps make of that.
+template <Lead kind, int W, int D>
+void gather_separations(double const* rows, std::uint32_t const* entries, std::size_t packs, double const* p,
+                        Step const* steps, std::size_t leading, Workspace<W>& work) {
+  using Real = Pack<double, W>;
+  double *const columns = work.columns, *const squares = work.column(D);
+  double* const first = work.column(leading > 0 ? steps[0].to.index : D);
+  double* const second = work.column(leading > 1 ? steps[1].to.index : D);
+  for (std::size_t k = 0; k < packs * W; k += W) {
+    Real q[row_block];
+    transpose_block<W>([&](int lane) { return rows + entries[k + static_cast<std::size_t>(lane)]; }, 0, q, D);
+    Real square = 0.0;
+    for (std::size_t c = 0; c < D; ++c) {
+      Real const d = q[c] - p[c];
+      store_pack<W>(columns + c * block_pairs + k, d);
+      square = square + d * d;
+    }
+    square = max(square, Real(least_square));
+    store_pack<W>(squares + k, square);
+    if constexpr (kind == Lead::any)
+      for (std::size_t n = 0; n < leading; ++n)
+        store_pack<W>(work.column(steps[n].to.index) + k, lead<W>(steps[n], square));
+    if constexpr (kind == Lead::reciprocal || kind == Lead::reciprocal_and_root) store_pack<W>(first + k, 1.0 / square);
+    if constexpr (kind == Lead::root) store_pack<W>(first + k, sqrt(square));
+    if constexpr (kind == Lead::reciprocal_and_root) store_pack<W>(second + k, sqrt(square));
+  }
+}
+
+/// The loop for these leading steps.
+template <int W, int D>
+auto gather_with(Step const* steps, std::size_t leading) {
+  auto const is = [&](std::size_t n, Instruction instruction) { return steps[n].instruction == instruction; };
+  if (leading == 0) return gather_separations<Lead::nothing, W, D>;
+  if (leading == 1 && is(0, Instruction::reciprocal)) return gather_separations<Lead::reciprocal, W, D>;
+  if (leading == 1 && is(0, Instruction::root)) return gather_separations<Lead::root, W, D>;
+  if (leading == 2 && is(0, Instruction::reciprocal) && is(1, Instruction::root))
+    return gather_separations<Lead::reciprocal_and_root, W, D>;
+  return gather_separations<Lead::any, W, D>;
+}
+
 template <Pass pass, int W, int D>
 void formula_over_list(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
-  using Real = Pack<double, W>;
   auto const& law = *static_cast<PairProgram const*>(the_law);
   FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
   Workspace<W> work;
@@ -127,6 +170,8 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
   MachineCode::List const whole = pass == Pass::influence && program.code ? program.code->list() : nullptr;
   work.set_scalar(program.scalars + D, task.cutoff2);
   std::size_t const leading = leading_steps<W>(program, D);
+  Step const* const steps = program.steps.data();
+  auto const gather = gather_with<W, D>(steps, leading);
   for (std::size_t i = begin; i < end; ++i) {
     double const* const p = task.target + row_block * i;
     begin_row<W>(law, program, work, [&](std::size_t offset) {
@@ -145,20 +190,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
       std::uint32_t const* const j = task.row[i] + from;
       std::size_t const left = task.length[i] - from, count = left < block_pairs ? left : block_pairs;
       std::size_t const packs = (count + W - 1) / W;  // entries behind the last one point to no particle
-      for (std::size_t k = 0; k < packs; ++k) {
-        Pack<double, W> q[row_block];
-        transpose_block<W>([&](int lane) { return task.source + j[k * W + static_cast<std::size_t>(lane)]; }, 0, q, D);
-        Real square = 0.0;
-        for (std::size_t c = 0; c < D; ++c) {
-          Real const d = q[c] - p[c];
-          store_pack<W>(work.column(c) + k * W, d);
-          square = square + d * d;
-        }
-        square = max(square, Real(least_square));
-        store_pack<W>(work.column(D) + k * W, square);
-        for (std::size_t n = 0; n < leading; ++n)
-          store_pack<W>(work.column(program.steps[n].to.index) + k * W, lead<W>(program.steps[n], square));
-      }
+      gather(task.source, j, packs, p, steps, leading, work);
       // Blocks of q's rows, one after the other; a field of the block at hand gets its column.
       for (std::size_t f = 0; f < law.of_q.size();) {
         std::size_t const block = static_cast<std::size_t>(law.of_q[f]) / row_block;

@@ -220,14 +220,32 @@ struct PairScheme::Connected {
 };
 
 struct PairScheme::External {
-  AnyEnsemble* ensemble;
+  AnyEnsemble* ensemble = nullptr;
   ExternalKernels kernels;
   LawPointer law;
   LawTraits traits;
-  bool everyone;
+  bool everyone = true;
   std::vector<std::uint32_t> only;
   std::size_t last = 0;  // the largest number in it
   bool taken = false;    // by an integrator, as a rotation
+  bool store = false;    // rates that nothing else adds to
+  double time = 0;       // of the last calculation
+
+  /// Rates, for an integrator.
+  class Rates final : public RateSource {
+   public:
+    explicit Rates(External const& of) : of_(of) {}
+    void evaluate(std::size_t begin, std::size_t end, RatePlaces const& rates) const override {
+      ExternalTask task = of_.task(of_.time);
+      task.rates = rates;
+      task.first = begin;
+      task.store = false;
+      of_.kernels.influence(of_.law.get(), task, begin, end);
+    }
+
+   private:
+    External const& of_;
+  } source{*this};
 
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
   /// Calls function(begin, end) for all on whom it acts, of this rank; of chosen ones, by their place among these, for all.
@@ -251,8 +269,12 @@ struct PairScheme::External {
     t.row_stride = ensemble->stride();
     t.only = everyone ? nullptr : only.data();
     t.time = time;
-    t.influence = sum_of(*ensemble, traits);
-    t.rate_stride = ensemble->size() * ensemble->rate_stride();
+    if (!traits.rates) {
+      t.influence = sum_of(*ensemble, traits);
+    } else {
+      t.rates = t.sums = rates_of(*ensemble);
+      t.store = store;
+    }
     return t;
   }
 };
@@ -453,9 +475,11 @@ void PairScheme::calculate(double time, bool overwrite) {
   // The first law on an ensemble stores, further ones add.
   std::vector<AnyEnsemble*> clear;
   if (overwrite) clear = ensembles();
-  // Rates are only added, so that of their ensembles everything is cleared.
-  std::erase_if(clear, [](AnyEnsemble* ensemble) {
-    if (!ensemble->driven().empty()) ensemble->clear_influence();
+  for (auto const& external : external_)
+    if (external->traits.rates) external->store = overwrite && only_rates(*external->ensemble) != nullptr;
+  // On particles with rates laws only add.
+  std::erase_if(clear, [this](AnyEnsemble* ensemble) {
+    if (!ensemble->driven().empty()) clear_driven(*ensemble);
     return !ensemble->driven().empty();
   });
   auto const first_on = [&](AnyEnsemble* ensemble) { return std::erase(clear, ensemble) > 0; };
@@ -497,8 +521,46 @@ void PairScheme::calculate(double time, bool overwrite) {
   };
   for (auto const& external : external_)
     if (!external->traits.rates) add_external(*external);
-  for (auto const& external : external_)
-    if (external->traits.rates) add_external(*external);
+  for (auto const& external : external_) {
+    if (!external->traits.rates) continue;
+    external->time = time;
+    if (!external->source.taken()) add_external(*external);
+  }
+}
+
+/// The program that alone says all rates of an ensemble's fields; null: laws add to them.
+PairScheme::External* PairScheme::only_rates(AnyEnsemble const& ensemble) const {
+  auto const adds = [&](AnyEnsemble const* target, LawTraits const& traits) {
+    return target == &ensemble && !traits.moves() && !traits.rates &&
+           !ensemble.driven()[static_cast<std::size_t>(traits.changes)].sum;
+  };
+  for (auto const& near : near_)
+    if (adds(near->target, near->traits)) return nullptr;
+  for (auto const& connected : connected_)
+    if (adds(connected->ensemble, connected->traits)) return nullptr;
+  External* only = nullptr;
+  for (auto const& external : external_) {
+    if (adds(external->ensemble, external->traits)) return nullptr;
+    if (external->ensemble != &ensemble || !external->traits.rates) continue;
+    if (only) return nullptr;
+    only = external.get();
+  }
+  return only;
+}
+
+RateSource* PairScheme::rate_source(AnyEnsemble const& ensemble) {
+  External* const rates = only_rates(ensemble);
+  if (!rates) return nullptr;
+  rates->source.take(false);
+  return &rates->source;
+}
+
+/// Influences and what is added to in rates become zero.
+void PairScheme::clear_driven(AnyEnsemble& ensemble) const {
+  if (!only_rates(ensemble)) return ensemble.clear_influence();
+  std::fill_n(ensemble.influence(0), ensemble.size() * ensemble.influence_size(), 0.0);
+  for (std::size_t k = 0; k < ensemble.driven().size(); ++k)
+    if (ensemble.driven()[k].sum) std::fill_n(ensemble.rate(k), ensemble.size() * ensemble.rate_stride(), 0.0);
 }
 
 Scheme::SmallSystem PairScheme::small_system() {

@@ -135,6 +135,7 @@ class PairScheme final : public Scheme {
   SmallSystem small_system() override;
   EnergyAndVirial measure(double time = 0) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
+  RateSource* rate_source(AnyEnsemble const& ensemble) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
   bool follows_box() const override { return true; }
   /// Lists are built anew. PhysicsFailure if a cut-off is longer than a periodic axis now.
@@ -223,6 +224,8 @@ class PairScheme final : public Scheme {
 
   void calculate(double time, bool overwrite);
   void find_rows();
+  External* only_rates(AnyEnsemble const& ensemble) const;
+  void clear_driven(AnyEnsemble& ensemble) const;
   template <class Kernel>
   void over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads, Kernel const& kernel) const;
   void gather_measures(EnergyAndVirial& measures, std::vector<std::vector<double>>& field);
