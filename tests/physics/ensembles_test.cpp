@@ -117,12 +117,12 @@ TEST(Ensembles, TwoPressures) {
   double const pressure[2] = {1.0, 1.6}, temperature = 2;
   for (int const k : {0, 1}) {
     Fluid fluid(1.35);
-    VelocityRescaling bath(temperature, 2, 1);
+    VelocityRescaling bath(temperature, 8, 1);
     bath.on(fluid.atoms);
     fluid.simulation.add(bath);
     fluid.simulation.add(Barostat(
         {.pressure = pressure[k], .temperature = temperature, .compressibility = 0.3, .rate = 20, .every = 5}, 1));
-    fluid.run(3200, 50);
+    fluid.run(3200, 30);
     volumes[k] = fluid.volumes;
   }
   expect_slope(volumes[0], volumes[1], (pressure[0] - pressure[1]) / temperature, "volumes");
