@@ -93,7 +93,10 @@ Found run_at(std::string const& temperature, std::string const& cooling, int ste
                    "diagnoses.4.count=1200",
                    "diagnoses.5.count=1200",
                    "diagnoses.6.count=1200",
-                   "output.diagnoses=25",
+                   "diagnoses.4.every=50",
+                   "diagnoses.5.every=50",
+                   "diagnoses.6.every=50",
+                   "output.diagnoses=50",
                    "output.trajectory=0"};
   overrides.steps = steps;
   auto const run = shipped("kob-andersen", overrides);

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <numbers>
 
 namespace boltzmann::water_test {
@@ -201,11 +202,10 @@ TEST(Water, HasItsDensityAtOneBar) {
     densities.push_back(total_mass(run->simulation->ensembles()) / run->box().volume() * 1.66053907);
   }
   auto const density = estimate(densities, 8);
-  std::printf("density %.4f +- %.4f, accepted %.3f\n", density.mean, density.error,
-              static_cast<double>(run->simulation->barostats().front()->accepted()) /
-                  static_cast<double>(run->simulation->barostats().front()->moves()));
-  EXPECT_NEAR(density.mean, 0.998, 0.03);
   auto const& barostat = *run->simulation->barostats().front();
+  std::printf("density %.4f +- %.4f, %zu of %zu moves accepted\n", density.mean, density.error, barostat.accepted(),
+              barostat.moves());
+  EXPECT_NEAR(density.mean, 0.998, 0.03);
   EXPECT_GT(barostat.accepted(), barostat.moves() * 9 / 10);
 }
 
@@ -309,7 +309,7 @@ TEST(Water, LosesToTheBathWhatTheBathGets) {
 
 TEST(Water, HasTheStructureAndTheEnergyThatOthersHave) {
   Overrides overrides;
-  overrides.set = {"output.trajectory=0"};
+  overrides.set = {"output.trajectory=0", "dissipation.0.rate=\"50 / ps\""};  // the mean temperature to 1.2 K
   auto const run = shipped("water", overrides);
   AnyEnsemble& water = ensemble(*run, "water");
   std::vector<std::uint32_t> oxygens, hydrogens;
@@ -327,7 +327,7 @@ TEST(Water, HasTheStructureAndTheEnergyThatOthersHave) {
     for (auto* one : {&oo, &oh}) one->measure({all, run->box(), nullptr, 1, 0, 0}, values);
   }
   EXPECT_NEAR(estimate(energies, 8).mean, -46.6 + 0.25, 0.7);  // without what lies beyond 9 angstrom
-  EXPECT_NEAR(estimate(temperatures, 8).mean, 298.15, 8);
+  EXPECT_NEAR(estimate(temperatures, 8).mean, 298.15, 6);
   std::vector<double> values;
   oo.measure({all, run->box(), nullptr, 1, 1, 0}, values);
   EXPECT_NEAR(values[0], 3.05, 0.15);
