@@ -93,7 +93,7 @@ void expect_slope(std::vector<double> const& first, std::vector<double> const& s
 }
 
 template <class Bath>
-void expect_canonical(double rate, std::string const& what) {
+void expect_canonical(double rate, int every, std::string const& what) {
   std::vector<double> energies[2];
   double const temperature[2] = {1.3, 1.9};
   for (int const k : {0, 1}) {
@@ -101,15 +101,15 @@ void expect_canonical(double rate, std::string const& what) {
     Bath bath(temperature[k], rate, 1);
     bath.on(fluid.atoms);
     fluid.simulation.add(bath);
-    fluid.run(2400, 40);
+    fluid.run(2400, every);
     energies[k] = fluid.energies;
   }
   expect_slope(energies[0], energies[1], 1 / temperature[0] - 1 / temperature[1], what);
 }
 
 TEST(Ensembles, TwoTemperatures) {
-  expect_canonical<VelocityRescaling>(2, "velocity rescaling");
-  expect_canonical<NoseHooverChain>(8, "chain of Nose and Hoover");
+  expect_canonical<VelocityRescaling>(8, 20, "velocity rescaling");
+  expect_canonical<NoseHooverChain>(8, 40, "chain of Nose and Hoover");
 }
 
 TEST(Ensembles, TwoPressures) {
@@ -117,12 +117,12 @@ TEST(Ensembles, TwoPressures) {
   double const pressure[2] = {1.0, 1.6}, temperature = 2;
   for (int const k : {0, 1}) {
     Fluid fluid(1.35);
-    VelocityRescaling bath(temperature, 2, 1);
+    VelocityRescaling bath(temperature, 8, 1);
     bath.on(fluid.atoms);
     fluid.simulation.add(bath);
     fluid.simulation.add(Barostat(
         {.pressure = pressure[k], .temperature = temperature, .compressibility = 0.3, .rate = 20, .every = 5}, 1));
-    fluid.run(3200, 50);
+    fluid.run(3200, 30);
     volumes[k] = fluid.volumes;
   }
   expect_slope(volumes[0], volumes[1], (pressure[0] - pressure[1]) / temperature, "volumes");

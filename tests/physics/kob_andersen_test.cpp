@@ -2,6 +2,11 @@
 // temperatures against runs of LAMMPS (Debian's, 1080 particles, Nose-Hoover, 400 units of time), whose
 // energies are -8.656 + 2.639 T^(3/5) to 0.1 %, as Y. Rosenfeld and P. Tarazona (Mol. Phys. 95, 141, 1998) expect of
 // dense liquids; and energy and pressure once more by sums over the radial distributions of all pairs of species.
+//
+// Published: U. R. Pedersen, T. B. Schroder and J. C. Dyre (Phys. Rev. Lett. 120, 165501, 2018), whose data
+// (doi.org/10.5281/zenodo.10047547, figure_4/liquid.csv) have, where this liquid freezes, at a density of 1.200 and a
+// temperature of 1.028, the energy -5.974, the virial 7.444, both of a particle, and 5.11 for the slope of the virial's
+// fluctuations over the energy's.
 #include "tests/bzm/command.hpp"
 
 #include <tests/physics/shipped.hpp>
@@ -19,7 +24,9 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace boltzmann::kob_andersen_test {
 namespace {
@@ -52,8 +59,27 @@ Sums sums(RadialDistribution const& found, Pair const& pair) {
   return sums;
 }
 
+/// Of the fluctuations of the virial over those of the energy, from columns of the whole system.
+double slope_of_virial(std::vector<double> const& energy, std::vector<double> const& pressure,
+                       std::vector<double> const& temperature) {
+  auto const rows = static_cast<double>(energy.size());
+  std::vector<double> virial;
+  for (std::size_t i = 0; i < energy.size(); ++i)
+    virial.push_back(particles * (pressure[i] / density - temperature[i]));
+  auto const mean = [&](std::vector<double> const& column) {
+    return std::accumulate(column.begin(), column.end(), 0.0) / rows;
+  };
+  double const energy_mean = mean(energy), virial_mean = mean(virial);
+  double both = 0, squares = 0;
+  for (std::size_t i = 0; i < energy.size(); ++i) {
+    both += (virial[i] - virial_mean) * (energy[i] - energy_mean);
+    squares += (energy[i] - energy_mean) * (energy[i] - energy_mean);
+  }
+  return both / squares;
+}
+
 struct Found {
-  double temperature, energy, pressure, drift;
+  double temperature, energy, pressure, drift, slope;
   std::array<double, 3> peak, place;
   std::array<double, 2> diffusion;
   Sums by_structure;
@@ -67,7 +93,10 @@ Found run_at(std::string const& temperature, std::string const& cooling, int ste
                    "diagnoses.4.count=1200",
                    "diagnoses.5.count=1200",
                    "diagnoses.6.count=1200",
-                   "output.diagnoses=100",
+                   "diagnoses.4.every=50",
+                   "diagnoses.5.every=50",
+                   "diagnoses.6.every=50",
+                   "output.diagnoses=50",
                    "output.trajectory=0"};
   overrides.steps = steps;
   auto const run = shipped("kob-andersen", overrides);
@@ -85,6 +114,7 @@ Found run_at(std::string const& temperature, std::string const& cooling, int ste
   found.temperature = column("temperature mean").back();
   found.energy = column("potential energy mean").back() / particles;
   found.pressure = column("pressure mean").back();
+  found.slope = slope_of_virial(column("potential energy"), column("pressure"), column("temperature"));
   auto const balance = column("energy balance");
   for (double const value : balance) found.drift = std::max(found.drift, std::abs(value - balance.front()) / particles);
   found.diffusion = {column("A diffusion coefficient from displacements").back(),
@@ -103,10 +133,12 @@ Found run_at(std::string const& temperature, std::string const& cooling, int ste
     }
   EXPECT_EQ(number, 3u);
   std::printf(
-      "T %.4f: U %.4f = %.4f, P %.3f = %.3f, drift %.1e, peaks %.3f at %.3f, %.3f at %.3f, %.3f at %.3f, D %.4f %.4f\n",
+      "T %.4f: U %.4f = %.4f, P %.3f = %.3f, slope %.2f, drift %.1e, peaks %.3f at %.3f, %.3f at %.3f, %.3f at %.3f, "
+      "D %.4f %.4f\n",
       found.temperature, found.energy, found.by_structure.energy, found.pressure,
-      found.by_structure.pressure + density * found.temperature, found.drift, found.peak[0], found.place[0],
-      found.peak[1], found.place[1], found.peak[2], found.place[2], found.diffusion[0], found.diffusion[1]);
+      found.by_structure.pressure + density * found.temperature, found.slope, found.drift, found.peak[0],
+      found.place[0], found.peak[1], found.place[1], found.peak[2], found.place[2], found.diffusion[0],
+      found.diffusion[1]);
   return found;
 }
 
@@ -130,6 +162,11 @@ TEST(KobAndersen, IsTheLiquidThatOthersHaveAtTwo) {
 TEST(KobAndersen, IsTheLiquidThatOthersHaveAtOneAndItsSmallOnesStandBesideLargeOnes) {
   Found const found = run_at("1", "1 + 2*max(0, 1 - time/10)", 8000);
   expect_as_others(found, 9.82, 10.3, {0.0103, 0.0162});
+  // Pedersen and others at 1.028, brought here by the slopes of LAMMPS' energies and pressures over the temperature.
+  double const colder = 1.028 - found.temperature * particles / (particles - 1);
+  EXPECT_NEAR(found.energy + 1.58 * colder, -5.974, 0.03);
+  EXPECT_NEAR(found.pressure / density - found.temperature + (10.3 / density - 1) * colder, 7.444, 0.15);
+  EXPECT_NEAR(found.slope, 5.11, 0.75);
   // The paper's figure has peaks at 1.07, 0.87 and hardly one of the small beside the small, at a half of the temperature.
   EXPECT_NEAR(found.place[0], 1.05, 0.03);
   EXPECT_NEAR(found.place[1], 0.86, 0.02);

@@ -1,6 +1,7 @@
 // Barostats on molecules and on charges (P3M): volumes of gases of molecules against their exact distribution, pressure
 // against the energy of boxes that are stretched, bits, refusals.
-#include <boltzmann/core/incomplete_gamma.hpp>
+#include "volumes_of_a_gas.hpp"
+
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/dissipation/langevin_bath.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
@@ -23,18 +24,12 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 namespace boltzmann::barostat_molecules_test {
 namespace {
-
-template <int D>
-Box periodic_box(double side) {
-  Vector<D> low{}, high{};
-  for (int a = 0; a < D; ++a) low[a] = -0.3 * side, high[a] = 0.7 * side;
-  return Box(low, high, Boundary::periodic);
-}
 
 /// Molecules of `each` atoms on a lattice, atoms of one at corners of a regular polygon with sides of length 1, or two.
 template <int D, class P>
@@ -66,7 +61,6 @@ std::vector<BondMembers> bonds_of(std::size_t atoms, std::size_t each) {
 
 enum class Inside { rigid, springs };
 
-/// Volumes of N molecules that do nothing to each other have the density V^N exp(-P V / kT), whatever they are inside.
 template <int D>
 void expect_volumes_of_a_gas_of_molecules(std::size_t each, Inside inside, std::vector<int> const& axes) {
   double const pressure = 0.06, k = 0.5, temperature = 3;
@@ -102,18 +96,11 @@ void expect_volumes_of_a_gas_of_molecules(std::size_t each, Inside inside, std::
       k));
   simulation.seed(test_seed(4));
   simulation.run(400);
-  std::vector<double> volumes;
-  simulation.observe(inside == Inside::rigid ? 40 : 100,
-                     [&](Simulation const&) { volumes.push_back(scheme.box().volume()); });
-  simulation.run(inside == Inside::rigid ? 40000 : 80000);
-  auto const law = [&](double volume) {
-    return -std::expm1(log_upper_gamma(static_cast<double>(molecules) + 1, pressure * volume / (k * temperature)));
-  };
-  EXPECT_LT(kolmogorov_smirnov(volumes, law), kolmogorov_smirnov_limit) << D << "D, " << each;
+  bool const springs = inside == Inside::springs;
+  expect_volumes_of_a_gas(simulation, scheme.box(), molecules, pressure, k * temperature, springs ? 100 : 40,
+                          springs ? 800 : 1000);
   EXPECT_EQ(pairs.box().edges(), scheme.box().edges());
-  auto const& barostat = *simulation.barostats().front();
-  EXPECT_GT(barostat.accepted(), barostat.moves() / 2);
-  if (inside == Inside::springs) return;
+  if (springs) return;
   for (auto const& [i, j] : list) {
     Vector<D> d = Vector<D>(gas[j].position) - Vector<D>(gas[i].position);
     scheme.box().nearest_image(d.component);
