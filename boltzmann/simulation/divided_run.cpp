@@ -29,6 +29,7 @@ std::string Simulation::undivided() const {
   for (auto const* dissipation : dissipations_)
     if (auto why = dissipation->undivided(); !why.empty()) return why;
   if (!barostats_.empty()) return "a barostat";
+  if (schemes_.front()->box().sheared()) return "a sheared box";
   if (!changes_.empty()) return "adaptations of the particles";
   if (!events_.empty()) return "events";
   if (substeps_) return "steps that are divided into substeps";

@@ -410,6 +410,10 @@ std::string PairScheme::undivided() const {
   return "";
 }
 
+std::string PairScheme::shear_refused() const {
+  return connected_.empty() ? "" : "has connections, which find the nearest image of plain periodic boxes only";
+}
+
 void PairScheme::divide(Division* division) {
   division_ = division;
   reads_all_ = std::any_of(near_.begin(), near_.end(), [](auto const& near) { return near->all_pairs(); });
