@@ -491,7 +491,7 @@ EnergyAndVirial Simulation::measure() const {
   total.work = work_;
   bool const sheared = schemes_.front()->box().sheared();
   total.driven = total.driven || sheared;  // by images that flow
-  for (auto const* dissipation : dissipations_) {
+  for (auto* dissipation : dissipations_) {
     total.internal += dissipation->internal_energy();
     total.heat += dissipation->heat();
     if (!sheared) continue;  // at rest friction moves no momentum in the mean
