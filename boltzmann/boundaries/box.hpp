@@ -49,7 +49,8 @@ struct Shear {
   double rate = 0;  ///< per time; 0: none
   int flow = 0, gradient = 1;
   /// At the start of a run every particle gets the velocity of the flow where it is, on top of its own (behind
-  /// Simulation::equilibrate). Without, the images begin to move, and drag the flow in.
+  /// Simulation::equilibrate). Without, the images begin to move, and drag the flow in. In both cases the common velocity
+  /// of all particles along flow and gradient is taken off before.
   bool established = true;
 };
 

@@ -46,13 +46,20 @@ void Simulation::check_shear() {
   for (auto const& equilibration : equilibrations_) equilibration.dissipation->act_in_flow(box);
 }
 
-/// What Shear::established says.
+/// A fluid that moves up the gradient as a whole would take the place where it rests along with it, out of the middle.
 void Simulation::establish_flow() {
   Box const& box = schemes_.front()->box();
-  if (!box.sheared() || !box.shear().established) return;
+  if (!box.sheared()) return;
+  auto const total = momentum(ensembles_);
+  double const mass = total_mass(ensembles_);
+  int const flow = box.shear().flow, gradient = box.shear().gradient;
   for (auto* ensemble : ensembles_) {
-    int const along = ensemble->field("velocity").offset + box.shear().flow;
-    for (std::size_t i = 0; i < ensemble->size(); ++i) ensemble->row(i)[along] += box.flow_velocity(ensemble->row(i));
+    int const velocity = ensemble->field("velocity").offset;
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double* const row = ensemble->row(i);
+      for (int const a : {flow, gradient}) row[velocity + a] -= total[static_cast<std::size_t>(a)] / mass;
+      if (box.shear().established) row[velocity + flow] += box.flow_velocity(row);
+    }
   }
   take_particles();
 }
