@@ -186,6 +186,7 @@ TEST(Shear, DiagnosesRefuseWhatTheyCantMeasure) {
   Fluid fluid;
   DiagnosisParameters parameters;
   parameters.available = {&fluid.atoms};
+  parameters.range = 0.5;
   Box const plain({-1.0, 0.0}, {3.0, 2.0}, Boundary::periodic);
   for (char const* kind : {"radial-distribution", "structure-factor", "bond-order", "diffusion",
                            "velocity-autocorrelation", "mean-square-displacement", "green-kubo"}) {

@@ -21,7 +21,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <numbers>
@@ -199,23 +202,22 @@ TEST(ShearFlow, SmoothParticlesHaveNewtonsStress) {
 // ---- friction between pairs ---------------------------------------------------------------------------------------
 
 struct DpdFluid {
-  double stress, friction_stress, power,
-      temperature;  ///< viscosities of the stress, of its part by friction, of the bath's power
-  double error, slope;
+  Estimate viscosity;         // by the stress
+  double by_friction, power;  // that part of it, and by the power of the bath
+  double temperature;
+  double slope, bent;  // of the profile of velocities over the rate; how far it is from a straight line
 };
 
-template <int D>
-DpdFluid dpd(double side, double repulsion, double friction, double rate, double dt, int equilibration, int looks) {
+DpdFluid groot_and_warren(double side, double rate, double dt, int equilibration, int looks) {
   int const every = 5;
-  Ensemble<Newton<D>> fluid("fluid", static_cast<std::size_t>(3 * std::pow(side, D)));
-  PairScheme scheme(sheared<D>(side, {rate, 0, 1}), 1);
+  Ensemble<Newton<3>> fluid("fluid", static_cast<std::size_t>(3 * side * side * side));
+  PairScheme scheme(sheared<3>(side, {rate, 0, 1}), 1);
   random_load(fluid, scheme.box(), {.seed = test_seed(5)});
   for (auto& p : fluid) p.mass = 1;
   maxwellian_load(fluid, {.temperature = 1, .seed = test_seed(6), .remove_drift = true});
-  if (repulsion > 0) scheme.internal(fluid, Soft{repulsion, 1});
+  scheme.internal(fluid, Soft{25, 1});
   PairDissipation bath(scheme, 1);
-  bath.internal(fluid,
-                {.convention = Convention::fixed_temperature, .friction = friction, .temperature = 1, .range = 1});
+  bath.internal(fluid, {.convention = Convention::fixed_temperature, .friction = 4.5, .temperature = 1, .range = 1});
   bath.corrector(true);
   Simulation simulation(scheme, dt);
   simulation.add(bath);
@@ -225,6 +227,7 @@ DpdFluid dpd(double side, double repulsion, double friction, double rate, double
   std::vector<double> viscosities, by_friction, temperatures;
   double const volume = box.volume(), heat = simulation.measure().heat, start = simulation.time();
   double along = 0, square = 0;
+  std::array<double, 8> count{}, velocity{};
   for (int look = 0; look < looks; ++look) {
     simulation.run(every);
     viscosities.push_back(-pressure_tensor(fluid, simulation.measure(), box)[1][0] / rate);
@@ -234,13 +237,17 @@ DpdFluid dpd(double side, double repulsion, double friction, double rate, double
       double const y = p.position[1] - side / 2;
       along += y * p.velocity[0];
       square += y * y;
+      auto const bin = std::min<std::size_t>(static_cast<std::size_t>(8 * p.position[1] / side), 7);
+      count[bin] += 1;
+      velocity[bin] += p.velocity[0];
     }
   }
   double const power = -(simulation.measure().heat - heat) / (simulation.time() - start);
-  auto const measured = estimate(viscosities, 20);
-  return {
-      measured.mean,  estimate(by_friction, 20).mean, power / (volume * rate * rate), estimate(temperatures, 20).mean,
-      measured.error, along / square / rate};
+  double bent = 0;
+  for (std::size_t bin = 0; bin < 8; ++bin)
+    bent = std::max(bent, std::abs(velocity[bin] / count[bin] / (rate * side) - (static_cast<double>(bin) - 3.5) / 8));
+  return {estimate(viscosities, 20),       estimate(by_friction, 20).mean, power / (volume * rate * rate),
+          estimate(temperatures, 20).mean, along / square / rate,          bent};
 }
 
 /// Of particles at random that move with the flow alone, the stress by friction is the integral over pairs: a viscosity of
@@ -277,16 +284,20 @@ TEST(ShearFlow, FrictionHasTheStressOfPairsAtRandom) {
 }
 
 TEST(ShearFlow, ViscosityOfTheFluidOfGrootAndWarren) {
-  auto const fluid = dpd<3>(6, 25, 4.5, 0.3, 0.03, 400, 600);
-  std::printf("DPD: %.4f(%.4f), by friction %.4f, by power %.4f, T %.4f, slope %.4f\n", fluid.stress, fluid.error,
-              fluid.friction_stress, fluid.power, fluid.temperature, fluid.slope);
-  EXPECT_NEAR(fluid.stress, 0.87, 0.04);
-  EXPECT_NEAR(fluid.power / fluid.stress, 1, 0.04);
-  EXPECT_NEAR(fluid.temperature, 1, 0.02);
+  auto const fluid = groot_and_warren(6, 0.6, 0.03, 400, 1000);
+  std::printf("DPD: %.4f(%.4f), by friction %.4f, by power %.4f, T %.4f, slope %.4f, bent %.4f\n", fluid.viscosity.mean,
+              fluid.viscosity.error, fluid.by_friction, fluid.power, fluid.temperature, fluid.slope, fluid.bent);
+  EXPECT_NEAR(fluid.viscosity.mean, 0.85, 0.042);
+  EXPECT_NEAR(fluid.power / fluid.viscosity.mean, 1, 0.035);
+  EXPECT_NEAR(fluid.slope, 1, 0.02);
+  EXPECT_LT(fluid.bent, 0.02);
 }
 
 // ---- the Lennard-Jones liquid -------------------------------------------------------------------------------------
 
+// At rest it is 3.24(4) (M. Ferrario and others, Phys. Rev. A 44, 6936 (1991)), and falls with the rate, to 2.1 to 2.3 at 1
+// in published flows. Long runs of this one have 2.75(4), 2.45(2) and 2.11(1) at 0.25, 0.5 and 1; a plain program, all
+// pairs of 256 atoms with their kinetic energy rescaled, 2.103(16) at 1.
 TEST(ShearFlow, ViscosityOfTheLennardJonesLiquidAtItsTriplePoint) {
   double const density = 0.8442, temperature = 0.722, rate = 1;
   Ensemble<Newton<3>> atoms("atoms");
@@ -296,7 +307,7 @@ TEST(ShearFlow, ViscosityOfTheLennardJonesLiquidAtItsTriplePoint) {
   maxwellian_load(atoms, {.temperature = temperature, .seed = test_seed(8), .remove_drift = true});
   PairScheme scheme(sheared<3>(repeat_lengths(block, 3)[0], {rate, 0, 1}), 2.5);
   scheme.internal(atoms, LennardJones{1, std::pow(2.0, 1.0 / 6)});
-  VelocityRescaling bath(temperature, 20, 1);
+  VelocityRescaling bath(temperature, 1000, 1);  // the kinetic energy is that of the temperature, nearly
   bath.on(atoms);
   Simulation simulation(scheme, 0.004);
   simulation.add(bath);
@@ -304,14 +315,14 @@ TEST(ShearFlow, ViscosityOfTheLennardJonesLiquidAtItsTriplePoint) {
   simulation.run(2000);
   std::vector<double> viscosities;
   double const heat = simulation.measure().heat, start = simulation.time(), volume = scheme.box().volume();
-  for (int look = 0; look < 2000; ++look) {
+  for (int look = 0; look < 2400; ++look) {
     simulation.run(5);
     viscosities.push_back(-pressure_tensor(atoms, simulation.measure(), scheme.box())[1][0] / rate);
   }
   double const power = -(simulation.measure().heat - heat) / (simulation.time() - start) / (volume * rate * rate);
   auto const viscosity = estimate(viscosities, 20);
   std::printf("LJ: %.4f(%.4f), by power %.4f\n", viscosity.mean, viscosity.error, power);
-  EXPECT_NEAR(viscosity.mean, 2.2, 0.1);
+  EXPECT_NEAR(viscosity.mean, 2.105, 0.095);  // five standard errors and 1 %
   EXPECT_NEAR(power / viscosity.mean, 1, 0.02);
 }
 
