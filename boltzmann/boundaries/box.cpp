@@ -101,6 +101,7 @@ void Box::edges(Edges const& edges) {
     if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
       throw Error(fmt::format("box: on axis {} the low edge {} is not below the high edge {}", "xyz"[a], low, high));
     if (walls_move_ && !periodic(a)) throw Error("box: an axis whose walls move is not stretched");
+    if (sheared()) throw Error("box: one that is sheared is not stretched");
     low_[a] = first_low_[a] = low;
     high_[a] = first_high_[a] = high;
     revision_ = new_revision();
@@ -176,8 +177,44 @@ void Box::find_moving_walls() {
       if (walled(a, end) && walls_[a][static_cast<int>(end)].velocity[a] != 0) walls_move_ = true;
 }
 
+void Box::shear(Shear const& shear) {
+  auto const axis = [&](int a) { return a >= 0 && a < dimension_ ? std::string(1, "xyz"[a]) : std::to_string(a); };
+  if (dimension_ < 2) throw Error("shear: a box of one dimension has no gradient of a flow across it");
+  if (!std::isfinite(shear.rate)) throw Error(fmt::format("shear: the rate is a finite number, not {}", shear.rate));
+  for (int const a : {shear.flow, shear.gradient}) {
+    if (a < 0 || a >= dimension_)
+      throw Error(fmt::format("shear: a box of {} dimensions has no axis number {}", dimension_, a));
+    if (!periodic(a))
+      throw Error(fmt::format("shear: axis {} is {}; flow and gradient of a sheared box are along periodic axes",
+                              axis(a), to_string(boundaries_[a])));
+  }
+  if (shear.flow == shear.gradient)
+    throw Error(
+        fmt::format("shear: flow and gradient are both along {}; they are along different axes", axis(shear.flow)));
+  for (int a = 0; a < dimension_; ++a)
+    if (boundaries_[a] == Boundary::mirror)
+      throw Error(fmt::format(
+          "shear: axis {} is a mirror, whose images would not flow; use reflecting, periodic or open", axis(a)));
+  if (!regions_.empty())
+    throw Error("shear: a region stands still, in a flow whose images move; leave out one of both");
+  shear_ = shear;
+  slide_ = shear.rate * length(shear.gradient) * time_;
+  revision_ = new_revision();
+}
+
+double Box::whole_slide(double slide) const {
+  double const along = length(shear_.flow);
+  return along * std::nearbyint(slide / along);
+}
+
 void Box::move_walls(double time) {
-  if (!walls_move_ || held_) return;
+  if (held_) return;
+  if (sheared()) {
+    if (time != time_) revision_ = new_revision();
+    slide_ = shear_.rate * length(shear_.gradient) * time;
+    if (!walls_move_) time_ = time;
+  }
+  if (!walls_move_) return;
   auto low = first_low_, high = first_high_;
   for (int a = 0; a < dimension_; ++a) {
     if (walled(a, End::low)) low[a] += walls_[a][0].velocity[a] * time;
@@ -201,6 +238,7 @@ void Box::check_dimension(int of_region) const {
 }
 
 void Box::install(Region const& region) {
+  if (sheared()) throw Error("region: it stands still, in a sheared box whose images move; leave out one of both");
   for (int a = 0; a < dimension_; ++a)
     if (!(region.low[a] < region.high[a]) || !std::isfinite(region.low[a]) || !std::isfinite(region.high[a]))
       throw Error(fmt::format("region: on axis {} the low edge {} is not below the high edge {}", "xyz"[a],
@@ -243,12 +281,28 @@ double Box::wrapped(double x, int axis) const {
 }
 
 void Box::wrap(AnyEnsemble& particles) const {
+  if (sheared()) wrap_gradient(particles);
   for (int a = 0; a < dimension_; ++a) {
     if (!periodic(a)) continue;
     for (std::size_t i = 0; i < particles.size(); ++i) {
       double& x = particles.row(i)[a];
       x = wrapped(x, a);
     }
+  }
+}
+
+void Box::wrap_gradient(AnyEnsemble& particles) const {
+  Field const* velocity = particles.find_field("velocity");
+  if (velocity && velocity->components != dimension_) velocity = nullptr;
+  int const g = shear_.gradient, f = shear_.flow;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    double* const x = particles.row(i);
+    double const before = x[g];
+    x[g] = wrapped(before, g);
+    double const turns = std::nearbyint((x[g] - before) / length(g));
+    if (turns == 0) continue;
+    x[f] += turns * slide_in_lattice();
+    if (velocity) x[velocity->offset + f] += turns * slide_velocity();
   }
 }
 
@@ -268,6 +322,26 @@ class Box::Reflection {
       if (box.periodic(a)) continue;
       if (!box.walled(a, End::low)) low_[a] = -infinity;
       if (!box.walled(a, End::high)) high_[a] = infinity;
+    }
+  }
+
+  /// Through the ends of a sheared box's gradient: who has left becomes its image, which may be anywhere along the flow.
+  void across_the_gradient(std::size_t begin, std::size_t end) const {
+    int const g = box_.shear().gradient, f = box_.shear().flow;
+    double const length = box_.length(f), slide = box_.slide_in_lattice();
+    for (std::size_t i = begin; i < end; ++i) {
+      double* const x = particles_.row(i);
+      if (x[g] >= low_[g] && x[g] < high_[g]) continue;
+      double const turns = x[g] < low_[g] ? 1 : -1;
+      if (turns > 0 && x[g] + box_.length(g) >= high_[g]) {  // within a rounding error of the edge
+        x[g] = low_[g];
+        continue;
+      }
+      Turns none{};
+      bring_back(i, g, none);
+      x[f] += turns * slide;
+      x[f] -= length * std::floor((x[f] - low_[f]) / length);
+      if (velocity_) x[velocity_->offset + f] += turns * box_.slide_velocity();
     }
   }
 
@@ -387,6 +461,9 @@ double Box::apply(AnyEnsemble& particles, int threads, Division* division) const
   bool const walls_work = walls_move_ && !held_;
   SharedSum work;
   int const used = threads_for(particles.size(), 1, threads);
+  if (sheared())
+    for_share(particles, grain, used,
+              [&](std::size_t begin, std::size_t end) { reflection.across_the_gradient(begin, end); });
   for_share(particles, grain, used, [&](std::size_t begin, std::size_t end) {
     if (!walls_work) return reflection.at_ends(begin, end, nullptr);
     ExactSum own;
@@ -417,6 +494,12 @@ void Box::on_grid(double quantum) {
 }
 
 void Box::nearest_image(double* d) const {
+  if (sheared()) {
+    int const g = shear_.gradient;
+    double const turns = std::nearbyint(d[g] / length(g));
+    d[g] -= length(g) * turns;
+    d[shear_.flow] -= slide_in_lattice() * turns;
+  }
   for (int a = 0; a < dimension_; ++a)
     if (periodic(a)) d[a] -= length(a) * std::nearbyint(d[a] / length(a));
 }

@@ -1,5 +1,5 @@
-// The space of a simulation: a box with a boundary kind per axis, walls that mirror (and may move), and regions
-// installed inside it (sections 4.1, 4.2).
+// The space of a simulation: a box with a boundary kind per axis, walls that mirror (and may move), images that slide
+// past each other (shear), and regions installed inside it (sections 4.1, 4.2).
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -40,6 +40,18 @@ struct Wall {
   std::array<double, 3> velocity{};
   /// Of the wall: the image has 2 temperature - T. NaN: an insulated wall, the image has T.
   double temperature = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Plane Couette flow without walls: along the gradient the images of a periodic box move past each other, so that what
+/// leaves at one end comes in at the other with the velocity of the flow there (A. W. Lees and S. F. Edwards, J. Phys. C 5,
+/// 1921 (1972)). The flow is rate * (y - y0) along `flow`, y along `gradient` and y0 the box's middle.
+struct Shear {
+  double rate = 0;  ///< per time; 0: none
+  int flow = 0, gradient = 1;
+  /// At the start of a run every particle gets the velocity of the flow where it is, on top of its own (behind
+  /// Simulation::equilibrate). Without, the images begin to move, and drag the flow in. In both cases the common velocity
+  /// of all particles along flow and gradient is taken off before.
+  bool established = true;
 };
 
 /// An axis-aligned block inside the space whose faces reflect particles elastically.
@@ -105,10 +117,34 @@ class Box {
   /// Whether some wall moves along its normal.
   bool walls_move() const { return walls_move_; }
   /// Puts moving walls where they are at this time since the start of the run, edge + velocity * time; low(), high(),
-  /// length() and volume() follow. Nothing while walls are held. PhysicsFailure if a wall meets the other end of its
+  /// length() and volume() follow; and images of a sheared box where they are. Nothing while they are held. PhysicsFailure if a wall meets the other end of its
   /// axis.
   void move_walls(double time);
-  /// While held, walls stand still where they are, and reflect so (a body is brought to a temperature before its run).
+
+  /// Shears the box from here on. Error unless it has two or three dimensions, both axes are different periodic ones, no
+  /// axis is a mirror, there are no regions, and the rate is finite.
+  void shear(Shear const& shear);
+  Shear const& shear() const { return shear_; }
+  bool sheared() const { return shear_.rate != 0; }
+  /// By how much an image one length up the gradient is displaced along the flow: rate * length * time, all of it.
+  double slide() const { return slide_; }
+  /// The same but for whole lengths of the flow's axis, of which it is no more than half a one.
+  double slide_in_lattice() const { return slide_ - whole_slide(); }
+  /// These whole lengths, of this slide or of another one.
+  double whole_slide() const { return whole_slide(slide_); }
+  double whole_slide(double slide) const;
+  /// And by how much faster that image is along the flow: rate * length; 0 while the box is held.
+  double slide_velocity() const { return held_ ? 0 : shear_.rate * length(shear_.gradient); }
+  /// The velocity of the flow here, along Shear::flow; 0 while the box is held.
+  double flow_velocity(double const* position) const {
+    int const g = shear_.gradient;
+    return held_ ? 0 : shear_.rate * (position[g] - 0.5 * (low_[g] + high_[g]));
+  }
+
+  /// Whether anything about it depends on time.
+  bool moves() const { return walls_move_ || sheared(); }
+  /// While held, walls and images stand still where they are, and walls reflect so (a body is brought to a temperature
+  /// before its run).
   void hold_walls(bool held) {
     held_ = held;
     revision_ = new_revision();
@@ -140,10 +176,11 @@ class Box {
 
   /// The coordinate moved by whole lengths of a periodic axis to where low <= x < high.
   double wrapped(double x, int axis) const;
-  /// Puts every particle into the box along periodic axes, however far outside it is: the start of a run.
+  /// Puts every particle into the box along periodic axes, however far outside it is: the start of a run. Through an end
+  /// of a sheared box's gradient it becomes its image, velocity included.
   void wrap(AnyEnsemble& particles) const;
 
-  /// Brings every particle that has left back: periodic axes wrap, reflecting axes and regions reflect position and
+  /// Brings every particle that has left back: periodic axes wrap (a sheared one as Shear says), reflecting axes and regions reflect position and
   /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a
   /// reflecting axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves
   /// away from it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does
@@ -156,7 +193,8 @@ class Box {
   /// move.
   void on_grid(double quantum);
 
-  /// The shortest vector between periodic images, in place: `d` has dimension() components.
+  /// The shortest vector between periodic images, in place: `d` has dimension() components. In a sheared box, if it is
+  /// shorter than half of both axes' lengths; else one between some images.
   void nearest_image(double* d) const;
 
  private:
@@ -179,6 +217,7 @@ class Box {
   void check_dimension(int of_region) const;
   void check_has_walls(int axis) const;
   void find_moving_walls();
+  void wrap_gradient(AnyEnsemble& particles) const;
   static std::uint64_t new_revision();
 
   int dimension_;
@@ -186,7 +225,9 @@ class Box {
   std::array<double, 3> first_low_, first_high_;  // at time 0
   std::array<Boundary, 3> boundaries_;
   bool all_open_, any_wall_ = false, walls_move_ = false, held_ = false;
-  double time_ = 0;                              // for which walls were moved last
+  double time_ = 0;  // for which walls, or images, were moved last
+  Shear shear_;
+  double slide_ = 0;
   bool backwards_ = false;                       // time went then
   std::array<std::array<bool, 2>, 3> walled_{};  // at the low and at the high end
   std::array<std::array<Wall, 2>, 3> walls_{};

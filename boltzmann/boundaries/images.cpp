@@ -39,9 +39,17 @@ std::optional<double> odd_about(Box const& box, ImageComponent of, int axis, Box
 // Odd at walls at w0, w1, ...: x -> 2 w0 - x -> 2 w1 - (2 w0 - x) ...; the mean of all orders, which is each of them
 // where the walls agree: even numbers of walls leave x, odd ones turn it about the walls' mean.
 ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns) {
+  return image_map(box, component, turns, box.whole_slide());
+}
+
+ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns, double whole_slide) {
   int const c = component.axis;
-  if (component.rule == ImageRule::position && box.periodic(c))
+  int const slides = box.sheared() && c == box.shear().flow ? turns[box.shear().gradient] : 0;
+  if (slides != 0 && component.rule == ImageRule::velocity) return {1, slides * box.slide_velocity()};
+  if (component.rule == ImageRule::position && box.periodic(c)) {
+    if (slides != 0) return {1, turns[c] * box.length(c) + slides * (box.slide() - whole_slide)};
     return turns[c] == 0 ? ImageMap{} : ImageMap{1, turns[c] * box.length(c)};
+  }
   double sum = -0.0;
   int walls = 0;
   for (int a = 0; a < box.dimension(); ++a) {
@@ -53,6 +61,9 @@ ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns)
 }
 
 int Images::most(int axis, double reach) const {
+  if (box_->sheared() && axis == box_->shear().flow)
+    return static_cast<int>(
+        std::ceil(reach / (edges_[3 + axis] - edges_[axis]) + 0.5 * most(box_->shear().gradient, reach) + 1e-9));
   if (box_->periodic(axis)) return static_cast<int>(std::ceil(reach / (edges_[3 + axis] - edges_[axis])));
   return box_->boundary(axis) == Boundary::mirror ? 1 : 0;
 }

@@ -4,12 +4,14 @@
 
 #include <boltzmann/boundaries/box.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace boltzmann {
 
 /// Which image: by how many lengths it is moved along a periodic axis; along a mirror axis -1 and 1 for the wall at the
-/// low and the high end. All 0: the particle itself.
+/// low and the high end. All 0: the particle itself. Turns along the gradient of a sheared box also slide along its flow.
 using Turns = std::array<int, 3>;
 
 /// What a number of a particle is in an image: sign * x + shift; as it stands, a zero's sign included, unless said
@@ -20,7 +22,7 @@ struct ImageMap {
 };
 
 /// How a number of a particle is found in its image beyond a wall. Along a periodic axis images differ in `position`
-/// alone.
+/// alone, along the gradient of a sheared box in `position` and `velocity`.
 enum class ImageRule : unsigned char {
   same,           ///< as it is: mass, density, the temperature's history, ...
   position,       ///< reflected about the wall
@@ -41,19 +43,29 @@ struct ImageComponent {
 /// What this number is in that image, for walls as they are now. Beyond several walls the images are composed; where
 /// these walls differ, so that the order would matter, it is the mean of all orders.
 ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns);
+/// The same for turns along the flow of a sheared box that were counted when so much of its slide was whole lengths
+/// (Box::whole_slide()).
+ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns, double whole_slide);
 
-/// Where the images of positions are, for ends and walls that stand, or stood, at these edges.
+/// Where the images of positions are, for ends and walls that stand, or stood, at these edges, and images that slide, or
+/// slid, by so much (Box::slide_in_lattice()).
 class Images {
  public:
-  explicit Images(Box const& box) : Images(box, box.edges()) {}
-  Images(Box const& box, Box::Edges const& edges) : box_(&box), edges_(edges) {}
+  explicit Images(Box const& box) : Images(box, box.edges(), box.slide_in_lattice()) {}
+  Images(Box const& box, Box::Edges const& edges, double slide) : box_(&box), edges_(edges), slide_(slide) {}
 
   /// The most turns along this axis of images within `reach` of the box.
   int most(int axis, double reach) const;
   /// Whether there can be such an image within `reach` of the box; there is none beyond a wall that was opened.
   bool exists(Turns const& turns, double reach) const;
-  /// The coordinate of an image.
+  /// The coordinate of an image, by the turns along this axis alone.
   double at(int axis, int turns, double x) const;
+  /// And by all turns.
+  double at(int axis, Turns const& turns, double x) const {
+    double const plain = at(axis, turns[axis], x);
+    Shear const& shear = box_->shear();
+    return slide_ != 0 && axis == shear.flow ? plain + turns[shear.gradient] * slide_ : plain;
+  }
   /// Calls function(turns, position) for every image of x, itself included, within reach of the box; x is inside
   /// periodic axes.
   template <class Function>
@@ -64,8 +76,12 @@ class Images {
     return box_->boundary(axis) == Boundary::mirror && box_->walled(axis, end);
   }
 
+  template <class Function>
+  void each_sheared(double const* x, double reach, Function const& function) const;
+
   Box const* box_;
   Box::Edges edges_;
+  double slide_;
 };
 
 inline double Images::at(int axis, int turns, double x) const {
@@ -76,6 +92,7 @@ inline double Images::at(int axis, int turns, double x) const {
 
 template <class Function>
 void Images::each(double const* x, double reach, Function const& function) const {
+  if (box_->sheared()) return each_sheared(x, reach, function);
   Turns first{}, last{}, turns{};
   for (int a = 0; a < box_->dimension(); ++a) {
     bool const near_low = x[a] <= edges_[a] + reach, near_high = x[a] >= edges_[3 + a] - reach;
@@ -95,6 +112,34 @@ void Images::each(double const* x, double reach, Function const& function) const
       if (!along(1, j)) continue;
       for (int i = first[0]; i <= last[0]; ++i)
         if (along(0, i)) function(turns, position);
+    }
+  }
+}
+
+/// The gradient before the flow, along which images begin where the slide has brought them.
+template <class Function>
+void Images::each_sheared(double const* x, double reach, Function const& function) const {
+  int const g = box_->shear().gradient, f = box_->shear().flow, other = 3 - g - f;
+  auto const range = [&](int a, double from) {
+    double const low = edges_[a], high = edges_[3 + a];
+    if (a >= box_->dimension() || !box_->periodic(a)) return std::array{0, 0};
+    int const most = this->most(a, reach);
+    return std::array{std::max(-most, static_cast<int>(std::ceil((low - reach - from) / (high - low)))),
+                      std::min(most, static_cast<int>(std::floor((high + reach - from) / (high - low))))};
+  };
+  Turns turns{};
+  std::array<double, 3> position{};
+  auto const [first, last] = range(g, x[g]);
+  auto const [first_other, last_other] = range(other, box_->dimension() == 3 ? x[other] : 0);
+  for (turns[g] = first; turns[g] <= last; ++turns[g]) {
+    position[g] = at(g, turns[g], x[g]);
+    auto const [first_along, last_along] = range(f, x[f] + turns[g] * slide_);
+    for (turns[other] = first_other; turns[other] <= last_other; ++turns[other]) {
+      if (box_->dimension() == 3) position[other] = at(other, turns[other], x[other]);
+      for (turns[f] = first_along; turns[f] <= last_along; ++turns[f]) {
+        position[f] = at(f, turns, x[f]);
+        function(turns, position);
+      }
     }
   }
 }

@@ -80,6 +80,7 @@ std::vector<Column> BondOrder::columns() const {
 }
 
 void BondOrder::check(Box const& box) const {
+  refuse_shear(box, "bond-order");
   for (int a = 0; a < box.dimension(); ++a)
     if (box.periodic(a) && options_.range > 0.5 * box.length(a))
       throw Error(fmt::format("bond-order: the range {} is more than half of periodic axis {}",

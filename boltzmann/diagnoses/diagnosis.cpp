@@ -1,9 +1,17 @@
 // Why a diagnosis can't have what it needs.
 #include <boltzmann/diagnoses/diagnosis.hpp>
 
+#include <boltzmann/core/error.hpp>
+
 #include <fmt/format.h>
 
 namespace boltzmann {
+
+void refuse_shear(Box const& box, char const* diagnosis) {
+  if (box.sheared())
+    throw Error(fmt::format("{}: in a sheared box it can't be had; viscosity, temperature, pressure and profiles can",
+                            diagnosis));
+}
 
 std::string refusal(Diagnosis const& diagnosis, EnergyAndVirial const& measures) {
   std::string const what = diagnosis.columns().empty() ? "" : diagnosis.columns().front().name;

@@ -68,6 +68,10 @@ class Diagnosis {
   virtual void restore(std::span<double const>) {}
 };
 
+/// Error where a box is sheared, of a diagnosis that finds images, or follows particles, through whole lengths alone, or
+/// is of equilibrium.
+void refuse_shear(Box const& box, char const* diagnosis);
+
 /// Why a simulation with such measures can't give what the diagnosis needs, in one line; empty if it can.
 std::string refusal(Diagnosis const& diagnosis, EnergyAndVirial const& measures);
 

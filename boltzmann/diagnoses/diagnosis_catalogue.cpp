@@ -240,7 +240,7 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
     return columns;
   }
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
-    Temperature t = temperature(of, sample.boltzmann_constant, {.subtract_drift = subtract_drift_});
+    Temperature t = temperature(of, sample.boltzmann_constant, {.subtract_drift = subtract_drift_, .box = &sample.box});
     double const lost = subtract_drift_ ? dimension() : 0;
     double const all = dimension() * static_cast<double>(number_of_particles(of)) - lost;
     // Each rigid bond takes a degree of freedom, alike of all axes.
@@ -310,6 +310,33 @@ class Pressure final : public SystemDiagnosis {
     for (int a = 0; dimension() > 1 && a < dimension(); ++a)
       values.insert(values.end(), tensor[a].begin(), tensor[a].begin() + dimension());
   }
+};
+
+/// Of a flow that the images of a sheared box drive: minus the momentum along it that goes up its gradient, over its rate.
+class Viscosity final : public Diagnosis {
+ public:
+  explicit Viscosity(DiagnosisParameters const& parameters)
+      : dimension_(parameters.available.empty() ? 3 : parameters.available.front()->dimension()) {}
+  bool needs_virial() const override { return true; }
+  void check(Box const& box) const override {
+    if (!box.sheared())
+      throw Error("viscosity: the box is not sheared ('shear' in [box]); in equilibrium green-kubo gives a viscosity");
+  }
+  std::vector<Column> columns() const override {
+    Dimension const stress = dimensions::energy / pow(dimensions::length, dimension_);
+    return {{"viscosity", stress * dimensions::time}, {"shear stress", stress}};
+  }
+  void measure(Sample const& sample, std::vector<double>& values) override {
+    check(sample.box);
+    Shear const& shear = sample.box.shear();
+    double stress = unknown;
+    if (sample.measures != nullptr)
+      stress = -pressure_tensor(sample.ensembles, *sample.measures, sample.box)[shear.gradient][shear.flow];
+    values.insert(values.end(), {stress / shear.rate, stress});
+  }
+
+ private:
+  int dimension_;
 };
 
 /// S / N k of an ideal gas (figure 3 of SPAM): of all ensembles that have what it needs, or of each named one.
@@ -762,6 +789,10 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
          make<TemperatureDiagnosis>},
         {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},
          make<Pressure>},
+        {{"viscosity",
+          "of a sheared box: shear stress over rate, with friction between pairs; the mean is that of `average`",
+          {}},
+         make<Viscosity>},
         {{"number", "number of particles and their mass", told({{"ensembles"}})}, make<Number>},
         {{"entropy",
           "entropy S / N k of an ideal gas of smooth particles, as a sum over them and as an integral, with and "

@@ -30,6 +30,22 @@ void for_each_body(Ensembles of, Function f) {
   }
 }
 
+/// The same with velocities relative to the flow of a sheared box.
+template <class Function>
+void for_each_body_in_flow(Ensembles of, Box const& box, Function f) {
+  for_each_body(of, [&](double mass, double const* velocity, double const* position, int dimension) {
+    Triple relative{};
+    std::copy_n(velocity, dimension, relative.begin());
+    relative[box.shear().flow] -= box.flow_velocity(position);
+    f(mass, relative.data(), position, dimension);
+  });
+}
+
+template <class Function>
+void for_each_body(Ensembles of, Box const* box, Function const& f) {
+  box && box->sheared() ? for_each_body_in_flow(of, *box, f) : for_each_body(of, f);
+}
+
 template <class Function>
 void for_each_mass(Ensembles of, Function f) {
   for (AnyEnsemble const* ensemble : of)
@@ -134,7 +150,7 @@ Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOpti
   TripleSum momentum;
   int axes = 1;
   for (AnyEnsemble const* ensemble : of) axes = ensemble->dimension();
-  for_each_body(of, [&](double m, double const* velocity, double const*, int dimension) {
+  for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
     ++count;
     mass += m;
     for (int a = 0; a < dimension; ++a) momentum[a] += m * velocity[a];
@@ -143,7 +159,7 @@ Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOpti
   if (options.subtract_drift)
     for (int a = 0; a < 3; ++a) drift[a] = momentum[a].value() / mass.value();
   TripleSum heat;
-  for_each_body(of, [&](double m, double const* velocity, double const*, int dimension) {
+  for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a) heat[a] += m * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
   });
   std::size_t const lost = options.subtract_drift ? 1 : 0;
@@ -158,9 +174,9 @@ Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOpti
   return result;
 }
 
-Tensor3 kinetic_stress(Ensembles of) {
+Tensor3 kinetic_stress(Ensembles of, Box const* box) {
   std::array<TripleSum, 3> sum;
-  for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
+  for_each_body(of, box, [&](double mass, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a)
       for (int b = 0; b < dimension; ++b) sum[a][b] += mass * (velocity[a] * velocity[b]);
   });
@@ -168,7 +184,7 @@ Tensor3 kinetic_stress(Ensembles of) {
 }
 
 Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box) {
-  Tensor3 tensor = kinetic_stress(of);
+  Tensor3 tensor = kinetic_stress(of, &box);
   if (!measures.no_virial.empty())
     for (auto& row : tensor) row.fill(std::numeric_limits<double>::quiet_NaN());
   for (int a = 0; a < 3; ++a)

@@ -87,16 +87,19 @@ struct Temperature {
 };
 struct TemperatureOptions {
   bool subtract_drift = false;
+  Box const* box = nullptr;  ///< where it is sheared, velocities are those relative to its flow
 };
 /// Section 5.2.3.1. As the 1990 text has it the mean velocity is not subtracted. With subtract_drift the particles'
 /// common (mass-weighted) velocity is taken off, and the mean is over N - 1 degrees of freedom along each axis. NaN if
 /// there are no particles left to take a mean over.
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options = {});
 
-/// Sum m v_a v_b, an energy: not per volume.
-Tensor3 kinetic_stress(Ensembles of);
+/// Sum m v_a v_b, an energy: not per volume. In a box that is sheared, velocities are those relative to its flow.
+Tensor3 kinetic_stress(Ensembles of, Box const* box = nullptr);
 /// (Sum m v v + virial) / V, V the volume of the box (area in 2D, length in 1D): the virial of all influences between
-/// particles. NaN where it is not known. Meaningful where particles fill the box.
+/// particles, and in a sheared box of friction between pairs. NaN where it is not known. Meaningful where particles fill
+/// the box. In a sheared box velocities are those relative to its flow, so that the momentum along the flow that goes
+/// through unit area up the gradient is element [gradient][flow].
 Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box);
 /// (Sum m v.v + trace of the virial) / (D V)
 double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box);

@@ -162,6 +162,7 @@ RadialDistribution::RadialDistribution(std::vector<AnyEnsemble const*> const& av
 }
 
 void RadialDistribution::check(Box const& box) const {
+  refuse_shear(box, "radial-distribution");
   if (!box.regions().empty())
     throw Error("radial-distribution: the box has regions that particles can't be in, so that no density is known");
   double const reach = reach_in(box, options_);

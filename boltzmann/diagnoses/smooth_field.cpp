@@ -141,7 +141,7 @@ void SmoothField::collect_sources(double common_range) {
         sources_.push_back({at, mass ? row[mass->offset] : 1.0, range, 1 / range});
         auto& walls = origins_.emplace_back(Origin{particle, {}}).walls;
         for (int a = 0; a < D; ++a)
-          if (!box_.periodic(a)) walls[a] = static_cast<signed char>(turns[a]);
+          if (!box_.periodic(a) || (box_.sheared() && a == box_.shear().gradient)) walls[a] = static_cast<signed char>(turns[a]);
       });
     }
   }
@@ -277,7 +277,7 @@ SmoothColumn SmoothField::column(std::string_view name) const {
     return all;
   };
   SmoothColumn column{of(name)};
-  if (!box_.any_wall()) return column;
+  if (!box_.any_wall() && !box_.sheared()) return column;
   if (name == "speed" || name == "kinetic-energy") {
     std::array<std::vector<double>, 3> velocity;
     for (int a = 0; a < dimension(); ++a) velocity[a] = of(std::string("velocity.") + "xyz"[a]);

@@ -138,6 +138,7 @@ StructureFactor::StructureFactor(std::vector<AnyEnsemble const*> const& availabl
 }
 
 void StructureFactor::check(Box const& box) const {
+  refuse_shear(box, "structure-factor");
   for (int a = 0; a < box.dimension(); ++a)
     if (!box.periodic(a))
       throw Error(

@@ -31,6 +31,7 @@ class TimeCorrelation : public Diagnosis {
   using Options = TimeCorrelationOptions;
 
   bool follows() const final { return true; }
+  void check(Box const& box) const final { refuse_shear(box, "velocity-autocorrelation and mean-square-displacement"); }
   /// Error if the number of particles has changed, or looks are not at equal times.
   void follow(Sample const& sample) final;
   void measure(Sample const& sample, std::vector<double>& values) final;

@@ -1,6 +1,8 @@
 // Dissipation: what changes velocities and internal energies between the steps of Newton's motion: friction and noise.
 #pragma once
 
+#include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/particles/division.hpp>
@@ -58,6 +60,14 @@ class Dissipation {
   virtual void settle(Surroundings const&) {}
   /// The box has been stretched. PhysicsFailure if it has become too small.
   virtual void box_changed() {}
+  /// The simulation's box is sheared: from here on velocities are those relative to its flow. Error if it can't act there.
+  /// The box outlives it.
+  virtual void act_in_flow(Box const&) {
+    throw Error("shear: the dissipation " + kind() + " knows no velocities relative to the flow of a sheared box");
+  }
+  /// What friction between pairs adds to EnergyAndVirial::virial, for velocities as they are; noise adds nothing in the
+  /// mean.
+  virtual std::array<std::array<double, 3>, 3> virial() { return {}; }
   /// Distances that it keeps in its ensembles: each takes a degree of freedom.
   virtual std::size_t rigid_bonds() const { return 0; }
   /// What it is, for `bzm show`: its word in scenarios.

@@ -67,6 +67,17 @@ void HeatBath::check() {
   }
 }
 
+void HeatBath::add_flow(double times) const {
+  if (!flowing_) return;
+  for (auto* ensemble : ensembles_) {
+    int const along = ensemble->field("velocity").offset + flowing_->shear().flow;
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double* const row = ensemble->row(i);
+      row[along] += times * flowing_->flow_velocity(row);
+    }
+  }
+}
+
 void HeatBath::restore(std::span<double const> state) {
   if (state.size() != 1) throw Error("the checkpoint's heat bath does not fit this simulation");
   heat_ = state[0];

@@ -35,11 +35,24 @@ class HeatBath : public Dissipation {
   /// Error where a mass is not positive.
   void check() override;
   std::string undivided() const override { return ""; }
+  void act_in_flow(Box const& box) override { flowing_ = &box; }
   double heat() const override { return heat_; }
   std::vector<double> state() const override { return {heat_}; }
   void restore(std::span<double const> state) override;
 
  protected:
+  /// While it lives, the velocities of the bath's particles are relative to the flow of a sheared box.
+  class Carried {
+   public:
+    explicit Carried(HeatBath const& bath) : bath_(bath) { bath_.add_flow(-1); }
+    ~Carried() { bath_.add_flow(1); }
+    Carried(Carried const&) = delete;
+    Carried& operator=(Carried const&) = delete;
+
+   private:
+    HeatBath const& bath_;
+  };
+
   std::optional<Block> const& block() const { return block_; }
   bool acts_on(double const* row, int dimension) const {
     if (block_)
@@ -52,11 +65,14 @@ class HeatBath : public Dissipation {
   void add_heat(double heat) { heat_ += heat; }
 
  private:
+  void add_flow(double times) const;
+
   double temperature_, rate_, boltzmann_constant_;
   double heat_ = 0;
   std::function<double(double)> of_time_;
   std::optional<Block> block_;
   std::vector<AnyEnsemble*> ensembles_;
+  Box const* flowing_ = nullptr;
 };
 
 }  // namespace boltzmann

@@ -21,6 +21,7 @@ constexpr double long_step = 2;                             // in times of relax
 }  // namespace
 
 void LangevinBath::advance(StepContext const& context) {
+  Carried const carried(*this);
   double const keep = std::exp(-rate() * context.dt), temperature = temperature_at(context.time);
   double const spread2 = (1 - keep * keep) * boltzmann_constant() * temperature;
   auto const draw = for_instruction_set([](auto set) { return noise_kernel<decltype(set)::value>(); });

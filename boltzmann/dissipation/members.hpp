@@ -37,6 +37,8 @@ struct PairDissipation::Member {
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
   void take_mean_velocities(int threads);
   void show_images(int first, int count);
+  /// In a sheared box: the velocities of points become those of their rows (SortedCopy::ahead_in_flow()).
+  void carry_along_flow();
   /// Of which particle somebody speaks.
   std::string who(std::size_t row) const;
 };
@@ -57,6 +59,7 @@ struct PairDissipation::Coupling {
   bool vanishes() const { return dissipation.friction == 0 && dissipation.conduction == 0; }
   /// Brings row, length and entries of a chunk up to date.
   void take_chunk(std::size_t chunk, NeighbourList const& neighbours);
+  double mean_friction(double const* p, double const* q, double r2) const;
   PairNoise noise(StepContext const& context, double boltzmann_constant, std::uint32_t owner) const;
 };
 

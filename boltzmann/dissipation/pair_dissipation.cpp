@@ -21,6 +21,7 @@ namespace {
 constexpr double nowhere = 1e150;  // its square is finite
 constexpr double noticeable = 0.01;
 constexpr std::size_t sampled = 1000;
+constexpr std::size_t particles_of_sum = 1024;
 
 }  // namespace
 
@@ -173,6 +174,13 @@ void PairDissipation::box_changed() {
                                          box.length(a), "xyz"[a], coupling -> dissipation.range));
 }
 
+void PairDissipation::act_in_flow(Box const&) {
+  if (method_ == DissipationMethod::shardlow)
+    throw Error(
+        "shear: shardlow takes pairs one by one between particles, not their images that flow; take the method "
+        "simultaneous");
+}
+
 PairNoise PairDissipation::Coupling::noise(StepContext const& context, double k, std::uint32_t owner) const {
   DissipationLaw const& d = dissipation;
   PairNoise n;
@@ -217,6 +225,10 @@ bool PairDissipation::take_points() {
     std::array<double, 3> half{nowhere, nowhere, nowhere};  // further off than that, it has been wrapped
     for (int a = 0; a < dimension; ++a)
       if (box.periodic(a)) half[a] = 0.5 * box.length(a);
+    if (box.sheared()) {  // any place along the flow may be that of an image
+      if (!copy.is_current()) return false;
+      half.fill(-1);
+    }
     m.points.resize(m.stride() * (total + 1));
     int const threads = threads_for(owned, 2, this->threads());
     StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
@@ -260,6 +272,7 @@ bool PairDissipation::take_points() {
           std::copy_n(copy.rows() + row_block * k, dimension, point);
         }
     });
+    if (current && box.sheared()) m.carry_along_flow();
   }
   return current;
 }
@@ -383,6 +396,56 @@ double PairDissipation::internal_energy() const {
   return sum.value();
 }
 
+/// The mean force of friction on i is -g v_ij, along the line of centres if it is projected (see warnings()).
+std::array<std::array<double, 3>, 3> PairDissipation::virial() {
+  std::array<std::array<double, 3>, 3> sum{};
+  Neighbourhood& neighbourhood = scheme_.neighbourhood();
+  neighbourhood.refresh(threads());
+  take_points();
+  int const ring = neighbourhood.ring();
+  for (auto const& coupling : couplings_) {
+    Member &m = *coupling->target, &of = *coupling->source;
+    NeighbourList const& list = neighbourhood.list(coupling->list);
+    int const D = m.dimension(), v = m.velocity_at();
+    std::vector<std::array<double, 9>> parts(m.owned() / particles_of_sum + 1);
+    for_ranges(m.owned(), particles_of_sum, threads_for(m.owned(), 4, threads()),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k) {
+                   double const* const p = m.point(k);
+                   std::uint32_t const* j = list.rows()[k];
+                   for (std::uint32_t const* const last = j + list.lengths(ring)[k]; j < last; ++j) {
+                     double const* const q = of.point(*j / 4);
+                     double r[3] = {}, along = 0, r2 = 0;
+                     for (int a = 0; a < D; ++a) r[a] = p[a] - q[a], r2 += r[a] * r[a];
+                     double const friction = coupling->mean_friction(p, q, r2);
+                     if (friction == 0) continue;
+                     for (int a = 0; a < D; ++a) along += r[a] * (p[v + a] - q[v + a]);
+                     for (int a = 0; a < D; ++a)
+                       for (int b = 0; b < D; ++b)  // half of the pair's
+                         parts[k / particles_of_sum][static_cast<std::size_t>(3 * a + b)] -=
+                             0.5 * friction * r[a] *
+                             (coupling->dissipation.projected ? along / r2 * r[b] : p[v + b] - q[v + b]);
+                   }
+                 }
+               });
+    for (auto const& part : parts)
+      for (std::size_t n = 0; n < 9; ++n) sum[n / 3][n % 3] += part[n];
+  }
+  return sum;
+}
+
+/// Friction times weight, without the step: of a pair's points, the square of whose distance is r2.
+double PairDissipation::Coupling::mean_friction(double const* p, double const* q, double r2) const {
+  DissipationLaw const& d = dissipation;
+  double const x = 1 - std::sqrt(r2) / d.range;
+  if (!(x > 0) || r2 == 0) return 0;
+  auto const inverse_temperature = static_cast<std::size_t>(2 * target->dimension() + 1);
+  double const inverse_temperatures = p[inverse_temperature] + q[inverse_temperature];
+  double const chi = d.typed ? d.typed->at(r2, 2 / inverse_temperatures).strength : std::pow(x, d.exponent);
+  double const friction = d.friction * chi * chi;
+  return d.convention == Convention::constant_noise ? friction * 0.5 * d.temperature * inverse_temperatures : friction;
+}
+
 std::vector<std::string> PairDissipation::warnings(double step_size) {
   // With the matrix G of friction (dv = -G v dt) an explicit step is too hot by about dt tr(G^2) / 2 tr(G): what noise
   // and friction bring to second order. Sums over some particles; lines of centres point everywhere.
@@ -402,22 +465,17 @@ std::vector<std::string> PairDissipation::warnings(double step_size) {
       double rate = 0, squares = 0;
       for (auto const& coupling : couplings_) {
         if (coupling->target != &m) continue;
-        DissipationLaw const& d = coupling->dissipation;
+        bool const projected = coupling->dissipation.projected;
         NeighbourList const& list = neighbourhood.list(coupling->list);
         std::uint32_t const* j = list.rows()[k];
         for (std::uint32_t const* const last = j + list.lengths(list_rings - 1)[k]; j < last; ++j) {
           double const* q = coupling->source->point(*j / 4);
           double r2 = 0;
           for (int a = 0; a < m.dimension(); ++a) r2 += (p[a] - q[a]) * (p[a] - q[a]);
-          double const x = 1 - std::sqrt(r2) / d.range;
-          if (!(x > 0)) continue;
-          double const inverse_temperatures = p[2 * m.dimension() + 1] + q[2 * m.dimension() + 1];
-          double const chi = d.typed ? d.typed->at(r2, 2 / inverse_temperatures).strength : std::pow(x, d.exponent);
-          double friction = d.friction * chi * chi;
-          if (d.convention == Convention::constant_noise) friction *= 0.5 * d.temperature * inverse_temperatures;
+          double const friction = coupling->mean_friction(p, q, r2);
           double const own = friction * p[m.inverse_mass_at()], other = friction * q[m.inverse_mass_at()];
-          rate += d.projected ? own / D : own;
-          squares += own * (d.projected ? (1 - 1 / D) / D * own + other / D : other);
+          rate += projected ? own / D : own;
+          squares += own * (projected ? (1 - 1 / D) / D * own + other / D : other);
         }
       }
       trace += rate;

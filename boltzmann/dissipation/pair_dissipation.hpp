@@ -55,6 +55,8 @@ class PairDissipation final : public Dissipation {
   std::vector<AnyEnsemble*> ensembles() const override;
   void check() override;
   void box_changed() override;
+  void act_in_flow(Box const& box) override;
+  std::array<std::array<double, 3>, 3> virial() override;
   std::string kind() const override { return "dpd, " + to_string(method_); }
   void advance(StepContext const& context) override;
   void update_derived_fields() override;

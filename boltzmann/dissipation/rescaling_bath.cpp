@@ -92,9 +92,13 @@ double RescalingBath::degrees(Motion const& motion) const {
 }
 
 double RescalingBath::degrees_of_freedom() const { return degrees(motion()); }
-double RescalingBath::kinetic_energy() const { return motion().kinetic; }
+double RescalingBath::kinetic_energy() const {
+  Carried const carried(*this);
+  return motion().kinetic;
+}
 
 void RescalingBath::advance(StepContext const& context) {
+  Carried const carried(*this);
   Motion const now = motion();
   double const freedom = degrees(now), kT = boltzmann_constant() * temperature_at(context.time);
   if (!(freedom > 0)) return;  // nobody is in its block

@@ -22,7 +22,7 @@ class RescalingBath : public HeatBath {
   void advance(StepContext const& context) override;
   /// Of its particles as they stand, those in its block.
   double degrees_of_freedom() const;
-  /// Relative to the common velocity along axes whose momentum is kept.
+  /// Relative to the common velocity along axes whose momentum is kept, and to the flow of a sheared box.
   double kinetic_energy() const;
 
  protected:

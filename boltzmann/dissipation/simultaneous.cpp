@@ -73,6 +73,7 @@ void PairDissipation::simultaneous(StepContext const& context) {
         member->take_mean_velocities(threads_for(member->owned(), 2, threads()));
         if (division()) bring_mean_velocities(*member);
         member->show_images(member->velocity_at(), member->dimension());
+        if (member->copy->flow_axis() >= 0) member->carry_along_flow();
       }
   }
   SharedSum paid;  // by the bath
@@ -113,6 +114,12 @@ void PairDissipation::Member::show_images(int first, int count) {
   for (auto const& [begin, end] : copy->images())
     for (std::size_t k = owned() + 1 + begin; k < owned() + 1 + end; ++k)
       std::copy_n(point(copy->owner(k)) + first, count, point(k) + first);
+}
+
+void PairDissipation::Member::carry_along_flow() {
+  auto const flow = static_cast<std::size_t>(velocity_at() + copy->flow_axis());
+  for (std::size_t k = 0; k <= copy->total(); ++k)
+    if (k != copy->sentinel()) point(k)[flow] += copy->ahead_in_flow(k);
 }
 
 /// Gives momenta and energies to the particles of a chunk; what no internal energy pays for the bath does.

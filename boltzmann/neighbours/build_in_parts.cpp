@@ -349,7 +349,7 @@ void Neighbourhood::become_whole(int threads) {
       references.insert(references.end(), reference, reference + 3);
     }
     auto const built = copy.built_references();
-    copy.build(reach, built, copy.built_edges(), threads_for(copy.owned(), 1, threads));
+    copy.build(reach, built, copy.built_edges(), copy.built_slide(), threads_for(copy.owned(), 1, threads));
     std::vector<std::uint32_t> row_of(copy.owned());
     for (std::uint32_t k = 0; k < copy.owned(); ++k) row_of[copy.order()[k]] = k;
     for (auto& particle : particles) particle = row_of[particle];

@@ -257,8 +257,8 @@ bool Neighbourhood::follow(int threads) {
 }
 
 // Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found
-// anew, the skin if it is chosen; then of each sorted copy the edges of the box and the references at its build, and
-// the particles that were moved since: number and reference of each.
+// anew, the skin if it is chosen; then of each sorted copy the edges of the box, the slide of a sheared one, and the
+// references at its build, and the particles that were moved since: number and reference of each.
 std::vector<double> Neighbourhood::state() const {
   bool decided = true;
   for (auto const& copy : copies_) decided = decided && copy.is_current();
@@ -267,6 +267,7 @@ std::vector<double> Neighbourhood::state() const {
   for (auto const& copy : copies_) {
     auto const& edges = copy.built_edges();
     state.insert(state.end(), edges.begin(), edges.end());
+    if (box_->sheared()) state.push_back(copy.built_slide());
     auto const built = copy.built_references();
     state.insert(state.end(), built.begin(), built.end());
     state.push_back(static_cast<double>(copy.moved().size()));
@@ -296,7 +297,8 @@ void Neighbourhood::restore(std::span<double const> state, int threads) {
   for (auto& copy : copies_) {
     Box::Edges edges;
     std::ranges::copy(next(edges.size()), edges.begin());
-    copy.build(reach, next(copy.ensemble().size() * box_->dimension()), edges);
+    double const slide = box_->sheared() ? next(1)[0] : 0;
+    copy.build(reach, next(copy.ensemble().size() * box_->dimension()), edges, slide);
     std::vector<std::uint32_t> row_of(copy.owned()), rows;
     for (std::uint32_t k = 0; k < copy.owned(); ++k) row_of[copy.order()[k]] = k;
     std::vector<double> references;

@@ -67,24 +67,28 @@ void SortedCopy::components(std::vector<ImageComponent> components) {
 
 void SortedCopy::build(double reach, int threads) {
   int const dimension = box_->dimension();
+  bool const sheared = box_->sheared();
   std::vector<double> references(ensemble_->size() * dimension);
   for_ranges(ensemble_->size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (int a = 0; a < dimension; ++a) {
         double const x = ensemble_->row(i)[a];
         if (!std::isfinite(x)) not_finite(*ensemble_, i);
-        references[i * dimension + a] = reference_of(x, a);
+        references[i * dimension + a] = sheared ? x : reference_of(x, a);
       }
+    for (std::size_t i = begin; sheared && i < end; ++i)
+      wrap_reference(references.data() + i * dimension, box_->slide_in_lattice());
   });
   build(reach, references, threads);
 }
 
 void SortedCopy::build(double reach, std::span<double const> references, int threads) {
-  build(reach, references, box_->edges(), threads);
+  build(reach, references, box_->edges(), box_->slide(), threads);
 }
 
-void SortedCopy::build(double reach, std::span<double const> references, Box::Edges const& edges, int threads) {
-  begin_build(reach, edges);
+void SortedCopy::build(double reach, std::span<double const> references, Box::Edges const& edges, double slide,
+                       int threads) {
+  begin_build(reach, edges, slide);
   part_ = false;
   known_.clear();
   sort(reach, references, threads);
@@ -94,7 +98,7 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
 }
 
 void SortedCopy::build_part(double reach, Part part, int threads) {
-  begin_build(reach, box_->edges());
+  begin_build(reach, box_->edges(), box_->slide());
   part_ = true;
   known_ = std::move(part.rows);
   std::size_t const all = ensemble_->size();
@@ -162,11 +166,13 @@ void SortedCopy::check_reach(double reach, Box::Edges const& edges) const {
   if (images >= static_cast<double>(max_rows)) too_many_rows(images);
 }
 
-void SortedCopy::begin_build(double reach, Box::Edges const& edges) {
+void SortedCopy::begin_build(double reach, Box::Edges const& edges, double slide) {
   check_reach(reach, edges);
   reach_ = reach;
   built_edges_ = edges;
-  images_ = Images(*box_, edges);
+  built_slide_ = slide;
+  images_ = Images(*box_, edges, slide - box_->whole_slide(slide));
+  ups_.assign(box_->sheared() ? ensemble_->size() : 0, 0.0);
   moved_.clear();
   built_.clear();
   moved_images_.clear();
@@ -255,7 +261,8 @@ void SortedCopy::find_image_maps() {
   mapped_blocks_ = 0;
   for (std::size_t n = 0; n < components_.size(); ++n) {
     ImageRule const rule = components_[n].rule;
-    if (rule == ImageRule::position || (box_->any_wall() && rule != ImageRule::same))
+    bool const flows = box_->sheared() && rule == ImageRule::velocity;
+    if (rule == ImageRule::position || flows || (box_->any_wall() && rule != ImageRule::same))
       mapped_blocks_ = n / row_block + 1;
   }
   std::size_t const numbers = row_block * mapped_blocks_;
@@ -264,14 +271,20 @@ void SortedCopy::find_image_maps() {
   for (std::size_t code = 0; code < turns_.size(); ++code) {
     if (!images_.exists(turns_[code], reach_)) continue;
     for (std::size_t n = 0; n < numbers; ++n) {
-      ImageMap const map = image_map(*box_, components_[n], turns_[code]);
+      ImageMap const map = image_map(*box_, components_[n], turns_[code], box_->whole_slide(built_slide_));
       image_sign_[code * numbers + n] = map.sign;
       image_shift_[code * numbers + n] = map.shift;
     }
   }
 }
 
-double SortedCopy::walls_moved() const {
+double SortedCopy::images_moved() const {
+  if (box_->sheared()) {
+    // Two references that are within reach of each other, or further away, have come closer by no more than the flow
+    // has shortened a distance that long in the direction in which it shortens most. Each of them has half of that.
+    double const half = 0.5 * std::abs(strain());
+    return 0.5 * reach_ * (1 + half - std::sqrt(1 + half * half));
+  }
   if (!box_->any_wall()) return 0;
   double square = 0;
   for (int a = 0; a < box_->dimension(); ++a) {
@@ -351,7 +364,7 @@ void SortedCopy::sort_all(std::optional<Grid> const& grid, int threads) {
     for (std::size_t n = begin; n < end; ++n) {
       std::size_t const source = n < rows ? known(n) : ghost_source_[n - rows];
       auto const& turns = turns_[n < rows ? code_of({0, 0, 0}) : ghost_turns_[n - rows]];
-      for (int a = 0; a < dimension; ++a) at[n * dimension + a] = images_.at(a, turns[a], references_[4 * source + a]);
+      for (int a = 0; a < dimension; ++a) at[n * dimension + a] = images_.at(a, turns, references_[4 * source + a]);
     }
   });
   cells_ = grid ? Cells(*grid, at.data(), dimension, count, reach_, threads)
@@ -396,10 +409,12 @@ RefreshTask SortedCopy::refresh_task() const {
 bool SortedCopy::refresh(int threads) {
   RefreshTask const task = refresh_task();
   RefreshKernel const kernel = neighbour_kernels().refresh;
+  bool const sheared = box_->sheared();
   std::atomic<bool> changed{false}, finite{true};
   for_ranges(pieces_.size(), refresh_grain / together, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      Refreshed const part = kernel(task, pieces_[k].begin, pieces_[k].end);
+      auto const [first, last] = pieces_[k];
+      Refreshed const part = sheared ? refresh_sheared(task, first, last) : kernel(task, first, last);
       largest2_[k] = part.largest2;
       if (part.changed) changed.store(true, std::memory_order_relaxed);
       if (!part.finite) finite.store(false, std::memory_order_relaxed);
@@ -409,10 +424,11 @@ bool SortedCopy::refresh(int threads) {
   for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
     for (; first != last; ++first) kernel(task, first->begin, first->end);
   });
-  if (box_->any_wall()) {
+  if (box_->any_wall() || sheared) {
     auto const now = box_->edges();
-    if (now != edges_) changed = true;
+    if (now != edges_ || box_->slide() != slide_) changed = true;
     edges_ = now;
+    slide_ = box_->slide();
     find_image_maps();
   }
   refresh_images(0, blocks(), threads);
@@ -431,6 +447,7 @@ void SortedCopy::refresh_images(std::size_t first_block, std::size_t last_block,
 
 bool SortedCopy::is_current() const {
   if (owned() != ensemble_->size() || (box_->any_wall() && box_->edges() != edges_)) return false;
+  if (box_->sheared()) return is_current_in_shear();
   for (auto const& [begin, end] : pieces_)
     for (std::size_t k = begin; k < end; ++k)
       for (int a = 0; a < box_->dimension(); ++a) {
@@ -447,13 +464,14 @@ double SortedCopy::largest2() const {
   for (double const square : largest2_) largest = std::max(largest, square);
   // An image moves by twice as much as its wall (by the root of the sum of such squares, if it has several), and one of
   // a pair is an owned particle.
-  double const moved = walls_moved();
+  double const moved = images_moved();
   return moved == 0 ? largest : (std::sqrt(largest) + moved) * (std::sqrt(largest) + moved);
 }
 
 std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) const {
   std::vector<std::uint32_t> rows;
-  if (double const moved = walls_moved(); moved > 0) {
+  bool const sheared = box_->sheared();
+  if (double const moved = images_moved(); moved > 0) {
     double const left = std::sqrt(square) - moved;
     square = left < 0 ? -1 : left * left;
   }
@@ -465,6 +483,7 @@ std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) c
         double const d = rows_[row_block * k + a] - references_[4 * k + a];
         moved2 += d * d;
       }
+      if (sheared) moved2 = placed(k, rows_.data() + row_block * k).moved2;
       if (moved2 <= square * (1 - 1e-12)) continue;
       rows.push_back(static_cast<std::uint32_t>(k));
       if (rows.size() == most) return rows;
@@ -475,11 +494,16 @@ std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) c
 
 void SortedCopy::move(std::span<std::uint32_t const> rows) {
   std::vector<double> references(3 * rows.size(), 0.0);
-  for (std::size_t n = 0; n < rows.size(); ++n)
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (box_->sheared()) {
+      put_back_to_build(rows_.data() + row_block * rows[n], references.data() + 3 * n);
+      continue;
+    }
     for (int a = 0; a < box_->dimension(); ++a) {
       double const x = rows_[row_block * rows[n] + a];
       references[3 * n + a] = box_->periodic(a) ? box_->wrapped(x, a) : x;
     }
+  }
   move(rows, references);
 }
 
@@ -511,8 +535,10 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
       reference[a] = references[3 * n + a];
       steps_[4 * k + a] = in_steps(reference[a], reach_);
       double& x = rows_[row_block * k + a];
-      if (box_->periodic(a)) x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
+      if (box_->periodic(a) && !box_->sheared())
+        x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
     }
+    if (box_->sheared()) place(k, placed(k, rows_.data() + row_block * k));
     images_.each(reference, reach_, [&](Turns const& turns, auto const& at) {
       if (turns == Turns{}) {
         moved_images_[m].push_back({k, at});

@@ -37,7 +37,8 @@ using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 /// enough, so that it sees its own image, too), and in corners their compositions. Every particle has a reference, its
 /// position when the sorted copy was built or when it was moved (move()); neighbours are found by references. Those of
 /// images are images about the walls as they stood at the build; what walls have moved since counts as displacement of
-/// everybody.
+/// everybody. In a sheared box everything flows with the images: displacements are relative to the flow that has sheared
+/// the references since the build, and what the shear itself brings together counts as displacement of everybody.
 class SortedCopy {
  public:
   /// Behind the blocks of the ensemble's rows stand `extra_blocks` more, which a scheme fills (block()).
@@ -54,8 +55,8 @@ class SortedCopy {
   void build(double reach, int threads = 1);
   /// The same from given references (dimension() numbers a particle, in the ensemble's order, inside periodic axes).
   void build(double reach, std::span<double const> references, int threads = 1);
-  /// And with walls where they stood at an earlier build (built_edges()).
-  void build(double reach, std::span<double const> references, Box::Edges const& edges, int threads = 1);
+  /// And with walls where they stood at an earlier build (built_edges()), and a sheared box's slide (built_slide()).
+  void build(double reach, std::span<double const> references, Box::Edges const& edges, double slide, int threads = 1);
 
   /// What one rank of a team sees of a build that is all ranks' together.
   struct Part {
@@ -156,6 +157,12 @@ class SortedCopy {
   std::vector<double> built_references() const;
   /// And where the box's edges were.
   Box::Edges const& built_edges() const { return built_edges_; }
+  double built_slide() const { return built_slide_; }
+  /// The axis of a sheared box's flow; -1: no shear.
+  int flow_axis() const { return box_->sheared() ? box_->shear().flow : -1; }
+  /// How much faster along it row k, owned or an image, is than its particle: rows are whole lengths up or down the
+  /// gradient from where the box has put their particles. Only where there is a flow.
+  double ahead_in_flow(std::size_t k) const;
 
   /// For the search of neighbours among this sorted copy's rows.
   NearTask near_task() const;
@@ -166,9 +173,14 @@ class SortedCopy {
     std::array<double, 3> position;
   };
 
+  struct Placed {  // a particle of a sheared box near the reference of its row
+    std::array<double, 3> position{};
+    double ups = 0, moved2 = 0;  // lengths up the gradient from where it was, square of its displacement
+  };
+
   [[noreturn]] void too_many_rows(double count) const;
   double reference_of(double x, int axis) const;
-  void begin_build(double reach, Box::Edges const& edges);
+  void begin_build(double reach, Box::Edges const& edges, double slide);
   void finish_build(std::optional<Grid> const& grid, int threads);
   void take_reference(std::size_t k, double const* reference);
   void sort(double reach, std::span<double const> references, int threads);
@@ -179,8 +191,16 @@ class SortedCopy {
   std::size_t all_blocks() const { return blocks() + extra_blocks_; }
   void find_image_maps();
   std::uint32_t code_of(Turns const& turns) const;
-  double walls_moved() const;
+  double images_moved() const;
   void find_not_finite() const;
+  // sheared_copy.cpp
+  Placed placed(std::size_t k, double const* position) const;
+  void place(std::size_t k, Placed const& placed);
+  Refreshed refresh_sheared(RefreshTask const& task, std::size_t begin, std::size_t end);
+  bool is_current_in_shear() const;
+  void wrap_reference(double* reference, double slide) const;
+  void put_back_to_build(double const* position, double* reference) const;
+  double strain() const;
   void all_images();
   void move_ghosts(std::size_t first_block, std::size_t last_block, std::size_t begin, std::size_t end);
 
@@ -201,6 +221,8 @@ class SortedCopy {
   std::size_t extra_blocks_;
   std::vector<ImageComponent> components_;        // of each number of a row
   Box::Edges built_edges_{}, edges_{};            // at the build, at the last refresh
+  double built_slide_ = 0, slide_ = 0;            // likewise
+  std::vector<double> ups_;                       // of owned rows in a sheared box: lengths above their particles
   std::size_t mapped_blocks_ = 0;                 // in which images differ from their particles
   std::vector<Turns> turns_;                      // of each code
   std::vector<double> image_sign_, image_shift_;  // of rows, for each code

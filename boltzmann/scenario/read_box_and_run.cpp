@@ -217,6 +217,17 @@ void read_region(Item const& table, Reading& reading) {
     catch_errors(reading, region.place(), [&] { reading.box->install({wide(*from), wide(*to), options.side}); });
 }
 
+void read_shear(Section& box, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  BoxOptions options;
+  read_options(box, box_options(), &options, {.dimension = reading.dimension});
+  if (!options.shear || reading.context.mistakes.count() != before || !reading.box) return;
+  auto const& read = *options.shear;
+  catch_errors(reading, box.place("shear"), [&] {
+    reading.box->shear({read.rate, read.flow[0] - 'x', read.gradient[0] - 'x', read.established});
+  });
+}
+
 }  // namespace
 
 void read_box(Section& document, Reading& reading) {
@@ -237,6 +248,7 @@ void read_box(Section& document, Reading& reading) {
   if (reading.context.mistakes.count() == before && reading.base_known && !low.empty() && !high.empty())
     catch_errors(reading, high_item->place,
                  [&] { reading.box.emplace(reading.dimension, wide(low), wide(high), boundaries); });
+  read_shear(section, reading);
   for (Item const* region : find_tables(section, "regions")) read_region(*region, reading);
   for (Item const* wall : find_tables(section, "walls")) read_wall(*wall, reading);
   section.finish();

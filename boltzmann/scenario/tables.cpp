@@ -132,6 +132,20 @@ OptionTable make_sweep_picture_options() {
 
 constexpr char const* ensemble_or_list = "the name of an ensemble, or a list";
 
+OptionTable make_shear_options() {
+  using S = BoxOptions::Sheared;
+  OptionTable all;
+  all.add("rate", &S::rate, number(pow(dimensions::time, -1)),
+          "of the flow's velocity per length up the gradient; negative: the other way");
+  all.add("flow", &S::flow, axis_word(), "along which the images move");
+  all.add("gradient", &S::gradient, axis_word(), "across which they move past each other");
+  all.add("established", &S::established, flag(),
+          "every particle begins with the velocity of the flow where it is, besides its own; else the fluid begins at "
+          "rest, and is dragged in");
+  all.at("rate").needed = "0.1";
+  return all;
+}
+
 OptionTable make_box_options() {
   OptionTable all;
   all.add_said("low", "a list of lengths, one for each axis",
@@ -141,6 +155,14 @@ OptionTable make_box_options() {
   for (auto const& word : boundary_words())
     kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   all.add_said("boundary", "a word, or a list with one for each axis", kinds, "`\"open\"`");
+  all.add_of<BoxOptions>(
+      "shear",
+      [](BoxOptions& box) -> OptionPlace {
+        return OptionGroup{&shear_options(), [&box]() -> void* { return &box.shear.emplace(); }};
+      },
+      group("{ rate = 0.1 }"),
+      "of two periodic axes: [a flow without walls](#shear), whose images move past each other (Lees and Edwards)",
+      "at rest");
   all.add_said("walls", "tables, `[[box.walls]]`", "of [mirror and reflecting axes](#boxwalls)", "none");
   all.add_said("regions", "tables, `[[box.regions]]`", "[blocks](#boxregions) inside the space with elastic faces",
                "none");
@@ -457,6 +479,7 @@ OptionTable make_equilibration_options() {
 OptionTable const& event_options() { return once<make_event_options>(); }
 OptionTable const& run_options() { return once<make_run_options>(); }
 OptionTable const& box_options() { return once<make_box_options>(); }
+OptionTable const& shear_options() { return once<make_shear_options>(); }
 OptionTable const& ensemble_options() { return once<make_ensemble_options>(); }
 OptionTable const& influence_options() { return once<make_influence_options>(); }
 OptionTable const& rigid_bond_options() { return once<make_rigid_bond_options>(); }

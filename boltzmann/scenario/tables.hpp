@@ -28,6 +28,18 @@ struct RunOptions {
 };
 OptionTable const& run_options();
 
+/// [box]; corners, boundaries, walls and regions are read by code.
+struct BoxOptions {
+  struct Sheared {
+    double rate = 0;
+    std::string flow = "x", gradient = "y";
+    bool established = true;
+  };
+  std::optional<Sheared> shear;
+};
+/// `shear` in it.
+OptionTable const& shear_options();
+
 /// [[box.walls]]; the axis is read by code.
 struct WallOptions {
   Box::End end = Box::End::low;

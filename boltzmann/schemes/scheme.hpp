@@ -118,6 +118,9 @@ class Scheme {
   /// True if energies are others by that.
   virtual bool box_settled() { return false; }
 
+  /// Why it can't act in a sheared box (Box::shear()), in words that follow its summary(); empty if it can.
+  virtual std::string shear_refused() const { return "knows images of plain periodic boxes only"; }
+
   /// The laws on this ensemble that turn its velocities. Where an integrator takes them they are no influences any
   /// more, until they are asked for again with `taken` false.
   virtual std::vector<Rotation> rotations(AnyEnsemble const& /*ensemble*/, bool /*taken*/) { return {}; }

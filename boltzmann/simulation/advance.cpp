@@ -29,7 +29,7 @@ Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i)
 
 void Simulation::move_walls(double time) {
   for (auto* scheme : schemes_)
-    if (scheme->box().walls_move()) scheme->box().move_walls(time);
+    if (scheme->box().moves()) scheme->box().move_walls(time);
 }
 
 /// The influences on particles as they are at this step, unless they stand there.

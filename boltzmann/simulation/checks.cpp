@@ -44,6 +44,7 @@ void Simulation::make_ready() {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
   check_methods();
+  check_shear();
   take_lengths();
   check_dissipations();
   if (substeps_) check_substeps();

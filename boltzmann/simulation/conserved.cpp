@@ -80,6 +80,11 @@ Conserved conserved(Simulation const& simulation) {
     moves_in_space = moves_in_space && ensemble->fields().front().dimension == dimensions::length;
     add_scales(*ensemble, total);
   }
+  if (simulation.schemes().front()->box().sheared()) {
+    total.no_energy = "the images of a sheared box do work on what is in it";
+    total.isolated = false;
+    return total;
+  }
   if (!massive) return total;
   double const kinetic = kinetic_energy(ensembles);
   if (moves_in_space) total.momentum = momentum(ensembles);

@@ -386,6 +386,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   if (!begun_) {
     if (minimisation_) minimise(*this, *std::exchange(minimisation_, std::nullopt));
     equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
+    establish_flow();
     begun_ = true;
     observe_now();
   }
@@ -494,9 +495,15 @@ EnergyAndVirial Simulation::measure() const {
     total.reciprocal =
         total.reciprocal && part.integrator->method() != Method::deactivate && part.integrator->same_for_all();
   total.work = work_;
-  for (auto const* dissipation : dissipations_) {
+  bool const sheared = schemes_.front()->box().sheared();
+  total.driven = total.driven || sheared;  // by images that flow
+  for (auto* dissipation : dissipations_) {
     total.internal += dissipation->internal_energy();
     total.heat += dissipation->heat();
+    if (!sheared) continue;  // at rest friction moves no momentum in the mean
+    auto const friction = dissipation->virial();
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) total.virial[a][b] += friction[a][b];
   }
   return total;
 }
@@ -562,6 +569,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   for (auto const& event : events_)
     if (event.lasting && event.step <= step_) event.happen();
   check();
+  move_walls(time());
   for (auto* scheme : schemes_) scheme->restore(next());
   for (auto* dissipation : dissipations_) dissipation->restore(next());
   if (influences_.inside_step() && at >= state.size()) throw misfit();

@@ -232,6 +232,10 @@ class Simulation {
   FixedPoint choose_grid() const;
   void make_reversible(FixedPoint const& grid);
 
+  // sheared_box.cpp
+  void check_shear();
+  void establish_flow();
+
   // advance.cpp: one step.
   void move_walls(double time);
   void calculate(double time) { calculate(time, step_); }

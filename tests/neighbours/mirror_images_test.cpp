@@ -361,7 +361,7 @@ void images_are_right(std::array<Ends, 3> const& ends, std::size_t count, double
   // From the references and edges of the build, at the state of now: the same rows in the same order.
   SortedCopy again(e, box, 2);
   again.components(rules<D>(e, 2));
-  again.build(reach, copy.built_references(), copy.built_edges());
+  again.build(reach, copy.built_references(), copy.built_edges(), copy.built_slide());
   again.refresh(1);
   EXPECT_EQ(again.built_edges(), copy.built_edges());
   EXPECT_EQ(again.largest2(), copy.largest2());

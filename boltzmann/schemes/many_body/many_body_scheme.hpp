@@ -24,6 +24,7 @@ class ManyBodyScheme : public Scheme {
   void skin(double length);
 
   bool follows_box() const override { return true; }
+  std::string shear_refused() const override { return ""; }
   void box_changed() override;
   void add_influences(double time) override;
   std::optional<std::uint64_t> revision() const override { return revision_with({}); }

@@ -430,6 +430,10 @@ std::string PairScheme::undivided() const {
   return quantum_ > 0 ? "the reversible leap-frog" : "";
 }
 
+std::string PairScheme::shear_refused() const {
+  return connected_.empty() ? "" : "has connections, which find the nearest image of plain periodic boxes only";
+}
+
 void PairScheme::divide(Division* division) {
   division_ = division;
   brought_ = false;

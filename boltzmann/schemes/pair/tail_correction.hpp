@@ -40,6 +40,7 @@ class TailCorrection final : public Scheme {
   std::optional<std::uint64_t> revision() const override { return revision_with({}); }
   EnergyAndVirial measure(double time = 0) override;
   bool follows_box() const override { return true; }
+  std::string shear_refused() const override { return ""; }
   double length_scale(AnyEnsemble const&) const override { return __builtin_inf(); }
   std::string explain(AnyEnsemble const&, std::size_t) const override { return ""; }
   void make_reversible(double) override {}

@@ -96,6 +96,7 @@ class SmoothScheme final : public Scheme {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::string undivided() const override { return ""; }
+  std::string shear_refused() const override { return ""; }
   bool shares_out() const override { return true; }
   bool has_points() const override { return true; }
   void bring_particles() override;
