@@ -80,10 +80,11 @@ class WithDrivenFields final : public Integrator, private Companion {
   std::vector<Carried> carried() override {
     auto all = inner_->carried();
     std::size_t const size = ensemble_.size();
-    for (auto* numbers : {&start_, &sum_})
-      for (std::size_t k = 0; size > 0 && k < numbers->size() / size; ++k)
+    for (auto* numbers : {&start_, &sum_})  // others are of before numbers of particles changed
+      for (std::size_t k = 0; size > 0 && numbers->size() % size == 0 && k < numbers->size() / size; ++k)
         all.push_back({numbers->data() + k * size, 1});
-    if (!velocities_.empty()) all.push_back({velocities_.data(), static_cast<std::size_t>(ensemble_.dimension())});
+    std::size_t const D = static_cast<std::size_t>(ensemble_.dimension());
+    if (!velocities_.empty() && velocities_.size() == D * size) all.push_back({velocities_.data(), D});
     return all;
   }
   std::string undivided() const override { return inner_->undivided(); }

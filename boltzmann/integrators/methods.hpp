@@ -168,11 +168,11 @@ class MethodOf : public Integrator {
     return all;
   }
 
-  /// Of an array with an entry for each particle, or none.
+  /// Of an array with an entry for each particle, or none; one of other numbers of particles is of before they changed.
   template <class T>
-  static void carry(std::vector<T>& of_particles, std::vector<Integrator::Carried>& all) {
+  void carry(std::vector<T>& of_particles, std::vector<Integrator::Carried>& all) const {
     static_assert(sizeof(T) % sizeof(double) == 0);
-    if (!of_particles.empty())
+    if (!of_particles.empty() && of_particles.size() == ensemble_.size())
       all.push_back({reinterpret_cast<double*>(of_particles.data()), sizeof(T) / sizeof(double)});
   }
 
@@ -409,7 +409,7 @@ class LeapFrog final : public Alternating<P> {
     return Motion::none;
   }
   std::vector<Integrator::Carried> carried() override {
-    if (kicks_.empty()) return {};
+    if (kicks_.empty() || kicks_.size() != kicked() * this->ensemble_.size()) return {};
     return {{kicks_.data(), kicked()}};
   }
 

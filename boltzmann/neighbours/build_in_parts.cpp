@@ -183,7 +183,7 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
 bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   std::vector<std::int64_t> counts;
   for (auto& one : all) {
-    std::size_t const size = one.copy->owned();
+    std::size_t const size = one.copy->ensemble().size();
     if (size == 0) return false;
     Extents const& extents = one.extents;
     double const sorting = one.copy->sorting_reach(reach, box_->edges());
@@ -199,11 +199,11 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   }
   division_->team().sum(counts);
   auto next = counts.begin();
-  for (auto& one : all) {
-    one.start = {0};
-    for (std::size_t u = 0; u < one.units(); ++u)
-      one.start.push_back(one.start.back() + static_cast<std::size_t>(*next++));
-    one.cut = cuts(one.copy->owned());
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    all[e].start = {0};
+    for (std::size_t u = 0; u < all[e].units(); ++u)
+      all[e].start.push_back(all[e].start.back() + static_cast<std::size_t>(*next++));
+    all[e].cut = cut(e);
   }
   return true;
 }
@@ -295,7 +295,7 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   part.particles.reserve(numbers.size());
   part.rows.reserve(numbers.size());
   auto& owners = division_->owners_here(one.copy->ensemble());
-  Numbers own(one.copy->owned());
+  Numbers own(one.copy->ensemble().size());
   std::size_t row = 0, last = one.units();
   for (auto const n : sorted.items()) {
     std::uint32_t const i = numbers[n];

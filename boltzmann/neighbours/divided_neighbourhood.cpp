@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstring>
 
 namespace boltzmann {
 namespace {
@@ -123,22 +124,45 @@ void Neighbourhood::follow_others() {
   follow(1);
 }
 
-/// Where the rows of each rank begin, and one more: each gets as many, in the order in which they are sorted.
-std::vector<std::size_t> Neighbourhood::cuts(std::size_t rows) const {
-  auto const ranks = static_cast<std::size_t>(division_->team().size());
-  std::vector<std::size_t> cuts;
-  for (std::size_t r = 0; r < ranks; ++r)
-    cuts.push_back(std::min((rows * r / ranks + cut_at_ / 2) / cut_at_ * cut_at_, rows));
-  cuts.push_back(rows);
-  return cuts;
+/// Where the rows of each rank begin, and one more: each gets as much work, as far as lists before have shown it.
+WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
+  shares_[e].divide(&division_->team());
+  return cuts_[e] = shares_[e].balanced(copies_[e].ensemble().size(), cut_at_);
+}
+
+/// The entries of all ranks' lists, and what rows have taken.
+std::size_t Neighbourhood::take_work(std::size_t entries) {
+  constexpr std::size_t of_a_row = 12;  // what is done for each particle besides, in entries
+  if (!division_->leads(this)) return sum(entries);
+  std::vector<WorkShares::Work> mine(copies_.size());
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    std::size_t own = 0, n = 0;
+    for (auto const& [begin, end] : own_[e]) own += end - begin;
+    for (auto const& [begin, end] : own_[e])
+      for (std::size_t k = begin; k < end; ++k, ++n) {
+        auto& work = mine[e][n * WorkShares::parts / own];
+        work += of_a_row;
+        for (auto const& list : lists_)
+          if (list.target == &copies_[e]) work += list.list.lengths(list_rings - 1)[k];
+      }
+  }
+  auto const all = division_->team().gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
+  std::vector<WorkShares::Work> work(all.size());
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    for (std::size_t r = 0; r < all.size(); ++r)
+      std::memcpy(&work[r], all[r].data() + e * sizeof work[r], sizeof work[r]);
+    shares_[e].took(cuts_[e], work);
+  }
+  return sum(entries);
 }
 
 /// Each rank gets its stretch of rows, or those that other lists have given it.
 void Neighbourhood::share_out() {
   if (!division_->leads(this)) return take_shares();
-  for (auto const& copy : copies_) {
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    SortedCopy const& copy = copies_[e];
     Division::Owners owners(copy.owned());
-    auto const cut = cuts(copy.owned());
+    auto const& cut = this->cut(e);
     for (std::size_t r = 0; r + 1 < cut.size(); ++r)
       for (std::size_t k = cut[r]; k < cut[r + 1]; ++k) owners[copy.order()[k]] = static_cast<std::uint16_t>(r);
     division_->owners(copy.ensemble(), std::move(owners));

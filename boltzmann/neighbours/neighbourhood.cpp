@@ -61,6 +61,8 @@ SortedCopy& Neighbourhood::copy(AnyEnsemble& ensemble, std::size_t extra_blocks)
     if (&copy.ensemble() == &ensemble) return copy;
   stale_ = true;
   own_.emplace_back();
+  shares_.emplace_back();
+  cuts_.emplace_back();
   return copies_.emplace_back(ensemble, *box_, extra_blocks);
 }
 
@@ -145,7 +147,7 @@ void Neighbourhood::find_neighbours(int threads) {
                     threads_for(list.target->owned(), 4, threads));
     entries += list.list.entries();
   }
-  entries_ = sum(entries);
+  entries_ = divided() ? take_work(entries) : entries;
   stale_ = false;
   ring_ = 0;
   found_again_ = 0;

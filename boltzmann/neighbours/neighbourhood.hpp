@@ -4,6 +4,7 @@
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/neighbours/sorted_copy.hpp>
 #include <boltzmann/particles/division.hpp>
+#include <boltzmann/particles/work_shares.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -153,7 +154,8 @@ class Neighbourhood {
   void find_needed(int threads);
   std::vector<std::vector<char>> rows_in_lists(int threads) const;
   void complete(int threads);
-  std::vector<std::size_t> cuts(std::size_t rows) const;
+  WorkShares::Cuts const& cut(std::size_t e);
+  std::size_t take_work(std::size_t entries);
   bool is_part() const { return !copies_.empty() && copies_.front().is_part(); }
 
   // build_in_parts.cpp: the same where no rank knows all particles.
@@ -184,6 +186,8 @@ class Neighbourhood {
   Division* division_ = nullptr;                   // while a run is divided
   std::uint64_t last_division_ = 0, changes_ = 0;  // of owners, when shares were taken
   std::size_t cut_at_ = 1;
+  std::deque<WorkShares> shares_;      // of the rows of each copy
+  std::deque<WorkShares::Cuts> cuts_;  // where those of ranks begin, since the last build
   AlsoRead also_read_;
   RowExchange exchange_;
   bool complete_ = true;          // every row has its lists

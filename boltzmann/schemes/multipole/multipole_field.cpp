@@ -81,7 +81,7 @@ struct MultipoleField<Kind>::Workspace {
   std::vector<Softened> softened;
   Scratch scratch;
   std::size_t translations = 0, pairs = 0;
-  LeafShares::Work work{};  ///< in parts of this rank's stretch
+  WorkShares::Work work{};  ///< in parts of this rank's stretch
 };
 
 template <class Kind>
@@ -168,10 +168,10 @@ void MultipoleField<Kind>::gather(int threads) {
 
 /// Branches of nodes of which each rank gathers as many, or all: then there are no cuts.
 template <class Kind>
-LeafShares::Cuts MultipoleField<Kind>::cuts_of_branches() const {
+WorkShares::Cuts MultipoleField<Kind>::cuts_of_branches() const {
   auto const& branches = tree_.branches();
   if (!shares_.divided() || branches.size() < shares_.ranks()) return {};
-  LeafShares::Cuts cuts;
+  WorkShares::Cuts cuts;
   for (std::size_t const node : shares_.even(tree_.nodes().size() - branches.front().begin))
     cuts.push_back(static_cast<std::size_t>(
         std::find_if(branches.begin(), branches.end(),
@@ -193,7 +193,7 @@ template <class Kind>
 void MultipoleField<Kind>::bring_moments() {
   auto cuts = cuts_of_branches();
   for (auto& cut : cuts) cut = cut < tree_.branches().size() ? tree_.branches()[cut].begin : tree_.nodes().size();
-  std::vector<LeafShares::Found> arrays{{moments_.data(), numbers() * sizeof(double), &cuts}};
+  std::vector<WorkShares::Found> arrays{{moments_.data(), numbers() * sizeof(double), &cuts}};
   acceptance_.each_array([&](void* first, std::size_t bytes) { arrays.push_back({first, bytes, &cuts}); });
   shares_.bring(arrays);
 }
@@ -659,10 +659,10 @@ std::size_t MultipoleField<Kind>::between_leaves(std::size_t particle) const {
 
 /// What each rank has found, and what it took.
 template <class Kind>
-void MultipoleField<Kind>::bring_fields(LeafShares::Work const& work) {
+void MultipoleField<Kind>::bring_fields(WorkShares::Work const& work) {
   struct Took {
     std::size_t translations, pairs;
-    LeafShares::Work work;
+    WorkShares::Work work;
   };
   std::vector<Took> took(shares_.ranks());
   took[shares_.rank()] = {cost_.translations, cost_.pairs, work};
@@ -672,7 +672,7 @@ void MultipoleField<Kind>::bring_fields(LeafShares::Work const& work) {
                  {sorted_nearness_.data(), watched_ ? sizeof(float) : 0, &cuts_},
                  {took.data(), sizeof took[0], &one_each}});
   cost_.translations = cost_.pairs = 0;
-  std::vector<LeafShares::Work> all;
+  std::vector<WorkShares::Work> all;
   for (Took const& one : took) {
     cost_.translations += one.translations, cost_.pairs += one.pairs;
     all.push_back(one.work);
@@ -683,7 +683,7 @@ void MultipoleField<Kind>::bring_fields(LeafShares::Work const& work) {
 /// Of this rank's stretch, for whoever balances the work.
 template <class Kind>
 std::size_t MultipoleField<Kind>::part_of(TreeNode const& node) const {
-  return (node.begin - own_.begin) * LeafShares::parts / (own_.end - own_.begin);
+  return (node.begin - own_.begin) * WorkShares::parts / (own_.end - own_.begin);
 }
 
 template <class Kind>
@@ -712,7 +712,7 @@ void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_pot
     std::swap(open, next);
   }
   std::atomic<std::size_t> translations = work.translations, pairs = work.pairs;
-  std::array<std::atomic<std::uint64_t>, LeafShares::parts> parts;
+  std::array<std::atomic<std::uint64_t>, WorkShares::parts> parts;
   for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = work.work[k];
   for_ranges(open.size(), 1, threads_for(count, 8, threads), [&](std::size_t begin, std::size_t end) {
     Workspace own;
@@ -774,7 +774,7 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
   task.influence = field.data();
   // Each rank does a part of the samples.
   constexpr std::size_t samples = 16;
-  LeafShares::Cuts const cuts = shares_.divided() ? shares_.even(chosen.size(), samples) : LeafShares::Cuts();
+  WorkShares::Cuts const cuts = shares_.divided() ? shares_.even(chosen.size(), samples) : WorkShares::Cuts();
   Stretch const own =
       cuts.empty() ? Stretch{0, chosen.size()} : Stretch{cuts[shares_.rank()], cuts[shares_.rank() + 1]};
   auto const add_pairs = [&](Law const& law) {

@@ -9,10 +9,10 @@
 #pragma once
 
 #include <boltzmann/particles/share.hpp>
+#include <boltzmann/particles/work_shares.hpp>
 #include <boltzmann/schemes/multipole/acceptance.hpp>
 #include <boltzmann/schemes/multipole/expansion_tables.hpp>
 #include <boltzmann/schemes/multipole/image_lattice.hpp>
-#include <boltzmann/schemes/multipole/leaf_shares.hpp>
 #include <boltzmann/schemes/multipole/multipole_kernels.hpp>
 #include <boltzmann/schemes/multipole/multipole_kinds.hpp>
 #include <boltzmann/schemes/multipole/softening.hpp>
@@ -108,11 +108,11 @@ class MultipoleField {
   };
 
   Stretch own_branches() const;
-  LeafShares::Cuts cuts_of_branches() const;
+  WorkShares::Cuts cuts_of_branches() const;
   void bring_moments();
   void share_out();
   std::size_t between_leaves(std::size_t particle) const;
-  void bring_fields(LeafShares::Work const& work);
+  void bring_fields(WorkShares::Work const& work);
   /// Whether some of its leaves are this rank's, and whether its first is.
   bool has_own(TreeNode const& node) const { return node.begin < own_.end && node.end > own_.begin; }
   bool begins_own(TreeNode const& node) const { return node.begin < own_.end && node.begin >= own_.begin; }
@@ -173,8 +173,8 @@ class MultipoleField {
   std::vector<double> sorted_field_, sorted_potential_, field_, potential_;
   std::vector<float> sorted_nearness_, nearness_;
   MultipoleCost cost_;
-  LeafShares shares_;
-  LeafShares::Cuts cuts_;  // of the particles in the order of leaves, if ranks share them: between leaves
+  WorkShares shares_;
+  WorkShares::Cuts cuts_;  // of the particles in the order of leaves, if ranks share them: between leaves
   Stretch own_{0, 0};      // of these: those for which this rank calculates
   double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0, pairs_of_a_curl_ = 0;  // what takes as long
   bool with_potential_ = false, watched_ = false;

@@ -1,28 +1,31 @@
 // Cuts by the work of before, and the messages that bring together what ranks have found.
-#include <boltzmann/schemes/multipole/leaf_shares.hpp>
+#include <boltzmann/particles/work_shares.hpp>
 
 #include <algorithm>
 #include <utility>
 
 namespace boltzmann {
 
-LeafShares::Cuts LeafShares::even(std::size_t items, std::size_t multiple) const {
+WorkShares::Cuts WorkShares::even(std::size_t items, std::size_t multiple) const {
   Cuts cuts;
   std::size_t const parts = (items + multiple - 1) / multiple;
   for (std::size_t r = 0; r <= ranks(); ++r) cuts.push_back(std::min(items, parts * r / ranks() * multiple));
   return cuts;
 }
 
-LeafShares::Cuts LeafShares::balanced(std::size_t items) const {
-  if (cuts_.size() != ranks() + 1) return even(items);
+WorkShares::Cuts WorkShares::balanced(std::size_t items, std::size_t multiple) const {
+  if (cuts_.size() != ranks() + 1) return even(items, multiple);
   Cuts cuts;
-  for (double const cut : cuts_) cuts.push_back(static_cast<std::size_t>(cut * static_cast<double>(items)));
+  for (double const cut : cuts_) {
+    auto const at = static_cast<std::size_t>(cut * static_cast<double>(items));
+    cuts.push_back(std::min((at + multiple / 2) / multiple * multiple, items));
+  }
   cuts.back() = items;
   return cuts;
 }
 
 /// Cuts where all work would be in equal shares if that of each part were spread evenly over it.
-void LeafShares::took(Cuts const& cuts, std::vector<Work> const& work) {
+void WorkShares::took(Cuts const& cuts, std::vector<Work> const& work) {
   double all = 0;
   for (Work const& of_rank : work)
     for (auto const part : of_rank) all += static_cast<double>(part);
@@ -47,7 +50,7 @@ void LeafShares::took(Cuts const& cuts, std::vector<Work> const& work) {
   cuts_ = std::move(next);
 }
 
-void LeafShares::bring(std::vector<Found> const& arrays) const {
+void WorkShares::bring(std::vector<Found> const& arrays) const {
   std::vector<Team::Message> messages;
   auto const part = [](Found const& array, std::size_t r) {
     std::size_t const begin = (*array.cuts)[r], end = (*array.cuts)[r + 1];

@@ -1,7 +1,7 @@
 // Stretches of one order that ranks share: as much work for each, whatever the work of items is.
 #include "tests/thread_team.hpp"
 
-#include <boltzmann/schemes/multipole/leaf_shares.hpp>
+#include <boltzmann/particles/work_shares.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,17 +11,17 @@
 #include <numeric>
 #include <vector>
 
-namespace boltzmann::leaf_shares_test {
+namespace boltzmann::work_shares_test {
 namespace {
 
 /// The work of the busiest rank, over that of all in the mean, after so many calculations.
 double imbalance(std::function<double(std::size_t)> const& work, std::size_t items, int ranks, int calculations) {
   double worst = 0;
   test::ThreadTeam(ranks).run([&](Team& team) {
-    LeafShares shares;
+    WorkShares shares;
     shares.divide(&team);
     std::vector<double> of_rank;
-    std::vector<LeafShares::Work> of_parts;
+    std::vector<WorkShares::Work> of_parts;
     for (int k = 0; k <= calculations; ++k) {
       auto const cuts = shares.balanced(items);
       ASSERT_EQ(cuts.size(), static_cast<std::size_t>(ranks) + 1);
@@ -33,7 +33,7 @@ double imbalance(std::function<double(std::size_t)> const& work, std::size_t ite
       for (std::size_t r = 0; r < of_rank.size(); ++r)
         for (std::size_t i = cuts[r]; i < cuts[r + 1]; ++i) {
           of_rank[r] += work(i);
-          of_parts[r][(i - cuts[r]) * LeafShares::parts / (cuts[r + 1] - cuts[r])] +=
+          of_parts[r][(i - cuts[r]) * WorkShares::parts / (cuts[r + 1] - cuts[r])] +=
               static_cast<std::uint64_t>(work(i));
         }
       shares.took(cuts, of_parts);
@@ -45,7 +45,7 @@ double imbalance(std::function<double(std::size_t)> const& work, std::size_t ite
   return worst;
 }
 
-TEST(LeafShares, ComeToTakeTheSameWork) {
+TEST(WorkShares, ComeToTakeTheSameWork) {
   EXPECT_EQ(imbalance([](std::size_t) { return 1.0; }, 1000, 5, 0), 1);
   auto const clustered = [](std::size_t i) { return i < 700 ? 1.0 : i < 720 ? 200.0 : 3.0; };
   EXPECT_GT(imbalance(clustered, 1000, 4, 0), 2);
@@ -54,20 +54,20 @@ TEST(LeafShares, ComeToTakeTheSameWork) {
   EXPECT_LT(imbalance(slope, 100'000, 7, 4), 1.01);
 }
 
-TEST(LeafShares, NobodyHasWorkAndMoreRanksThanItems) {
+TEST(WorkShares, NobodyHasWorkAndMoreRanksThanItems) {
   EXPECT_LT(imbalance([](std::size_t i) { return i == 2 ? 1.0 : 0.0; }, 3, 8, 5), 8.01);
   imbalance([](std::size_t) { return 0.0; }, 10, 3, 3);
 }
 
-TEST(LeafShares, BringWhatEachHasFound) {
+TEST(WorkShares, BringWhatEachHasFound) {
   constexpr int size = 3;
   auto const thrown = test::ThreadTeam(size).run([&](Team& team) {
-    LeafShares shares;
+    WorkShares shares;
     shares.divide(&team);
     std::vector<double> numbers(70);
     std::vector<int> marks(7);
     auto const many = shares.even(7, 2), few = shares.even(2);
-    EXPECT_EQ(many, (LeafShares::Cuts{0, 2, 4, 7}));
+    EXPECT_EQ(many, (WorkShares::Cuts{0, 2, 4, 7}));
     for (std::size_t i = many[shares.rank()]; i < many[shares.rank() + 1]; ++i) {
       marks[i] = static_cast<int>(100 + i);
       for (std::size_t k = 0; k < 10; ++k) numbers[10 * i + k] = static_cast<double>(10 * i + k);
@@ -86,4 +86,4 @@ TEST(LeafShares, BringWhatEachHasFound) {
 }
 
 }  // namespace
-}  // namespace boltzmann::leaf_shares_test
+}  // namespace boltzmann::work_shares_test

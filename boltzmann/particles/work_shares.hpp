@@ -1,4 +1,4 @@
-// LeafShares: how the ranks of a team share out a calculation over a tree that each of them has. Private to this room.
+// WorkShares: how the ranks of a team share out what stands in one order for all, as much work for each.
 #pragma once
 
 #include <boltzmann/core/team.hpp>
@@ -12,7 +12,7 @@ namespace boltzmann {
 
 /// Each rank does a stretch of what stands in one order for all, and what it finds comes to all. Since nothing that is
 /// found depends on who finds it, stretches go by the work that they took before.
-class LeafShares {
+class WorkShares {
  public:
   /// Where the stretches of ranks begin, and the last ends: one number more than ranks.
   using Cuts = std::vector<std::size_t>;
@@ -25,8 +25,8 @@ class LeafShares {
 
   /// As many of so many items for each, in multiples of a number.
   Cuts even(std::size_t items, std::size_t multiple = 1) const;
-  /// As much work for each of so many items, as far as is known from calculations before.
-  Cuts balanced(std::size_t items) const;
+  /// As much work for each of so many items, as far as is known from calculations before, in multiples of a number.
+  Cuts balanced(std::size_t items, std::size_t multiple = 1) const;
   /// What each rank had to do in the parts of its stretch, equal in items, from the first on, where they were cut so.
   static constexpr std::size_t parts = 32;
   using Work = std::array<std::uint64_t, parts>;
