@@ -112,8 +112,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     if (!together)
       over_particles([this](std::size_t begin, std::size_t end) { after(begin, end, rates_of(ensemble_)); });
     inner_->accompany(nullptr);
-    // At the first stage rates may be those of before: what holds, or has been restored, is in the ensemble.
-    if (source_) source_->take(together && stage + 1 < stages());
+    if (source_) source_->take(together);
     move_ = inner_->largest_move();
     move_.not_finite = std::min(move_.not_finite, not_finite_);
     return motion;
@@ -132,7 +131,7 @@ class WithDrivenFields final : public Integrator, private Companion {
   // ---- Blocks ----
 
   void around(std::size_t begin, std::size_t end, Own const& own) override {
-    if (!source_ || !source_->taken()) {
+    if (!source_ || !source_->left()) {
       before(begin, end);
       own(begin, end);
       return after(begin, end, rates_of(ensemble_));

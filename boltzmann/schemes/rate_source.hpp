@@ -29,15 +29,19 @@ inline RatePlaces rates_of(AnyEnsemble& ensemble) {
 class RateSource {
  public:
   virtual ~RateSource() = default;
-  /// True: from the next calculation on the scheme leaves the rates to whoever asks evaluate().
+  /// True: from the next calculation on the scheme leaves the rates to whoever asks evaluate(), until somebody looks at
+  /// the particles (Scheme::complete()), or may do so.
   void take(bool taken) { taken_ = taken; }
-  bool taken() const { return taken_; }
+  /// At a calculation: whether it leaves them out.
+  bool leave() { return left_ = taken_; }
+  /// Whether the last calculation has left them out: else they stand in the ensemble.
+  bool left() const { return left_; }
   /// Adds the rates of the particles from `begin` to before `end`, of which `begin` comes first at `rates`: by their rows
   /// and sums of now, at the time of the last calculation.
   virtual void evaluate(std::size_t begin, std::size_t end, RatePlaces const& rates) const = 0;
 
  private:
-  bool taken_ = false;
+  bool taken_ = false, left_ = false;
 };
 
 }  // namespace boltzmann

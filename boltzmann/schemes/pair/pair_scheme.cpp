@@ -414,6 +414,7 @@ std::optional<std::uint64_t> PairScheme::revision() const {
 void PairScheme::calculate(double time) { calculate(time, true); }
 
 void PairScheme::complete(double) {
+  for (auto const& external : external_) external->source.take(false);
   for (auto* ensemble : ensembles())
     for (std::size_t k = 0; k < ensemble->driven().size(); ++k) {
       auto const field = ensemble->driven()[k];
@@ -528,7 +529,7 @@ void PairScheme::calculate(double time, bool overwrite) {
   for (auto const& external : external_) {
     if (!external->traits.rates) continue;
     external->time = time;
-    if (!external->source.taken()) add_external(*external);
+    if (!external->source.leave()) add_external(*external);
   }
 }
 
