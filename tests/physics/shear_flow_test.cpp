@@ -175,6 +175,28 @@ TEST(ShearFlow, EnergyIsWhatStressAndBathGive) {
   expect_balance<3>(&rescaling);
 }
 
+// Backwards images slide backwards, and who has crossed comes back.
+TEST(ShearFlow, LeapFrogRetracesIt) {
+  Ensemble<Newton<2>> atoms("atoms");
+  LatticeBlock const block{Lattice::square, 1.1, {8, 8, 1}, {0.5, 0.5, 0}};  // nobody on an edge
+  block_load(atoms, block);
+  for (auto& p : atoms) p.mass = 1;
+  maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(10), .remove_drift = true});
+  PairScheme scheme(sheared<2>(8 * 1.1, {0.8, 1, 0}), 2);
+  scheme.internal(atoms, LennardJones{1, 1});
+  Simulation simulation(scheme, 0.001);
+  simulation.run(0);
+  auto const start = std::vector(atoms.begin(), atoms.end());
+  simulation.run(400);
+  simulation.rewind(400);
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    auto apart = atoms[i].position - start[i].position;
+    scheme.box().nearest_image(&apart[0]);
+    EXPECT_LT(magnitude(apart), 1e-9) << i;
+    EXPECT_LT(magnitude(atoms[i].velocity - start[i].velocity), 1e-8) << i;
+  }
+}
+
 // Smooth particles on a lattice in the flow feel Newton's stress; those at the ends of the gradient like all others.
 TEST(ShearFlow, SmoothParticlesHaveNewtonsStress) {
   std::size_t const n = 16;
@@ -283,11 +305,13 @@ TEST(ShearFlow, FrictionHasTheStressOfPairsAtRandom) {
   }
 }
 
+// Waves of shear in a box at rest (8 long, eight runs) decay as of a viscosity of 0.85(3); flows at a rate of 0.6 have
+// 0.840(11) by their stress and 0.852 by their power, with steps of 0.02.
 TEST(ShearFlow, ViscosityOfTheFluidOfGrootAndWarren) {
   auto const fluid = groot_and_warren(6, 0.6, 0.03, 400, 1000);
   std::printf("DPD: %.4f(%.4f), by friction %.4f, by power %.4f, T %.4f, slope %.4f, bent %.4f\n", fluid.viscosity.mean,
               fluid.viscosity.error, fluid.by_friction, fluid.power, fluid.temperature, fluid.slope, fluid.bent);
-  EXPECT_NEAR(fluid.viscosity.mean, 0.85, 0.042);
+  EXPECT_NEAR(fluid.viscosity.mean, 0.845, 0.042);
   EXPECT_NEAR(fluid.power / fluid.viscosity.mean, 1, 0.035);
   EXPECT_NEAR(fluid.slope, 1, 0.02);
   EXPECT_LT(fluid.bent, 0.02);
@@ -296,7 +320,7 @@ TEST(ShearFlow, ViscosityOfTheFluidOfGrootAndWarren) {
 // ---- the Lennard-Jones liquid -------------------------------------------------------------------------------------
 
 // At rest it is 3.24(4) (M. Ferrario and others, Phys. Rev. A 44, 6936 (1991)), and falls with the rate, to 2.1 to 2.3 at 1
-// in published flows. Long runs of this one have 2.75(4), 2.45(2) and 2.11(1) at 0.25, 0.5 and 1; a plain program, all
+// in published flows. Long runs of this one have 3.19(7), 2.75(4), 2.45(2) and 2.11(1) at 0.1, 0.25, 0.5 and 1; a plain program, all
 // pairs of 256 atoms with their kinetic energy rescaled, 2.103(16) at 1.
 TEST(ShearFlow, ViscosityOfTheLennardJonesLiquidAtItsTriplePoint) {
   double const density = 0.8442, temperature = 0.722, rate = 1;
