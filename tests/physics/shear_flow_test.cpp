@@ -15,6 +15,7 @@
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/schemes/many_body/embedded_atom_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -126,19 +127,10 @@ TEST(ShearFlow, AcrossTheGradientActsTheImageThatIsThere) {
   }
 }
 
-/// Liquids, with baths or without: what the work of the shear stress and the bath give is what they have.
+/// Liquids and metals, with baths or without: what the work of the shear stress and the bath give is what they have.
 /// d(E)/dt = - P_yx V rate + bath, E with velocities relative to the flow.
 template <int D>
-void expect_balance(HeatBath* bath) {
-  Ensemble<Newton<D>> atoms("atoms");
-  double const spacing = D == 2 ? 1.1 : 1.3;
-  LatticeBlock block{D == 2 ? Lattice::square : Lattice::fcc, spacing, {8, 8, 8}};
-  if (D == 3) block.counts = {3, 3, 3};
-  block_load(atoms, block);
-  for (auto& p : atoms) p.mass = 1.5;
-  maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(3), .remove_drift = true});
-  PairScheme scheme(sheared<D>(repeat_lengths(block, D)[0], {0.8, 0, 1}), 2);
-  scheme.internal(atoms, LennardJones{1, 1});
+void expect_balance(Ensemble<Newton<D>>& atoms, Scheme& scheme, HeatBath* bath) {
   double const dt = 0.001;
   Simulation simulation(scheme, dt);
   if (bath) {
@@ -151,28 +143,57 @@ void expect_balance(HeatBath* bath) {
   auto const energy = [&](EnergyAndVirial const& now) {
     return peculiar_energy(atoms, box) + now.potential - now.heat;
   };
-  double work = 0, power = 0;
+  auto const power_of = [&](EnergyAndVirial const& now) {
+    return -pressure_tensor(atoms, now, box)[1][0] * box.volume() * box.shear().rate;
+  };
   auto const at_start = simulation.measure();
   double const before = energy(at_start);
-  power = -pressure_tensor(atoms, at_start, box)[1][0] * box.volume() * box.shear().rate;
+  double work = 0, power = power_of(at_start);
   for (int n = 0; n < 2000; ++n) {
     simulation.run(1);
-    double const now = -pressure_tensor(atoms, simulation.measure(), box)[1][0] * box.volume() * box.shear().rate;
+    double const now = power_of(simulation.measure());
     work += 0.5 * dt * (power + now);
     power = now;
   }
-  double const gained = energy(simulation.measure()) - before;
   EXPECT_GT(work, 20);
-  EXPECT_NEAR(gained / work, 1, 0.01) << D;
+  EXPECT_NEAR((energy(simulation.measure()) - before) / work, 1, 0.01) << D;
+}
+
+template <int D>
+struct Block {
+  Ensemble<Newton<D>> atoms{"atoms"};
+  double side;
+
+  Block(Lattice lattice, double spacing, std::size_t count) {
+    LatticeBlock const block{lattice, spacing, {count, count, count}};
+    block_load(atoms, block);
+    side = repeat_lengths(block, D)[0];
+    for (auto& p : atoms) p.mass = 1.5;
+    maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(3), .remove_drift = true});
+  }
+  Box box() const { return sheared<D>(side, {0.8, 0, 1}); }
+};
+
+template <int D>
+void expect_balance_of_liquid(HeatBath* bath) {
+  Block<D> block(D == 2 ? Lattice::square : Lattice::fcc, D == 2 ? 1.1 : 1.3, D == 2 ? 8 : 3);
+  PairScheme scheme(block.box(), 2);
+  scheme.internal(block.atoms, LennardJones{1, 1});
+  expect_balance(block.atoms, scheme, bath);
 }
 
 TEST(ShearFlow, EnergyIsWhatStressAndBathGive) {
-  expect_balance<2>(nullptr);
-  expect_balance<3>(nullptr);
+  expect_balance_of_liquid<2>(nullptr);
+  expect_balance_of_liquid<3>(nullptr);
   LangevinBath langevin(1, 1, 1);
-  expect_balance<2>(&langevin);
+  expect_balance_of_liquid<2>(&langevin);
   VelocityRescaling rescaling(1, 2, 1);
-  expect_balance<3>(&rescaling);
+  expect_balance_of_liquid<3>(&rescaling);
+  Block<3> metal(Lattice::fcc, 1.1, 3);
+  EmbeddedAtomScheme scheme(metal.box(),
+                            EmbeddedAtoms(SuttonChen{0.1, 1.1 * std::numbers::sqrt2, 9, 6, 39.4}, {.cutoff = 2.2}));
+  scheme.add(metal.atoms);
+  expect_balance(metal.atoms, scheme, nullptr);
 }
 
 // Backwards images slide backwards, and who has crossed comes back.
