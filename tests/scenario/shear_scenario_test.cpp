@@ -119,7 +119,7 @@ std::vector<Mistake> const rows{
      "10:9",
      {"shardlow", "simultaneous"}},
     {"mesh",
-     wrong("[[dissipation]]", "[mesh]\nlaw = \"gravity\"\ncells = [8, 8, 8]\n[[dissipation]]"),
+     wrong("[[dissipation]]", "[mesh]\nlaw = \"gravity\"\non = \"atoms\"\ncells = [8, 8, 8]\n[[dissipation]]"),
      "10:9",
      {"mesh of 8 x 8 x 8", "plain periodic boxes only"}},
 };
