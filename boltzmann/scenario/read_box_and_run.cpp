@@ -221,6 +221,7 @@ void read_shear(Section& box, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   BoxOptions options;
   read_options(box, box_options(), &options, {.dimension = reading.dimension});
+  reading.shear_place = box.place("shear");
   if (!options.shear || reading.context.mistakes.count() != before || !reading.box) return;
   auto const& read = *options.shear;
   catch_errors(reading, box.place("shear"), [&] {

@@ -175,6 +175,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
 }  // namespace
 
 Place place_of(std::string const& message, Reading const& reading) {
+  if (message.starts_with("shear: ")) return reading.shear_place;
   bool const of_step = message.starts_with("the step ");
   for (auto const& ensemble : reading.ensembles)
     if (!of_step && message.find("'" + ensemble.name + "'") != std::string::npos) return ensemble.load_place;

@@ -15,6 +15,7 @@
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/smooth.hpp>
+#include <boltzmann/schemes/many_body/embedded_atom_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -126,19 +127,10 @@ TEST(ShearFlow, AcrossTheGradientActsTheImageThatIsThere) {
   }
 }
 
-/// Liquids, with baths or without: what the work of the shear stress and the bath give is what they have.
+/// Liquids and metals, with baths or without: what the work of the shear stress and the bath give is what they have.
 /// d(E)/dt = - P_yx V rate + bath, E with velocities relative to the flow.
 template <int D>
-void expect_balance(HeatBath* bath) {
-  Ensemble<Newton<D>> atoms("atoms");
-  double const spacing = D == 2 ? 1.1 : 1.3;
-  LatticeBlock block{D == 2 ? Lattice::square : Lattice::fcc, spacing, {8, 8, 8}};
-  if (D == 3) block.counts = {3, 3, 3};
-  block_load(atoms, block);
-  for (auto& p : atoms) p.mass = 1.5;
-  maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(3), .remove_drift = true});
-  PairScheme scheme(sheared<D>(repeat_lengths(block, D)[0], {0.8, 0, 1}), 2);
-  scheme.internal(atoms, LennardJones{1, 1});
+void expect_balance(Ensemble<Newton<D>>& atoms, Scheme& scheme, HeatBath* bath) {
   double const dt = 0.001;
   Simulation simulation(scheme, dt);
   if (bath) {
@@ -151,28 +143,79 @@ void expect_balance(HeatBath* bath) {
   auto const energy = [&](EnergyAndVirial const& now) {
     return peculiar_energy(atoms, box) + now.potential - now.heat;
   };
-  double work = 0, power = 0;
+  auto const power_of = [&](EnergyAndVirial const& now) {
+    return -pressure_tensor(atoms, now, box)[1][0] * box.volume() * box.shear().rate;
+  };
   auto const at_start = simulation.measure();
   double const before = energy(at_start);
-  power = -pressure_tensor(atoms, at_start, box)[1][0] * box.volume() * box.shear().rate;
+  double work = 0, power = power_of(at_start);
   for (int n = 0; n < 2000; ++n) {
     simulation.run(1);
-    double const now = -pressure_tensor(atoms, simulation.measure(), box)[1][0] * box.volume() * box.shear().rate;
+    double const now = power_of(simulation.measure());
     work += 0.5 * dt * (power + now);
     power = now;
   }
-  double const gained = energy(simulation.measure()) - before;
   EXPECT_GT(work, 20);
-  EXPECT_NEAR(gained / work, 1, 0.01) << D;
+  EXPECT_NEAR((energy(simulation.measure()) - before) / work, 1, 0.01) << D;
+}
+
+template <int D>
+struct Block {
+  Ensemble<Newton<D>> atoms{"atoms"};
+  double side;
+
+  Block(Lattice lattice, double spacing, std::size_t count) {
+    LatticeBlock const block{lattice, spacing, {count, count, count}};
+    block_load(atoms, block);
+    side = repeat_lengths(block, D)[0];
+    for (auto& p : atoms) p.mass = 1.5;
+    maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(3), .remove_drift = true});
+  }
+  Box box() const { return sheared<D>(side, {0.8, 0, 1}); }
+};
+
+template <int D>
+void expect_balance_of_liquid(HeatBath* bath) {
+  Block<D> block(D == 2 ? Lattice::square : Lattice::fcc, D == 2 ? 1.1 : 1.3, D == 2 ? 8 : 3);
+  PairScheme scheme(block.box(), 2);
+  scheme.internal(block.atoms, LennardJones{1, 1});
+  expect_balance(block.atoms, scheme, bath);
 }
 
 TEST(ShearFlow, EnergyIsWhatStressAndBathGive) {
-  expect_balance<2>(nullptr);
-  expect_balance<3>(nullptr);
+  expect_balance_of_liquid<2>(nullptr);
+  expect_balance_of_liquid<3>(nullptr);
   LangevinBath langevin(1, 1, 1);
-  expect_balance<2>(&langevin);
+  expect_balance_of_liquid<2>(&langevin);
   VelocityRescaling rescaling(1, 2, 1);
-  expect_balance<3>(&rescaling);
+  expect_balance_of_liquid<3>(&rescaling);
+  Block<3> metal(Lattice::fcc, 1.1, 3);
+  EmbeddedAtomScheme scheme(metal.box(),
+                            EmbeddedAtoms(SuttonChen{0.1, 1.1 * std::numbers::sqrt2, 9, 6, 39.4}, {.cutoff = 2.2}));
+  scheme.add(metal.atoms);
+  expect_balance(metal.atoms, scheme, nullptr);
+}
+
+// Backwards images slide backwards, and who has crossed comes back.
+TEST(ShearFlow, LeapFrogRetracesIt) {
+  Ensemble<Newton<2>> atoms("atoms");
+  LatticeBlock const block{Lattice::square, 1.1, {8, 8, 1}, {0.5, 0.5, 0}};  // nobody on an edge
+  block_load(atoms, block);
+  for (auto& p : atoms) p.mass = 1;
+  maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(10), .remove_drift = true});
+  PairScheme scheme(sheared<2>(8 * 1.1, {0.8, 1, 0}), 2);
+  scheme.internal(atoms, LennardJones{1, 1});
+  Simulation simulation(scheme, 0.001);
+  simulation.run(0);
+  auto const start = std::vector(atoms.begin(), atoms.end());
+  simulation.run(400);
+  simulation.rewind(400);
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    auto apart = atoms[i].position - start[i].position;
+    scheme.box().nearest_image(&apart[0]);
+    EXPECT_LT(magnitude(apart), 1e-9) << i;
+    EXPECT_LT(magnitude(atoms[i].velocity - start[i].velocity), 1e-8) << i;
+  }
 }
 
 // Smooth particles on a lattice in the flow feel Newton's stress; those at the ends of the gradient like all others.
@@ -283,11 +326,13 @@ TEST(ShearFlow, FrictionHasTheStressOfPairsAtRandom) {
   }
 }
 
+// Waves of shear in a box at rest (8 long, eight runs) decay as of a viscosity of 0.85(3); flows at a rate of 0.6 have
+// 0.840(11) by their stress and 0.852 by their power, with steps of 0.02.
 TEST(ShearFlow, ViscosityOfTheFluidOfGrootAndWarren) {
   auto const fluid = groot_and_warren(6, 0.6, 0.03, 400, 1000);
   std::printf("DPD: %.4f(%.4f), by friction %.4f, by power %.4f, T %.4f, slope %.4f, bent %.4f\n", fluid.viscosity.mean,
               fluid.viscosity.error, fluid.by_friction, fluid.power, fluid.temperature, fluid.slope, fluid.bent);
-  EXPECT_NEAR(fluid.viscosity.mean, 0.85, 0.042);
+  EXPECT_NEAR(fluid.viscosity.mean, 0.845, 0.042);
   EXPECT_NEAR(fluid.power / fluid.viscosity.mean, 1, 0.035);
   EXPECT_NEAR(fluid.slope, 1, 0.02);
   EXPECT_LT(fluid.bent, 0.02);
@@ -296,7 +341,7 @@ TEST(ShearFlow, ViscosityOfTheFluidOfGrootAndWarren) {
 // ---- the Lennard-Jones liquid -------------------------------------------------------------------------------------
 
 // At rest it is 3.24(4) (M. Ferrario and others, Phys. Rev. A 44, 6936 (1991)), and falls with the rate, to 2.1 to 2.3 at 1
-// in published flows. Long runs of this one have 2.75(4), 2.45(2) and 2.11(1) at 0.25, 0.5 and 1; a plain program, all
+// in published flows. Long runs of this one have 3.19(7), 2.75(4), 2.45(2) and 2.11(1) at 0.1, 0.25, 0.5 and 1; a plain program, all
 // pairs of 256 atoms with their kinetic energy rescaled, 2.103(16) at 1.
 TEST(ShearFlow, ViscosityOfTheLennardJonesLiquidAtItsTriplePoint) {
   double const density = 0.8442, temperature = 0.722, rate = 1;
