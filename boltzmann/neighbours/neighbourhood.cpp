@@ -262,9 +262,12 @@ bool Neighbourhood::follow(int threads) {
 // anew, the skin if it is chosen; then of each sorted copy the edges of the box, the slide of a sheared one, and the
 // references at its build, and the particles that were moved since: number and reference of each.
 std::vector<double> Neighbourhood::state() const {
-  bool decided = true;
-  for (auto const& copy : copies_) decided = decided && copy.is_current();
-  std::vector<double> state{stale_ ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_,
+  bool decided = true, stale = stale_;  // numbers of particles may have changed since
+  for (auto const& copy : copies_) {
+    decided = decided && copy.is_current();
+    stale = stale || copy.owned() != copy.ensemble().size();
+  }
+  std::vector<double> state{stale ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_,
                             skin_.value_or(-1)};
   for (auto const& copy : copies_) {
     auto const& edges = copy.built_edges();

@@ -76,6 +76,13 @@ void Simulation::add_impulse(Scheme& scheme, double time, std::int64_t times) {
 }
 
 void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
+  // What integrators hold goes with particles that change hands inside a step; between steps there is nothing.
+  if (is_divided())
+    division_->carry([this](AnyEnsemble const& ensemble) {
+      Division::Carried all;
+      for (auto const& [numbers, count] : held_inside_step(ensemble)) all.emplace_back(numbers, count);
+      return all;
+    });
   if (!gauss_radau_.parts().empty())
     advance_by_gauss_radau(dt);
   else if (substeps_)
@@ -88,6 +95,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     dissipation->advance(context);
     if (division_) division_->moved();
   }
+  if (is_divided()) division_->carry({});
   check_moves();
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))

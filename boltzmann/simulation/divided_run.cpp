@@ -90,11 +90,6 @@ void Simulation::divide() {
   if (!division_ || &division_->team() != &here || !std::all_of(ensembles_.begin(), ensembles_.end(), fits)) {
     division_ = std::make_unique<Division>(here);
     for (auto* ensemble : ensembles_) division_->add(*ensemble);
-    division_->carry([this](AnyEnsemble const& ensemble) {
-      Division::Carried all;
-      for (auto const& [numbers, count] : held_inside_step(ensemble)) all.emplace_back(numbers, count);
-      return all;
-    });
   }
   division_->begin();
   for (auto& part : parts_) part.integrator->divide(division_.get());
@@ -113,6 +108,7 @@ void Simulation::end_division() {
   for (auto& part : parts_) part.integrator->divide(nullptr);
   for (auto* dissipation : dissipations_) dissipation->divide(nullptr);
   for (auto* scheme : schemes_) scheme->divide(nullptr);
+  division_->carry({});
   division_->end();
 }
 

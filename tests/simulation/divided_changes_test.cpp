@@ -84,7 +84,7 @@ cutoff = 2.5
 name = "atoms"
 class = "Newton"
 temperature = 0.5
-load = { kind = "lattice", lattice = "square", spacing = 1.2 }
+load = { kind = "fill", lattice = "square", spacing = 1.2 }
 [[influences]]
 law = "lennard-jones"
 on = "atoms"
