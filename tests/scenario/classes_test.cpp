@@ -72,6 +72,28 @@ TEST(Classes, FieldsAreAdvancedAtTheOrderOfTheMethod) {
   EXPECT_LT(error_of("gauss-radau", 0.5, "Tracer"), 1e-12);
 }
 
+TEST(Classes, RatesThatAnIntegratorTakesStandThereForWhoeverLooks) {
+  for (char const* method : {"euler", "rk2", "rk4"}) {
+    auto const whole = parse_scenario(oscillator(method, 0.05), "whole.toml");
+    whole->simulation->run(20);
+    // Between two runs rates are calculated with all the rest.
+    auto const pieces = parse_scenario(oscillator(method, 0.05), "pieces.toml");
+    for (int n = 0; n < 20; ++n) pieces->simulation->run(1);
+    expect_same_bits(ensemble(*whole, "a"), ensemble(*pieces, "a"));
+    // Others see the particles in the middle of a run.
+    auto const watched = parse_scenario(oscillator(method, 0.05), "watched.toml");
+    watched->simulation->observe(3, [](Simulation const&) {});
+    watched->simulation->run(20);
+    expect_same_bits(ensemble(*whole, "a"), ensemble(*watched, "a"));
+    auto const& a = ensemble(*whole, "a");
+    double const t = whole->simulation->time();
+    whole->schemes[0]->calculate(t);
+    EXPECT_NEAR(a.rate(0)[0], (3 - number(a, 0, "charge")) / 0.7, 1e-14) << method;
+    EXPECT_NEAR(a.rate(1)[0], number(a, 0, "position") * number(a, 0, "velocity"), 1e-14) << method;
+    EXPECT_NEAR(a.rate(2)[0], std::cos(t) * number(a, 0, "grown"), 1e-14) << method;
+  }
+}
+
 TEST(Classes, DeactivatedParticlesKeepTheirFields) {
   auto const run = parse_scenario(oscillator("deactivate", 0.1), "still.toml");
   run->simulation->run(10);
