@@ -267,7 +267,7 @@ Temperatures mean_temperatures(std::vector<std::string> const& bath) {
   overrides.set.insert(overrides.set.end(), {"output.trajectory=0", "mesh.accuracy=1e-3"});
   auto const run = shipped("water", overrides);
   run->simulation->run(100);
-  constexpr int steps = 1500;
+  constexpr int steps = 1200;
   Temperatures mean;
   for (int step = 0; step < steps; ++step) {
     run->simulation->run(1);
@@ -279,15 +279,16 @@ Temperatures mean_temperatures(std::vector<std::string> const& bath) {
 }
 
 // How well the mean temperature is known does not depend on the water: the bath's noise alone moves it by
-// 2 T / sqrt(degrees of freedom * rate * time), 1.7 K in 100 ps at 1 / ps. So baths are so fast here that they draw the
-// kinetic energy anew in a few steps. (What a slow bath would have to make up for is in the test of its heat below:
-// 1 % would be 16 kJ/mol in each ps.)
+// 2 T / sqrt(degrees of freedom * rate * time), 1.7 K in 100 ps at 1 / ps. So baths are so fast here that they draw
+// velocities anew in each step, and means are known to T sqrt(2 / (degrees of freedom * steps)): 0.34 K of all, 0.48 K of
+// translation and of rotation. What a slow bath would have to make up for is in the test of its heat below: 1 % would be
+// 16 kJ/mol in each ps.
 TEST(Water, IsAsWarmAsItsBath) {
-  auto const all = mean_temperatures({"dissipation.0.rate=\"200 / ps\""});
+  auto const all = mean_temperatures({"dissipation.0.rate=\"2000 / ps\""});
   // The momentum of the whole is zero: 645 degrees of freedom of 648 are left to the motion of molecules.
   EXPECT_NEAR((all.translation + all.rotation) * 648 / 1293, 298.15, 1.8);  // five standard errors
   // Noise on each atom, from which rigid bonds take their part: what is left has the same temperature everywhere.
-  auto const each = mean_temperatures({"dissipation.0.kind=\"langevin\"", "dissipation.0.rate=\"200 / ps\""});
+  auto const each = mean_temperatures({"dissipation.0.kind=\"langevin\"", "dissipation.0.rate=\"2000 / ps\""});
   EXPECT_NEAR(each.translation, 298.15, 3);
   EXPECT_NEAR(each.rotation, 298.15, 3);
 }
@@ -308,7 +309,7 @@ TEST(Water, LosesToTheBathWhatTheBathGets) {
 
 TEST(Water, HasTheStructureAndTheEnergyThatOthersHave) {
   Overrides overrides;
-  overrides.set = {"output.trajectory=0", "dissipation.0.rate=\"50 / ps\""};  // the mean temperature to 1.2 K
+  overrides.set = {"output.trajectory=0", "dissipation.0.rate=\"50 / ps\""};  // the mean temperature to 1.4 K
   auto const run = shipped("water", overrides);
   AnyEnsemble& water = ensemble(*run, "water");
   std::vector<std::uint32_t> oxygens, hydrogens;
