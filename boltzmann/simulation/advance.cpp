@@ -76,13 +76,6 @@ void Simulation::add_impulse(Scheme& scheme, double time, std::int64_t times) {
 }
 
 void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipations) {
-  // What integrators hold goes with particles that change hands inside a step; between steps there is nothing.
-  if (is_divided())
-    division_->carry([this](AnyEnsemble const& ensemble) {
-      Division::Carried all;
-      for (auto const& [numbers, count] : held_inside_step(ensemble)) all.emplace_back(numbers, count);
-      return all;
-    });
   if (!gauss_radau_.parts().empty())
     advance_by_gauss_radau(dt);
   else if (substeps_)
@@ -122,6 +115,13 @@ void Simulation::advance(double start, double dt) {
       move_walls(start + passed * dt);
       keep_in_box(part);
     }
+    // What integrators hold from here on goes with particles that change hands; before, it may be of other numbers.
+    if (is_divided() && stage == 0)
+      division_->carry([this](AnyEnsemble const& ensemble) {
+        Division::Carried all;
+        for (auto const& [numbers, count] : held_inside_step(ensemble)) all.emplace_back(numbers, count);
+        return all;
+      });
   }
 }
 
