@@ -62,9 +62,12 @@ std::string find_scenario(std::string const& file_or_name) {
   if (fs::is_directory(file_or_name, failure))
     throw Error(fmt::format("'{}' is a directory; a scenario is a file", file_or_name));
   auto const names = shipped_scenarios();
-  throw Error(fmt::format("there is no file '{}', and no shipped scenario of that name; there {} {}{}", file_or_name,
-                          names.size() == 1 ? "is" : "are", names.empty() ? "none" : join(names),
-                          did_you_mean(file_or_name, names)));
+  constexpr std::size_t few = 8;  // that a line can name
+  std::string const there_are = names.size() > few
+                                    ? fmt::format("are {} (bzm list)", names.size())
+                                    : (names.size() == 1 ? "is " : "are ") + (names.empty() ? "none" : join(names));
+  throw Error(fmt::format("there is no file '{}', and no shipped scenario of that name; there {}{}", file_or_name,
+                          there_are, did_you_mean(file_or_name, names)));
 }
 
 }  // namespace boltzmann

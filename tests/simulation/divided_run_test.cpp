@@ -46,22 +46,22 @@ TEST(DividedRun, OfAFluidBetweenWallsInTwoDimensions) {
   expect_same_bits([](World& world) { melt<2>(world, 34, 1.0, Boundary::reflecting); }, 120);
 }
 
+/// A cold crystal, and some atoms that are fast.
+void with_a_few_ahead(World& world) {
+  melt<2>(world, 44, 0.05, Boundary::periodic);
+  auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+  auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(scheme.ensembles()[0]);
+  for (std::size_t const i : {100U, 1333U, 1900U}) atoms[i].velocity = {i == 1333 ? -25.0 : 15.0, 20.0};
+}
+
 // Around those that are ahead of all others neighbours are found anew alone, and ranks hear of particles that come from
 // further than they have been told.
 TEST(DividedRun, OfAFewThatAreAheadOfAllOthers) {
-  std::size_t moves = 0;
-  auto const make = [](World& world) {
-    melt<2>(world, 44, 0.05, Boundary::periodic);
-    auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
-    auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(scheme.ensembles()[0]);
-    for (std::size_t const i : {100U, 1333U, 1900U}) atoms[i].velocity = {i == 1333 ? -25.0 : 15.0, 20.0};
-  };
-  expect_same_bits(make, 80, {2, 5});
+  expect_same_bits(with_a_few_ahead, 80, {2, 5});
   World world;
-  make(world);
+  with_a_few_ahead(world);
   world.simulation->run(80);
-  moves = static_cast<PairScheme*>(world.parts[1].get())->neighbourhood().moves();
-  EXPECT_GT(moves, 10U);
+  EXPECT_GT(static_cast<PairScheme*>(world.parts[1].get())->neighbourhood().moves(), 10U);
 }
 
 TEST(DividedRun, OfTwoSpecies) {
@@ -426,6 +426,12 @@ TEST(DividedMesh, GoesOnWithAnyNumberOfRanks) {
   expect_to_go_on(scenario("two-stream"));
   expect_to_go_on([](World& world) { plasma<2>(world, {.precision = Precision::single}); });
   expect_to_go_on([](World& world) { plasma<3>(world, {.alike = false}); });
+}
+
+TEST(DividedRun, GoesOnWithAnyNumberOfRanks) {
+  expect_to_go_on([](World& world) { melt<3>(world, 6, 2.0, Boundary::periodic); });
+  expect_to_go_on(with_a_few_ahead);  // whose references were moved, whatever ranks knew them
+  expect_to_go_on(scenario("dam-break"));
 }
 
 /// On any number of ranks all say what one says.
