@@ -187,16 +187,16 @@ void say_formula(std::string_view kind, DiagnosisParameters& with) {
 }
 
 TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
-  EXPECT_EQ(
-      message([&] { make_diagnosis("energy", parameters()); }),
-      "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, "
-      "vortex-energy, body-forces, temperature, pressure, number, entropy, heat-flux, slab, shock, mean-velocity, "
-      "velocity-diffusion, diffusion, radial-distribution, structure-factor, bond-order, "
-      "velocity-autocorrelation, mean-square-displacement, green-kubo, mean-profile, average, chains, extremes, "
-      "formula, "
-      "histogram, field-energy, field-mode, wave-spectrum, "
-      "box, energy-balance; "
-      "did you mean 'energies'?");
+  EXPECT_EQ(message([&] { make_diagnosis("energy", parameters()); }),
+            "there is no diagnosis 'energy'; there are energies, momentum, angular-momentum, vortex-invariants, "
+            "vortex-energy, body-forces, temperature, pressure, viscosity, number, entropy, heat-flux, slab, shock, "
+            "mean-velocity, "
+            "velocity-diffusion, diffusion, radial-distribution, structure-factor, bond-order, "
+            "velocity-autocorrelation, mean-square-displacement, green-kubo, mean-profile, average, chains, extremes, "
+            "formula, "
+            "histogram, field-energy, field-mode, wave-spectrum, "
+            "box, energy-balance; "
+            "did you mean 'energies'?");
   auto with = parameters();
   with.ensembles = {"atom"};
   EXPECT_EQ(message([&] { make_diagnosis("mean-velocity", with); }),
@@ -226,7 +226,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with.subtract_drift = true;
   EXPECT_THROW(make_diagnosis("momentum", with), Error);
   EXPECT_THROW(make_diagnosis("number", {}), Error);
-  EXPECT_EQ(diagnosis_kinds().size(), 33U);
+  EXPECT_EQ(diagnosis_kinds().size(), 34U);
   Ensemble<Smooth<2>> gas("gas");
   Ensemble<Vortex<2>> vortices("vortices");
   Ensemble<Panel<2>> body("body");
@@ -261,9 +261,9 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
     if (kind.of_flow) any.vortices = {{&vortices, BiotSavart{}}};
     std::unique_ptr<Diagnosis> made;
     ASSERT_NO_THROW(made = make_diagnosis(kind.name, any)) << kind.name;
-    EXPECT_EQ(made->needs_energies() || made->needs_virial(), kind.name == "energies" || kind.name == "pressure" ||
-                                                                  kind.name == "shock" || kind.name == "green-kubo" ||
-                                                                  kind.name == "energy-balance");
+    EXPECT_EQ(made->needs_energies() || made->needs_virial(),
+              kind.name == "energies" || kind.name == "pressure" || kind.name == "viscosity" || kind.name == "shock" ||
+                  kind.name == "green-kubo" || kind.name == "energy-balance");
   }
 }
 
@@ -292,6 +292,7 @@ TEST(Diagnosis, InOneAndThreeDimensions) {
     if (kind.of_mesh || kind.name == "heat-flux") continue;     // these need a mesh, and walls of two temperatures
     if (kind.name == "slab" || kind.name == "shock") continue;  // and these, matter (see their own tests)
     if (kind.name == "body-forces") continue;                   // bodies stand in 2D
+    if (kind.name == "viscosity") continue;                     // of boxes that are sheared (tests/boundaries)
     if (kind.name == "radial-distribution" || kind.name == "structure-factor" || kind.name == "mean-profile" ||
         kind.name == "average")
       continue;  // boxes without open axes, and other columns

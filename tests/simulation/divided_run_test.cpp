@@ -204,11 +204,12 @@ struct Shipped {
   char const* name;
   std::vector<std::string> set;
   std::uint64_t steps;
+  std::vector<int> sizes = {2, 3, 8};  ///< of teams: fewer where a step is dear
 };
 struct DividedScenario : testing::TestWithParam<Shipped> {};
 
 TEST_P(DividedScenario, HasTheBitsOfOneRank) {
-  expect_same_bits(scenario(GetParam().name, GetParam().set), GetParam().steps, {2, 3, 8});
+  expect_same_bits(scenario(GetParam().name, GetParam().set), GetParam().steps, GetParam().sizes);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -220,13 +221,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"rod", {}, 20}, Shipped{"pendulums", {}, 20}, Shipped{"cylinder", {}, 20},
                     Shipped{"sod", {}, 10}, Shipped{"dam-break", {}, 6}, Shipped{"sedov", {}, 6},
                     Shipped{"gresho", {}, 6}, Shipped{"free-expansion", {}, 10}, Shipped{"penetration", {}, 6},
-                    Shipped{"taylor-green", {}, 6}, Shipped{"convection", {}, 6}, Shipped{"pvdf-shock", {}, 4},
-                    Shipped{"hugoniot", {}, 4}, Shipped{"cavitation", {}, 4},
-                    Shipped{"dpd-fluid", {"ensembles.0.number=24576", "box.high=[20.2, 20.2, 20.2]"}, 6},
+                    Shipped{"taylor-green", {}, 6}, Shipped{"convection", {}, 6}, Shipped{"pvdf-shock", {}, 4, {3}},
+                    Shipped{"hugoniot", {}, 4, {3}}, Shipped{"cavitation", {}, 4},
+                    Shipped{"dpd-fluid", {"ensembles.0.number=24576", "box.high=[20.2, 20.2, 20.2]"}, 4, {3}},
                     Shipped{
                         "dpde-equilibrium",
                         {"ensembles.0.load.counts=[160, 160]", "box.high=['820.8 angstrom', '710.83365148 angstrom']"},
-                        6},
+                        4,
+                        {3}},
                     Shipped{"nematic-discs", {}, 10}, Shipped{"copper-3d", {}, 10}, Shipped{"silicon", {}, 10},
                     Shipped{"lattice-density", {}, 4}, Shipped{"free-expansion-1d", {}, 6},
                     Shipped{"copper-10000", {}, 10}, Shipped{"two-stream", {}, 60},
