@@ -96,6 +96,8 @@ void check_command(CLI::App const& app, int argc, char** argv) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(word, ignored) && word.ends_with(".toml"))
     message += "; did you mean 'bzm run " + word + "'?";
+  else if (word == "help")
+    message += "; did you mean 'bzm --help'?";
   else
     message += did_you_mean(word, names);
   throw Error(message);

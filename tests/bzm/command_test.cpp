@@ -103,6 +103,7 @@ TEST(Bzm, WindowWritesAStoredRunIntoAFile) {
 TEST(Bzm, UnknownWordsGetTheNearestKnownOne) {
   Folder folder;
   expect_one_line(bzm({"rnu"}, folder.string()), 2, {"unknown command 'rnu'", "did you mean 'run'?"});
+  expect_one_line(bzm({"help"}, folder.string()), 2, {"unknown command 'help'", "did you mean 'bzm --help'?"});
   expect_one_line(bzm({"chek", "x"}, folder.string()), 2, {"did you mean 'check'?"});
   expect_one_line(bzm({"run", "x.toml", "--stpes", "3"}, folder.string()), 2,
                   {"unknown option '--stpes'", "did you mean '--steps'?"});
