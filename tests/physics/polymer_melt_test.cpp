@@ -65,10 +65,10 @@ TEST(PolymerMelt, HasTheSizesAndThePressureOfThePaper) {
   shorter.set = {"ensembles.beads.molecule=5", "diagnoses.2.count=5"};
   auto const run = shipped("polymer-melt", shorter);
   run->simulation->run(2500);
-  Looks const looks = look(*run, 5, 480, 50);
+  Looks const looks = look(*run, 5, 640, 50);
   auto const ends = estimate(looks.ends, 16), gyration = estimate(looks.gyration, 16);
   auto const pressure = estimate(looks.pressures, 16);
-  EXPECT_NEAR(ends.mean, 5.2, 0.17);
+  EXPECT_NEAR(ends.mean, 5.2, 0.16);
   EXPECT_LT(ends.error, 0.05);
   EXPECT_NEAR(gyration.mean, 0.92, 0.02);
   EXPECT_LT(gyration.error, 0.006);
