@@ -266,18 +266,19 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorti
     std::size_t const unit = one.unit_of(x);
     auto& readers = of_unit[unit];
     if (readers.empty()) readers = readers_of(unit);
-    for (auto const& [rank, every] : readers) {
-      bool reads = every;
+    for (Reader const& reader : readers) {
+      auto const& there = places[reader.rank];
+      bool reads = reader.all;
       if (!reads)
         images.each(x, wide, [&](Turns const&, auto const& at) {
           if (reads) return;
           Place here;
           for (int n = 0; n < 2; ++n) here[n] = {at[axes[n] % 3], at[axes[n] % 3]};
           if (one.dimension < 3) here[1] = {0, 0};
-          reads = std::any_of(places[rank].begin(), places[rank].end(),
+          reads = std::any_of(there.begin(), there.end(),
                               [&](Place const& place) { return distance2(place, here) <= wide2; });
         });
-      if (reads) to[rank].push_back(one.own[k]);
+      if (reads) to[reader.rank].push_back(one.own[k]);
     }
   }
   return to;

@@ -112,7 +112,7 @@ TEST(Outflow, IsRefusedWhereItMeansNothing) {
   EXPECT_EQ(message([&] { Outflow(atoms, box<2>(), plane); }),
             "outflow: 'atoms' is of class Newton, which no flow carries; tracers and vortices leave with a flow");
   EXPECT_EQ(message([&] {
-              Outflow(dye, box<2>(), {.from = {{1, 0, 0}}});
+              Outflow(dye, box<2>(), {.from = {{1, 0, 0}}, .direction = {}});
             }),
             "outflow: it has no direction; add e.g. direction = [1, 0]");
   EXPECT_EQ(message([&] {
