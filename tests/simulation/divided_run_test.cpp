@@ -474,8 +474,8 @@ TEST(DividedMesh, FailsWithTheLineOfOneRank) {
                       : "step 2: particle 700 of 'electrons' is outside the mesh: y = 2.50");
     expect_line(with({.alike = alike},
                      [](auto& electrons) {
-                       electrons[300].velocity = {0, 150};
-                       electrons[1500].velocity = {-200, 0};
+                       electrons[300].position = {1, 2.4}, electrons[300].velocity = {0, 150};
+                       electrons[1500].position = {1, 1}, electrons[1500].velocity = {-200, 0};
                      }),
                 alike ? "particle 1500 of 'electrons' moved 4 in one step" : "particle 300 of 'electrons' escaped");
   }
