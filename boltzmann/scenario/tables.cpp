@@ -158,7 +158,7 @@ OptionTable make_box_options() {
   all.add_of<BoxOptions>(
       "shear",
       [](BoxOptions& box) -> OptionPlace {
-        return OptionGroup{&shear_options(), [&box]() -> void* { return &box.shear.emplace(); }};
+        return OptionGroup{&shear_options(), [&box]() -> void* { return &box.shear.emplace(BoxOptions::Sheared{}); }};
       },
       group("{ rate = 0.1 }"),
       "of two periodic axes: [a flow without walls](#shear), whose images move past each other (Lees and Edwards)",
