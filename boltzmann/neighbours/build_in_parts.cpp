@@ -390,7 +390,7 @@ void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
   bool too_far = false;
   for (std::size_t r = 0; r < all.size(); ++r) {
     std::vector<double> numbers(all[r].size() / sizeof(double));
-    std::memcpy(numbers.data(), all[r].data(), all[r].size());
+    if (!numbers.empty()) std::memcpy(numbers.data(), all[r].data(), all[r].size());
     for (auto at = numbers.data(), end = at + numbers.size(); at < end;) {
       auto const e = static_cast<std::size_t>(at[0]);
       auto const k = static_cast<std::uint32_t>(at[1]), i = static_cast<std::uint32_t>(at[2]);

@@ -199,7 +199,7 @@ void Division::learn_owners(Part& part) {
   auto const all = team_.gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
   for (std::size_t r = 0; r < all.size(); ++r) {
     std::vector<Stretch> stretches(all[r].size() / sizeof(Stretch));
-    std::memcpy(stretches.data(), all[r].data(), all[r].size());
+    if (!stretches.empty()) std::memcpy(stretches.data(), all[r].data(), all[r].size());
     for (auto const& [begin, end] : stretches)
       std::fill(part.owners.begin() + static_cast<std::ptrdiff_t>(begin),
                 part.owners.begin() + static_cast<std::ptrdiff_t>(end), static_cast<std::uint16_t>(r));
