@@ -253,6 +253,7 @@ void Division::begin() {
 }
 
 void Division::end() {
+  if (!goes_on_) return;  // and ensembles may be gone
   for (auto* ensemble : ensembles_) ensemble->share(nullptr);
   goes_on_ = false;
 }
