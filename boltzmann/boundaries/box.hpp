@@ -43,8 +43,8 @@ struct Wall {
 };
 
 /// Plane Couette flow without walls: along the gradient the images of a periodic box move past each other, so that what
-/// leaves at one end comes in at the other with the velocity of the flow there (A. W. Lees and S. F. Edwards, J. Phys. C 5,
-/// 1921 (1972)). The flow is rate * (y - y0) along `flow`, y along `gradient` and y0 the box's middle.
+/// leaves at one end comes in at the other with the velocity of the flow there (A. W. Lees and S. F. Edwards, J. Phys. C
+/// 5, 1921 (1972)). The flow is rate * (y - y0) along `flow`, y along `gradient` and y0 the box's middle.
 struct Shear {
   double rate = 0;  ///< per time; 0: none
   int flow = 0, gradient = 1;
@@ -117,8 +117,8 @@ class Box {
   /// Whether some wall moves along its normal.
   bool walls_move() const { return walls_move_; }
   /// Puts moving walls where they are at this time since the start of the run, edge + velocity * time; low(), high(),
-  /// length() and volume() follow; and images of a sheared box where they are. Nothing while they are held. PhysicsFailure if a wall meets the other end of its
-  /// axis.
+  /// length() and volume() follow; and images of a sheared box where they are. Nothing while they are held.
+  /// PhysicsFailure if a wall meets the other end of its axis.
   void move_walls(double time);
 
   /// Shears the box from here on. Error unless it has two or three dimensions, both axes are different periodic ones, no
@@ -180,8 +180,8 @@ class Box {
   /// of a sheared box's gradient it becomes its image, velocity included.
   void wrap(AnyEnsemble& particles) const;
 
-  /// Brings every particle that has left back: periodic axes wrap (a sheared one as Shear says), reflecting axes and regions reflect position and
-  /// velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a
+  /// Brings every particle that has left back: periodic axes wrap (a sheared one as Shear says), reflecting axes and
+  /// regions reflect position and velocity, beyond a mirror's wall a particle is replaced by its image (position and velocity). A wall of a
   /// reflecting axis that moves reflects in its own frame, x -> 2 X - x and v -> 2 u - v, X where it is now; who moves
   /// away from it already keeps its velocity. PhysicsFailure if a particle has moved so far that one reflection does
   /// not bring it back, or is not finite. Returns the work that moving walls of reflecting axes have done on the

@@ -141,7 +141,8 @@ void SmoothField::collect_sources(double common_range) {
         sources_.push_back({at, mass ? row[mass->offset] : 1.0, range, 1 / range});
         auto& walls = origins_.emplace_back(Origin{particle, {}}).walls;
         for (int a = 0; a < D; ++a)
-          if (!box_.periodic(a) || (box_.sheared() && a == box_.shear().gradient)) walls[a] = static_cast<signed char>(turns[a]);
+          if (!box_.periodic(a) || (box_.sheared() && a == box_.shear().gradient))
+            walls[a] = static_cast<signed char>(turns[a]);
       });
     }
   }

@@ -17,7 +17,7 @@ namespace boltzmann {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Lists are found by positions that are rounded to a millionth of the reach.
+/// Of the reach; more than the rounding of the positions with which lists are found.
 constexpr double rounding = 1e-5;
 
 /// Particles of an ensemble as bits, which come out in ascending order.
@@ -295,16 +295,19 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   part.grid = one.cells;
   part.particles.reserve(numbers.size());
   part.rows.reserve(numbers.size());
+  part.references.reserve(at.size());
   auto& owners = division_->owners_here(one.copy->ensemble());
   Numbers own(one.copy->ensemble().size());
   std::size_t row = 0, last = one.units();
   for (auto const n : sorted.items()) {
     std::uint32_t const i = numbers[n];
-    std::size_t const unit = one.unit_of(at.data() + D * n);
+    double const* const x = at.data() + D * n;
+    std::size_t const unit = one.unit_of(x);
     row = unit == last ? row + 1 : one.start[unit];
     last = unit;
     part.particles.push_back(i);
     part.rows.push_back(static_cast<std::uint32_t>(row));
+    part.references.insert(part.references.end(), x, x + D);
     std::size_t const owner = one.rank_at(row);
     owners[i] = static_cast<std::uint16_t>(owner);
     if (owner == rank) own.add(i);
@@ -351,8 +354,7 @@ void Neighbourhood::become_whole(int threads) {
     }
     auto const built = copy.built_references();
     copy.build(reach, built, copy.built_edges(), copy.built_slide(), threads_for(copy.owned(), 1, threads));
-    std::vector<std::uint32_t> row_of(copy.owned());
-    for (std::uint32_t k = 0; k < copy.owned(); ++k) row_of[copy.order()[k]] = k;
+    auto const row_of = copy.rows_by_number();
     for (auto& particle : particles) particle = row_of[particle];
     copy.move(particles, references);
   }

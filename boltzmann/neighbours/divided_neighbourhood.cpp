@@ -7,18 +7,18 @@
 #include <atomic>
 #include <bit>
 #include <cstring>
+#include <functional>
+#include <numeric>
 
 namespace boltzmann {
 namespace {
 
-enum : char { of_others, own_row };
-
-/// Of rows with this mark.
-std::vector<Stretch> stretches_of(std::vector<char> const& marks, char mark) {
+/// Of rows that are marked.
+std::vector<Stretch> stretches_of(std::vector<char> const& marks) {
   std::vector<Stretch> stretches;
   for (std::size_t begin = 0, end = 0; begin < marks.size(); begin = end) {
     while (end < marks.size() && marks[end] == marks[begin]) ++end;
-    if (marks[begin] == mark) stretches.push_back({begin, end});
+    if (marks[begin]) stretches.push_back({begin, end});
   }
   return stretches;
 }
@@ -134,7 +134,8 @@ WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
 std::size_t Neighbourhood::take_work(std::size_t entries) {
   constexpr std::size_t of_a_row = 12;  // what is done for each particle besides, in entries
   if (!division_->leads(this)) return sum(entries);
-  std::vector<WorkShares::Work> mine(copies_.size());
+  std::vector<WorkShares::Work> mine(copies_.size() + 1);
+  mine.back()[0] = entries;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     std::size_t own = 0, n = 0;
     for (auto const& [begin, end] : own_[e]) own += end - begin;
@@ -148,12 +149,17 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
   }
   auto const all = division_->team().gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
   std::vector<WorkShares::Work> work(all.size());
-  for (std::size_t e = 0; e < copies_.size(); ++e) {
+  auto const of_copy = [&](std::size_t e) {
     for (std::size_t r = 0; r < all.size(); ++r)
       std::memcpy(&work[r], all[r].data() + e * sizeof work[r], sizeof work[r]);
+  };
+  for (std::size_t e = 0; e < copies_.size(); ++e) {
+    of_copy(e);
     shares_[e].took(cuts_[e], work);
   }
-  return sum(entries);
+  of_copy(copies_.size());
+  return std::transform_reduce(work.begin(), work.end(), std::size_t{0}, std::plus{},
+                               [](WorkShares::Work const& one) { return std::size_t{one[0]}; });
 }
 
 /// Each rank gets its stretch of rows, or those that other lists have given it.
@@ -197,8 +203,8 @@ void Neighbourhood::take_shares() {
     auto const& owners = division_->owners(copy.ensemble());
     std::vector<char> marks(copy.owned());
     for (std::size_t k = 0; k < marks.size(); ++k)
-      marks[k] = owners[copy.order()[k]] == division_->team().rank() ? own_row : of_others;
-    own_[e] = stretches_of(marks, own_row);
+      marks[k] = owners[copy.order()[k]] == division_->team().rank() ? 1 : 0;
+    own_[e] = stretches_of(marks);
   }
 }
 

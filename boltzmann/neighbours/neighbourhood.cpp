@@ -304,8 +304,8 @@ void Neighbourhood::restore(std::span<double const> state, int threads) {
     std::ranges::copy(next(edges.size()), edges.begin());
     double const slide = box_->sheared() ? next(1)[0] : 0;
     copy.build(reach, next(copy.ensemble().size() * box_->dimension()), edges, slide);
-    std::vector<std::uint32_t> row_of(copy.owned()), rows;
-    for (std::uint32_t k = 0; k < copy.owned(); ++k) row_of[copy.order()[k]] = k;
+    auto const row_of = copy.rows_by_number();
+    std::vector<std::uint32_t> rows;
     std::vector<double> references;
     for (auto count = static_cast<std::size_t>(next(1)[0]); count > 0; --count) {
       auto const moved = next(4);

@@ -110,10 +110,9 @@ void SortedCopy::build_part(double reach, Part part, int threads) {
   for_ranges(known_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       std::uint32_t const i = part.particles[n];
-      double* const built = built_by_number_.data() + D * i;
-      for (std::size_t a = 0; a < D; ++a) built[a] = reference_of(ensemble_->row(i)[a], static_cast<int>(a));
+      std::copy_n(part.references.data() + D * n, D, built_by_number_.data() + D * i);
       order_[known_[n]] = i;
-      take_reference(known_[n], built);
+      take_reference(known_[n], part.references.data() + D * n);
     }
   });
   add_ghosts(threads);
@@ -621,6 +620,12 @@ double SortedCopy::left_build_by(std::uint32_t k) const {
     square += d * d;
   }
   return std::sqrt(square);
+}
+
+std::vector<std::uint32_t> SortedCopy::rows_by_number() const {
+  std::vector<std::uint32_t> rows(owned());
+  for (std::uint32_t k = 0; k < owned(); ++k) rows[order_[k]] = k;
+  return rows;
 }
 
 std::vector<double> SortedCopy::built_references() const {

@@ -61,11 +61,12 @@ class SortedCopy {
   /// What one rank of a team sees of a build that is all ranks' together.
   struct Part {
     std::vector<std::uint32_t> particles;  ///< that it knows, in the order of
-    std::vector<std::uint32_t> rows;       ///< their rows, ascending
+    std::vector<std::uint32_t> rows;       ///< their rows, ascending,
+    std::vector<double> references;        ///< and references, dimension() numbers each
     Grid grid;                             ///< for the references of all rows, images included
   };
   /// The build of which this is a part: rows are sorted among themselves as all are, the others stay unknown, and there
-  /// are images of those that are known alone. Positions are finite.
+  /// are images of those that are known alone.
   void build_part(double reach, Part part, int threads);
   /// Whether only a part is known. If so, everything() is not to be followed.
   bool is_part() const { return part_; }
@@ -144,6 +145,8 @@ class SortedCopy {
   }
   /// Which particle of the ensemble each owned row is.
   std::uint32_t const* order() const { return order_.data(); }
+  /// And which row each particle is, where all are known.
+  std::vector<std::uint32_t> rows_by_number() const;
   AnyEnsemble const& ensemble() const { return *ensemble_; }
   /// Memory of all that is here.
   std::size_t bytes() const;

@@ -227,7 +227,7 @@ TEST(Barostat, EachAxisByItself) {
 }
 
 TEST(Barostat, WhatItDoesIsWork) {
-  Fluid<2> fluid(6, 1.3, {.pressure = 2, .temperature = 1, .compressibility = 0.3, .rate = 4}, 1.12);
+  Fluid<2> fluid(6, 1.7, {.pressure = 2, .temperature = 1, .compressibility = 0.3, .rate = 4}, 1.12);
   fluid.simulation.check();
   auto const start = conserved(fluid.simulation);
   fluid.simulation.run(4000);
