@@ -4,6 +4,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
 #include <boltzmann/core/launcher.hpp>
+#include <boltzmann/core/memory_team.hpp>
 #include <boltzmann/core/shared_processors.hpp>
 #include <boltzmann/core/team.hpp>
 
@@ -16,10 +17,12 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -108,6 +111,19 @@ void leave_at_exit(int status, void*) {
   throw Error(line);
 }
 
+/// Ranks of one machine don't need MPI for what they tell each other.
+void speak_by_memory(Team& team, BoltzmannTeamFunctions const& launched) {
+  std::string const said = environment("BOLTZMANN_MESSAGES");
+  team.agree([&] {
+    if (!said.empty() && said != "memory" && said != "mpi")
+      throw Error(fmt::format("BOLTZMANN_MESSAGES is 'memory' or 'mpi', not '{}'", boltzmann::quoted(said)));
+  });
+  auto memory = std::make_unique<MemoryTeam>(team.rank(), team.size(), launched, nullptr);
+  std::array<std::int64_t, 1> open{memory->open(team.gather(said == "mpi" ? "" : memory->address())) ? 1 : 0};
+  team.min(open);
+  if (open[0] == 1) team.speak_by(MemoryTeam::functions(), memory.release());  // for ever, as the team
+}
+
 /// What has to be alike on all ranks, and what they share.
 void settle(Team& team) {
   std::string own;
@@ -150,6 +166,7 @@ Team* join() {
   on_exit(leave_at_exit, nullptr);
   if (rank > 0) silence();
   team->patience(seconds);
+  speak_by_memory(*team, *opened.functions);
   settle(*team);
   return team;
 }
@@ -170,8 +187,10 @@ void tell_failure(std::string const& line) {
   if (!here || here->tell(line)) fmt::print(stderr, "{}\n", line);
 }
 
+void tell_last_words(std::string const& line) { dprintf(real_errors, "%s\n", line.c_str()); }
+
 void Team::give_up(std::string const& line) {
-  dprintf(real_errors, "%s\n", line.c_str());
+  tell_last_words(line);
   functions_->abort(of_, 1);
   throw TeamFailure(line, 1);
 }

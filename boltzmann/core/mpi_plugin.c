@@ -98,6 +98,7 @@ static void end_all(void* of, int status) {
 
 BoltzmannTeamFunctions const* boltzmann_mpi(void) {
   static BoltzmannTeamFunctions const functions = {
-      boltzmann_team_version, library, join, begin_reduce, begin_broadcast, begin_gather, begin_exchange, done, leave, end_all};
+      boltzmann_team_version, library, join, begin_reduce, begin_broadcast, begin_gather, begin_exchange, NULL, NULL, NULL,
+      done, leave, end_all};
   return &functions;
 }

@@ -119,6 +119,7 @@ void Team::wait() {
 
 void Team::reduce(std::span<std::int64_t> numbers, int operation) {
   if (alone()) return;
+  counts_.numbers += numbers.size();
   constexpr std::size_t most = piece / sizeof(std::int64_t);
   for (; !numbers.empty(); numbers = numbers.subspan(std::min(most, numbers.size()))) {
     functions_->begin_reduce(of_, numbers.data(), static_cast<int>(std::min(most, numbers.size())), operation);
@@ -172,6 +173,42 @@ void Team::exchange(std::span<Message const> messages) {
   }
   functions_->begin_exchange(of_, pieces.data(), static_cast<int>(pieces.size()));
   wait();
+}
+
+void Team::exchange(std::span<std::size_t const> sent, std::span<std::size_t const> received,
+                    std::function<void(std::size_t r, double* to)> const& write,
+                    std::function<void(std::size_t r, double const* from)> const& read) {
+  if (alone()) return;
+  std::size_t const ranks = sent.size();
+  if (functions_->write_at) {
+    std::vector<std::uint64_t> sizes;
+    for (std::size_t const size : sent) {
+      sizes.push_back(size * sizeof(double));
+      if (size > 0) ++counts_.messages, counts_.bytes += sizes.back();
+    }
+    std::vector<void*> to(ranks);
+    functions_->write_at(of_, sizes.data(), to.data());
+    for (std::size_t r = 0; r < ranks; ++r)
+      if (sent[r] > 0) write(r, static_cast<double*>(to[r]));
+    functions_->begin_written(of_);
+    wait();
+    std::vector<void const*> from(ranks);
+    functions_->read_at(of_, from.data());
+    for (std::size_t r = 0; r < ranks; ++r)
+      if (received[r] > 0) read(r, static_cast<double const*>(from[r]));
+    return;
+  }
+  sent_.resize(ranks), received_.resize(ranks);
+  std::vector<Message> messages;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    sent_[r].resize(sent[r]), received_[r].resize(received[r]);
+    if (sent[r] > 0) write(r, sent_[r].data());
+    messages.push_back({static_cast<int>(r), true, received_[r].data(), received[r] * sizeof(double)});
+    messages.push_back({static_cast<int>(r), false, sent_[r].data(), sent[r] * sizeof(double)});
+  }
+  exchange(messages);
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (received[r] > 0) read(r, received_[r].data());
 }
 
 void Team::barrier() {

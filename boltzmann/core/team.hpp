@@ -75,6 +75,8 @@ class Team {
   Team() = default;
   /// A rank that has joined others. The functions, and `of`, outlive it.
   Team(BoltzmannTeamFunctions const& functions, void* of, int rank, int size);
+  /// From here on by these functions. For all ranks.
+  void speak_by(BoltzmannTeamFunctions const& functions, void* of) { functions_ = &functions, of_ = of; }
   Team(Team const&) = delete;
   Team& operator=(Team const&) = delete;
 
@@ -102,13 +104,19 @@ class Team {
   /// Between pairs of ranks, none with itself: each that one sends is received by the other, with as many bytes, in the
   /// order in which the pair's are listed.
   void exchange(std::span<Message const> messages);
+  /// A message of doubles from each rank to each other one, of sizes that both know: write(r, to) writes that for rank r,
+  /// read(r, from) reads that of rank r. Without a copy where ranks see each other's memory.
+  void exchange(std::span<std::size_t const> sent, std::span<std::size_t const> received,
+                std::function<void(std::size_t r, double* to)> const& write,
+                std::function<void(std::size_t r, double const* from)> const& read);
   /// Comes back when all ranks have come here.
   void barrier();
   /// What this rank has had to do with others.
   struct Counts {
     std::uint64_t collectives = 0;  ///< sums, minima, broadcasts, gathers and exchanges: one wait each
     std::uint64_t messages = 0;     ///< that it has sent in exchanges,
-    std::uint64_t bytes = 0;        ///< with so many bytes
+    std::uint64_t bytes = 0;        ///< with so many bytes,
+    std::uint64_t numbers = 0;      ///< and its numbers in sums, minima and maxima
   };
   Counts const& counts() const { return counts_; }
   /// Processor time that this rank has spent waiting for others, in seconds: what is left of all of it is work.
@@ -172,8 +180,9 @@ class Team {
   double patience_ = std::numeric_limits<double>::infinity();
   double waited_ = 0;
   Counts counts_;
-  Occasion occasion_ = Occasion::between_runs;  // of the vote that is waited for
-  std::exception_ptr over_;                     // a failure after which ranks can't vote any more
+  std::vector<std::vector<double>> sent_, received_;  // where messages are copied
+  Occasion occasion_ = Occasion::between_runs;        // of the vote that is waited for
+  std::exception_ptr over_;                           // a failure after which ranks can't vote any more
   std::string told_;
 };
 
@@ -197,6 +206,8 @@ class ActingTeam {
 
 /// Prints the one line of a failure on standard error, of whichever rank it is.
 void tell_failure(std::string const& line);
+/// The same where no other rank is asked any more.
+void tell_last_words(std::string const& line);
 /// An exit status for an exception: 2 of an Error, 3 of a PhysicsFailure, 1 of anything else.
 int exit_status(std::exception_ptr const& failure);
 

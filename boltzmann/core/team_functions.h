@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /* Of the table: a plug-in of another version is refused. */
-enum { boltzmann_team_version = 2 };
+enum { boltzmann_team_version = 3 };
 
 enum { boltzmann_team_sum, boltzmann_team_min, boltzmann_team_max };
 
@@ -37,6 +37,12 @@ typedef struct BoltzmannTeamFunctions {
   /* Messages between pairs of ranks: each that one sends is received by the other, with as many bytes, in the order in
      which the pair's are listed. */
   void (*begin_exchange)(void* of, BoltzmannMessage const* messages, int count);
+  /* The same without copies, where ranks see each other's memory; null elsewhere. Where this rank writes so many bytes
+     for each; then the exchange begins; when it is done, where those of each rank for this one stand until the next
+     begin_... */
+  void (*write_at)(void* of, uint64_t const* sizes, void** at);
+  void (*begin_written)(void* of);
+  void (*read_at)(void* of, void const** at);
   /* Whether the one under way has come to its end on this rank; never waits. */
   int (*done)(void* of);
   /* The last call of a rank. */

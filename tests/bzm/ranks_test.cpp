@@ -95,6 +95,21 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SameFiles,
                            return name;
                          });
 
+TEST_F(Ranks, OfOneMachineTellEachOtherThroughItsMemoryUnlessToldOtherwise) {
+  for (auto const* way : {"memory", "mpi"}) {
+    environment.set("BOLTZMANN_MESSAGES", way);
+    auto const outcome = bzm({"run", "sod", "--steps", "12", "--set", "output.diagnoses=2", "--quiet", "--out", way,
+                              "--ranks", "3"},
+                             folder.string());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  expect_same_files("memory", "mpi");
+  environment.set("BOLTZMANN_MESSAGES", "post");
+  auto const refused = bzm({"run", "sod", "--ranks", "2", "--out", "post"}, folder.string());
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err, "BOLTZMANN_MESSAGES is 'memory' or 'mpi', not 'post'\n");
+}
+
 TEST_F(Ranks, PrintOnceAndEndTogether) {
   auto const outcome = program("");
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -70,6 +70,89 @@ TEST(Team, PassesBytesOn) {
   }
 }
 
+// More numbers than every rank adds up by itself, and more than outboxes have room for at first.
+TEST(Team, CombinesLongArrays) {
+  for (int const size : sizes)
+    for (std::size_t const count : {1023U, 1024U, 1025U, 4099U, 100003U}) {
+      auto const thrown = ThreadTeam(size).run([&](Team& team) {
+        auto const of = [](std::size_t k, int rank) {
+          return static_cast<std::int64_t>((k * 2654435761U + static_cast<std::size_t>(rank) * 40503U) % 10007) - 5000;
+        };
+        for (int repeat = 0; repeat < 3; ++repeat) {
+          std::vector<std::int64_t> sum(count), low, high;
+          for (std::size_t k = 0; k < count; ++k) sum[k] = of(k, team.rank());
+          low = high = sum;
+          team.sum(sum), team.min(low), team.max(high);
+          for (std::size_t k = 0; k < count; ++k) {
+            std::int64_t all = 0, least = of(k, 0), most = least;
+            for (int rank = 0; rank < size; ++rank) {
+              all += of(k, rank);
+              least = std::min(least, of(k, rank));
+              most = std::max(most, of(k, rank));
+            }
+            ASSERT_EQ(sum[k], all);
+            ASSERT_EQ(low[k], least);
+            ASSERT_EQ(high[k], most);
+          }
+        }
+      });
+      for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "");
+    }
+}
+
+// Of sizes that all know, to some of them, several between the same two, between other operations.
+TEST(Team, ExchangesMessages) {
+  auto const length = [](int from, int to, int which, int repeat) {
+    return static_cast<std::size_t>((from * 7919 + to * 104729 + which * 31 + repeat * 1299709) % 5 == 0
+                                        ? 0
+                                        : (from * 131 + to * 17 + which + repeat * 70001) % 200000);
+  };
+  auto const byte = [](int from, int to, int which, std::size_t k) {
+    return static_cast<char>(static_cast<std::size_t>(from * 3 + to * 5 + which * 7) + k * 11);
+  };
+  for (int const size : sizes) {
+    auto const thrown = ThreadTeam(size).run([&](Team& team) {
+      int const mine = team.rank();
+      for (int repeat = 0; repeat < 6; ++repeat) {
+        std::vector<std::string> sent, received;
+        std::vector<Team::Message> messages;
+        sent.reserve(2 * size), received.reserve(2 * size);
+        for (int other = 0; other < size; ++other)
+          for (int which = 0; which < 2; ++which) {
+            if (other == mine) continue;
+            auto& out = sent.emplace_back(length(mine, other, which, repeat), '\0');
+            for (std::size_t k = 0; k < out.size(); ++k) out[k] = byte(mine, other, which, k);
+            auto& in = received.emplace_back(length(other, mine, which, repeat), '?');
+            messages.push_back({other, true, in.data(), in.size()});
+            messages.push_back({other, false, out.data(), out.size()});
+          }
+        team.exchange(messages);
+        std::size_t n = 0;
+        for (int other = 0; other < size; ++other)
+          for (int which = 0; which < 2; ++which) {
+            if (other == mine) continue;
+            auto const& in = received[n++];
+            for (std::size_t k = 0; k < in.size(); ++k) ASSERT_EQ(in[k], byte(other, mine, which, k));
+          }
+        if (repeat % 2 == 0) team.barrier();
+      }
+    });
+    for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "");
+  }
+}
+
+TEST(Team, AMessageOfAnotherSizeEndsAll) {
+  auto const thrown = ThreadTeam(2).run([](Team& team) {
+    char bytes[8] = {};
+    std::size_t const size = team.rank() == 0 ? 4 : 8;
+    Team::Message messages[] = {{1 - team.rank(), true, bytes, 8}, {1 - team.rank(), false, bytes, size}};
+    team.exchange(messages);
+    team.barrier();
+  });
+  EXPECT_EQ(line_of(thrown[1]), "a message between ranks has another size than is asked for");
+  EXPECT_EQ(line_of(thrown[0]), "another rank has ended all");
+}
+
 // The same on all ranks, though one alone has it.
 TEST(Team, WhatFailsOnOneIsThrownByAll) {
   for (int const where : {0, 2, 3}) {
