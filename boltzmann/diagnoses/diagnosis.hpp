@@ -54,6 +54,8 @@ class Diagnosis {
   virtual bool needs_energies() const { return false; }
   virtual bool needs_virial() const { return false; }
   virtual bool needs_mesh() const { return false; }
+  /// Whether it asks for sums over all particles alone, by measures.hpp, and for energies and the virial of them together.
+  virtual bool sums() const { return false; }
   /// Whether it follows particles from look to look by their numbers.
   virtual bool by_number() const { return false; }
   /// Error if it can't be measured in such a box.

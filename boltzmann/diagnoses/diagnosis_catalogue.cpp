@@ -116,6 +116,7 @@ class SystemDiagnosis : public Diagnosis {
 class Number final : public SystemDiagnosis {
  public:
   explicit Number(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
+  bool sums() const override { return true; }
   std::vector<Column> columns_of_one() const override {
     return {{"number", dimensions::none}, {"mass", dimensions::mass}};
   }
@@ -128,6 +129,7 @@ class Number final : public SystemDiagnosis {
 class Momentum final : public SystemDiagnosis {
  public:
   explicit Momentum(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
+  bool sums() const override { return true; }
   std::vector<Column> columns_of_one() const override {
     return along_axes("momentum", dimension(), dimensions::momentum);
   }
@@ -210,6 +212,7 @@ class AngularMomentum final : public SystemDiagnosis {
  public:
   explicit AngularMomentum(DiagnosisParameters const& parameters)
       : SystemDiagnosis(parameters), about_centre_(parameters.about_centre_of_mass) {}
+  bool sums() const override { return true; }
   std::vector<Column> columns_of_one() const override {
     if (dimension() < 3) return {{"angular momentum", dimensions::angular_momentum}};
     return along_axes("angular momentum", 3, dimensions::angular_momentum);
@@ -232,6 +235,7 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
         throw Error(fmt::format("ensemble '{}' of class {} has no temperature: it needs a mass and a velocity", name,
                                 ensemble.class_name()));
   }
+  bool sums() const override { return true; }
   std::vector<Column> columns_of_one() const override {
     std::vector<Column> columns{{"temperature", dimensions::temperature}};
     if (dimension() > 1)
@@ -265,6 +269,7 @@ class Energies final : public SystemDiagnosis {
  public:
   explicit Energies(DiagnosisParameters const& parameters)
       : SystemDiagnosis(parameters), whole_only_(parameters.ensembles.empty()) {}
+  bool sums() const override { return true; }
   bool needs_energies() const override { return true; }
   std::vector<Column> columns_of_one() const override { return {{"kinetic energy", dimensions::energy}}; }
   void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
@@ -294,6 +299,7 @@ class Energies final : public SystemDiagnosis {
 class Pressure final : public SystemDiagnosis {
  public:
   explicit Pressure(DiagnosisParameters const& parameters) : SystemDiagnosis(parameters) {}
+  bool sums() const override { return true; }
   bool needs_virial() const override { return true; }
   std::vector<Column> columns_of_one() const override {
     Dimension const unit = dimensions::energy / pow(dimensions::length, dimension());
@@ -317,6 +323,7 @@ class Viscosity final : public Diagnosis {
  public:
   explicit Viscosity(DiagnosisParameters const& parameters)
       : dimension_(parameters.available.empty() ? 3 : parameters.available.front()->dimension()) {}
+  bool sums() const override { return true; }
   bool needs_virial() const override { return true; }
   void check(Box const& box) const override {
     if (!box.sheared())
@@ -598,6 +605,7 @@ class ExtremesDiagnosis final : public GroupDiagnosis {
 class FieldEnergy final : public Diagnosis {
  public:
   explicit FieldEnergy(DiagnosisParameters const& parameters) { field_energy(parameters.mesh_fields); }
+  bool sums() const override { return true; }
   bool needs_mesh() const override { return true; }
   std::vector<Column> columns() const override { return {{"field energy", dimensions::energy}}; }
   void measure(Sample const& sample, std::vector<double>& values) override {
@@ -625,6 +633,7 @@ class FieldMode final : public Diagnosis {
     label_ = fmt::format("{} mode {}", quantity.label, fmt::join(parameters.mode, " "));
     dimension_ = quantity.dimension();
   }
+  bool sums() const override { return true; }
   bool needs_mesh() const override { return true; }
   std::vector<Column> columns() const override {
     return {{label_ + " amplitude", dimension_}, {label_ + " real", dimension_}, {label_ + " imaginary", dimension_}};

@@ -15,6 +15,7 @@ class EnergyBalance final : public Diagnosis {
   std::vector<Column> columns() const override;
   void measure(Sample const& sample, std::vector<double>& values) override;
   bool needs_energies() const override { return true; }
+  bool sums() const override { return true; }
   void check(Box const& box) const override { refuse_shear(box, "energy-balance"); }
 };
 

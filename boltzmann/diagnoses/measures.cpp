@@ -3,17 +3,29 @@
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
+#include <boltzmann/particles/share_sums.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 namespace boltzmann {
 namespace {
 
 using TripleSum = std::array<ExactSum, 3>;
+
+/// Those over all particles.
+template <class Sums>
+Sums& added_up(Ensembles of, Sums& sums) {
+  if constexpr (std::is_same_v<Sums, ExactSum>)
+    add_up(of, {&sums, 1});
+  else
+    add_up(of, sums);
+  return sums;
+}
 
 Triple value_of(TripleSum const& sum) { return {sum[0].value(), sum[1].value(), sum[2].value()}; }
 
@@ -23,10 +35,8 @@ void for_each_body(Ensembles of, Function f) {
   for (AnyEnsemble const* ensemble : of) {
     if (!carries_momentum(*ensemble)) continue;
     int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-    for (std::size_t i = 0; i < ensemble->size(); ++i) {
-      double const* row = ensemble->row(i);
-      f(row[mass], row + velocity, row, ensemble->dimension());
-    }
+    for_each_row_of_sums(*ensemble,
+                         [&](double const* row) { f(row[mass], row + velocity, row, ensemble->dimension()); });
   }
 }
 
@@ -50,8 +60,7 @@ template <class Function>
 void for_each_mass(Ensembles of, Function f) {
   for (AnyEnsemble const* ensemble : of)
     if (Field const* mass = ensemble->find_field("mass"))
-      for (std::size_t i = 0; i < ensemble->size(); ++i)
-        f(ensemble->row(i)[mass->offset], ensemble->row(i), ensemble->dimension());
+      for_each_row_of_sums(*ensemble, [&](double const* row) { f(row[mass->offset], row, ensemble->dimension()); });
 }
 
 Field const* velocity_field(AnyEnsemble const& ensemble) {
@@ -95,7 +104,7 @@ std::size_t number_of_particles(Ensembles of) {
 double total_mass(Ensembles of) {
   ExactSum sum;
   for_each_mass(of, [&](double mass, double const*, int) { sum += mass; });
-  return sum.value();
+  return added_up(of, sum).value();
 }
 
 Triple centre_of_mass(Ensembles of) {
@@ -103,7 +112,7 @@ Triple centre_of_mass(Ensembles of) {
   for_each_mass(of, [&](double mass, double const* position, int dimension) {
     for (int a = 0; a < dimension; ++a) moment[a] += mass * position[a];
   });
-  Triple centre = value_of(moment);
+  Triple centre = value_of(added_up(of, moment));
   double const mass = total_mass(of);
   for (double& x : centre) x = mass != 0 ? x / mass : unknown;
   return centre;
@@ -114,7 +123,7 @@ Triple momentum(Ensembles of) {
   for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a) sum[a] += mass * velocity[a];
   });
-  return value_of(sum);
+  return value_of(added_up(of, sum));
 }
 
 Triple angular_momentum(Ensembles of, Triple const& about) {
@@ -133,7 +142,7 @@ Triple angular_momentum(Ensembles of, Triple const& about) {
       }
     }
   });
-  return value_of(sum);
+  return value_of(added_up(of, sum));
 }
 
 double kinetic_energy(Ensembles of) {
@@ -141,27 +150,31 @@ double kinetic_energy(Ensembles of) {
   for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a) sum += mass * velocity[a] * velocity[a];
   });
-  return 0.5 * sum.value();
+  return 0.5 * added_up(of, sum).value();
 }
 
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options) {
   std::size_t count = 0;
-  ExactSum mass;
-  TripleSum momentum;
+  std::array<ExactSum, 4> momentum_and_mass;
   int axes = 1;
-  for (AnyEnsemble const* ensemble : of) axes = ensemble->dimension();
-  for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
-    ++count;
-    mass += m;
-    for (int a = 0; a < dimension; ++a) momentum[a] += m * velocity[a];
-  });
+  for (AnyEnsemble const* ensemble : of) {
+    axes = ensemble->dimension();
+    if (carries_momentum(*ensemble)) count += ensemble->size();
+  }
   Triple drift{0, 0, 0};
-  if (options.subtract_drift)
-    for (int a = 0; a < 3; ++a) drift[a] = momentum[a].value() / mass.value();
+  if (options.subtract_drift) {
+    for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
+      for (int a = 0; a < dimension; ++a) momentum_and_mass[a] += m * velocity[a];
+      momentum_and_mass[3] += m;
+    });
+    added_up(of, momentum_and_mass);
+    for (int a = 0; a < 3; ++a) drift[a] = momentum_and_mass[a].value() / momentum_and_mass[3].value();
+  }
   TripleSum heat;
   for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a) heat[a] += m * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
   });
+  added_up(of, heat);
   std::size_t const lost = options.subtract_drift ? 1 : 0;
   Temperature result;
   double const freedom = static_cast<double>(count) - static_cast<double>(lost);
@@ -175,12 +188,15 @@ Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOpti
 }
 
 Tensor3 kinetic_stress(Ensembles of, Box const* box) {
-  std::array<TripleSum, 3> sum;
+  std::array<ExactSum, 9> sum;
   for_each_body(of, box, [&](double mass, double const* velocity, double const*, int dimension) {
     for (int a = 0; a < dimension; ++a)
-      for (int b = 0; b < dimension; ++b) sum[a][b] += mass * (velocity[a] * velocity[b]);
+      for (int b = 0; b < dimension; ++b) sum[3 * a + b] += mass * (velocity[a] * velocity[b]);
   });
-  return {value_of(sum[0]), value_of(sum[1]), value_of(sum[2])};
+  added_up(of, sum);
+  Tensor3 stress;
+  for (int k = 0; k < 9; ++k) stress[k / 3][k % 3] = sum[k].value();
+  return stress;
 }
 
 Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box) {

@@ -8,6 +8,7 @@
 #include <boltzmann/dissipation/splitting.hpp>
 #include <boltzmann/dissipation/typed_friction.hpp>
 #include <boltzmann/formulas/machine_code.hpp>
+#include <boltzmann/particles/share_sums.hpp>
 
 #include <fmt/format.h>
 
@@ -390,9 +391,13 @@ void PairDissipation::update_derived_fields() {
 
 double PairDissipation::internal_energy() const {
   ExactSum sum;
-  for (auto const& member : members_)
-    if (member->law)
-      for (std::size_t i = 0; i < member->ensemble->size(); ++i) sum += member->ensemble->row(i)[member->energy];
+  std::vector<AnyEnsemble const*> of;
+  for (auto const& member : members_) {
+    if (!member->law) continue;
+    of.push_back(member->ensemble);
+    for_each_row_of_sums(*member->ensemble, [&](double const* row) { sum += row[member->energy]; });
+  }
+  add_up(of, {&sum, 1});
   return sum.value();
 }
 

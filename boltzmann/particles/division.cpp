@@ -314,21 +314,6 @@ std::size_t Division::sum(std::size_t mine) {
   return static_cast<std::size_t>(number[0]);
 }
 
-void Division::sum(std::span<ExactSum> mine) {
-  team_.meet(Team::Occasion::gathers);
-  std::vector<std::int64_t> digits;
-  for (auto& one : mine) {
-    auto const own = one.digits();
-    digits.insert(digits.end(), own.begin(), own.end());
-  }
-  team_.sum(digits);
-  auto at = digits.begin();
-  for (auto& one : mine) {
-    std::copy_n(at, ExactSum::words, one.digits().begin());
-    at += ExactSum::words;
-  }
-}
-
 void RowExchange::plan(Division& division, std::vector<Needed> needed) {
   Team& team = division.team();
   auto const ranks = static_cast<std::size_t>(team.size());
@@ -336,8 +321,6 @@ void RowExchange::plan(Division& division, std::vector<Needed> needed) {
   ensembles_.clear();
   sends_.assign(ranks, Numbers(count));
   receives_.assign(ranks, Numbers(count));
-  sent_.resize(ranks);
-  received_.resize(ranks);
   for (std::size_t e = 0; e < count; ++e) {
     ensembles_.push_back(needed[e].ensemble);
     auto const& owners = division.owners(*needed[e].ensemble);
@@ -370,15 +353,6 @@ void RowExchange::bring_rows(Division& division) {
       [&](std::size_t e, std::uint32_t i, double const* from) {
         copy(from, ensembles_[e]->row(i), ensembles_[e]->stride());
       });
-}
-
-void RowExchange::send(Division& division) {
-  std::vector<Team::Message> messages;
-  for (std::size_t r = 0; r < sends_.size(); ++r) {
-    messages.push_back({static_cast<int>(r), true, received_[r].data(), received_[r].size() * sizeof(double)});
-    messages.push_back({static_cast<int>(r), false, sent_[r].data(), sent_[r].size() * sizeof(double)});
-  }
-  division.team().exchange(messages);
 }
 
 }  // namespace boltzmann

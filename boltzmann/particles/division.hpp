@@ -5,6 +5,7 @@
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/share.hpp>
+#include <boltzmann/particles/share_sums.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -97,6 +98,19 @@ class Division {
   /// Tells divisions apart.
   std::uint64_t id() const { return id_; }
 
+  /// While it lives whoever looks asks for sums alone (Share::sums).
+  class Sums {
+   public:
+    explicit Sums(Division& of) : division_(of) { division_.add_up_by(&division_.team_); }
+    ~Sums() { division_.add_up_by(nullptr); }
+    Sums(Sums const&) = delete;
+    Sums& operator=(Sums const&) = delete;
+
+   private:
+    Division& division_;
+  };
+  bool sums_suffice() const { return sums_suffice_; }
+
   /// Owners have moved particles: others know old rows.
   void moved() { whole_ = false; }
   /// Whether all rows are known everywhere.
@@ -112,7 +126,7 @@ class Division {
   /// The sum over all ranks.
   std::size_t sum(std::size_t mine);
   /// They become those of all ranks. What a rank has failed of until then, all throw.
-  void sum(std::span<ExactSum> mine);
+  void sum(std::span<ExactSum> mine) { add_up(team_, mine); }
   void sum(ExactSum& mine) { sum({&mine, 1}); }
 
  private:
@@ -130,11 +144,15 @@ class Division {
   void divide(Part& part);
   void learn_owners(Part& part);
   void join(Part& part) const;
+  void add_up_by(Team* team) {
+    sums_suffice_ = team != nullptr;
+    for (auto& part : parts_) part.share.sums = team;
+  }
 
   Team& team_;
   std::vector<AnyEnsemble*> ensembles_;
   std::deque<Part> parts_;  // whose shares ensembles know
-  bool goes_on_ = false, whole_ = true;
+  bool goes_on_ = false, whole_ = true, sums_suffice_ = false;
   std::function<Carried(AnyEnsemble const&)> carried_;
   std::vector<std::pair<void const*, std::function<void()>>> gathers_;
   std::uint64_t id_, changes_ = 0;
@@ -163,34 +181,27 @@ class RowExchange {
   /// plan) for another rank, and take(e, i, from) gets them there.
   template <class Count, class Give, class Take>
   void bring(Division& division, Count const& count, Give const& give, Take const& take) {
-    for (std::size_t r = 0; r < sends_.size(); ++r) {
-      double* to = room(sent_[r], sends_[r], count);
-      for (std::size_t e = 0; e < sends_[r].size(); ++e)
-        for (auto const i : sends_[r][e]) give(e, i, to), to += count(e);
-    }
-    for (std::size_t r = 0; r < receives_.size(); ++r) room(received_[r], receives_[r], count);
-    send(division);
-    for (std::size_t r = 0; r < receives_.size(); ++r) {
-      double const* from = received_[r].data();
-      for (std::size_t e = 0; e < receives_[r].size(); ++e)
-        for (auto const i : receives_[r][e]) take(e, i, from), from += count(e);
-    }
+    auto const over = [&](Numbers const& numbers, auto* at, auto const& copy) {
+      for (std::size_t e = 0; e < numbers.size(); ++e)
+        for (auto const i : numbers[e]) copy(e, i, at), at += count(e);
+    };
+    division.team().exchange(
+        sizes(sends_, count), sizes(receives_, count), [&](std::size_t r, double* to) { over(sends_[r], to, give); },
+        [&](std::size_t r, double const* from) { over(receives_[r], from, take); });
   }
 
  private:
   using Numbers = std::vector<std::vector<std::uint32_t>>;  // of each ensemble
   template <class Count>
-  static double* room(std::vector<double>& buffer, Numbers const& numbers, Count const& count) {
-    std::size_t size = 0;
-    for (std::size_t e = 0; e < numbers.size(); ++e) size += numbers[e].size() * count(e);
-    buffer.resize(size);
-    return buffer.data();
+  static std::vector<std::size_t> sizes(std::vector<Numbers> const& of_ranks, Count const& count) {
+    std::vector<std::size_t> sizes(of_ranks.size());
+    for (std::size_t r = 0; r < of_ranks.size(); ++r)
+      for (std::size_t e = 0; e < of_ranks[r].size(); ++e) sizes[r] += of_ranks[r][e].size() * count(e);
+    return sizes;
   }
-  void send(Division& division);
 
   std::vector<AnyEnsemble*> ensembles_;
   std::vector<Numbers> sends_, receives_;  // to and from each rank
-  std::vector<std::vector<double>> sent_, received_;
 };
 
 }  // namespace boltzmann

@@ -9,6 +9,8 @@
 
 namespace boltzmann {
 
+class Team;
+
 /// Numbers from `begin` to before `end`.
 struct Stretch {
   std::size_t begin, end;
@@ -19,6 +21,9 @@ struct Stretch {
 struct Share {
   std::vector<Stretch> stretches;  ///< of numbers, ascending, none longer than `longest`
   std::size_t size = 0;            ///< of particles
+  /// Set while whoever looks asks for sums over particles alone: each rank adds up its share, this team all of them, and
+  /// rows of others may be old. Null: rows of all are known where somebody looks.
+  Team* sums = nullptr;
 
   static constexpr std::size_t longest = 1024;
   void add(std::size_t begin, std::size_t end) {

@@ -56,6 +56,10 @@ std::vector<std::string> Instruments::header() const {
   return header;
 }
 
+bool Instruments::sums_suffice() const {
+  return std::all_of(list_.begin(), list_.end(), [](auto const& diagnosis) { return diagnosis->sums(); });
+}
+
 bool Instruments::follow_steps() const {
   return std::any_of(list_.begin(), list_.end(), [](auto const& diagnosis) { return diagnosis->follows(); });
 }

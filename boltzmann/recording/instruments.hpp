@@ -41,6 +41,8 @@ class Instruments {
   /// The same numbers in the units of header().
   void show(std::span<double> row) const;
 
+  /// Whether all of them ask for sums over particles alone.
+  bool sums_suffice() const;
   /// Whether some of them see every step.
   bool follow_steps() const;
   /// Lets these see the present step.

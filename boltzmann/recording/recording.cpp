@@ -177,6 +177,13 @@ struct Recording::State {
     return !finished && (!open || step >= next || rows.instruments().follow_steps());
   }
 
+  bool is_due(std::int64_t every) const { return every > 0 && simulation.step() % every == 0; }
+  /// Whether diagnoses alone look now, and ask for no particles.
+  bool sums_suffice() const {
+    return open && !is_due(frames.every) && !is_due(every_mesh) && !is_due(every_checkpoint) &&
+           !rows.instruments().follow_steps() && rows.instruments().sums_suffice();
+  }
+
   void look() {
     std::int64_t const step = simulation.step();
     if (!due(step)) return;
@@ -189,15 +196,15 @@ struct Recording::State {
   }
 
   void write_due(std::int64_t step, bool first) {
-    auto const due = [&](std::int64_t every) { return every > 0 && step % every == 0; };
     try {
       rows.instruments().follow();
       if (step < next) return;
-      last.emplace(simulation);
-      if (due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
-      if (writes && due(frames.every)) frames.write();
-      if (writes && due(every_mesh)) mesh_frames->write(step, simulation.time(), mesh_fields_of(simulation.schemes()));
-      if (first || due(every_checkpoint))
+      if (!sums_suffice()) last.emplace(simulation);
+      if (is_due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
+      if (writes && is_due(frames.every)) frames.write();
+      if (writes && is_due(every_mesh))
+        mesh_frames->write(step, simulation.time(), mesh_fields_of(simulation.schemes()));
+      if (first || is_due(every_checkpoint))
         write_checkpoint();  // the last one, so that it holds the state after all looks
     } catch (Error const& error) {
       if (first) throw;
@@ -335,7 +342,8 @@ Recording::Recording(Simulation& simulation, UnitSystem const& units, std::strin
   open_standard_streams();
   simulation.speak_in(units);
   state_->observer = simulation.observe_when([state = state_.get()](std::int64_t step) { return state->due(step); },
-                                             [state = state_.get()](Simulation const&) { state->look(); });
+                                             [state = state_.get()](Simulation const&) { state->look(); },
+                                             [state = state_.get()](std::int64_t) { return state->sums_suffice(); });
 }
 
 Recording::~Recording() {

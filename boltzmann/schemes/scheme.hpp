@@ -151,6 +151,9 @@ class Scheme {
   /// Why every rank of a team calculates all influences, in a few words ("meshes"); empty if each calculates those on its
   /// share of the particles.
   virtual std::string undivided() const { return "a scheme of its own kind"; }
+  /// Whether measure() adds up what each rank has found of its share, where sums suffice (Division::sums_suffice()), and
+  /// reads no rows of others but those that influences read.
+  virtual bool measures_sums() const { return false; }
   /// Whether it is its neighbour lists that say who owns which particles.
   virtual bool shares_out() const { return false; }
   /// Whether these are of points of its own, which the particles follow, so that no other lists can say it.

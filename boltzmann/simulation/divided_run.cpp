@@ -126,6 +126,15 @@ void Simulation::gather_particles() const {
   if (!whole_.steps) division_->gather_influences();  // whole steps leave those that there were
 }
 
+/// For all who look now.
+bool Simulation::sums_suffice() const {
+  return std::all_of(observations_.begin(), observations_.end(),
+                     [&](Observation const& one) {
+                       return one.forgotten || !one.due(step_) || (one.sums && one.sums(step_));
+                     }) &&
+         std::all_of(schemes_.begin(), schemes_.end(), [](auto const* scheme) { return scheme->measures_sums(); });
+}
+
 void Simulation::check_moves_together() {
   bool too_far = false;
   for (auto const& part : parts_) {

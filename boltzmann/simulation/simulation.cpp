@@ -117,8 +117,9 @@ Attendant Simulation::observe(std::uint64_t every, std::function<void(Simulation
 }
 
 Attendant Simulation::observe_when(std::function<bool(std::int64_t)> due,
-                                   std::function<void(Simulation const&)> observer) {
-  observations_.push_back({Attendant{++attendants_}, std::move(due), std::move(observer)});
+                                   std::function<void(Simulation const&)> observer,
+                                   std::function<bool(std::int64_t)> sums) {
+  observations_.push_back({Attendant{++attendants_}, std::move(due), std::move(observer), std::move(sums)});
   return observations_.back().attendant;
 }
 
@@ -316,7 +317,11 @@ bool Simulation::observation_due() const {
 void Simulation::observe_now() const {
   if (!observation_due()) return;
   update_derived_fields();
-  if (is_divided()) gather_particles();
+  std::optional<Division::Sums> sums;
+  if (is_divided() && sums_suffice())
+    sums.emplace(*division_);
+  else if (is_divided())
+    gather_particles();
   std::size_t const count = observations_.size();  // others may come
   for (std::size_t k = 0; k < count; ++k)
     if (auto const& one = observations_[k]; !one.forgotten && one.due(step_)) one.observer(*this);

@@ -64,8 +64,10 @@ class Simulation {
   /// Calls the observer at step 0 (when the run starts) and whenever the step number is a multiple of `every`.
   /// Observers change nothing.
   Attendant observe(std::uint64_t every, std::function<void(Simulation const&)> observer);
-  /// The same at the steps for which due(step) is true.
-  Attendant observe_when(std::function<bool(std::int64_t step)> due, std::function<void(Simulation const&)> observer);
+  /// The same at the steps for which due(step) is true. At those for which sums(step) is, too, it asks for sums over
+  /// particles alone (measure() and measures.hpp): where a run is divided over ranks, rows of others need not come then.
+  Attendant observe_when(std::function<bool(std::int64_t step)> due, std::function<void(Simulation const&)> observer,
+                         std::function<bool(std::int64_t step)> sums = {});
   /// Calls the observer after every step, for its number and time only: whatever it costs to bring particles up to date
   /// (see FusedSteps) is not spent.
   Attendant observe_progress(std::function<void(Simulation const&)> observer);
@@ -186,6 +188,7 @@ class Simulation {
     Attendant attendant;
     std::function<bool(std::int64_t step)> due;
     std::function<void(Simulation const&)> observer;
+    std::function<bool(std::int64_t step)> sums;
     bool forgotten = false;
   };
   struct Change {
@@ -265,6 +268,7 @@ class Simulation {
   void end_division();
   void interrupt_division();
   void gather_particles() const;
+  bool sums_suffice() const;
   void check_moves_together();
 
   void run(std::uint64_t steps, int direction);

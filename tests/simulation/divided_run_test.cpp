@@ -200,6 +200,31 @@ TEST(DividedRun, StepsSendWhatGeometryAsks) {
   });
 }
 
+// Rows of others don't come for somebody who asks for sums alone.
+TEST(DividedRun, SumsSendNoRows) {
+  auto const bytes = [](bool sums) {
+    std::uint64_t most = 0;
+    auto const thrown = ThreadTeam(3).run([&](Team& team) {
+      World world;
+      melt<3>(world, 7, 1.0, Boundary::periodic);
+      Simulation& simulation = *world.simulation;
+      simulation.run(20);
+      auto const before = team.counts().bytes;
+      simulation.observe_when([](std::int64_t) { return true; }, [](Simulation const& at) { test::sums(at); },
+                              [=](std::int64_t) { return sums; });
+      simulation.run(10);
+      if (team.first()) most = team.counts().bytes - before;
+    });
+    for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "");
+    return static_cast<double>(most);
+  };
+  // Whoever sees particles sends 64 bytes of each of its own to both others, and their energies and virials, 88 bytes;
+  // whoever asks for sums sends those alone that lists read, which reach further than half of a part here.
+  double const rows = 10 * (2.0 / 3) * 4 * 7 * 7 * 7, saved = bytes(false) - bytes(true);
+  EXPECT_LT(saved, rows * (64 + 88));
+  EXPECT_GT(saved, rows * (64 + 88 - 32));
+}
+
 struct Shipped {
   char const* name;
   std::vector<std::string> set;
@@ -355,8 +380,7 @@ load = { kind = "random" }
 }
 
 TEST(DividedMesh, AWholeStepIsAVoteAndASum) {
-  ThreadTeam ranks(3);
-  auto const thrown = ranks.run([&](Team& team) {
+  auto const thrown = ThreadTeam(3).run([&](Team& team) {
     World world;
     plasma<2>(world, {});
     world.simulation->check();
@@ -371,12 +395,13 @@ TEST(DividedMesh, AWholeStepIsAVoteAndASum) {
     mesh.divide(&division);
     auto const steps = mesh.fused_steps(movers, 0.02);
     ASSERT_TRUE(steps);
-    auto const before = ranks.sent(team.rank());
+    auto const before = team.counts();
     for (int step = 0; step < 10; ++step) steps->step(0.02 * step);
-    auto const after = ranks.sent(team.rank());
-    EXPECT_EQ(after.calls - before.calls, 10U * 2);
-    // 16 numbers of the vote; the nodes of 12 x 13 cells that clouds in cells meet.
-    EXPECT_EQ(after.bytes - before.bytes, 10U * 8 * (16 + 14 * 15));
+    auto const after = team.counts();
+    EXPECT_EQ(after.collectives - before.collectives, 10U * 2);
+    // 16 of the vote; the nodes of 12 x 13 cells that clouds in cells meet.
+    EXPECT_EQ(after.numbers - before.numbers, 10U * (16 + 14 * 15));
+    EXPECT_EQ(after.messages - before.messages, 0U);
     mesh.divide(nullptr);  // before the division is gone
   });
   for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "");

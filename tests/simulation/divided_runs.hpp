@@ -3,6 +3,7 @@
 
 #include "tests/thread_team.hpp"
 
+#include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/laws/lennard_jones.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/random_load.hpp>
@@ -45,6 +46,23 @@ struct World {
 };
 using Make = std::function<void(World&)>;
 
+/// Sums over all particles.
+inline std::vector<double> sums(Simulation const& of) {
+  auto const ensembles = of.ensembles();
+  auto const measures = of.measure();
+  std::vector<double> all{total_mass(ensembles), kinetic_energy(ensembles), measures.potential,
+                          measures.external,     measures.internal,         measures.heat};
+  auto const add = [&](auto const& numbers) { all.insert(all.end(), numbers.begin(), numbers.end()); };
+  auto const t = temperature(ensembles, 1), hot = temperature(ensembles, 1, {.subtract_drift = false});
+  all.insert(all.end(), {t.total, hot.total});
+  add(t.component), add(momentum(ensembles)), add(angular_momentum(ensembles)), add(centre_of_mass(ensembles));
+  Tensor3 const pressures = pressure_tensor(ensembles, measures, of.schemes().front()->box());
+  for (auto const& row : pressures) add(row);
+  for (auto const* field : mesh_fields_of(of.schemes()))
+    for (auto const& component : field->components) add(component);
+  return all;
+}
+
 /// All that is seen of a run: rows, influences, energies and states, as they were looked at and at the end.
 inline std::string seen(Make const& make, std::uint64_t steps, std::uint64_t every, int threads,
                         std::string* why = nullptr) {
@@ -73,6 +91,11 @@ inline std::string seen(Make const& make, std::uint64_t steps, std::uint64_t eve
       for (auto const& component : field->components) add(component.data(), component.size());
   };
   simulation.observe(every, look);
+  simulation.observe_when([](std::int64_t step) { return step % 11 == 0; },
+                          [&](Simulation const& at) {
+                            for (double const sum : sums(at)) add(&sum, 1);
+                          },
+                          [](std::int64_t) { return true; });
   simulation.run(steps / 2);
   simulation.run(steps - steps / 2);
   look(simulation);  // outside of a run every rank has all lists

@@ -284,7 +284,7 @@ void MeshScheme::add_influences(double time) {
 std::vector<MeshField const*> MeshScheme::mesh_fields() {
   Work& work = this->work();
   if (!measured_) {
-    deposit(work);
+    division_ && division_->sums_suffice() ? deposit_share(work) : deposit(work);
     solve(work, true);
   }
   return {&work.density, &work.potential, &work.field};
@@ -311,18 +311,23 @@ EnergyAndVirial MeshScheme::measure(double time) {
       if (pairs_.ensembles()[k] == all[e]) energies[e] = measures.per_particle[k];
   }
   ExactSum potential;
-  if (division_) division_->team().meet(Team::Occasion::gathers);
+  bool const sums_suffice = division_ && division_->sums_suffice();
+  if (division_ && !sums_suffice) division_->team().meet(Team::Occasion::gathers);
   for (auto const& loaded : loaded_) {
     std::size_t const size = loaded->ensemble->size();
     std::vector<double> energy(size);
     gather(work, *loaded, true, energy.data(), true, Whose::own);
-    if (division_) division_->gather(*loaded->ensemble, energy.data(), 1, 1);
+    if (division_ && !sums_suffice) division_->gather(*loaded->ensemble, energy.data(), 1, 1);
     auto& own = energies[static_cast<std::size_t>(std::find(all.begin(), all.end(), loaded->ensemble) - all.begin())];
     for (std::size_t i = 0; i < size; ++i) {
       energy[i] *= 0.5;
       own[i] += energy[i];
     }
     potential.add(energy);
+  }
+  if (sums_suffice) {
+    division_->sum(potential);
+    energies.clear();
   }
   measures.potential += potential.value();
   if (background_ && !closed()) {

@@ -130,6 +130,7 @@ class MeshScheme : public Scheme {
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   std::string undivided() const override;
+  bool measures_sums() const override { return pairs_.measures_sums(); }
   bool shares_out() const override { return pairs_.shares_out(); }
   /// Each rank counts its particles onto the mesh; the whole of it is then solved by all.
   void divide(Division* division) override;

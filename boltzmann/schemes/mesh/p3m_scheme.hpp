@@ -40,6 +40,7 @@ class P3MScheme final : public MeshScheme {
   /// All ranks have all particles; each finds what acts on a part of the sources, by lists that have a part of space.
   void divide(Division* division) override;
   std::size_t bytes() const override;
+  bool measures_sums() const override { return false; }
   std::string summary() const override { return MeshScheme::summary() + ", and near pairs (P3M)"; }
   std::string report() const override;
   std::vector<std::string> warnings(double step_size) override;

@@ -427,9 +427,7 @@ void PairScheme::complete(double) {
 
 void PairScheme::add_influences(double time) { calculate(time, false); }
 
-std::string PairScheme::undivided() const {
-  return quantum_ > 0 ? "the reversible leap-frog" : "";
-}
+std::string PairScheme::undivided() const { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
 
 std::string PairScheme::shear_refused() const {
   return connected_.empty() ? "" : "has connections, which find the nearest image of plain periodic boxes only";
@@ -657,13 +655,20 @@ EnergyAndVirial PairScheme::measure(double time) {
       external->kernels.measure(external->law.get(), task, begin, end);
     });
   }
-  if (division_) gather_measures(measures, field);
+  bool const sums_suffice = division_ && division_->sums_suffice();
+  if (division_ && !sums_suffice) gather_measures(measures, field);
   std::array<ExactSum, 9> virials;
   std::array<ExactSum, 2> energies;
   for (std::size_t e = 0; e < all.size(); ++e) {
     add_columns(virials, virial[e], threads());
     energies[0].add(measures.per_particle[e]);
     energies[1].add(field[e]);
+  }
+  if (sums_suffice) {
+    division_->sum(virials);
+    division_->sum(energies);
+    measures.per_particle.clear();
+    measures.virial_per_particle.clear();
   }
   measures.potential = energies[0].value();
   measures.external = energies[1].value();

@@ -150,6 +150,7 @@ class PairScheme final : public Scheme {
   void add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const;
   void make_reversible(double quantum) override;
   std::string undivided() const override;
+  bool measures_sums() const override { return connected_.empty(); }
   std::string shear_refused() const override;
   bool shares_out() const override { return !neighbourhood_.empty(); }
   void bring_particles() override;

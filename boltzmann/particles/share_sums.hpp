@@ -1,0 +1,30 @@
+// Sums over all particles of ensembles, wherever their rows are known.
+#pragma once
+
+#include <boltzmann/core/exact_sum.hpp>
+#include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/particles/share.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace boltzmann {
+
+/// Calls function(row) for every particle, or for those of this rank's share where sums are added up (Share::sums).
+template <class Function>
+void for_each_row_of_sums(AnyEnsemble const& ensemble, Function const& function) {
+  auto const over = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) function(ensemble.row(i));
+  };
+  Share const* const share = ensemble.share();
+  if (!share || !share->sums) return over(0, ensemble.size());
+  for (auto const& [begin, end] : share->stretches) over(begin, end);
+}
+
+/// Sums over rows of these ensembles become those over all particles: for all ranks, where they are added up.
+void add_up(std::span<AnyEnsemble const* const> of, std::span<ExactSum> sums);
+
+/// Sums of all ranks. For all of them.
+void add_up(Team& team, std::span<ExactSum> sums);
+
+}  // namespace boltzmann
