@@ -324,6 +324,7 @@ std::string PairDissipation::undivided() const {
 
 void PairDissipation::divide(Division* division) {
   Dissipation::divide(division);
+  if (division) division->read_rows();
   scheme_.neighbourhood().cut_at(dissipation_chunk);
   for (auto& coupling : couplings_) coupling->builds = ~std::size_t{0};  // of whose rows there are pairs
 }

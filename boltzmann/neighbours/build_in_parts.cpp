@@ -40,6 +40,8 @@ class Numbers {
 struct Interval {
   double low, high;
   double distance(Interval const& other) const { return std::max({0.0, low - other.high, other.low - high}); }
+  /// Of the point of the other one that is furthest away.
+  double furthest(Interval const& other) const { return std::max({0.0, low - other.low, other.high - high}); }
 };
 /// Of space along the axes that tell units apart: the second and the third one, in 1D the first.
 using Place = std::array<Interval, 2>;
@@ -47,6 +49,12 @@ using Place = std::array<Interval, 2>;
 double distance2(Place const& a, Place const& b) {
   double square = 0;
   for (int n = 0; n < 2; ++n) square += a[n].distance(b[n]) * a[n].distance(b[n]);
+  return square;
+}
+
+double furthest2(Place const& a, Place const& b) {
+  double square = 0;
+  for (int n = 0; n < 2; ++n) square += a[n].furthest(b[n]) * a[n].furthest(b[n]);
   return square;
 }
 
@@ -247,15 +255,16 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorti
     auto const n = one.along(0), at = static_cast<std::int64_t>(unit);
     auto const inner = seen(0, one.cells_along(0, at % n, at % n)), outer = seen(1, one.cells_along(1, at / n, at / n));
     for (std::size_t r = 0; r < ranks; ++r) {
-      bool const near = std::any_of(places[r].begin(), places[r].end(), [&](Place const& place) {
+      bool near = false, all = false;
+      for (auto const& place : places[r])
         for (auto const& a : inner)
-          for (auto const& b : outer)
-            if (distance2(place, {a, b}) <= wide2) return true;
-        return false;
-      });
+          for (auto const& b : outer) {
+            near = near || distance2(place, {a, b}) <= wide2;
+            all = all || furthest2(place, {a, b}) <= wide2;
+          }
       // Whose a particle is in a unit that is cut is known to those who have the whole unit.
       bool const owns = r >= first && r <= last;
-      if (owns || near) readers.push_back({r, owns || first != last});
+      if (owns || near) readers.push_back({r, owns || all || first != last});
     }
     return readers;
   };

@@ -103,11 +103,12 @@ void Neighbourhood::refresh_together(int threads) {
       take_over(threads);
       find_needed(threads);
     }
+    bool placed = false;
     if (!division_->is_whole()) {
       team.meet(Team::Occasion::exchanges);
-      exchange_.bring_rows(*division_);
+      placed = bring_rows();
     }
-    changed = follow(threads);
+    changed = follow(threads, !placed);
   }
   auto const all =
       team.meet(Team::Occasion::follows, {changed ? 1 : 0, std::bit_cast<std::int64_t>(largest_displacement2())});
@@ -120,8 +121,21 @@ void Neighbourhood::refresh_together(int threads) {
 /// After lists have changed: those that they read now.
 void Neighbourhood::follow_others() {
   find_needed(1);
-  if (!division_->is_whole()) exchange_.bring_rows(*division_);
-  follow(1);
+  bool const placed = !division_->is_whole() && bring_rows();
+  follow(1, !placed);
+}
+
+/// Rows of others come from their owners. True if they are in the sorted copies already, and in the ensembles as they
+/// were: nobody but lists reads them.
+bool Neighbourhood::bring_rows() {
+  bool const straight = !also_read_ && !division_->rows_are_read() && division_->leads(this) && !box_->sheared();
+  if (straight)
+    exchange_.bring_rows(*division_, [this](std::size_t e, std::size_t rank, double const* from) {
+      copies_[e].place(received_rows_[e][rank], from);
+    });
+  else
+    exchange_.bring_rows(*division_);
+  return straight;
 }
 
 /// Where the rows of each rank begin, and one more: each gets as much work, as far as lists before have shown it.
@@ -270,6 +284,12 @@ void Neighbourhood::find_needed(int threads) {
     copy.only(own_[e], rows, read);
   }
   exchange_.plan(*division_, std::move(needed));
+  received_rows_.assign(copies_.size(), {});
+  for (std::size_t e = 0; e < copies_.size(); ++e)
+    for (std::size_t r = 0; r < static_cast<std::size_t>(division_->team().size()); ++r) {
+      auto& rows = received_rows_[e].emplace_back();
+      for (auto const i : exchange_.received(e, r)) rows.push_back(row_of_[e][i]);
+    }
 }
 
 void Neighbourhood::bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last) {

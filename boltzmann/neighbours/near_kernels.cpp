@@ -9,6 +9,7 @@ namespace {
 constexpr int W = native_width<float>;
 constexpr NeighbourKernels kernels{{detail::near_rows<W, 1>, detail::near_rows<W, 2>, detail::near_rows<W, 3>},
                                    detail::refresh_rows<W>,
+                                   detail::place_rows<W>,
                                    detail::move_images<W>};
 
 }  // namespace

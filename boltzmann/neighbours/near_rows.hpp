@@ -214,44 +214,66 @@ template <int W, int D>
   return end;
 }
 
+/// Puts rows of particles where they are nearest to their references.
+class RowPlacer {
+ public:
+  using Four = Pack<double, 4>;
+  explicit RowPlacer(RefreshTask const& task)
+      : task_(task), period_(load_pack<4>(task.period)), inverse_(load_pack<4>(task.inverse_period)) {
+    for (int a = 0; a < 4; ++a) coordinate_.native[a] = a < task.dimension ? -1 : 0, changed_.native[a] = 0;
+  }
+
+  /// Row k from a particle's; gives the square of its displacement.
+  double operator()(double const* from, std::size_t k) {
+    constexpr double to_integer =
+        6755399441055744.0;  // 3/2 2^52: adding and subtracting it rounds to the nearest integer
+    double* to = task_.copy + 4 * k;
+    Four const reference = load_pack<4>(task_.reference + 4 * k), zero = 0.0;
+    Four row = load_pack<4>(from);
+    Four const turns = ((row - reference) * inverse_ + to_integer) - to_integer;
+    row = select(coordinate_, row - turns * period_, row);
+    Four const moved = select(coordinate_, row - reference, zero);
+    changed_ = changed_ | (row != load_pack<4>(to));
+    __builtin_memcpy(to, &row, sizeof(row));
+    for (std::size_t c = 4; c < task_.stride; c += 4) {
+      to += task_.block_stride;
+      Four const more = load_pack<4>(from + c);
+      __builtin_memcpy(to, &more, sizeof(more));
+    }
+    Four const squares = moved * moved;
+    return squares.native[0] + squares.native[1] + squares.native[2];
+  }
+  bool changed() const { return any(changed_); }
+
+ private:
+  RefreshTask const task_;  // known to nobody else, so that it stays in registers
+  Four const period_, inverse_;
+  Mask<double, 4> coordinate_, changed_;
+};
+
 template <int W>
 [[gnu::flatten]] Refreshed refresh_rows(RefreshTask const& task, std::size_t begin, std::size_t end) {
-  using Four = Pack<double, 4>;
-  constexpr double to_integer =
-      6755399441055744.0;  // 3/2 2^52: adding and subtracting it rounds to the nearest integer
   constexpr std::size_t ahead = 12;
-  Four const period = load_pack<4>(task.period), inverse = load_pack<4>(task.inverse_period);
-  Mask<double, 4> coordinate, changed;
-  for (int a = 0; a < 4; ++a) coordinate.native[a] = a < task.dimension ? -1 : 0, changed.native[a] = 0;
-  Four const zero = 0.0;
+  RowPlacer place(task);
   Refreshed result;
   double largest = 0;
   bool finite = true;
   for (std::size_t k = begin; k < end; ++k) {
     if (k + ahead < end) __builtin_prefetch(task.ensemble + task.order[k + ahead] * task.stride);
-    double const* from = task.ensemble + task.order[k] * task.stride;
-    double* to = task.copy + 4 * k;
-    Four const reference = load_pack<4>(task.reference + 4 * k);
-    Four row = load_pack<4>(from);
-    Four const turns = ((row - reference) * inverse + to_integer) - to_integer;
-    row = select(coordinate, row - turns * period, row);
-    Four const moved = select(coordinate, row - reference, zero);
-    changed = changed | (row != load_pack<4>(to));
-    __builtin_memcpy(to, &row, sizeof(row));
-    for (std::size_t c = 4; c < task.stride; c += 4) {
-      to += task.block_stride;
-      Four const more = load_pack<4>(from + c);
-      __builtin_memcpy(to, &more, sizeof(more));
-    }
-    Four const squares = moved * moved;
-    double const square = squares.native[0] + squares.native[1] + squares.native[2];
+    double const square = place(task.ensemble + task.order[k] * task.stride, k);
     largest = square > largest ? square : largest;
     finite = finite && square < __builtin_inf();
   }
   result.largest2 = largest;
   result.finite = finite;
-  result.changed = any(changed);
+  result.changed = place.changed();
   return result;
+}
+
+template <int W>
+[[gnu::flatten]] void place_rows(RefreshTask const& task, std::uint32_t const* rows, std::size_t count) {
+  RowPlacer place(task);
+  for (std::size_t n = 0; n < count; ++n) place(task.ensemble + n * task.stride, rows[n]);
 }
 
 template <int W>

@@ -89,6 +89,8 @@ struct Refreshed {
   bool changed = false;  ///< a position is another than before
 };
 using RefreshKernel = Refreshed (*)(RefreshTask const& task, std::size_t begin, std::size_t end);
+/// Rows that have come from elsewhere: the first of `task.ensemble` becomes row rows[0], the next row rows[1], ...
+using PlaceKernel = void (*)(RefreshTask const& task, std::uint32_t const* rows, std::size_t count);
 
 /// Images brought up to date, blocks [first_block, last_block) of them: in the first `mapped_blocks` of all, row
 /// `first` + g becomes sign * x + shift of row source[g], both from row turns[g] of tables that have so many blocks a
@@ -106,6 +108,7 @@ using ImageKernel = void (*)(ImageTask const& task, std::size_t begin, std::size
 struct NeighbourKernels {
   NearKernel near[3];  ///< in 1D, 2D, 3D
   RefreshKernel refresh;
+  PlaceKernel place;
   ImageKernel images;
 };
 

@@ -251,10 +251,11 @@ void Neighbourhood::find_resized() {
     if (copy.owned() != copy.ensemble().size()) stale_ = true;
 }
 
-bool Neighbourhood::follow(int threads) {
+/// `others`: rows that others advance come from the ensembles here, too.
+bool Neighbourhood::follow(int threads, bool others) {
   bool changed = false;
   for (auto& copy : copies_)
-    if (copy.refresh(threads_for(copy.owned(), 1, threads))) changed = true;
+    if (copy.refresh(threads_for(copy.owned(), 1, threads), others)) changed = true;
   return changed;
 }
 

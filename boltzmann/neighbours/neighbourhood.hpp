@@ -134,7 +134,7 @@ class Neighbourhood {
 
   bool divided() const { return division_ != nullptr; }
   void find_resized();
-  bool follow(int threads);
+  bool follow(int threads, bool others = true);
   bool lists_hold(double largest2);
   bool move_beyond(double square, std::size_t most);
   void move(std::vector<Moved> const& moved);
@@ -147,6 +147,7 @@ class Neighbourhood {
   // divided_neighbourhood.cpp: over the ranks of a team.
   void refresh_together(int threads);
   void follow_others();
+  bool bring_rows();
   bool is_own(SortedCopy const& copy, std::uint32_t row) const;
   void share_out();
   void take_shares();
@@ -195,6 +196,7 @@ class Neighbourhood {
   std::deque<SortedCopy> copies_;
   std::deque<std::vector<Stretch>> own_;            // rows of each copy, of which there are lists
   std::vector<std::vector<std::uint32_t>> row_of_;  // of each particle in each copy, while a run is divided
+  std::vector<std::vector<std::vector<std::uint32_t>>> received_rows_;  // of each copy, from each rank
   std::deque<List> lists_;
 };
 

@@ -405,7 +405,13 @@ RefreshTask SortedCopy::refresh_task() const {
   return task;
 }
 
-bool SortedCopy::refresh(int threads) {
+void SortedCopy::place(std::span<std::uint32_t const> rows, double const* from) {
+  auto task = refresh_task();
+  task.ensemble = from;
+  neighbour_kernels().place(task, rows.data(), rows.size());
+}
+
+bool SortedCopy::refresh(int threads, bool others) {
   RefreshTask const task = refresh_task();
   RefreshKernel const kernel = neighbour_kernels().refresh;
   bool const sheared = box_->sheared();
@@ -420,9 +426,10 @@ bool SortedCopy::refresh(int threads) {
     }
   });
   if (!finite) find_not_finite();
-  for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
-    for (; first != last; ++first) kernel(task, first->begin, first->end);
-  });
+  if (others)
+    for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
+      for (; first != last; ++first) kernel(task, first->begin, first->end);
+    });
   if (box_->any_wall() || sheared) {
     auto const now = box_->edges();
     if (now != edges_ || box_->slide() != slide_) changed = true;

@@ -94,8 +94,10 @@ class SortedCopy {
 
   /// Copies the ensemble's rows of now into the sorted copy's order and moves the images along, those beyond walls as
   /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
-  /// last time. PhysicsFailure if a position is not finite.
-  bool refresh(int threads);
+  /// last time. PhysicsFailure if a position is not finite. `others`: also those that others advance (only()).
+  bool refresh(int threads, bool others = true);
+  /// Owned rows as particles have come from elsewhere, `from` one after the other: rows[0], rows[1], ...
+  void place(std::span<std::uint32_t const> rows, double const* from);
   /// From now on refresh() brings up to date these owned rows only, `others` and those images that `read` has (a number
   /// other than 0 for each of them, at its row), until the next build; largest2(), beyond() and what refresh() returns
   /// are of `own`. For rows that a rank of a team advances, and those that it reads.

@@ -23,6 +23,15 @@ std::vector<std::vector<std::uint64_t>> all_sizes(Team& team, std::vector<std::u
   return all;
 }
 
+/// The end of what is copied: too little for a call of memcpy.
+double* copy_few(double const* from, std::size_t count, double* to) {
+  for (; count >= 4; count -= 4, from += 4, to += 4) std::memcpy(to, from, 4 * sizeof(double));
+  if (count > 0) *to++ = from[0];
+  if (count > 1) *to++ = from[1];
+  if (count > 2) *to++ = from[2];
+  return to;
+}
+
 }  // namespace
 
 Division::Division(Team& team) : team_(team) {
@@ -151,40 +160,39 @@ std::vector<std::vector<std::uint32_t>> Division::hand_over(AnyEnsemble const& e
                                                             std::vector<std::vector<std::uint32_t>> to) {
   auto const all_held = held(ensemble);
   auto const ranks = static_cast<std::size_t>(team_.size()), mine = static_cast<std::size_t>(team_.rank());
-  std::vector<std::vector<double>> sent(ranks), received(ranks);
-  std::vector<std::uint64_t> sizes(2 * ranks);
+  std::vector<std::uint64_t> counts(2 * ranks);  // of particles and of doubles
+  std::vector<std::size_t> sent(ranks), received(ranks);
   for (std::size_t r = 0; r < ranks; ++r) {
     if (r == mine) continue;
-    auto& buffer = sent[r];
-    buffer.assign(to[r].begin(), to[r].end());
-    for (std::uint32_t const i : to[r])
-      for (auto const& one : all_held)
-        if (double const* const from = one.of(i)) buffer.insert(buffer.end(), from, from + one.count);
-    sizes[2 * r] = to[r].size();
-    sizes[2 * r + 1] = buffer.size();
+    sent[r] = to[r].size();
+    for (auto const& one : all_held)
+      for (std::uint32_t const i : to[r]) sent[r] += one.of(i) ? one.count : 0;
+    counts[2 * r] = to[r].size();
+    counts[2 * r + 1] = sent[r];
   }
-  auto const all = all_sizes(team_, sizes);
-  std::vector<Team::Message> messages;
-  for (std::size_t r = 0; r < ranks; ++r) {
-    if (r == mine) continue;
-    received[r].resize(all[r][2 * mine + 1]);
-    messages.push_back({static_cast<int>(r), true, received[r].data(), received[r].size() * sizeof(double)});
-    messages.push_back({static_cast<int>(r), false, sent[r].data(), sent[r].size() * sizeof(double)});
-  }
-  team_.exchange(messages);
-  for (std::size_t r = 0; r < ranks; ++r) {
-    if (r == mine) continue;
-    auto const count = static_cast<std::ptrdiff_t>(all[r][2 * mine]);
-    to[r].assign(received[r].begin(), received[r].begin() + count);
-    auto from = received[r].begin() + count;
-    for (std::uint32_t const i : to[r])
-      for (auto const& one : all_held)
-        if (double* const at = one.of(i)) {
-          std::copy_n(from, one.count, at);
-          from += static_cast<std::ptrdiff_t>(one.count);
-        }
-  }
-  return to;
+  auto const all = all_sizes(team_, counts);
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (r != mine) received[r] = all[r][2 * mine + 1];
+  auto result = to;
+  team_.exchange(
+      sent, received,
+      [&](std::size_t r, double* at) {
+        at = std::copy(to[r].begin(), to[r].end(), at);
+        for (std::uint32_t const i : to[r])
+          for (auto const& one : all_held)
+            if (double const* const numbers = one.of(i)) at = copy_few(numbers, one.count, at);
+      },
+      [&](std::size_t r, double const* from) {
+        auto const count = all[r][2 * mine];
+        result[r].assign(from, from + count);
+        from += count;
+        for (std::uint32_t const i : result[r])
+          for (auto const& one : all_held)
+            if (double* const at = one.of(i)) copy_few(from, one.count, at), from += one.count;
+      });
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (received[r] == 0 && r != mine) result[r].clear();
+  return result;
 }
 
 void Division::gathers(void const* whose, std::function<void()> gather) {
@@ -249,7 +257,7 @@ void Division::begin() {
   points_ = nullptr;
   brought_.clear();
   also_read_.clear();
-  several_ = false;
+  several_ = rows_are_read_ = false;
 }
 
 void Division::end() {
@@ -343,15 +351,27 @@ void RowExchange::plan(Division& division, std::vector<Needed> needed) {
   team.exchange(messages);
 }
 
-void RowExchange::bring_rows(Division& division) {
+void RowExchange::bring_rows(Division& division, Take const& take) {
   auto const copy = [](double const* from, double* to, std::size_t count) {
     for (std::size_t k = 0; k < count; k += row_block) std::memcpy(to + k, from + k, row_block * sizeof(double));
   };
-  bring(
-      division, [&](std::size_t e) { return ensembles_[e]->stride(); },
-      [&](std::size_t e, std::uint32_t i, double* to) { copy(ensembles_[e]->row(i), to, ensembles_[e]->stride()); },
-      [&](std::size_t e, std::uint32_t i, double const* from) {
-        copy(from, ensembles_[e]->row(i), ensembles_[e]->stride());
+  auto const count = [&](std::size_t e) { return ensembles_[e]->stride(); };
+  division.team().exchange(
+      sizes(sends_, count), sizes(receives_, count),
+      [&](std::size_t r, double* to) {
+        for (std::size_t e = 0; e < ensembles_.size(); ++e)
+          for (auto const i : sends_[r][e]) copy(ensembles_[e]->row(i), to, count(e)), to += count(e);
+      },
+      [&](std::size_t r, double const* from) {
+        for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+          auto const& numbers = receives_[r][e];
+          if (take)
+            take(e, r, from);
+          else
+            for (std::size_t n = 0; n < numbers.size(); ++n)
+              copy(from + n * count(e), ensembles_[e]->row(numbers[n]), count(e));
+          from += numbers.size() * count(e);
+        }
       });
 }
 

@@ -81,6 +81,10 @@ class Division {
   void add_also_read(Add const& add) const {
     for (auto const& rows : also_read_) rows(add);
   }
+  /// Somebody besides lists reads the ensembles' rows of those that lists name, until the division ends.
+  void read_rows() { rows_are_read_ = true; }
+  /// Whether anybody but lists reads rows of others.
+  bool rows_are_read() const { return rows_are_read_ || needs_all(); }
   /// Whether all rows have to be known everywhere where particles get other owners.
   bool needs_all() const { return several_ || keeps_together_ || !also_read_.empty(); }
 
@@ -160,7 +164,7 @@ class Division {
   AnyEnsemble const* points_ = nullptr;  // that others follow
   std::vector<AnyEnsemble const*> brought_;
   std::vector<std::function<void(Add const&)>> also_read_;
-  bool several_ = false, keeps_together_ = false;
+  bool several_ = false, keeps_together_ = false, rows_are_read_ = false;
   std::vector<std::vector<double>> sent_, received_;  // of each rank
 };
 
@@ -175,8 +179,11 @@ class RowExchange {
   };
   void plan(Division& division, std::vector<Needed> needed);
 
-  /// Owners send rows, for all ranks.
-  void bring_rows(Division& division);
+  /// Owners send rows, for all ranks: to where they are in the ensembles, or to take(e, rank, from), from[0] being the
+  /// first number of the first particle of received(e, rank).
+  using Take = std::function<void(std::size_t e, std::size_t rank, double const* from)>;
+  void bring_rows(Division& division, Take const& take = {});
+  std::vector<std::uint32_t> const& received(std::size_t e, std::size_t rank) const { return receives_[rank][e]; }
   /// The same of any numbers: give(e, i, to) writes `count(e)` doubles of particle i of ensemble e (in the order of the
   /// plan) for another rank, and take(e, i, from) gets them there.
   template <class Count, class Give, class Take>
