@@ -293,7 +293,7 @@ std::vector<MeshField const*> MeshScheme::mesh_fields() {
 EnergyAndVirial MeshScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal = true;
-  if (!pairs_.ensembles().empty()) measures = pairs_.measure(time);
+  if (!pairs_.ensembles().empty()) measures = pairs_.measure(time, false);
   // Ends of a field have charges of their own, and nobody knows what a user's stage does.
   for (int a = 0; a < box().dimension(); ++a) measures.reciprocal = measures.reciprocal && box().periodic(a);
   if (has_users_stage()) measures.reciprocal = false;
@@ -319,11 +319,17 @@ EnergyAndVirial MeshScheme::measure(double time) {
     gather(work, *loaded, true, energy.data(), true, Whose::own);
     if (division_ && !sums_suffice) division_->gather(*loaded->ensemble, energy.data(), 1, 1);
     auto& own = energies[static_cast<std::size_t>(std::find(all.begin(), all.end(), loaded->ensemble) - all.begin())];
-    for (std::size_t i = 0; i < size; ++i) {
-      energy[i] *= 0.5;
-      own[i] += energy[i];
-    }
-    potential.add(energy);
+    auto const add = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        energy[i] *= 0.5;
+        own[i] += energy[i];
+      }
+      potential.add(std::span(energy).subspan(begin, end - begin));
+    };
+    if (!sums_suffice)
+      add(0, size);
+    else
+      for (auto const& [begin, end] : loaded->ensemble->share()->stretches) add(begin, end);
   }
   if (sums_suffice) {
     division_->sum(potential);

@@ -583,7 +583,7 @@ Scheme::SmallSystem PairScheme::small_system() {
           &only};
 }
 
-EnergyAndVirial PairScheme::measure(double time) {
+EnergyAndVirial PairScheme::measure(double time, bool zeros) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal =
       std::none_of(external_.begin(), external_.end(), [](auto const& external) { return external->traits.moves(); });
@@ -593,9 +593,13 @@ EnergyAndVirial PairScheme::measure(double time) {
   auto& virial = measures.virial_per_particle;
   virial.resize(all.size());
   std::vector<std::vector<double>> field(all.size());
+  auto const moves = [](auto const& one) { return one->traits.moves(); };
+  bool const pairs =
+      std::any_of(near_.begin(), near_.end(), moves) || std::any_of(connected_.begin(), connected_.end(), moves);
+  bool const sums_suffice = division_ && division_->sums_suffice();
   for (std::size_t e = 0; e < all.size(); ++e) {
     measures.per_particle[e].assign(all[e]->size(), 0.0);
-    virial[e].assign(9 * all[e]->size(), 0.0);
+    if (pairs || zeros) virial[e].assign(9 * all[e]->size(), 0.0);
     field[e].assign(all[e]->size(), 0.0);
   }
   auto const number = [&](AnyEnsemble const* ensemble) {
@@ -655,14 +659,22 @@ EnergyAndVirial PairScheme::measure(double time) {
       external->kernels.measure(external->law.get(), task, begin, end);
     });
   }
-  bool const sums_suffice = division_ && division_->sums_suffice();
   if (division_ && !sums_suffice) gather_measures(measures, field);
   std::array<ExactSum, 9> virials;
   std::array<ExactSum, 2> energies;
   for (std::size_t e = 0; e < all.size(); ++e) {
-    add_columns(virials, virial[e], threads());
-    energies[0].add(measures.per_particle[e]);
-    energies[1].add(field[e]);
+    auto const add = [&](std::size_t begin, std::size_t end) {
+      auto const part = [&](std::vector<double> const& numbers, std::size_t of_each) {
+        return std::span(numbers).subspan(of_each * begin, of_each * (end - begin));
+      };
+      if (pairs) add_columns(virials, part(virial[e], 9), threads());
+      energies[0].add(part(measures.per_particle[e], 1));
+      energies[1].add(part(field[e], 1));
+    };
+    if (!sums_suffice)
+      add(0, all[e]->size());
+    else
+      for (auto const& [begin, end] : all[e]->share()->stretches) add(begin, end);
   }
   if (sums_suffice) {
     division_->sum(virials);
@@ -682,7 +694,8 @@ void PairScheme::gather_measures(EnergyAndVirial& measures, std::vector<std::vec
   for (std::size_t e = 0; e < ensembles().size(); ++e) {
     AnyEnsemble const& ensemble = *ensembles()[e];
     division_->gather(ensemble, measures.per_particle[e].data(), 1, 1);
-    division_->gather(ensemble, measures.virial_per_particle[e].data(), 9, 9);
+    if (!measures.virial_per_particle[e].empty())
+      division_->gather(ensemble, measures.virial_per_particle[e].data(), 9, 9);
     division_->gather(ensemble, field[e].data(), 1, 1);
   }
 }

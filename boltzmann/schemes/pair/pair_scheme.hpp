@@ -133,7 +133,9 @@ class PairScheme final : public Scheme {
   /// Fields that are sums, as laws have given them at the last calculation.
   void complete(double time) override;
   SmallSystem small_system() override;
-  EnergyAndVirial measure(double time = 0) override;
+  EnergyAndVirial measure(double time = 0) override { return measure(time, true); }
+  /// `zeros`: where no pair acts, virial_per_particle has zeros; else it is empty then.
+  EnergyAndVirial measure(double time, bool zeros);
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   RateSource* rate_source(AnyEnsemble const& ensemble) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
