@@ -207,39 +207,59 @@ void MemoryTeam::combine(std::int64_t* to, std::size_t begin, std::size_t end) c
     over([](std::int64_t a, std::int64_t b) { return std::max(a, b); });
 }
 
-// Where each rank's messages begin, and the end of all; then the messages, each behind the one before.
-char* MemoryTeam::room_for_ranks(std::vector<std::uint64_t>& sizes) {
-  std::uint64_t at = (sizes.size() + 1) * sizeof at;
-  for (auto& size : sizes) at += std::exchange(size, at);
-  char* const box = room(at);
-  std::memcpy(box, sizes.data(), sizes.size() * sizeof at);
-  std::memcpy(box + sizes.size() * sizeof at, &at, sizeof at);
+// Where what is said to each rank begins and ends; then all of it.
+char* MemoryTeam::room_for_ranks(std::vector<Place> const& places) {
+  std::size_t const index = places.size() * sizeof(Place);
+  std::uint64_t end = index;
+  for (auto const& place : places) end = std::max(end, place.end);
+  char* const box = room(end);
+  std::memcpy(box, places.data(), index);
   return box;
 }
 
-/// What a rank has said for this one.
-std::span<char const> MemoryTeam::said_for_this(int rank) const {
+/// What a rank has said to this one.
+std::span<char const> MemoryTeam::said_to_this(int rank) const {
   char const* const box = ranks_[static_cast<std::size_t>(rank)]->said(read_);
-  std::uint64_t bounds[2];
-  std::memcpy(bounds, box + static_cast<std::size_t>(rank_) * sizeof bounds[0], sizeof bounds);
-  return {box + bounds[0], bounds[1] - bounds[0]};
+  Place place;
+  std::memcpy(&place, box + static_cast<std::size_t>(rank_) * sizeof place, sizeof place);
+  return {box + place.begin, place.end - place.begin};
 }
 
+// What is said to several ranks alike is written once.
 void MemoryTeam::begin_exchange(BoltzmannMessage const* messages, int count) {
+  using Said = std::vector<std::pair<void const*, std::size_t>>;
   now_ = {};
   now_.kind = Kind::exchange;
-  std::vector<std::uint64_t> at(static_cast<std::size_t>(size_));
+  auto const ranks = static_cast<std::size_t>(size_);
+  std::vector<Said> said(ranks);
   for (int k = 0; k < count; ++k)
     if (messages[k].receive)
       now_.received.push_back(messages[k]);
     else
-      at[static_cast<std::size_t>(messages[k].rank)] += static_cast<std::uint64_t>(messages[k].count);
-  char* const box = room_for_ranks(at);
-  for (int k = 0; k < count; ++k) {
-    if (messages[k].receive) continue;
-    auto& place = at[static_cast<std::size_t>(messages[k].rank)];
-    std::memcpy(box + place, messages[k].bytes, static_cast<std::size_t>(messages[k].count));
-    place += static_cast<std::uint64_t>(messages[k].count);
+      said[static_cast<std::size_t>(messages[k].rank)].emplace_back(messages[k].bytes,
+                                                                    static_cast<std::size_t>(messages[k].count));
+  std::vector<Place> places(ranks);
+  std::vector<std::size_t> written;  // to these ranks, and then to others alike
+  std::uint64_t at = ranks * sizeof(Place);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    auto const same =
+        std::find_if(written.begin(), written.end(), [&](std::size_t other) { return said[other] == said[r]; });
+    if (same != written.end()) {
+      places[r] = places[*same];
+      continue;
+    }
+    written.push_back(r);
+    places[r] = {at, at};
+    for (auto const& [bytes, size] : said[r]) places[r].end += size;
+    at = places[r].end;
+  }
+  char* const box = room_for_ranks(places);
+  for (std::size_t const r : written) {
+    std::uint64_t to = places[r].begin;
+    for (auto const& [bytes, size] : said[r]) {
+      std::memcpy(box + to, bytes, size);
+      to += size;
+    }
   }
   post();
 }
@@ -278,7 +298,7 @@ bool MemoryTeam::done() {
     case Kind::exchange: {
       std::vector<std::size_t> before(ranks);
       for (auto const& message : now_.received) {
-        auto const there = said_for_this(message.rank);
+        auto const there = said_to_this(message.rank);
         auto& at = before[static_cast<std::size_t>(message.rank)];
         auto const size = static_cast<std::size_t>(message.count);
         if (at + size > there.size()) end_all("a message between ranks has another size than is asked for");
@@ -332,9 +352,14 @@ BoltzmannTeamFunctions const& MemoryTeam::functions() {
       [](void* of, BoltzmannMessage const* messages, int count) { self(of).begin_exchange(messages, count); },
       [](void* of, std::uint64_t const* sizes, void** at) {
         MemoryTeam& team = self(of);
-        std::vector<std::uint64_t> places(sizes, sizes + team.size_);
+        std::vector<Place> places(static_cast<std::size_t>(team.size_));
+        std::uint64_t end = places.size() * sizeof(Place);
+        for (std::size_t r = 0; r < places.size(); ++r) {
+          places[r] = {end, end + sizes[r]};
+          end = places[r].end;
+        }
         char* const box = team.room_for_ranks(places);
-        for (std::size_t r = 0; r < places.size(); ++r) at[r] = box + places[r];
+        for (std::size_t r = 0; r < places.size(); ++r) at[r] = box + places[r].begin;
       },
       [](void* of) {
         MemoryTeam& team = self(of);
@@ -344,7 +369,7 @@ BoltzmannTeamFunctions const& MemoryTeam::functions() {
       },
       [](void* of, void const** at) {
         MemoryTeam& team = self(of);
-        for (int r = 0; r < team.size_; ++r) at[r] = team.said_for_this(r).data();
+        for (int r = 0; r < team.size_; ++r) at[r] = team.said_to_this(r).data();
       },
       [](void* of) { return self(of).done() ? 1 : 0; },
       [](void* of) { self(of).launched_->leave(self(of).of_); },

@@ -47,8 +47,11 @@ class MemoryTeam {
   static MemoryTeam& self(void* of) { return *static_cast<MemoryTeam*>(of); }
   std::size_t box() const { return begun_ % 2; }
   char* room(std::size_t bytes);
-  char* room_for_ranks(std::vector<std::uint64_t>& sizes);
-  std::span<char const> said_for_this(int rank) const;
+  struct Place {  // of what a rank says to another, in an outbox
+    std::uint64_t begin = 0, end = 0;
+  };
+  char* room_for_ranks(std::vector<Place> const& places);
+  std::span<char const> said_to_this(int rank) const;
   void post();
   bool all_have_posted();
   void begin_exchange(BoltzmannMessage const* messages, int count);
