@@ -133,8 +133,8 @@ class Momentum final : public SystemDiagnosis {
   std::vector<Column> columns_of_one() const override {
     return along_axes("momentum", dimension(), dimensions::momentum);
   }
-  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
-    Triple const p = momentum(of);
+  void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
+    Triple const p = momentum(of, sample.threads);
     values.insert(values.end(), p.begin(), p.begin() + dimension());
   }
 };
@@ -244,7 +244,8 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
     return columns;
   }
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
-    Temperature t = temperature(of, sample.boltzmann_constant, {.subtract_drift = subtract_drift_, .box = &sample.box});
+    Temperature t = temperature(of, sample.boltzmann_constant,
+                                {.subtract_drift = subtract_drift_, .box = &sample.box, .threads = sample.threads});
     double const lost = subtract_drift_ ? dimension() : 0;
     double const all = dimension() * static_cast<double>(number_of_particles(of)) - lost;
     // Each rigid bond takes a degree of freedom, alike of all axes.
@@ -272,8 +273,8 @@ class Energies final : public SystemDiagnosis {
   bool sums() const override { return true; }
   bool needs_energies() const override { return true; }
   std::vector<Column> columns_of_one() const override { return {{"kinetic energy", dimensions::energy}}; }
-  void measure_one(Ensembles of, Sample const&, std::vector<double>& values) override {
-    values.push_back(kinetic_energy(of));
+  void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
+    values.push_back(kinetic_energy(of, sample.threads));
   }
   std::vector<Column> columns_of_all() const override {
     std::vector<Column> columns;
@@ -283,7 +284,7 @@ class Energies final : public SystemDiagnosis {
     return columns;
   }
   void measure_all(Sample const& sample, std::vector<double>& values) override {
-    double const kinetic = kinetic_energy(sample.ensembles);
+    double const kinetic = kinetic_energy(sample.ensembles, sample.threads);
     bool const known = sample.measures != nullptr && sample.measures->unknown.empty();
     double const potential = known ? sample.measures->potential : unknown;
     double const external = known ? sample.measures->external : unknown;
@@ -311,8 +312,8 @@ class Pressure final : public SystemDiagnosis {
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
     Tensor3 tensor;
     for (auto& row : tensor) row.fill(unknown);
-    if (sample.measures != nullptr) tensor = pressure_tensor(of, *sample.measures, sample.box);
-    values.push_back(sample.measures != nullptr ? pressure(of, *sample.measures, sample.box) : unknown);
+    if (sample.measures != nullptr) tensor = pressure_tensor(of, *sample.measures, sample.box, sample.threads);
+    values.push_back(sample.measures != nullptr ? pressure(of, *sample.measures, sample.box, sample.threads) : unknown);
     for (int a = 0; dimension() > 1 && a < dimension(); ++a)
       values.insert(values.end(), tensor[a].begin(), tensor[a].begin() + dimension());
   }
@@ -338,7 +339,8 @@ class Viscosity final : public Diagnosis {
     Shear const& shear = sample.box.shear();
     double stress = unknown;
     if (sample.measures != nullptr)
-      stress = -pressure_tensor(sample.ensembles, *sample.measures, sample.box)[shear.gradient][shear.flow];
+      stress =
+          -pressure_tensor(sample.ensembles, *sample.measures, sample.box, sample.threads)[shear.gradient][shear.flow];
     values.insert(values.end(), {stress / shear.rate, stress});
   }
 

@@ -20,8 +20,9 @@ void EnergyBalance::measure(Sample const& sample, std::vector<double>& values) {
     return;
   }
   EnergyAndVirial const& m = *sample.measures;
-  double const energy =
-      m.unknown.empty() ? kinetic_energy(sample.ensembles) + m.potential + m.external + m.internal : nan;
+  double const energy = m.unknown.empty()
+                            ? kinetic_energy(sample.ensembles, sample.threads) + m.potential + m.external + m.internal
+                            : nan;
   values.insert(values.end(), {energy, m.work, m.heat, energy - m.work - m.heat});
 }
 

@@ -40,20 +40,28 @@ void for_each_body(Ensembles of, Function f) {
   }
 }
 
-/// The same with velocities relative to the flow of a sheared box.
-template <class Function>
-void for_each_body_in_flow(Ensembles of, Box const& box, Function f) {
-  for_each_body(of, [&](double mass, double const* velocity, double const* position, int dimension) {
-    Triple relative{};
-    std::copy_n(velocity, dimension, relative.begin());
-    relative[box.shear().flow] -= box.flow_velocity(position);
-    f(mass, relative.data(), position, dimension);
-  });
-}
-
-template <class Function>
-void for_each_body(Ensembles of, Box const* box, Function const& f) {
-  box && box->sheared() ? for_each_body_in_flow(of, *box, f) : for_each_body(of, f);
+/// Exact sums over all particles that carry momentum: f(mass, velocity, dimension, terms) writes the terms of one, with
+/// velocities relative to the flow of a sheared box.
+template <std::size_t K, class Function>
+std::array<ExactSum, K> sums_over_bodies(Ensembles of, Box const* box, int threads, Function const& f) {
+  std::array<ExactSum, K> sums;
+  bool const flows = box && box->sheared();
+  for (AnyEnsemble const* ensemble : of) {
+    if (!carries_momentum(*ensemble)) continue;
+    int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset,
+              dimension = ensemble->dimension();
+    for_each_range_of_sums(*ensemble, [&](std::size_t begin, std::size_t end) {
+      add_terms(sums, end - begin, threads, [&](std::size_t i, std::array<double, K>& terms) {
+        double const* const row = ensemble->row(begin + i);
+        if (!flows) return f(row[mass], row + velocity, dimension, terms);
+        Triple relative{};
+        std::copy_n(row + velocity, dimension, relative.begin());
+        relative[box->shear().flow] -= box->flow_velocity(row);
+        f(row[mass], relative.data(), dimension, terms);
+      });
+    });
+  }
+  return added_up(of, sums);
 }
 
 template <class Function>
@@ -118,12 +126,11 @@ Triple centre_of_mass(Ensembles of) {
   return centre;
 }
 
-Triple momentum(Ensembles of) {
-  TripleSum sum;
-  for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
-    for (int a = 0; a < dimension; ++a) sum[a] += mass * velocity[a];
-  });
-  return value_of(added_up(of, sum));
+Triple momentum(Ensembles of, int threads) {
+  return value_of(
+      sums_over_bodies<3>(of, nullptr, threads, [](double mass, double const* velocity, int dimension, auto& terms) {
+        for (int a = 0; a < dimension; ++a) terms[a] = mass * velocity[a];
+      }));
 }
 
 Triple angular_momentum(Ensembles of, Triple const& about) {
@@ -145,17 +152,18 @@ Triple angular_momentum(Ensembles of, Triple const& about) {
   return value_of(added_up(of, sum));
 }
 
-double kinetic_energy(Ensembles of) {
-  ExactSum sum;
-  for_each_body(of, [&](double mass, double const* velocity, double const*, int dimension) {
-    for (int a = 0; a < dimension; ++a) sum += mass * velocity[a] * velocity[a];
-  });
-  return 0.5 * added_up(of, sum).value();
+double kinetic_energy(Ensembles of, int threads) {
+  auto sums =
+      sums_over_bodies<3>(of, nullptr, threads, [](double mass, double const* velocity, int dimension, auto& terms) {
+        for (int a = 0; a < dimension; ++a) terms[a] = mass * velocity[a] * velocity[a];
+      });
+  sums[0].add(sums[1]);
+  sums[0].add(sums[2]);
+  return 0.5 * sums[0].value();
 }
 
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options) {
   std::size_t count = 0;
-  std::array<ExactSum, 4> momentum_and_mass;
   int axes = 1;
   for (AnyEnsemble const* ensemble : of) {
     axes = ensemble->dimension();
@@ -163,18 +171,18 @@ Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOpti
   }
   Triple drift{0, 0, 0};
   if (options.subtract_drift) {
-    for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
-      for (int a = 0; a < dimension; ++a) momentum_and_mass[a] += m * velocity[a];
-      momentum_and_mass[3] += m;
-    });
-    added_up(of, momentum_and_mass);
-    for (int a = 0; a < 3; ++a) drift[a] = momentum_and_mass[a].value() / momentum_and_mass[3].value();
+    auto const sums = sums_over_bodies<4>(of, options.box, options.threads,
+                                          [](double mass, double const* velocity, int dimension, auto& terms) {
+                                            for (int a = 0; a < dimension; ++a) terms[a] = mass * velocity[a];
+                                            terms[3] = mass;
+                                          });
+    for (int a = 0; a < 3; ++a) drift[a] = sums[a].value() / sums[3].value();
   }
-  TripleSum heat;
-  for_each_body(of, options.box, [&](double m, double const* velocity, double const*, int dimension) {
-    for (int a = 0; a < dimension; ++a) heat[a] += m * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
-  });
-  added_up(of, heat);
+  auto const heat = sums_over_bodies<3>(of, options.box, options.threads,
+                                        [&](double mass, double const* velocity, int dimension, auto& terms) {
+                                          for (int a = 0; a < dimension; ++a)
+                                            terms[a] = mass * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
+                                        });
   std::size_t const lost = options.subtract_drift ? 1 : 0;
   Temperature result;
   double const freedom = static_cast<double>(count) - static_cast<double>(lost);
@@ -187,20 +195,19 @@ Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOpti
   return result;
 }
 
-Tensor3 kinetic_stress(Ensembles of, Box const* box) {
-  std::array<ExactSum, 9> sum;
-  for_each_body(of, box, [&](double mass, double const* velocity, double const*, int dimension) {
-    for (int a = 0; a < dimension; ++a)
-      for (int b = 0; b < dimension; ++b) sum[3 * a + b] += mass * (velocity[a] * velocity[b]);
-  });
-  added_up(of, sum);
+Tensor3 kinetic_stress(Ensembles of, Box const* box, int threads) {
+  auto const sums =
+      sums_over_bodies<9>(of, box, threads, [](double mass, double const* velocity, int dimension, auto& terms) {
+        for (int a = 0; a < dimension; ++a)
+          for (int b = 0; b < dimension; ++b) terms[3 * a + b] = mass * (velocity[a] * velocity[b]);
+      });
   Tensor3 stress;
-  for (int k = 0; k < 9; ++k) stress[k / 3][k % 3] = sum[k].value();
+  for (int k = 0; k < 9; ++k) stress[k / 3][k % 3] = sums[k].value();
   return stress;
 }
 
-Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box) {
-  Tensor3 tensor = kinetic_stress(of, &box);
+Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box, int threads) {
+  Tensor3 tensor = kinetic_stress(of, &box, threads);
   if (!measures.no_virial.empty())
     for (auto& row : tensor) row.fill(std::numeric_limits<double>::quiet_NaN());
   for (int a = 0; a < 3; ++a)
@@ -208,8 +215,8 @@ Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const
   return tensor;
 }
 
-double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box) {
-  Tensor3 const tensor = pressure_tensor(of, measures, box);
+double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box, int threads) {
+  Tensor3 const tensor = pressure_tensor(of, measures, box, threads);
   double trace = 0;
   for (int a = 0; a < box.dimension(); ++a) trace += tensor[a][a];
   return trace / box.dimension();

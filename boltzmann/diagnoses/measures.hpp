@@ -1,9 +1,9 @@
 // Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
 //
 // Numbers are in the simulation's units, of the state as it stands. Every function is an exact sum over the
-// particles (ExactSum), rounded once, so that results do not depend on their order. What a class does not have does not count: an ensemble
-// without mass or velocity (Tracer particles, vortices) adds nothing to mass, momentum, kinetic energy and temperature.
-// Components beyond the dimension are 0.
+// particles (ExactSum), rounded once, so that results do not depend on their order, or on the number of threads. What a
+// class does not have does not count: an ensemble without mass or velocity (Tracer particles, vortices) adds nothing to
+// mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -74,12 +74,12 @@ double total_mass(Ensembles of);
 /// Sum m r / Sum m, of the positions as they stand (on periodic axes: in the box); NaN without mass.
 Triple centre_of_mass(Ensembles of);
 /// Sum m v
-Triple momentum(Ensembles of);
+Triple momentum(Ensembles of, int threads = 1);
 /// Sum m (r - about) x v: one component in 1D (always 0) and in 2D (out of the plane), three in 3D. Particles that
 /// cross a periodic boundary change it: it is conserved in open space only.
 Triple angular_momentum(Ensembles of, Triple const& about = {0, 0, 0});
 /// (1/2) Sum m v.v (section 5.2.3.2)
-double kinetic_energy(Ensembles of);
+double kinetic_energy(Ensembles of, int threads = 1);
 
 struct Temperature {
   Triple component{};  ///< T_a = <m v_a^2> / k for each axis: equal in equilibrium
@@ -88,6 +88,7 @@ struct Temperature {
 struct TemperatureOptions {
   bool subtract_drift = false;
   Box const* box = nullptr;  ///< where it is sheared, velocities are those relative to its flow
+  int threads = 1;
 };
 /// Section 5.2.3.1. As the 1990 text has it the mean velocity is not subtracted. With subtract_drift the particles'
 /// common (mass-weighted) velocity is taken off, and the mean is over N - 1 degrees of freedom along each axis. NaN if
@@ -95,14 +96,14 @@ struct TemperatureOptions {
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options = {});
 
 /// Sum m v_a v_b, an energy: not per volume. In a box that is sheared, velocities are those relative to its flow.
-Tensor3 kinetic_stress(Ensembles of, Box const* box = nullptr);
+Tensor3 kinetic_stress(Ensembles of, Box const* box = nullptr, int threads = 1);
 /// (Sum m v v + virial) / V, V the volume of the box (area in 2D, length in 1D): the virial of all influences between
 /// particles, and in a sheared box of friction between pairs. NaN where it is not known. Meaningful where particles fill
 /// the box. In a sheared box velocities are those relative to its flow, so that the momentum along the flow that goes
 /// through unit area up the gradient is element [gradient][flow].
-Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box);
+Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box, int threads = 1);
 /// (Sum m v.v + trace of the virial) / (D V)
-double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box);
+double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box, int threads = 1);
 
 // ---- Groups of particles ----
 

@@ -10,15 +10,19 @@
 
 namespace boltzmann {
 
-/// Calls function(row) for every particle, or for those of this rank's share where sums are added up (Share::sums).
+/// Calls function(begin, end) for all particles, or for those of this rank's share where sums are added up (Share::sums).
+template <class Function>
+void for_each_range_of_sums(AnyEnsemble const& ensemble, Function const& function) {
+  Share const* const share = ensemble.share();
+  if (!share || !share->sums) return function(0, ensemble.size());
+  for (auto const& [begin, end] : share->stretches) function(begin, end);
+}
+/// The same, row by row.
 template <class Function>
 void for_each_row_of_sums(AnyEnsemble const& ensemble, Function const& function) {
-  auto const over = [&](std::size_t begin, std::size_t end) {
+  for_each_range_of_sums(ensemble, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) function(ensemble.row(i));
-  };
-  Share const* const share = ensemble.share();
-  if (!share || !share->sums) return over(0, ensemble.size());
-  for (auto const& [begin, end] : share->stretches) over(begin, end);
+  });
 }
 
 /// Sums over rows of these ensembles become those over all particles: for all ranks, where they are added up.
