@@ -208,7 +208,7 @@ TEST(Pictures, OverTimeCanBeOverAnotherColumn) {
   recording.diagnoses(5, {"energies"});
   run_with_progress(recording, 10, {.quiet = true});
   write_text(folder / "out/diagnoses.csv",
-             "step,time [ps],kinetic energy [eV],volume [nm^3]\n0,0,1,30\n5,1,2,35\n10,2,3,31\n");
+             "step,time (ps),kinetic energy (eV),volume (nm^3)\n0,0,1,30\n5,1,2,35\n10,2,3,31\n");
   auto const drawn = [&](std::string const& x) {
     return draw({.drawing = "time-series", .x = x, .y = "kinetic energy"},
                 {pair.simulation, UnitSystem::reduced(), "", 20, 0.02, folder / "out"});

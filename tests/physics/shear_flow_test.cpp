@@ -190,10 +190,11 @@ void expect_balance_of_liquid(HeatBath* bath) {
 /// Chains through the lattice, which the flow stretches, turns and carries through the ends.
 template <int D>
 void expect_balance_of_melt(HeatBath* bath) {
-  Block<D> block(Lattice::square, 1.05, 8);
+  std::size_t const length = D == 2 ? 8 : 6;  // a row of the lattice
+  Block<D> block(Lattice::square, 1.05, length);
   PairScheme scheme(block.box(), 1.122462048309373);
   MoleculeScheme molecules(block.box());
-  auto const bonds = chain_bonds(block.atoms.size(), 8);
+  auto const bonds = chain_bonds(block.atoms.size(), length);
   scheme.internal(block.atoms, LennardJones{1, 1.122462048309373});
   scheme.connect(block.atoms, connections_of(bonds), Fene{30, 1.5});
   molecules.angles(block.atoms, angles_along(bonds), HarmonicCosine{1, 2});
