@@ -296,6 +296,7 @@ void TrajectoryReader::load(std::size_t frame, Box& box) const {
     edges[3 + a] = stored.high[a];
   }
   box.edges(edges);
+  if (box.sheared()) box.move_walls(times_[frame]);
 }
 
 void TrajectoryReader::load(std::size_t frame, AnyEnsemble& ensemble) const {

@@ -26,10 +26,10 @@ void Question::known(char const* key, std::string const& name) const {
   if (!name.empty()) on(key, [&] { meaning(ensembles, name, sources.units); });
 }
 
-void Question::need_columns() const {
-  on("y", [&] {
+void Question::need_columns(char const* key, std::vector<std::string> const& words) const {
+  on(key, [&] {
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
-    for (auto const& word : split_words(picture.y, ','))
+    for (auto const& word : words)
       if (std::find(columns.begin(), columns.end(), word) == columns.end())
         throw Error("no diagnosis gives a column '" + word + "'; there are " + some_of(columns) +
                     did_you_mean(word, columns));

@@ -30,7 +30,8 @@ struct Picture {
   std::string drawing = "cartesian";  ///< one of drawing_names()
   std::string x =
       {};  ///< phase-space: a field, "position.x". histogram: any quantity; empty: "speed". spectrum: "position.x"
-           ///< (across space) or "time". profile: "position.x" (also if empty), "position.y" or "position.z"
+           ///< (across space) or "time". profile: "position.x" (also if empty), "position.y" or "position.z".
+           ///< time-series: a column of diagnoses.csv; empty: "time"
   std::string y = {};  ///< phase-space: a field, "velocity.x". spectrum: a field, or a column of diagnoses.csv over
                        ///< time. time-series: columns of diagnoses.csv, separated by commas; empty: all of the first's
                        ///< dimension. mesh: "density", "potential", "field.x", ...; empty: the potential.

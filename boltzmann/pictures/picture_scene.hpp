@@ -122,7 +122,7 @@ struct Question {
   /// `name` is a quantity of particles, or empty.
   void known(char const* key, std::string const& name) const;
   /// The names in y are columns of diagnoses.csv.
-  void need_columns() const;
+  void need_columns(char const* key, std::vector<std::string> const& words) const;
   void need_slice() const;
   /// The dimension of a quantity of particles.
   std::optional<Dimension> dimension(std::string const& name) const;

@@ -1,6 +1,7 @@
 // Spectra of particles across space, and of waves over wave number and frequency.
 #include <boltzmann/diagnoses/spectrum_of.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/drawings.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
@@ -54,7 +55,7 @@ Canvas draw_spectrum(Scene& scene) {
 }
 
 void check_spectrum(Question const& question) {
-  if (question.picture.x == "time") return question.need_columns();
+  if (question.picture.x == "time") return question.need_columns("y", split_words(question.picture.y, ','));
   if (!question.picture.x.empty())
     question.on("x", [&] {
       check_spectrum_axis(question.picture.x);

@@ -11,6 +11,8 @@
 namespace boltzmann::pictures {
 namespace {
 
+bool over_time(Picture const& picture) { return picture.x.empty() || picture.x == "time"; }
+
 CsvTable table_of(Scene const& scene) {
   auto table = read_csv(scene.context.folder + "/diagnoses.csv");
   std::size_t rows = table.columns.empty() ? 0 : table.columns[0].size();
@@ -19,17 +21,20 @@ CsvTable table_of(Scene const& scene) {
   return table;
 }
 
-// The columns of a table that were asked for; none: all of the unit of the first one.
-std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
+// The number of a column that diagnoses have filled.
+std::size_t column_named(std::string const& word, CsvTable const& table) {
   std::vector<std::string> names;
   for (std::size_t c = 2; c < table.header.size(); ++c) names.push_back(heading(table.header[c]).name);
+  auto const found = std::find(names.begin(), names.end(), word);
+  if (found == names.end())
+    throw Error("diagnoses.csv has no column '" + word + "'; it has " + some_of(names) + did_you_mean(word, names));
+  return 2 + static_cast<std::size_t>(found - names.begin());
+}
+
+// The columns of a table that were asked for; none: all of the unit of the first one.
+std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
   std::vector<std::size_t> columns;
-  for (auto const& word : split_words(scene.picture.y, ',')) {
-    auto const found = std::find(names.begin(), names.end(), word);
-    if (found == names.end())
-      throw Error("diagnoses.csv has no column '" + word + "'; it has " + some_of(names) + did_you_mean(word, names));
-    columns.push_back(2 + static_cast<std::size_t>(found - names.begin()));
-  }
+  for (auto const& word : split_words(scene.picture.y, ',')) columns.push_back(column_named(word, table));
   if (columns.empty())
     for (std::size_t c = 2; c < table.header.size(); ++c)
       if (heading(table.header[c]).unit == heading(table.header[2]).unit) columns.push_back(c);
@@ -39,11 +44,15 @@ std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
 
 }  // namespace
 
-void check_time_series(Question const& question) { question.need_columns(); }
+void check_time_series(Question const& question) {
+  question.need_columns("y", split_words(question.picture.y, ','));
+  if (!over_time(question.picture)) question.need_columns("x", {question.picture.x});
+}
 
 Canvas draw_time_series(Scene& scene) {
   auto const data = table_of(scene);
   auto const columns = chosen(scene, data);
+  std::size_t const right = over_time(scene.picture) ? 1 : column_named(scene.picture.x, data);
   std::string const common = heading(data.header[columns[0]]).unit;
   bool const same =
       std::all_of(columns.begin(), columns.end(), [&](auto c) { return heading(data.header[c]).unit == common; });
@@ -53,7 +62,7 @@ Canvas draw_time_series(Scene& scene) {
     series.push_back({columns.size() == 1 ? ""
                       : same              ? heading(data.header[c]).name
                                           : data.header[c],
-                      data.columns[1],
+                      data.columns[right],
                       data.columns[c],
                       {}});
   std::string const label = columns.size() == 1 ? heading(data.header[columns[0]]).name : "";
@@ -66,7 +75,8 @@ Canvas draw_time_series(Scene& scene) {
         if (v > 0 && std::isfinite(v)) least = std::min(least, v), largest = std::max(largest, v);
     if (least < 1e-12 * largest) y.low = 1e-12 * largest;
   }
-  return boltzmann::draw_time_series(series, {"time", heading(data.header[1]).unit}, y, scene.title(false));
+  Heading const x = heading(data.header[right]);
+  return boltzmann::draw_time_series(series, {x.name, x.unit}, y, scene.title(false));
 }
 
 Canvas draw_spectrum_in_time(Scene const& scene) {

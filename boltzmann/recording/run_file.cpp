@@ -48,6 +48,8 @@ std::string box_text(Box const& box) {
   std::string text =
       fmt::format("\n[box]\nlow = {}\nhigh = {}\nboundary = {}\n", numbers(low, D), numbers(high, D), value(kinds)) +
       walls;
+  if (Shear const& shear = box.shear(); box.sheared())
+    text += fmt::format("\n[box.shear]\nrate = {}\nflow = {}\ngradient = {}\n", shear.rate, shear.flow, shear.gradient);
   for (auto const& region : box.regions())
     text += fmt::format("\n[[box.regions]]\nlow = {}\nhigh = {}\nkeep = \"{}\"\n", numbers(region.low, D),
                         numbers(region.high, D), region.side == Region::Side::keep_in ? "in" : "out");

@@ -222,11 +222,12 @@ void read_shear(Section& box, Reading& reading) {
   BoxOptions options;
   read_options(box, box_options(), &options, {.dimension = reading.dimension});
   reading.shear_place = box.place("shear");
-  if (!options.shear || reading.context.mistakes.count() != before || !reading.box) return;
-  auto const& read = *options.shear;
-  catch_errors(reading, box.place("shear"), [&] {
-    reading.box->shear({read.rate, read.flow[0] - 'x', read.gradient[0] - 'x', read.established});
-  });
+  if (options.shear && reading.context.mistakes.count() == before && reading.box)
+    catch_errors(reading, reading.shear_place, [&] {
+      auto const& read = *options.shear;
+      reading.box->shear({read.rate, read.flow[0] - 'x', read.gradient[0] - 'x', read.established});
+    });
+  reading.shear_is_right = reading.context.mistakes.count() == before;
 }
 
 }  // namespace

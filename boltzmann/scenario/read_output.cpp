@@ -155,7 +155,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
     find_rigid_bonds(parameters, schemes);
     parameters.columns_before = columns_of(*reading.result);
     auto diagnosis = make_diagnosis(*name, parameters);
-    if (reading.box) diagnosis->check(*reading.box);
+    if (reading.box && reading.shear_is_right) diagnosis->check(*reading.box);
     if (*name == "heat-flux" && reading.box)
       temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
     if (auto const* slab = dynamic_cast<Slab const*>(diagnosis.get()); slab && reading.box)

@@ -168,7 +168,8 @@ struct Reading {
   std::vector<std::pair<std::size_t, std::pair<std::string, Place>>> sticky_bodies =
       {};  ///< by number, and what they shed
   Place bodies_place = {};
-  Place shear_place = {};  ///< in [box]
+  Place shear_place = {};                     ///< in [box]
+  bool shear_is_right = true;                 ///< else what needs it is not asked
   std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
   std::vector<std::unique_ptr<ReadClass>> classes = {};
   std::vector<ReadBarostat> barostats = {};

@@ -94,6 +94,7 @@ struct RunReader {
     if (!context.mistakes.none()) return std::nullopt;
     Box box(D, low, high, boundaries);
     for (Item const* one : find_tables(section, "walls")) add_wall(box, *one);
+    if (Item const* shear = find_table(section, "shear")) add_shear(box, *shear);
     for (Item const* one : find_tables(section, "regions")) {
       Section region(*one, "[[box.regions]]", context);
       auto const from = place(region, "low", D), to = place(region, "high", D);
@@ -121,6 +122,16 @@ struct RunReader {
     if (auto const temperature = section.quantity("temperature", dimensions::none)) wall.temperature = *temperature;
     section.finish();
     if (context.mistakes.none()) box.wall(axis, end, wall);
+  }
+
+  void add_shear(Box& box, Item const& table) {
+    Section section(table, "[box.shear]", context);
+    Shear shear;
+    shear.rate = section.need_quantity("rate", dimensions::none, "rate = 0.1").value_or(0);
+    shear.flow = static_cast<int>(section.integer("flow", 0, 2).value_or(0));
+    shear.gradient = static_cast<int>(section.integer("gradient", 0, 2).value_or(1));
+    section.finish();
+    if (context.mistakes.none()) box.shear(shear);
   }
 
   /// Fields stand one behind the other, whatever stood between them in the program.

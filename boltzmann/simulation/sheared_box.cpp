@@ -17,6 +17,11 @@ void check_method(AnyEnsemble const& ensemble, Integrator const& integrator) {
   if (method == Method::deactivate || !integrator.same_for_all())
     throw Error(
         fmt::format("shear: particles of ensemble '{}' stand still, while their images would flow", ensemble.name()));
+  if (integrator.has_groups())
+    throw Error(fmt::format(
+        "shear: the bonds of ensemble '{}' are kept rigid with no regard to the velocities of images that flow; use "
+        "springs",
+        ensemble.name()));
   if (method == Method::reversible_leap_frog || method == Method::gauss_radau)
     throw Error(fmt::format("shear: ensemble '{}' moves by {}, which knows no images that flow; use leap-frog",
                             ensemble.name(), to_string(method)));

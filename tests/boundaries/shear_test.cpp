@@ -2,11 +2,12 @@
 #include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/laws/soft.hpp>
-#include <boltzmann/laws/spring.hpp>
 #include <boltzmann/particles/newton.hpp>
 #include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
+#include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <tests/message.hpp>
@@ -18,7 +19,6 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <string_view>
 #include <vector>
 
@@ -133,9 +133,18 @@ TEST(Shear, SimulationsRefuseWhatDoesNotGo) {
   }
   {
     Fluid fluid;
-    fluid.scheme.connect(fluid.atoms, std::vector<Connection>{{0, 1, 1}}, Spring{1, 1});
+    auto const bonds =
+        std::make_shared<RigidBonds>(fluid.atoms, fluid.scheme.box(), std::vector<BondMembers>{{0, 1}}, 1.0);
+    fluid.simulation.integrate(fluid.atoms, with_rigid_bonds(bonds, make_integrator(fluid.atoms, Method::leap_frog)));
     EXPECT_EQ(fluid.line(),
-              "shear: a scheme has connections, which find the nearest image of plain periodic boxes only");
+              "shear: the bonds of ensemble 'atoms' are kept rigid with no regard to the velocities of images that "
+              "flow; use springs");
+    MoleculeScheme molecules(fluid.scheme.box());
+    molecules.keeps(bonds);
+    fluid.simulation.add(molecules);
+    EXPECT_EQ(fluid.line(),
+              "shear: molecules of 1 rigid bonds is kept rigid with no regard to the velocities of images that flow; "
+              "use springs");
   }
   for (Method const method : {Method::reversible_leap_frog, Method::gauss_radau}) {
     Fluid fluid;

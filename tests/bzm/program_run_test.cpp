@@ -212,6 +212,8 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
   box.wall(1, Box::End::low, {.velocity = {0, 0.125, 0}});
   box.install(Vector{1.0, 0.0}, Vector{2.0, 1.0}, Region::Side::keep_out);
   box.install(Vector{0.0, -1.0}, Vector{3.5, 2.0}, Region::Side::keep_in);
+  Box flowing(Vector{0.0, -1.5}, Vector{4.0, 2.5}, Boundary::periodic);
+  flowing.shear({-0.1, 1, 0});
   Ensemble<Bead<2>> beads("beads\t\"1\"", 1);
   beads.appearance = {"#10a0ff", 0.3};
   Picture picture{.drawing = "bands",
@@ -242,13 +244,15 @@ TEST(ProgramRun, TheRunFileComesBackWhole) {
   AnyEnsemble* const ensembles[] = {&beads};
   Picture const plain, pictures[] = {plain, picture};
   for (UnitSystem const& chosen : {units, UnitSystem::reduced()}) {
-    auto const text = run_file_text("\"T\"\n2", chosen, 1e-3, box, ensembles, pictures);
+    bool const flows = chosen == units;
+    auto const text = run_file_text("\"T\"\n2", chosen, 1e-3, flows ? flowing : box, ensembles, pictures);
     write_text(folder / "run.toml", text);
     auto const back = load_stored_run(folder.string());
     std::vector<AnyEnsemble*> const again{back->ensembles[0].get()};
     std::vector<Picture> const plans(back->output.pictures.begin(), back->output.pictures.end());
     EXPECT_EQ(run_file_text(back->title, back->units, back->simulation->step_size(), back->box(), again, plans), text);
     EXPECT_EQ(back->units, chosen);
+    EXPECT_EQ(back->box().shear().rate, flows ? -0.1 : 0);
     // None of the words was left out because it looked like nothing.
     for (auto const& option : picture_options())
       EXPECT_NE(text.find("\n" + option.key + " = ", text.rfind("[[pictures]]")), std::string::npos) << option.key;

@@ -170,6 +170,10 @@ TEST(Recording, RefusesPlansThatCannotBe) {
             std::string::npos);
   EXPECT_NE(plan([](Recording& r) { r.picture({.drawing = "time-series"}); }).find("needs diagnoses"),
             std::string::npos);
+  EXPECT_NE(plan([](Recording& r) {
+              r.diagnoses(5, {"energies"}), r.picture({.drawing = "time-series", .x = "kinetic enrgy"});
+            }).find("did you mean 'kinetic energy'"),
+            std::string::npos);
   EXPECT_NE(plan([](Recording& r) { r.picture({.file = "p.jpg"}); }).find("none of .png"), std::string::npos);
   EXPECT_NE(plan([](Recording& r) { r.picture({.trace = true}); }).find("needs a trajectory"), std::string::npos);
   EXPECT_NE(plan([](Recording& r) { r.picture({}), r.picture({}); }).find("two pictures"), std::string::npos);
@@ -195,6 +199,30 @@ TEST(Pictures, OverTimeCanBeLogarithmic) {
   write_text(folder / "out/diagnoses.csv", "step,time,kinetic energy\n0,0,1e-30\n5,1,0\n10,2,3e-4\n15,3,7\n");
   EXPECT_DOUBLE_EQ(drawn(true).y_axis().low, 7e-12);
   EXPECT_TRUE(std::isnan(drawn(false).y_axis().low));
+}
+
+TEST(Pictures, OverTimeCanBeOverAnotherColumn) {
+  Folder folder;
+  Pair pair;
+  Recording recording(pair.simulation, UnitSystem::reduced(), folder / "out");
+  recording.diagnoses(5, {"energies"});
+  run_with_progress(recording, 10, {.quiet = true});
+  write_text(folder / "out/diagnoses.csv",
+             "step,time (ps),kinetic energy (eV),volume (nm^3)\n0,0,1,30\n5,1,2,35\n10,2,3,31\n");
+  auto const drawn = [&](std::string const& x) {
+    return draw({.drawing = "time-series", .x = x, .y = "kinetic energy"},
+                {pair.simulation, UnitSystem::reduced(), "", 20, 0.02, folder / "out"});
+  };
+  for (std::string const time : {"", "time"}) {
+    EXPECT_EQ(drawn(time).curves()[0].x, (std::vector<double>{0, 1, 2}));
+    EXPECT_EQ(drawn(time).x_axis().label, "time");
+  }
+  Canvas const canvas = drawn("volume");
+  EXPECT_EQ(canvas.curves()[0].x, (std::vector<double>{30, 35, 31}));
+  EXPECT_EQ(canvas.x_axis().label, "volume");
+  EXPECT_EQ(canvas.x_axis().unit, "nm^3");
+  EXPECT_EQ(canvas.x_axis().high, 35);
+  EXPECT_NE(message([&] { drawn("volum"); }).find("did you mean 'volume'"), std::string::npos);
 }
 
 TEST(Pictures, ParticlesHaveTheColoursOfTheirEnsembles) {

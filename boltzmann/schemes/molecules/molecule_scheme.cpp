@@ -92,11 +92,7 @@ struct MoleculeScheme::Group {
     t.target_row_stride = ensemble->stride();
     t.members = members.data();
     t.slot = slot.data();
-    for (int a = 0; a < box.dimension(); ++a)
-      if (box.periodic(a)) {
-        t.period[a] = box.length(a);
-        t.inverse_period[a] = 1 / box.length(a);
-      }
+    find_images(t, *ensemble, box);
     return t;
   }
 
@@ -162,6 +158,10 @@ void MoleculeScheme::keeps(std::shared_ptr<RigidBonds const> bonds) {
   add(bonds->ensemble());
   rigid_.push_back(std::move(bonds));
   changed();
+}
+
+std::string MoleculeScheme::shear_refused() const {
+  return rigid_.empty() ? "" : "is kept rigid with no regard to the velocities of images that flow; use springs";
 }
 
 void MoleculeScheme::add_influences(double) {

@@ -53,6 +53,7 @@ class MoleculeScheme final : public Scheme {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override { quantum_ = quantum; }
   std::string undivided() const override { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
+  std::string shear_refused() const override;
   void divide(Division* division) override;
   std::size_t bytes() const override;
   std::string summary() const override;

@@ -76,6 +76,7 @@ void over_tuples(void const* the_law, TupleTask const& task, std::size_t begin, 
       for (int m = 1; m < N; ++m) {
         auto const next = member_positions<Geometry, W>(task, from + k * W, to, m);
         steps[m - 1] = next - here;
+        if (task.sheared) nearest_layer(steps[m - 1], task);
         nearest_image(steps[m - 1], task);
         here = next;
       }

@@ -258,7 +258,6 @@ void formula_over_connections(void const* the_law, PairTask const& task, std::si
   FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
   Workspace<W> work;
   work.set_constants(program);
-  constexpr double to_integer = 6755399441055744.0;  // 3/2 2^52
   double const nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = begin; i < end; ++i) {
     double const* const p = task.target + i * task.target_row_stride;
@@ -271,15 +270,21 @@ void formula_over_connections(void const* the_law, PairTask const& task, std::si
       std::size_t const packs = (count + W - 1) / W;
       for (std::size_t k = 0; k < packs * W; ++k) {
         double const* const q = task.source + task.index[from + (k < count ? k : 0)] * task.target_row_stride;
-        double square = 0;
+        double square = 0, above = 0;
+        for (std::size_t c = 0; task.sheared && c < D; ++c) above -= (q[c] - p[c]) * task.up[c];
+        above = (above + to_integer) - to_integer;
         for (std::size_t c = 0; c < D; ++c) {
           double d = q[c] - p[c];
+          if (task.sheared) d += above * task.image[c];
           d -= ((d * task.inverse_period[c] + to_integer) - to_integer) * task.period[c];
           work.column(c)[k] = d;
           square += d * d;
         }
         work.column(D)[k] = k < count ? (square < least_square ? least_square : square) : nan;
-        for (std::size_t f = 0; f < law.of_q.size(); ++f) work.column(D + 1 + f)[k] = q[law.of_q[f]];
+        for (std::size_t f = 0; f < law.of_q.size(); ++f) {
+          int const a = task.sheared && task.velocity >= 0 ? law.of_q[f] - task.velocity : -1;
+          work.column(D + 1 + f)[k] = q[law.of_q[f]] + (a >= 0 && a < D ? above * task.faster[a] : 0);
+        }
       }
       sum.add(law, work, packs, std::numeric_limits<double>::infinity(), Real(0.0), task.zero_at);
     }

@@ -4,17 +4,27 @@
 
 #include <boltzmann/schemes/pair/lane_sum.hpp>
 
+#include <concepts>
 #include <cstdint>
 
 namespace boltzmann {
 
 namespace detail {
 
+/// In a sheared box: the difference of two positions to the image that is nearest up the gradient. By how many lengths that
+/// is above the second position.
+template <int D, int W>
+[[gnu::always_inline]] inline Pack<double, W> nearest_layer(Vector<D, Pack<double, W>>& d, PairTask const& task) {
+  Pack<double, W> above = 0.0;
+  for (int a = 0; a < D; ++a) above = above - d[a] * task.up[a];
+  above = (above + to_integer) - to_integer;
+  for (int a = 0; a < D; ++a) d[a] = d[a] + above * task.image[a];
+  return above;
+}
+
 /// The difference of two positions made the shortest among periodic images: d -= L round(d / L), without a branch.
 template <int D, int W>
 [[gnu::always_inline]] inline void nearest_image(Vector<D, Pack<double, W>>& d, PairTask const& task) {
-  constexpr double to_integer =
-      6755399441055744.0;  // 3/2 2^52: adding and subtracting it rounds to the nearest integer
   for (int a = 0; a < D; ++a) {
     Pack<double, W> const turns = (d[a] * task.inverse_period[a] + to_integer) - to_integer;
     d[a] = d[a] - turns * task.period[a];
@@ -52,6 +62,11 @@ template <Pass pass, int W, class P, class Law>
       if (somebody == 0) break;
       auto q = load_rows<P, W>([&](int lane) { return task.source + partner[lane] * stride; });
       auto d = q.position - p.position;
+      if (task.sheared) {
+        Real const above = nearest_layer(d, task);
+        if constexpr (requires { requires std::same_as<decltype(q.velocity), decltype(q.position)>; })
+          for (int a = 0; a < P::dimension; ++a) q.velocity[a] += above * task.faster[a];
+      }
       nearest_image(d, task);
       q.position = p.position + d;
       sum.add(law, p, q, away != 0.0);

@@ -210,11 +210,7 @@ struct PairScheme::Connected {
     t.target_row_stride = t.source_row_stride = ensemble->stride();
     t.start = list.start.data();
     t.index = list.index.data();
-    for (int a = 0; a < box.dimension(); ++a)
-      if (box.periodic(a)) {
-        t.period[a] = box.length(a);
-        t.inverse_period[a] = 1 / box.length(a);
-      }
+    find_images(t, *ensemble, box);
     return t;
   }
 };
@@ -428,10 +424,6 @@ void PairScheme::complete(double) {
 void PairScheme::add_influences(double time) { calculate(time, false); }
 
 std::string PairScheme::undivided() const { return quantum_ > 0 ? "the reversible leap-frog" : ""; }
-
-std::string PairScheme::shear_refused() const {
-  return connected_.empty() ? "" : "has connections, which find the nearest image of plain periodic boxes only";
-}
 
 void PairScheme::divide(Division* division) {
   division_ = division;

@@ -153,7 +153,7 @@ class PairScheme final : public Scheme {
   void make_reversible(double quantum) override;
   std::string undivided() const override;
   bool measures_sums() const override { return connected_.empty(); }
-  std::string shear_refused() const override;
+  std::string shear_refused() const override { return ""; }
   bool shares_out() const override { return !neighbourhood_.empty(); }
   void bring_particles() override;
   void divide(Division* division) override;

@@ -6,6 +6,9 @@
 
 namespace boltzmann {
 
+class AnyEnsemble;
+class Box;
+
 /// One law between two ensembles, as plain memory. Outputs are indexed by the target's particle number.
 struct PairTask {
   double const* target = nullptr;  ///< rows of those that are influenced
@@ -29,9 +32,17 @@ struct PairTask {
   double period[3] = {0, 0, 0};          ///< length of periodic axes (connections)
   double inverse_period[3] = {0, 0, 0};  ///< its inverse, 0 on other axes
   double* influence = nullptr;
-  double* energy = nullptr;  ///< measuring: half of each pair's energy
-  double* virial = nullptr;  ///< measuring: 9 numbers a particle, half of each pair's -r_a F_b
+  double* energy = nullptr;      ///< measuring: half of each pair's energy
+  double* virial = nullptr;      ///< measuring: 9 numbers a particle, half of each pair's -r_a F_b
+  bool sheared = false;          ///< images up the gradient are displaced and faster along the flow (connections):
+  double up[3] = {0, 0, 0};      ///< 1 / length along the gradient, 0 along other axes
+  double image[3] = {0, 0, 0};   ///< from a particle to its image one length up
+  double faster[3] = {0, 0, 0};  ///< of that image
+  int velocity = -1;             ///< which number of a row; -1: none that is another one there
 };
+
+/// Where nearest images of this ensemble's particles are, for the box as it is.
+void find_images(PairTask& task, AnyEnsemble const& ensemble, Box const& box);
 
 using PairKernel = void (*)(void const* law, PairTask const& task, std::size_t begin, std::size_t end);
 

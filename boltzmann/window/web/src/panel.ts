@@ -239,6 +239,10 @@ export class Panel {
         );
       }
       case "x": {
+        if (pane.drawing === "time-series") {
+          const columns = hello.columns.map(({ name }) => [name, name] as [string, string]);
+          return line("Over", select(id, [["", "time"], ...columns], text === "time" ? "" : text, set));
+        }
         if (pane.drawing === "profile" || pane.drawing === "spectrum") {
           const time: [string, string][] = pane.drawing === "spectrum" ? [["time", "time"]] : [];
           return line(
