@@ -20,6 +20,11 @@ void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double co
     double const* const first = rows + block * row_block;
     auto const pack = [&](std::size_t k, auto const& row_of) {
       Pack<double, W> numbers[row_block];
+      if (last - f == 1) {  // fetched by itself
+        std::size_t const number = static_cast<std::size_t>(fields[f]) % row_block;
+        for (int lane = 0; lane < W; ++lane) numbers[0].native[lane] = row_of(lane)[number];
+        return store_pack<W>(work.column(f) + k, numbers[0]);
+      }
       transpose_block<W>(row_of, 0, numbers, row_block);
       for (std::size_t g = f; g < last; ++g)
         store_pack<W>(work.column(g) + k, numbers[static_cast<std::size_t>(fields[g]) % row_block]);
