@@ -252,26 +252,31 @@ class CodeWriter : public MachineCode, private Steps {
       Operand const operand = program.results[r];
       return source(operand, operand.scalar ? -1 : flow_->at[operand.index]);
     };
-    int mask = -1, other = -1;
-    if (width_ == 4) {
-      mask = take(), other = take();
-      with({flow_->at[D], 0}, [&](auto const& s) { vmovapd(reg(mask), s); });
-      vcmppd(reg(mask), reg(mask), scalar(program.scalars + D), 1);
-    }
     std::optional<Xmm> factor;
-    if (gathered.along) factor = in(result(0));
-    for (std::size_t c = 0; c < D; ++c) {
-      with(gathered.along ? Source{flow_->at[c], 0} : result(c), [&](auto const& x) {
-        Xmm const total = sum(static_cast<int>(c)), to = width_ == 8 ? total | k2 : reg(other);
-        if (gathered.along) {
-          if (width_ == 4) vmovapd(to, total);
-          vfmadd231pd(to, *factor, x);
-        } else {
-          vaddpd(to, total, x);
-        }
-        if (width_ == 4) vblendvpd(total, total, to, reg(mask));
-      });
+    auto const in_sum = [&](std::size_t c) { return gathered.along ? Source{flow_->at[c], 0} : result(c); };
+    if (width_ == 8) {
+      if (gathered.along) factor = in(result(0));
+      for (std::size_t c = 0; c < D; ++c)
+        with(in_sum(c), [&](auto const& x) {
+          Xmm const total = sum(static_cast<int>(c));
+          gathered.along ? vfmadd231pd(total | k2, *factor, x) : vaddpd(total | k2, total, x);
+        });
+      return;
     }
+    // What does not count is zero.
+    Xmm const mask = reg(take()), counted = reg(take());
+    with({flow_->at[D], 0}, [&](auto const& s) { vmovapd(mask, s); });
+    vcmppd(mask, mask, scalar(program.scalars + D), 1);
+    if (gathered.along) {
+      factor = reg(take());
+      with(result(0), [&](auto const& x) { vandpd(*factor, mask, x); });
+    }
+    for (std::size_t c = 0; c < D; ++c)
+      with(in_sum(c), [&](auto const& x) {
+        Xmm const total = sum(static_cast<int>(c));
+        vandpd(counted, mask, x);
+        gathered.along ? vfmadd231pd(total, *factor, counted) : vaddpd(total, total, counted);
+      });
   }
 };
 

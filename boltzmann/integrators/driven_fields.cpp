@@ -1,8 +1,10 @@
 // The stages of each method, for fields that have rates of their own.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
+#include <boltzmann/integrators/field_kernels.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
 
@@ -62,14 +64,20 @@ class FieldEquations final : public EquationsOfMotion {
 class WithDrivenFields final : public Integrator, private Companion {
  public:
   WithDrivenFields(std::unique_ptr<Integrator> inner, AnyEnsemble& ensemble)
-      : inner_(std::move(inner)), ensemble_(ensemble), equations_(ensemble), numbers_(equations_.numbers()) {
+      : inner_(std::move(inner)), ensemble_(ensemble), equations_(ensemble) {
     Field const* velocity = ensemble.find_field("velocity");
     // Of classes that move by Newton's law alone nobody predicts the velocity.
     bool const newton = ensemble.moves_as() == typeid(Newton<1>) || ensemble.moves_as() == typeid(Newton<2>) ||
                         ensemble.moves_as() == typeid(Newton<3>);
     if (method() == Method::leap_frog && newton && velocity) velocity_ = velocity->offset;
     arrays_ = ensemble.driven().size();
-    for (auto const& field : ensemble.driven()) arrays_ += field.diffuses ? 1 : 0;
+    for (std::size_t k = 0; k < ensemble.driven().size(); ++k) {
+      auto const& field = ensemble.driven()[k];
+      for (std::size_t c = 0; c < components(k) && !field.sum; ++c)
+        numbers_.push_back({static_cast<std::size_t>(field.offset) + c, k, c});
+      arrays_ += field.diffuses ? 1 : 0;
+      found_elsewhere_ = found_elsewhere_ || field.diffuses || field.sum;
+    }
   }
 
   Method method() const override { return inner_->method(); }
@@ -104,6 +112,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     inner_->threads(threads_);
     stage_ = stage;
     context_ = &context;
+    kernel_ = kernel();
     not_finite_ = LargestMove::nobody;
     make_room();
     bool const together = inner_->accompany(this);
@@ -123,8 +132,8 @@ class WithDrivenFields final : public Integrator, private Companion {
 
   void make_room() {
     std::size_t const size = ensemble_.size();
-    start_.resize(numbers_ * size);
-    if (method() == Method::rk4) sum_.resize(numbers_ * size);
+    start_.resize(numbers_.size() * size);
+    if (method() == Method::rk4) sum_.resize(numbers_.size() * size);
     if (velocity_ >= 0) velocities_.resize(static_cast<std::size_t>(ensemble_.dimension()) * size);
   }
 
@@ -138,13 +147,19 @@ class WithDrivenFields final : public Integrator, private Companion {
     }
     std::size_t const D = ensemble_.rate_stride();
     double numbers[most_numbers * most_particles];
-    RatePlaces rates{numbers, D * most_particles, most_particles, 1};
-    for (std::size_t k = 0; k < arrays_; ++k)
-      for (std::size_t c = 0; c < components(k); ++c) std::fill_n(rates.of(k, c, 0), end - begin, 0.0);
-    source_->evaluate(begin, end, rates);
+    fetch_rows(end);
+    source_->evaluate(begin, end, numbers, most_particles);
     before(begin, end);
     own(begin, end);
-    after(begin, end, rates, begin);
+    after(begin, end, {numbers, D * most_particles, most_particles, 1}, begin);
+  }
+  /// Asks memory for the rows of the block that begins there: what works on one block of rows waits for their first numbers.
+  void fetch_rows(std::size_t begin) {
+    constexpr std::size_t line = 64 / sizeof(double);
+    std::size_t const end = std::min(begin + most_particles, ensemble_.size());
+    if (begin >= end) return;
+    double const* const rows = ensemble_.row(begin);
+    for (std::size_t k = 0; k < (end - begin) * ensemble_.stride(); k += line) __builtin_prefetch(rows + k, 1);
   }
   void before(std::size_t begin, std::size_t end) {
     if (velocity_ < 0) return;
@@ -157,11 +172,11 @@ class WithDrivenFields final : public Integrator, private Companion {
   void after(std::size_t begin, std::size_t end, RatePlaces const& rates, std::size_t first = 0) {
     if (velocity_ >= 0 && stage_ == 0) predict_velocities(begin, end);
     Block const block{begin, end, first, &rates};
-    advance_fields(block);
+    bool const finite = advance_fields(block);
     if (stage_ + 1 < stages()) return;
     diffuse(block);
     take_periods_off(block);
-    find_not_finite(block);
+    if (!finite || found_elsewhere_) find_not_finite(block);
   }
   /// Of driven field k, or of a diffusion coefficient.
   std::size_t components(std::size_t k) const {
@@ -177,65 +192,46 @@ class WithDrivenFields final : public Integrator, private Companion {
   struct Block {
     std::size_t begin, end, first;
     RatePlaces const* rates;
-    std::size_t size() const { return end - begin; }
   };
 
-  void advance_fields(Block const& block) {
-    double const dt = context_->dt;
+  /// What a stage of the method does with a column of numbers.
+  FieldKernel kernel() const {
+    FieldKernelTable const& kernels =
+        for_instruction_set([](auto set) -> FieldKernelTable const& { return field_kernels<decltype(set)::value>(); });
+    auto const stage = static_cast<std::size_t>(stage_);
     switch (method()) {
       case Method::euler:
-        return each(block, [dt](double& x, double&, double&, double rate) { x += dt * rate; });
+        return kernels.euler;
       case Method::leap_frog:
-        if (stage_ == 0)
-          return each(block, [dt](double& x, double& first, double&, double rate) {
-            first = rate;
-            x += dt * rate;
-          });
-        return each(block, [dt](double& x, double& first, double&, double rate) { x += 0.5 * dt * (rate - first); });
+        return kernels.leap_frog[stage];
       case Method::rk2:
       case Method::random_walk:
-        if (stage_ == 0)
-          return each(block, [dt](double& x, double& x0, double&, double rate) {
-            x0 = x;
-            x = x0 + 0.5 * dt * rate;
-          });
-        return each(block, [dt](double& x, double& x0, double&, double rate) { x = x0 + dt * rate; });
+        return kernels.rk2[stage];
       default:
-        return by_rk4(block, dt);
+        return kernels.rk4[stage];
     }
   }
-  void by_rk4(Block const& block, double dt) {
-    if (stage_ == 0)
-      return each(block, [dt](double& x, double& x0, double& sum, double rate) {
-        x0 = x;
-        sum = rate;
-        x = x0 + 0.5 * dt * rate;
-      });
-    if (stage_ == 3)
-      return each(block, [dt](double& x, double& x0, double& sum, double rate) { x = x0 + dt / 6 * (sum + rate); });
-    double const h = stage_ == 1 ? 0.5 * dt : dt;
-    each(block, [h](double& x, double& x0, double& sum, double rate) {
-      sum += 2 * rate;
-      x = x0 + h * rate;
-    });
-  }
-
-  /// f(x, number at the start of the step, sum of rates, rate) for every number that is driven.
-  template <class F>
-  __attribute__((noinline)) void each(Block const& block, F const& f) {
-    std::size_t const row = ensemble_.stride(), size = ensemble_.size(), count = block.size();
-    double* start = start_.data() + block.begin;
-    double* sum = sum_.empty() ? start : sum_.data() + block.begin;
-    for (std::size_t k = 0; k < ensemble_.driven().size(); ++k) {
-      auto const field = ensemble_.driven()[k];
-      if (field.sum) continue;
-      for (std::size_t c = 0; c < components(k); ++c, start += size, sum += size) {
-        double* const x = ensemble_.row(block.begin) + field.offset + c;
-        double const* const rate = block.rates->of(k, c, block.begin - block.first);
-        std::size_t const step = block.rates->particle;
-        for (std::size_t i = 0; i < count; ++i) f(x[i * row], start[i], sum[i], rate[i * step]);
+  /// False if a number is not finite then.
+  bool advance_fields(Block const& block) {
+    std::size_t const size = ensemble_.size(), row = ensemble_.stride(), step = block.rates->particle;
+    bool finite = true;
+    for (std::size_t n = 0; n < numbers_.size(); ++n) {
+      auto const [offset, rate, component] = numbers_[n];
+      double* const start = start_.data() + n * size;
+      double* const sum = sum_.empty() ? start : sum_.data() + n * size;
+      for (std::size_t i = block.begin; i < block.end; i += most_field_numbers) {
+        double const* const rates = block.rates->of(rate, component, i - block.first);
+        FieldColumn const column{ensemble_.row(i) + offset,
+                                 row,
+                                 rates,
+                                 step,
+                                 start + i,
+                                 sum + i,
+                                 std::min(block.end - i, most_field_numbers)};
+        finite = kernel_(column, context_->dt) && finite;
       }
     }
+    return finite;
   }
 
   /// A random step of variance 2 D dt; the coefficients stand behind the rates.
@@ -273,9 +269,7 @@ class WithDrivenFields final : public Integrator, private Companion {
   void find_not_finite(Block const& block) {
     for (auto const& field : ensemble_.driven())
       for (int c = 0; c < field.components; ++c) {
-        double zero = 0;  // 0 times any number is 0, or NaN
-        for (std::size_t i = block.begin; i < block.end; ++i) zero += 0 * ensemble_.row(i)[field.offset + c];
-        for (std::size_t i = block.begin; i < block.end && zero != 0; ++i)
+        for (std::size_t i = block.begin; i < block.end; ++i)
           if (!std::isfinite(ensemble_.row(i)[field.offset + c])) {
             std::lock_guard const lock(found_);
             not_finite_ = std::min(not_finite_, i);
@@ -291,10 +285,22 @@ class WithDrivenFields final : public Integrator, private Companion {
 
   template <class F>
   void each_velocity(std::size_t begin, std::size_t end, F const& f) {
-    std::size_t const D = static_cast<std::size_t>(ensemble_.dimension());
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t c = 0; c < D; ++c)
-        f(ensemble_.row(i)[static_cast<std::size_t>(velocity_) + c], velocities_[i * D + c]);
+    switch (ensemble_.dimension()) {
+      case 1:
+        return each_velocity_in<1>(begin, end, f);
+      case 2:
+        return each_velocity_in<2>(begin, end, f);
+      default:
+        return each_velocity_in<3>(begin, end, f);
+    }
+  }
+  template <std::size_t D, class F>
+  void each_velocity_in(std::size_t begin, std::size_t end, F const& f) {
+    std::size_t const row = ensemble_.stride();
+    double* velocity = ensemble_.row(begin) + velocity_;
+    double* kept = velocities_.data() + begin * D;
+    for (std::size_t i = begin; i < end; ++i, velocity += row, kept += D)
+      for (std::size_t c = 0; c < D; ++c) f(velocity[c], kept[c]);
   }
   void predict_velocities(std::size_t begin, std::size_t end) {
     each_velocity(begin, end, [](double& v, double& kept) {
@@ -307,13 +313,19 @@ class WithDrivenFields final : public Integrator, private Companion {
   std::unique_ptr<Integrator> inner_;
   AnyEnsemble& ensemble_;
   FieldEquations equations_;
-  std::size_t numbers_, arrays_ = 0;  // that are advanced; of rates and diffusion coefficients
-  int velocity_ = -1;                 // where it stands in a row, if it is predicted
+  struct Number {
+    std::size_t offset, rate, component;
+  };
+  std::vector<Number> numbers_;   // that are advanced: where they stand in a row, and what their rates are
+  std::size_t arrays_ = 0;        // of rates and diffusion coefficients
+  int velocity_ = -1;             // where it stands in a row, if it is predicted
+  bool found_elsewhere_ = false;  // some numbers are found by others than kernels
   RateSource* source_ = nullptr;
   std::vector<double> start_, sum_, velocities_;
   // Of the stage at hand:
   int stage_ = 0;
   StepContext const* context_ = nullptr;
+  FieldKernel kernel_ = nullptr;
   std::mutex found_;
   std::size_t not_finite_ = LargestMove::nobody;
 };

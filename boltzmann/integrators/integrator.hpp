@@ -98,7 +98,7 @@ class EquationsOfMotion {
 class Companion {
  public:
   virtual ~Companion() = default;
-  static constexpr std::size_t most_particles = 128;  ///< of a block
+  static constexpr std::size_t most_particles = 64;  ///< of a block
   /// Calls own(begin, end) once, the integrator's work on these particles; no more than most_particles. On several
   /// threads, if the integrator has some.
   using Own = std::function<void(std::size_t begin, std::size_t end)>;

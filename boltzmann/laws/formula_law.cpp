@@ -166,7 +166,6 @@ class Maker {
     std::vector<Expression> expressions;
     auto const add = [&](std::vector<Expression> const& components, std::size_t rate, int count) {
       for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
-        if (graph_.is_number(components[c], 0)) continue;
         expressions.push_back(components[c]);
         program.results.push_back({rate, c});
       }
@@ -176,6 +175,12 @@ class Maker {
       Field const& field = target_.field(rate.field);
       add(in_part(part, [&] { return rate_of(field, read_text(part, rate.text)); }),
           static_cast<std::size_t>(target_.number_driven(field)), field.components);
+    }
+    for (std::size_t k = 0; k < target_.driven().size(); ++k) {
+      auto const& driven = target_.driven()[k];
+      auto const is_of = [k](RateProgram::Result const& result) { return result.rate == k; };
+      if (!driven.sum && std::none_of(program.results.begin(), program.results.end(), is_of))
+        add(std::vector(static_cast<std::size_t>(driven.components), graph_.number(0)), k, driven.components);
     }
     std::size_t place = target_.driven().size();
     for (auto const& driven : target_.driven()) {

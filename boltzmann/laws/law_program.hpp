@@ -32,7 +32,7 @@ struct ExternalProgram {
   bool velocity_dependent = false, depends_on_time = false;
 };
 
-/// The rates of driven fields, and the diffusion coefficients of those that diffuse. Columns are these fields of a
+/// All rates of driven fields, and the diffusion coefficients of those that diffuse. Columns are these fields of a
 /// particle, then these components of sums; the value of a row is the time. Result k is one component of one of them
 /// (AnyEnsemble::rate()).
 struct RateProgram {

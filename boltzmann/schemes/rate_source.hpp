@@ -36,9 +36,10 @@ class RateSource {
   bool leave() { return left_ = taken_; }
   /// Whether the last calculation has left them out: else they stand in the ensemble.
   bool left() const { return left_; }
-  /// Adds the rates of the particles from `begin` to before `end`, of which `begin` comes first at `rates`: by their rows
-  /// and sums of now, at the time of the last calculation.
-  virtual void evaluate(std::size_t begin, std::size_t end, RatePlaces const& rates) const = 0;
+  /// Writes the rates of the particles from `begin` to before `end`, by their rows and sums of now, at the time of the
+  /// last calculation: components as AnyEnsemble::rate() has them, each a column of so many doubles, of which the first is
+  /// of `begin`. Those of sums are left alone.
+  virtual void evaluate(std::size_t begin, std::size_t end, double* rates, std::size_t column) const = 0;
 
  private:
   bool taken_ = false, left_ = false;

@@ -11,6 +11,26 @@
 
 namespace boltzmann::detail {
 
+/// total + x in lanes that count. With AVX-512 instructions have a mask; elsewhere a zero is cheaper than a choice between
+/// two sums. Machine code does the same.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> added_where(Mask<double, W> valid, Pack<double, W> x,
+                                                          Pack<double, W> total) {
+  if constexpr (W == 8)
+    return select(valid, total + x, total);
+  else
+    return total + select(valid, x, Pack<double, W>(0.0));
+}
+/// The same of a product.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> fused_where(Mask<double, W> valid, Pack<double, W> a, Pack<double, W> b,
+                                                          Pack<double, W> total) {
+  if constexpr (W == 8)
+    return select(valid, total + a * b, total);
+  else
+    return total + select(valid, a, Pack<double, W>(0.0)) * select(valid, b, Pack<double, W>(0.0));
+}
+
 /// A row's sums. The columns of the workspace hold what PairProgram says; a pair that does not count has a square that is
 /// NaN.
 template <Pass pass, int W, int D>
@@ -45,8 +65,8 @@ class ColumnSum {
       for (std::size_t c = 0; c < D; ++c) {
         Real const more = law.along ? load_pack<W>(d[c] + k * W) : load_pack<W>(result[c] + k * stride[c]);
         if constexpr (pass == Pass::influence) {
-          Real const total = influence_[c];
-          influence_[c] = select(valid, law.along ? total + first * more : total + more, total);
+          influence_[c] =
+              law.along ? fused_where(valid, first, more, influence_[c]) : added_where(valid, more, influence_[c]);
         } else {
           Real x = select(valid, law.along ? first * more : more, zero);
           if constexpr (pass == Pass::reversible) x = (x + rounding) - rounding;

@@ -231,11 +231,11 @@ struct PairScheme::External {
   class Rates final : public RateSource {
    public:
     explicit Rates(External const& of) : of_(of) {}
-    void evaluate(std::size_t begin, std::size_t end, RatePlaces const& rates) const override {
+    void evaluate(std::size_t begin, std::size_t end, double* rates, std::size_t column) const override {
       ExternalTask task = of_.task(of_.time);
-      task.rates = rates;
+      task.rates = {rates, of_.ensemble->rate_stride() * column, column, 1};
       task.first = begin;
-      task.store = false;
+      task.store = true;
       of_.kernels.influence(of_.law.get(), task, begin, end);
     }
 

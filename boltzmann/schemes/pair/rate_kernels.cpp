@@ -20,6 +20,11 @@ void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double co
     double const* const first = rows + block * row_block;
     auto const pack = [&](std::size_t k, auto const& row_of) {
       Pack<double, W> numbers[row_block];
+      if (last - f == 1) {  // fetched by itself
+        std::size_t const number = static_cast<std::size_t>(fields[f]) % row_block;
+        for (int lane = 0; lane < W; ++lane) numbers[0].native[lane] = row_of(lane)[number];
+        return store_pack<W>(work.column(f) + k, numbers[0]);
+      }
       transpose_block<W>(row_of, 0, numbers, row_block);
       for (std::size_t g = f; g < last; ++g)
         store_pack<W>(work.column(g) + k, numbers[static_cast<std::size_t>(fields[g]) % row_block]);
@@ -36,16 +41,14 @@ void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double co
   }
 }
 
-/// `number(k)` for `count` particles, to where their rate stands. A zero that is added to may be negative.
-template <class Number>
-[[gnu::always_inline]] inline void put_rates(double* rate, std::size_t stride, std::size_t count, bool store,
-                                             Number const& number) {
-  if (store)
-    for (std::size_t k = 0; k < count; ++k) rate[k * stride] = 0.0 + number(k);
-  else if (stride == 1)
-    for (std::size_t k = 0; k < count; ++k) rate[k] += number(k);
+/// put(rate, number(k)) for `count` particles, where their rates stand.
+template <class Number, class Put>
+[[gnu::always_inline]] inline void put_rates(double* rate, std::size_t stride, std::size_t count, Number const& number,
+                                             Put const& put) {
+  if (stride == 1)
+    for (std::size_t k = 0; k < count; ++k) put(rate[k], number(k));
   else
-    for (std::size_t k = 0; k < count; ++k) rate[k * stride] += number(k);
+    for (std::size_t k = 0; k < count; ++k) put(rate[k * stride], number(k));
 }
 
 /// Particles become columns a block at a time; what the program gives is added to the rates, or is them.
@@ -71,7 +74,12 @@ void rates_over_particles(void const* the_law, ExternalTask const& task, std::si
       Operand const operand = program.results[r];
       double const* const result = work.place(operand);
       double* const rate = task.rates.of(law.results[r].rate, law.results[r].component, from - task.first);
-      auto const put = [&](auto const& number) { put_rates(rate, task.rates.particle, count, task.store, number); };
+      auto const put = [&](auto const& number) {
+        if (task.store)  // a zero that is added to may be negative
+          put_rates(rate, task.rates.particle, count, number, [](double& to, double x) { to = 0.0 + x; });
+        else
+          put_rates(rate, task.rates.particle, count, number, [](double& to, double x) { to += x; });
+      };
       if (operand.scalar)
         put([&](std::size_t) { return result[0]; });
       else
