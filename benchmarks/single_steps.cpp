@@ -1,9 +1,11 @@
 // run(1) in a loop beside run(n), in turns: what it costs a program that looks at its particles after every step. CPU
-// time of one thread, medians of ratios; a scenario of each scheme.
+// time of one thread, medians of ratios; a scenario of each scheme, or those that
+// are named.
 #include <boltzmann/scenario/scenario.hpp>
 
 #include "timing.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -34,7 +36,11 @@ void compare(char const* name) {
 
 }  // namespace
 
-int main() {
+int main(int count, char** arguments) {
+  if (count > 1) {
+    std::for_each(arguments + 1, arguments + count, compare);
+    return 0;
+  }
   for (char const* name :
        {"three-body", "pendulums",       "copper",      "molten-salt",  "dpd-fluid",     "pvdf-shock", "langmuir",
         "two-stream", "electron-gas-2d", "plummer",     "solar-system", "sod",           "sedov",      "taylor-green",

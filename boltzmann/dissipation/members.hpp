@@ -35,6 +35,8 @@ struct PairDissipation::Member {
   int velocity_at() const { return dimension() + 1; }
   int inverse_mass_at() const { return dimension(); }
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
+  void take_point(std::size_t row, double const* particle);
+  void take_sentinel_and_images(int threads);
   void take_mean_velocities(int threads);
   void show_images(int first, int count);
   /// In a sheared box: the velocities of points become those of their rows (SortedCopy::ahead_in_flow()).

@@ -211,6 +211,37 @@ PairNoise PairDissipation::Coupling::noise(StepContext const& context, double k,
   return n;
 }
 
+/// A point from a row of the sorted copy, and what stands in the ensemble beside its position.
+void PairDissipation::Member::take_point(std::size_t k, double const* from) {
+  double* to = point(k);
+  int const D = dimension();
+  std::copy_n(copy->rows() + row_block * k, D, to);
+  std::copy_n(from + velocity, D, to + velocity_at());
+  to[inverse_mass_at()] = 1 / from[mass];
+  double inverse = 1, curvature = 0;
+  if (has_energy()) {
+    double const t = law->temperature(from[energy]);
+    inverse = 1 / t;
+    curvature = inverse * inverse / law->heat_capacity(t);
+  }
+  double* heat = to + 2 * D + 1;
+  heat[0] = inverse;
+  heat[1] = curvature;
+}
+
+void PairDissipation::Member::take_sentinel_and_images(int threads) {
+  double* sentinel = point(owned());
+  std::fill_n(sentinel, stride(), 1.0);
+  std::fill_n(sentinel, dimension(), nowhere);
+  for_stretches(copy->images(), threads, [&](Stretch const* images, Stretch const* last) {
+    for (; images != last; ++images)
+      for (std::size_t k = owned() + 1 + images->begin; k < owned() + 1 + images->end; ++k) {
+        std::copy_n(point(copy->owner(k)), stride(), point(k));
+        std::copy_n(copy->rows() + row_block * k, dimension(), point(k));
+      }
+  });
+}
+
 /// False if lists and sorted copies are not those of the positions of now.
 bool PairDissipation::take_points() {
   Box const& box = scheme_.box();
@@ -220,8 +251,7 @@ bool PairDissipation::take_points() {
     Member& m = *member;
     SortedCopy const& copy = *m.copy;
     int const dimension = m.dimension();
-    std::size_t const owned = copy.owned(), total = copy.total();
-    if (owned != m.ensemble->size()) current = false;
+    if (copy.owned() != m.ensemble->size()) current = false;
     if (!current) return false;
     std::array<double, 3> half{nowhere, nowhere, nowhere};  // further off than that, it has been wrapped
     for (int a = 0; a < dimension; ++a)
@@ -230,49 +260,22 @@ bool PairDissipation::take_points() {
       if (!copy.is_current()) return false;
       half.fill(-1);
     }
-    m.points.resize(m.stride() * (total + 1));
-    int const threads = threads_for(owned, 2, this->threads());
-    StateLaw const* law = m.has_energy() ? &*m.law : nullptr;
-    auto const take = [&](Stretch const& rows, bool own) {
-      for (std::size_t k = rows.begin; k < rows.end; ++k) {
-        std::uint32_t const i = copy.order()[k];
-        double const* row = m.ensemble->row(i);
-        double* point = m.point(k);
-        for (int a = 0; a < dimension; ++a) {
-          point[a] = copy.rows()[row_block * k + a];
-          if (own && point[a] != row[a] && !(std::abs(point[a] - row[a]) > half[a])) current = false;
-        }
-        std::copy_n(row + m.velocity, dimension, point + m.velocity_at());
-        point[m.inverse_mass_at()] = 1 / row[m.mass];
-        double inverse = 1, curvature = 0;
-        if (law) {
-          double const t = law->temperature(row[m.energy]);
-          inverse = 1 / t;
-          curvature = inverse * inverse / law->heat_capacity(t);
-        }
-        double* heat = point + 2 * dimension + 1;
-        heat[0] = inverse;
-        heat[1] = curvature;
-      }
-    };
-    auto const take_all = [&](std::vector<Stretch> const& stretches, bool own) {
+    m.points.resize(m.stride() * (copy.total() + 1));
+    int const threads = threads_for(copy.owned(), 2, this->threads());
+    auto const take = [&](std::vector<Stretch> const& stretches, bool own) {
       for_stretches(stretches, threads, [&](Stretch const* rows, Stretch const* last) {
-        for (; rows != last; ++rows) take(*rows, own);
+        for (; rows != last; ++rows)
+          for (std::size_t k = rows->begin; k < rows->end; ++k) {
+            double const* row = m.ensemble->row(copy.order()[k]);
+            m.take_point(k, row);
+            for (int a = 0; own && a < dimension; ++a)
+              if (double const x = m.point(k)[a]; x != row[a] && !(std::abs(x - row[a]) > half[a])) current = false;
+          }
       });
     };
-    take_all(copy.followed(), true);
-    take_all(copy.others(), false);
-    double* sentinel = m.point(owned);
-    std::fill_n(sentinel, m.stride(), 1.0);
-    std::fill_n(sentinel, dimension, nowhere);
-    for_stretches(copy.images(), threads, [&](Stretch const* images, Stretch const* last) {
-      for (; images != last; ++images)
-        for (std::size_t k = owned + 1 + images->begin; k < owned + 1 + images->end; ++k) {
-          double* point = m.point(k);
-          std::copy_n(m.point(copy.owner(k)), m.stride(), point);
-          std::copy_n(copy.rows() + row_block * k, dimension, point);
-        }
-    });
+    take(copy.followed(), true);
+    take(copy.others(), false);
+    m.take_sentinel_and_images(threads);
     if (current && box.sheared()) m.carry_along_flow();
   }
   return current;

@@ -43,27 +43,10 @@ class Maker {
 
   PairProgram pairs(AnyEnsemble const& source, FormulaLaw::Target part, double cutoff) {
     bool const is_p = part == FormulaLaw::Target::p;
-    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
-    FormulaValue separation;
-    separation.is_vector = true;
-    separation.dimension = dimension_of(dimensions::length);
-    for (std::uint32_t c = 0; c < D; ++c) {
-      Expression const d = graph_.input(c);
-      separation.components.push_back(is_p ? d : graph_.scale(-1, d));
-    }
-    square_ = graph_.input(D, true);
-    next_ = D + 1;
-    names_.values["separation"] = separation;
-    names_.values["r"] = {{graph_.root(square_)}, dimension_of(dimensions::length), false, false};
+    name_separation(is_p);
     auto const of_target = add_fields(target_, is_p ? "p." : "q.", false);
     auto const of_source = add_fields(source, is_p ? "q." : "p.", false);
-    auto const p = names_.values.find("p.velocity"), q = names_.values.find("q.velocity");
-    if (p != names_.values.end() && q != names_.values.end()) {
-      FormulaValue relative = q->second;
-      for (std::uint32_t c = 0; c < D; ++c)
-        relative.components[c] = graph_.subtract(relative.components[c], p->second.components[c]);
-      names_.values["velocity"] = relative;
-    }
+    name_relative_velocity();
     FormulaValue const value = read();
     PairProgram program;
     std::vector<Expression> results;
@@ -80,23 +63,13 @@ class Maker {
       program.has_energy = true;
       program.antisymmetric = true;
     } else {
-      Dimension const wanted = influence_dimension(target_);
-      need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
-      program.along = !value.is_vector;
-      results = value.components;
-      for (auto& result : results) result = ended(result, cutoff, false);
-      // A positive number pushes p away from q.
-      if (program.along) results[0] = graph_.scale(-1, graph_.product({{results[0], 1}, {square_, -0.5}}));
-      if (auto const factor = factor_of_separation(results); value.is_vector && factor) {
-        program.along = true;
-        results = {*factor};
-      }
+      results = influence_of(value, cutoff, program.along);
       program.antisymmetric = &source == &target_ && is_antisymmetric(results, program.along, of_target, of_source);
     }
     std::vector<Expression> measured = results;
     if (program.has_energy) measured.push_back(energy);
     std::vector<std::uint32_t> columns, rows;
-    for (std::uint32_t c = 0; c <= D; ++c) columns.push_back(c);
+    for (std::uint32_t c = 0; c <= static_cast<std::uint32_t>(dimension_); ++c) columns.push_back(c);
     program.of_q = choose(measured, of_source, columns);
     program.of_p = choose(measured, of_target, rows);
     program.influence = make_program(graph_, results, columns, rows);
@@ -214,6 +187,49 @@ class Maker {
   using RowInput = PairNumbers::RowInput;
 
   Dimension dimension_of(Dimension dimension) const { return names_.checked ? dimension : Dimension{}; }
+
+  /// From p to q, of which either may be the target, and the distance. Inputs are components of q - p seen from the
+  /// target, and their square.
+  void name_separation(bool is_p) {
+    std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
+    FormulaValue separation;
+    separation.is_vector = true;
+    separation.dimension = dimension_of(dimensions::length);
+    for (std::uint32_t c = 0; c < D; ++c) {
+      Expression const d = graph_.input(c);
+      separation.components.push_back(is_p ? d : graph_.scale(-1, d));
+    }
+    square_ = graph_.input(D, true);
+    next_ = D + 1;
+    names_.values["separation"] = separation;
+    names_.values["r"] = {{graph_.root(square_)}, dimension_of(dimensions::length), false, false};
+  }
+
+  /// If both have one.
+  void name_relative_velocity() {
+    auto const p = names_.values.find("p.velocity"), q = names_.values.find("q.velocity");
+    if (p == names_.values.end() || q == names_.values.end()) return;
+    FormulaValue relative = q->second;
+    for (std::size_t c = 0; c < relative.components.size(); ++c)
+      relative.components[c] = graph_.subtract(relative.components[c], p->second.components[c]);
+    names_.values["velocity"] = relative;
+  }
+
+  /// What a vector, or a number along the separation, gives the target; a number alone where it is `along`.
+  std::vector<Expression> influence_of(FormulaValue const& value, double cutoff, bool& along) {
+    Dimension const wanted = influence_dimension(target_);
+    need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
+    along = !value.is_vector;
+    std::vector<Expression> results = value.components;
+    for (auto& result : results) result = ended(result, cutoff, false);
+    // A positive number pushes p away from q.
+    if (along) results[0] = graph_.scale(-1, graph_.product({{results[0], 1}, {square_, -0.5}}));
+    if (auto const factor = factor_of_separation(results); value.is_vector && factor) {
+      along = true;
+      results = {*factor};
+    }
+    return results;
+  }
 
   std::vector<RowInput> add_fields(AnyEnsemble const& ensemble, std::string const& prefix, bool with_position) {
     std::vector<RowInput> inputs;

@@ -239,6 +239,43 @@ void note_far_ones(Canvas& canvas, Scene const& scene, Sides const& reach,
     canvas.note(fmt::format("{} {} far outside the box", outside, outside == 1 ? "particle is" : "particles are"));
 }
 
+using ShownBox = std::vector<std::array<double, 2>>;
+
+CartesianStyle style_of(Scene const& scene, ShownBox const& shown) {
+  CartesianStyle style;
+  style.title = scene.title();
+  auto const length = scene.shown_in(dimensions::length);
+  style.unit = length.unit;
+  style.unit_factor = length.factor;
+  int const D = scene.box().dimension();
+  for (int a = 0; a < D; ++a) {
+    if (D == 2)
+      style.box.push_back({scene.box().low(a), scene.box().high(a)});
+    else
+      style.box.push_back(shown[static_cast<std::size_t>(a)]);
+    style.periodic[static_cast<std::size_t>(a)] = scene.box().periodic(a);
+  }
+  for (std::size_t e = 0; e < scene.ensembles.size(); ++e) {
+    if (scene.ensembles.size() > 1) style.species_names.push_back(scene.ensembles[e]->name());
+    style.species_colours.push_back(scene.colour(e));
+  }
+  return style;
+}
+
+/// A plane shows a little more than what is to be seen on it.
+Canvas start_canvas(CartesianStyle const& style, Scene const& scene, ShownBox const& shown) {
+  if (scene.box().dimension() == 3) return start_cartesian(style, &scene.picture.projection);
+  Canvas canvas = start_cartesian(style, nullptr);
+  Axis axes[2] = {canvas.x_axis(), canvas.y_axis()};
+  for (std::size_t a = 0; a < 2; ++a) {
+    double const margin = 0.03 * (shown[a][1] - shown[a][0]);
+    axes[a].low = shown[a][0] - margin;
+    axes[a].high = shown[a][1] + margin;
+  }
+  canvas.axes(axes[0], axes[1]);
+  return canvas;
+}
+
 }  // namespace
 
 void check_vectors(std::string const& vectors, std::vector<AnyEnsemble*> const& ensembles) {
@@ -274,32 +311,8 @@ Canvas draw_particles(Scene& scene) {
   Sides const reach = reach_of(scene, tracks);
   auto const shown = scene.shown_box(reach);
 
-  CartesianStyle style;
-  style.title = scene.title();
-  auto const length = scene.shown_in(dimensions::length);
-  style.unit = length.unit;
-  style.unit_factor = length.factor;
-  for (int a = 0; a < D; ++a) {
-    if (D == 2)
-      style.box.push_back({scene.box().low(a), scene.box().high(a)});
-    else
-      style.box.push_back(shown[static_cast<std::size_t>(a)]);
-    style.periodic[static_cast<std::size_t>(a)] = scene.box().periodic(a);
-  }
-  for (std::size_t e = 0; e < scene.ensembles.size(); ++e) {
-    if (scene.ensembles.size() > 1) style.species_names.push_back(scene.ensembles[e]->name());
-    style.species_colours.push_back(scene.colour(e));
-  }
-  Canvas canvas = start_cartesian(style, D == 3 ? &scene.picture.projection : nullptr);
-  if (D == 2) {
-    Axis axes[2] = {canvas.x_axis(), canvas.y_axis()};
-    for (std::size_t a = 0; a < 2; ++a) {
-      double const margin = 0.03 * (shown[a][1] - shown[a][0]);
-      axes[a].low = shown[a][0] - margin;
-      axes[a].high = shown[a][1] + margin;
-    }
-    canvas.axes(axes[0], axes[1]);
-  }
+  CartesianStyle const style = style_of(scene, shown);
+  Canvas canvas = start_canvas(style, scene, shown);
   bool const with_bonds = clouds.stride == 1;  // else most of their ends would not be seen
   if (with_bonds) draw_bonds(canvas, scene, style);
   if (scene.picture.colour.empty())

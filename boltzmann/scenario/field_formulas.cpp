@@ -52,6 +52,92 @@ std::optional<ParticleFormula> read_formula(Item const& item, std::string_view k
   }
 }
 
+namespace {
+
+/// The formulas of one field, all that stands in its item.
+class FormulasOfField {
+ public:
+  FormulasOfField(Item const& table, Entry const& entry, Field const& field, ParticleNames const& names,
+                  Reading& reading)
+      : table_(table), entry_(entry), field_(field), names_(names), reading_(reading) {}
+
+  /// Nothing, and mistakes, if one is wrong. Where some fields are not known yet, formulas are held to those before.
+  std::optional<FieldFormula> read(std::vector<std::string> const& unknown, bool fields_known) {
+    FieldFormula result{field_, {}, item().place};
+    auto const count = static_cast<std::size_t>(field_.components);
+    auto const components = items(count);
+    std::size_t values = 0;
+    for (Item const* component : components)
+      if (auto formula = read_formula(*component, field_.name, names_, unknown, reading_)) {
+        if (!fits(*formula, *component, components.size())) continue;
+        if (!fields_known) check_known(formula->formula());
+        values += formula->components();
+        result.components.push_back(std::move(*formula));
+      }
+    if (values == count) return result;
+    if (values > 0 && result.components.size() == components.size()) too_few();
+    return std::nullopt;
+  }
+
+ private:
+  Item const& item() const { return entry_.item; }
+
+  std::vector<Item const*> items(std::size_t count) {
+    std::vector<Item const*> all;
+    if (!item().is(Item::Kind::array))
+      all.push_back(&item());
+    else if (item().elements.size() == count)
+      for (auto const& element : item().elements) all.push_back(&element);
+    else
+      too_few();
+    return all;
+  }
+
+  bool fits(ParticleFormula const& formula, Item const& item, std::size_t of) {
+    if (!formula.formula().fits(field_.dimension)) {
+      reading_.mistake(item.place,
+                       fmt::format("{}: {} is needed, and the formula gives {}", field_.name,
+                                   dimension_text(field_.dimension), dimension_text(formula.formula().dimension())));
+      return false;
+    }
+    if (of > 1 && formula.components() > 1) {
+      reading_.mistake(item.place, fmt::format("{}: a number is needed for each component, not a vector", field_.name));
+      return false;
+    }
+    return true;
+  }
+
+  /// Where nothing stands yet, a formula can't use what it gives itself, or what comes after it. Densities come first.
+  bool comes_after(Entry const& other) const {
+    return &other == &entry_ || (other.key != "density" && (entry_.key == "density" || &other > &entry_));
+  }
+  void check_known(Formula const& formula) {
+    for (auto const input : formula.inputs())
+      for (auto const& other : table_.entries)
+        if (other.key == names_.field(input) && comes_after(other)) {
+          reading_.mistake(item().place, fmt::format("{}: '{}' is not known yet: only fields whose formulas stand "
+                                                     "further left are, and those with values",
+                                                     field_.name, names_.name(input)));
+          return;
+        }
+  }
+  void too_few() {
+    reading_.mistake(
+        item().place,
+        fmt::format("{}: {} formulas are needed, one for each component{}, not {}{}", field_.name, field_.components,
+                    field_.components == reading_.dimension ? ", or one that is a vector" : "", describe(item()),
+                    item().is(Item::Kind::array) ? fmt::format(" of {}", item().elements.size()) : ""));
+  }
+
+  Item const& table_;
+  Entry const& entry_;
+  Field const& field_;
+  ParticleNames const& names_;
+  Reading& reading_;
+};
+
+}  // namespace
+
 std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> const& fields, bool with_position,
                                         std::vector<std::string> const& unknown, Reading& reading) {
   std::vector<FieldFormula> formulas;
@@ -74,60 +160,8 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
     if (field == fields.end() || (field->name == "position" && !with_position) || reading.dimension == 0) continue;
     if (section.has(field->name))
       reading.mistake(entry.place, fmt::format("formulas: '{}' stands beside them, too; leave one out", field->name));
-    Item const& item = entry.item;
-    FieldFormula result{*field, {}, item.place};
-    // Where nothing stands yet, a formula can't use what it gives itself, or what comes after it. Densities come first.
-    auto const comes_after = [&](Entry const& other) {
-      return &other == &entry || (other.key != "density" && (entry.key == "density" || &other > &entry));
-    };
-    auto const check_known = [&](Formula const& formula) {
-      if (with_position) return;
-      for (auto const input : formula.inputs())
-        for (auto const& other : table->entries)
-          if (other.key == names.field(input) && comes_after(other)) {
-            reading.mistake(item.place, fmt::format("{}: '{}' is not known yet: only fields whose formulas stand "
-                                                    "further left are, and those with values",
-                                                    field->name, names.name(input)));
-            return;
-          }
-    };
-    auto const count = static_cast<std::size_t>(field->components);
-    auto const too_few = [&] {
-      reading.mistake(
-          item.place,
-          fmt::format("{}: {} formulas are needed, one for each component{}, not {}{}", field->name, field->components,
-                      field->components == reading.dimension ? ", or one that is a vector" : "", describe(item),
-                      item.is(Item::Kind::array) ? fmt::format(" of {}", item.elements.size()) : ""));
-    };
-    std::vector<Item const*> components;
-    if (!item.is(Item::Kind::array))
-      components.push_back(&item);
-    else if (item.elements.size() == count)
-      for (auto const& element : item.elements) components.push_back(&element);
-    else
-      too_few();
-    std::size_t values = 0;
-    for (Item const* component : components)
-      if (auto formula = read_formula(*component, field->name, names, unknown, reading)) {
-        if (!formula->formula().fits(field->dimension)) {
-          reading.mistake(component->place, fmt::format("{}: {} is needed, and the formula gives {}", field->name,
-                                                        dimension_text(field->dimension),
-                                                        dimension_text(formula->formula().dimension())));
-          continue;
-        }
-        if (components.size() > 1 && formula->components() > 1) {
-          reading.mistake(component->place,
-                          fmt::format("{}: a number is needed for each component, not a vector", field->name));
-          continue;
-        }
-        check_known(formula->formula());
-        values += formula->components();
-        result.components.push_back(std::move(*formula));
-      }
-    if (values == count)
-      formulas.push_back(std::move(result));
-    else if (values > 0 && result.components.size() == components.size())
-      too_few();
+    if (auto all = FormulasOfField(*table, entry, *field, names, reading).read(unknown, with_position))
+      formulas.push_back(std::move(*all));
   }
   return formulas;
 }

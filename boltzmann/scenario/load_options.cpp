@@ -14,7 +14,7 @@ using namespace option;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-OptionTable make_members() {
+OptionTable make_members() {  // long: a table, a row for each key
   using L = LoadOptions;
   OptionTable all;
   all.add_of<L>(
@@ -97,7 +97,7 @@ OptionTable make_members() {
   return all;
 }
 
-std::vector<LoadKind> make_kinds() {
+std::vector<LoadKind> make_kinds() {  // long: a table, an entry for each kind
   OptionTable const members = make_members();
   auto const of = [&](std::vector<OptionKey> const& keys) { return members.only(keys); };
   OptionKey const about{"spacing", "about that of nearest neighbours: cells fill the block exactly",

@@ -67,9 +67,7 @@ void read_wall(Item const& table, Reading& reading) {
   WallOptions options;
   read_options(section, wall_options(), &options, {.dimension = reading.dimension});
   Wall& wall = options.wall;
-  if (Item const* item = section.find("velocity"); item && reading.dimension > 0)
-    if (auto const v = read_vector(*item, "velocity", reading.dimension, dimensions::velocity, reading.context))
-      std::copy(v->begin(), v->end(), wall.velocity.begin());
+  if (options.velocity) wall.velocity = *options.velocity;
   if (options.open)
     for (char const* key : {"slips", "velocity", "temperature"})
       section.refuse(key, "with open = true there is no wall that has one");
@@ -209,12 +207,8 @@ void read_region(Item const& table, Reading& reading) {
   read_options(region, region_options(), &options, {.dimension = reading.dimension});
   bool const right = reading.context.mistakes.count() == before;
   region.finish();
-  Item const *first = region.item("low"), *second = region.item("high");
-  if (!first || !second || reading.dimension == 0) return;
-  auto const from = read_vector(*first, "low", reading.dimension, dimensions::length, reading.context);
-  auto const to = read_vector(*second, "high", reading.dimension, dimensions::length, reading.context);
-  if (from && to && right && reading.box)
-    catch_errors(reading, region.place(), [&] { reading.box->install({wide(*from), wide(*to), options.side}); });
+  if (right && options.low && options.high && reading.box)
+    catch_errors(reading, region.place(), [&] { reading.box->install({*options.low, *options.high, options.side}); });
 }
 
 void read_shear(Section& box, Reading& reading) {

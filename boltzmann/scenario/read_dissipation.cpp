@@ -255,6 +255,47 @@ void apply(FrictionTexts& texts, DissipationLaw& law, ReadEnsemble const* a, Rea
   }
 }
 
+/// Whether it can act between these; a mistake if not.
+bool can_act(DissipationLaw const& dissipation, ReadEnsemble const& a, ReadEnsemble const& b, Section& section,
+             Dissipations& all) {
+  Reading& reading = all.reading;
+  char const* key = section.has("on") ? "on" : "between";
+  Place const whom = section.place(key);
+  if (!supports(a, whom, key, reading) || (&a != &b && !supports(b, whom, key, reading)) || !reading.result->pairs)
+    return false;
+  if (taken(all.dissipations, &a, &b, whom, "dpd", reading)) return false;
+  for (int axis = 0; axis < reading.dimension; ++axis)
+    if (double const most = 0.5 * reading.box->length(axis); reading.box->periodic(axis) && dissipation.range > most) {
+      reading.mistake(section.place("range"),
+                      fmt::format("range: {} is longer than half of the periodic axis {}, {}: a particle would "
+                                  "meet another one twice",
+                                  dissipation.range, "xyz"[axis], most));
+      return false;
+    }
+  if (dissipation.convention == Convention::fixed_temperature) return true;
+  for (ReadEnsemble const* one : {&a, &b})
+    if (!has_temperatures(*one, section.place("convention"), section.item("convention")->text, reading)) return false;
+  return true;
+}
+
+void add_pairs(DissipationLaw const& dissipation, ReadEnsemble& a, ReadEnsemble& b, Dissipations& all) {
+  Reading& reading = all.reading;
+  if (!all.pairs) {
+    auto pairs = std::make_unique<PairDissipation>(*reading.result->pairs, reading.boltzmann_constant());
+    pairs->method(all.together.method);
+    pairs->corrector(all.together.corrector);
+    pairs->metropolis(all.together.metropolis);
+    all.pairs = pairs.get();
+    reading.result->dissipations.push_back(std::move(pairs));
+  }
+  for (ReadEnsemble const* one : {&a, &b})
+    if (one->state && (one == &a || &a != &b)) all.pairs->state(*one->particles, *one->state);
+  if (&a == &b)
+    all.pairs->internal(*a.particles, dissipation);
+  else
+    all.pairs->between(*a.particles, *b.particles, dissipation);
+}
+
 void read_pairs(Section& section, Item const& table, Dissipations& all) {
   Reading& reading = all.reading;
   std::size_t const before = reading.context.mistakes.count();
@@ -285,38 +326,8 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
                            "dissipation acts between near particles, which a scenario with a [mesh] does not "
                            "look for");
   if (reading.context.mistakes.count() != before || !a || !b) return;
-  Place const whom = section.place(section.has("on") ? "on" : "between");
-  char const* key = section.has("on") ? "on" : "between";
-  if (!supports(*a, whom, key, reading) || (a != b && !supports(*b, whom, key, reading)) || !reading.result->pairs)
-    return;
-  if (taken(all.dissipations, a, b, whom, "dpd", reading)) return;
-  for (int axis = 0; axis < reading.dimension; ++axis)
-    if (double const most = 0.5 * reading.box->length(axis); reading.box->periodic(axis) && dissipation.range > most)
-      return reading.mistake(section.place("range"),
-                             fmt::format("range: {} is longer than half of the periodic axis {}, {}: a particle would "
-                                         "meet another one twice",
-                                         dissipation.range, "xyz"[axis], most));
-  if (dissipation.convention != Convention::fixed_temperature)
-    for (ReadEnsemble const* one : {a, b})
-      if (!has_temperatures(*one, section.place("convention"), section.item("convention")->text, reading)) return;
-  if (!all.pairs)
-    catch_errors(reading, table.place, [&] {
-      auto pairs = std::make_unique<PairDissipation>(*reading.result->pairs, reading.boltzmann_constant());
-      pairs->method(all.together.method);
-      pairs->corrector(all.together.corrector);
-      pairs->metropolis(all.together.metropolis);
-      all.pairs = pairs.get();
-      reading.result->dissipations.push_back(std::move(pairs));
-    });
-  if (!all.pairs) return;
-  catch_errors(reading, table.place, [&] {
-    for (ReadEnsemble const* one : {a, b})
-      if (one->state && (one == a || a != b)) all.pairs->state(*one->particles, *one->state);
-    if (a == b)
-      all.pairs->internal(*a->particles, dissipation);
-    else
-      all.pairs->between(*a->particles, *b->particles, dissipation);
-  });
+  if (can_act(dissipation, *a, *b, section, all))
+    catch_errors(reading, table.place, [&] { add_pairs(dissipation, *a, *b, all); });
 }
 
 struct ReadBath {

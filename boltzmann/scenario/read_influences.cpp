@@ -152,6 +152,10 @@ class InfluenceReader {
     double const reach = from_outside_ || connect_ || tuples() ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
     note_jump(reach);
+    add_typed(reach, by_energy ? "energy" : "influence");
+  }
+
+  void add_typed(double reach, char const* key) {
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
     try {
       BondedFactors const bonded(*pairs_, *a_, factors_);
@@ -169,13 +173,11 @@ class InfluenceReader {
         pairs_->between(a, b, typed_, reach);
       else
         pairs_->internal(a, typed_, reach);
-      if (moves && !from_outside_ && !tuples())
-        reading_.result->typed_laws.push_back(
-            {fmt::format("influences.{}.{}", number_, by_energy ? "energy" : "influence"), typed_, &a, &b, reach});
+      if (typed_.changes.empty() && !from_outside_ && !tuples())
+        reading_.result->typed_laws.push_back({fmt::format("influences.{}.{}", number_, key), typed_, &a, &b, reach});
       add_tail(typed_, reach);
     } catch (FormulaPartError const& error) {
-      refuse_formula(section_, error, *typed_item_, typed_.gives == FormulaLaw::Gives::energy ? "energy" : "influence",
-                     reading_);
+      refuse_formula(section_, error, *typed_item_, key, reading_);
     } catch (Error const& error) {
       reading_.mistake(law_place_, error.what());
     }

@@ -93,28 +93,33 @@ void read_partners(Section& section, DiagnosisParameters& parameters, Reading& r
   if (which && which->empty()) reading.mistake(item->place, "partners: there is no such particle");
 }
 
-void read_diagnosis(Item const& table, Reading& reading) {
-  std::size_t const before = reading.context.mistakes.count();
-  Section section(table, "[[diagnoses]]", reading.context);
+/// Null, and a mistake, if there is none such.
+DiagnosisKind const* read_kind(Section& section, Reading& reading) {
   std::vector<std::string> names;
   for (auto const& kind : diagnosis_kinds()) names.push_back(kind.name);
   Item const* word = section.need("kind", "kind = \"energies\"");
   auto const name = word ? read_word(*word, "diagnosis", names, reading.context) : std::nullopt;
-  if (!name) return;
+  if (!name) return nullptr;
   section.rename(fmt::format("[[diagnoses]] '{}'", *name));
   auto const& kind = *std::find_if(diagnosis_kinds().begin(), diagnosis_kinds().end(),
                                    [&](DiagnosisKind const& k) { return k.name == *name; });
   section.explain_word("kind", kind.doc);
+  return &kind;
+}
+
+bool is_typed(DiagnosisKind const& kind) { return kind.options.find("formula") != nullptr; }
+
+/// What its table says.
+DiagnosisParameters read_parameters_of(DiagnosisKind const& kind, Section& section, Reading& reading) {
   DiagnosisParameters parameters;
   parameters.units = reading.context.units;
-  bool const typed = kind.options.find("formula") != nullptr;
-  if (typed) {
+  if (is_typed(kind)) {
     parameters.formula_parameters = read_formula_parameters(section, reading);
     parameters.formula_parts = read_formula_parts(section, reading);
   }
   // Of a histogram, once everything else has been read.
   auto const shown = [&]() -> std::optional<Dimension> {
-    if (!all_loaded(reading) || !typed) return std::nullopt;
+    if (!all_loaded(reading) || !is_typed(kind)) return std::nullopt;
     auto known = parameters;
     for (auto const& ensemble : reading.ensembles) known.available.push_back(ensemble.particles);
     try {
@@ -134,45 +139,66 @@ void read_diagnosis(Item const& table, Reading& reading) {
                 }});
   if (section.has("range") && reading.box) check_range_of_weight(section, parameters.range, *reading.box);
   section.finish();
-  if (reading.context.mistakes.count() != before || !all_loaded(reading) || (typed && !reading.base_known)) return;
-  for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
-  Place place = section.has("quantity") ? section.place("quantity") : word->place;
-  if (kind.of_mesh) {
-    if (!find_mesh_fields(reading, word->place, fmt::format("diagnosis '{}'", *name))) {
-      reading.diagnoses_known = false;
-      return;
-    }
-    parameters.mesh_fields = reading.mesh.fields;
-    if (section.has("quantity") &&
-        !catch_errors(reading, place, [&] { mesh_quantity(parameters.mesh_fields, parameters.quantity); }))
-      return;
-    place = section.has("mode") ? section.place("mode") : section.has("axis") ? section.place("axis") : word->place;
+  return parameters;
+}
+
+/// Gives it what is on the mesh. False, and a mistake, if there is none.
+bool take_mesh_fields(DiagnosisKind const& kind, DiagnosisParameters& parameters, Section& section, Reading& reading) {
+  if (!find_mesh_fields(reading, section.place("kind"), fmt::format("diagnosis '{}'", kind.name))) {
+    reading.diagnoses_known = false;
+    return false;
   }
-  auto const make = [&] {
-    std::vector<Scheme*> schemes;
-    for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
-    if (kind.of_flow) find_vortices(parameters, schemes);
-    find_rigid_bonds(parameters, schemes);
-    parameters.columns_before = columns_of(*reading.result);
-    auto diagnosis = make_diagnosis(*name, parameters);
-    if (reading.box && reading.shear_is_right) diagnosis->check(*reading.box);
-    if (*name == "heat-flux" && reading.box)
-      temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
-    if (auto const* slab = dynamic_cast<Slab const*>(diagnosis.get()); slab && reading.box)
-      slab_members(parameters.available, *reading.box, slab->options());
-    if (auto const* shock = dynamic_cast<Shock const*>(diagnosis.get()); shock && reading.box)
-      shock->check(parameters.available, *reading.box, reading.boltzmann_constant());
-    auto const taken = column_names(reading);
-    for (auto const& column : diagnosis->columns())
-      if (std::find(taken.begin(), taken.end(), column.name) != taken.end())
-        throw Error(fmt::format("diagnosis '{}': there is a column '{}' already; names must differ{}", *name,
-                                column.name, kind.options.find("label") ? " (give a label)" : ""));
-    reading.result->diagnoses.push_back(std::move(diagnosis));
-    reading.diagnosis_places.push_back(table.place);
-  };
-  catch_errors(reading, place, [&] {
+  parameters.mesh_fields = reading.mesh.fields;
+  return !section.has("quantity") || catch_errors(reading, section.place("quantity"),
+                                                  [&] { mesh_quantity(parameters.mesh_fields, parameters.quantity); });
+}
+
+/// Error if it is none for these particles, in this box, beside these diagnoses.
+std::unique_ptr<Diagnosis> make_checked(DiagnosisKind const& kind, DiagnosisParameters& parameters,
+                                        Reading const& reading) {
+  std::vector<Scheme*> schemes;
+  for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
+  if (kind.of_flow) find_vortices(parameters, schemes);
+  find_rigid_bonds(parameters, schemes);
+  parameters.columns_before = columns_of(*reading.result);
+  auto diagnosis = make_diagnosis(kind.name, parameters);
+  if (reading.box && reading.shear_is_right) diagnosis->check(*reading.box);
+  if (kind.name == "heat-flux" && reading.box)
+    temperature_difference(*reading.box, parameters.axis.empty() ? reading.dimension - 1 : parameters.axis[0] - 'x');
+  if (auto const* slab = dynamic_cast<Slab const*>(diagnosis.get()); slab && reading.box)
+    slab_members(parameters.available, *reading.box, slab->options());
+  if (auto const* shock = dynamic_cast<Shock const*>(diagnosis.get()); shock && reading.box)
+    shock->check(parameters.available, *reading.box, reading.boltzmann_constant());
+  auto const taken = column_names(reading);
+  for (auto const& column : diagnosis->columns())
+    if (std::find(taken.begin(), taken.end(), column.name) != taken.end())
+      throw Error(fmt::format("diagnosis '{}': there is a column '{}' already; names must differ{}", kind.name,
+                              column.name, kind.options.find("label") ? " (give a label)" : ""));
+  return diagnosis;
+}
+
+/// The key of which an error tells.
+Place place_of_error(DiagnosisKind const& kind, Section& section) {
+  if (kind.of_mesh)
+    for (char const* key : {"mode", "axis"})
+      if (section.has(key)) return section.place(key);
+  return section.place(!kind.of_mesh && section.has("quantity") ? "quantity" : "kind");
+}
+
+void read_diagnosis(Item const& table, Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  Section section(table, "[[diagnoses]]", reading.context);
+  DiagnosisKind const* const kind = read_kind(section, reading);
+  if (!kind) return;
+  DiagnosisParameters parameters = read_parameters_of(*kind, section, reading);
+  bool const units_known = !is_typed(*kind) || reading.base_known;
+  if (reading.context.mistakes.count() != before || !all_loaded(reading) || !units_known) return;
+  for (auto const& ensemble : reading.ensembles) parameters.available.push_back(ensemble.particles);
+  if (kind->of_mesh && !take_mesh_fields(*kind, parameters, section, reading)) return;
+  catch_errors(reading, place_of_error(*kind, section), [&] {
     try {
-      make();
+      reading.result->diagnoses.push_back(make_checked(*kind, parameters, reading));
+      reading.diagnosis_places.push_back(table.place);
     } catch (FormulaError const& error) {
       reading.diagnoses_known = false;
       auto const* of_part = dynamic_cast<FormulaPartError const*>(&error);

@@ -26,11 +26,10 @@ std::string all_lines(std::vector<std::string> const& lines) {
   return text;
 }
 
-void build(Item& document, Reading& reading) {
+void read_tables(Item& document, Reading& reading) {
   Section top(document, "the scenario", reading.context);
-  ScenarioSimulation& result = *reading.result;
-  result.title = top.text("title").value_or("");
-  result.description = top.text("description").value_or("");
+  reading.result->title = top.text("title").value_or("");
+  reading.result->description = top.text("description").value_or("");
   read_units(top, reading);
   read_box(top, reading);
   read_run(top, reading);
@@ -58,17 +57,21 @@ void build(Item& document, Reading& reading) {
   read_views(top, reading);
   read_sweep(top, reading);
   top.finish();
-  if (!reading.context.mistakes.none()) return;
+}
 
+void make_simulation(Reading& reading) {
+  ScenarioSimulation& result = *reading.result;
   result.steps = reading.run.steps;
-  catch_errors(reading, reading.run.place, [&] {
-    result.simulation = std::make_unique<Simulation>(*result.schemes.front(), *reading.run.step);
-    for (std::size_t k = 1; k < result.schemes.size(); ++k) result.simulation->add(*result.schemes[k]);
-    for (auto const& [slow, steps] : reading.slow) result.simulation->every(steps, *slow);
-    result.simulation->seed(reading.run.seed);
-    result.simulation->speak_in(result.units);
-  });
-  if (!result.simulation) return;
+  result.simulation = std::make_unique<Simulation>(*result.schemes.front(), *reading.run.step);
+  for (std::size_t k = 1; k < result.schemes.size(); ++k) result.simulation->add(*result.schemes[k]);
+  for (auto const& [slow, steps] : reading.slow) result.simulation->every(steps, *slow);
+  result.simulation->seed(reading.run.seed);
+  result.simulation->speak_in(result.units);
+}
+
+/// What advances and changes its particles.
+void complete_simulation(Reading& reading) {
+  ScenarioSimulation& result = *reading.result;
   bool const radau = std::any_of(reading.ensembles.begin(), reading.ensembles.end(), [](ReadEnsemble const& ensemble) {
     return ensemble.integrator && ensemble.integrator->method() == Method::gauss_radau;
   });
@@ -92,6 +95,10 @@ void build(Item& document, Reading& reading) {
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   add_dyes(reading);
   keep_out_of_bodies(reading);
+}
+
+void check_simulation(Reading& reading) {
+  ScenarioSimulation const& result = *reading.result;
   try {
     result.simulation->check();
     auto const lines = refusals(*result.simulation, result.diagnoses);
@@ -102,6 +109,15 @@ void build(Item& document, Reading& reading) {
   } catch (PhysicsFailure const& failure) {
     reading.mistake(place_of(failure.what(), reading), failure.what());
   }
+}
+
+void build(Item& document, Reading& reading) {
+  read_tables(document, reading);
+  if (!reading.context.mistakes.none()) return;
+  catch_errors(reading, reading.run.place, [&] { make_simulation(reading); });
+  if (!reading.result->simulation) return;
+  complete_simulation(reading);
+  check_simulation(reading);
 }
 
 /// Of [run] steps and time, which say the same: what the command line says goes before what the file says.

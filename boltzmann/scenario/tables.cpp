@@ -286,7 +286,7 @@ OptionTable make_class_field_options() {
   return all;
 }
 
-OptionTable make_influence_options() {
+OptionTable make_influence_options() {  // long: a table, a row for each key
   OptionTable all;
   all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
   all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
@@ -395,8 +395,8 @@ OptionTable make_region_options() {
   using Side = Region::Side;
   static Words<Side> const sides{"side", {{Side::keep_out, "keep-out", ""}, {Side::keep_in, "keep-in", ""}}};
   OptionTable all;
-  all.add_said("low", "a list of lengths, one for each axis", "the lower edges of the block");
-  all.add_said("high", "a list of lengths, one for each axis", "the upper edges");
+  all.add("low", &RegionOptions::low, vector(dimensions::length), "the lower edges of the block");
+  all.add("high", &RegionOptions::high, vector(dimensions::length), "the upper edges");
   all.add_of<RegionOptions>(
       "side", [](RegionOptions& r) -> OptionPlace { return named_value(&r.side, sides); }, word(sides.names()),
       "nothing gets in, or nothing that is inside gets out");
@@ -439,7 +439,8 @@ OptionTable make_wall_options() {
   all.add_of<W>(
       "slips", [](W& w) -> OptionPlace { return &w.wall.slips; }, flag(),
       "of a mirror; else matter at the wall moves with it");
-  all.add_said("velocity", "a velocity along each axis", "along the axis it makes a piston; else of a mirror", "none");
+  all.add("velocity", &W::velocity, vector(dimensions::velocity), "along the axis it makes a piston; else of a mirror",
+          "none");
   all.add_of<W>(
       "temperature", [](W& w) -> OptionPlace { return &w.wall.temperature; },
       number(dimensions::temperature, not_negative), "of a mirror", "no heat goes through");

@@ -44,12 +44,14 @@ OptionTable const& shear_options();
 struct WallOptions {
   Box::End end = Box::End::low;
   bool open = false;
-  Wall wall;
+  std::optional<std::array<double, 3>> velocity;
+  Wall wall;  ///< in which it is not yet
 };
 OptionTable const& wall_options();
 
-/// [[box.regions]]; the corners are read by code.
+/// [[box.regions]]
 struct RegionOptions {
+  std::optional<std::array<double, 3>> low, high;
   Region::Side side = Region::Side::keep_out;
 };
 OptionTable const& region_options();

@@ -250,9 +250,8 @@ void Simulation::restore_rows() {
 }
 
 /// Those of the last run, if they can go on from here.
-FusedSteps* Simulation::whole_steps(double dt, Dependence const& now) {
-  bool const can_go_on = whole_.steps && whole_.dt == dt && now.schemes && whole_.are_for.schemes == now.schemes &&
-                         whole_.are_for.rows == now.rows;
+FusedSteps* Simulation::whole_steps(double dt, std::optional<Dependence> const& now) {
+  bool const can_go_on = whole_.steps && whole_.dt == dt && now && now->schemes && whole_.are_for == *now;
   if (!can_go_on) {
     whole_ = {};
     whole_ = {fused_steps(dt), dt, {}};

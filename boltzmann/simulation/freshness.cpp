@@ -1,30 +1,43 @@
 // Told by the bits of the rows.
 #include <boltzmann/simulation/freshness.hpp>
 
+#include <boltzmann/core/checksum_kernels.hpp>
+#include <boltzmann/core/kernel_dispatch.hpp>
+#include <boltzmann/core/threads.hpp>
+
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <vector>
 
 namespace boltzmann {
+namespace {
 
-std::uint64_t rows_checksum(std::span<AnyEnsemble* const> ensembles) {
-  constexpr std::size_t lanes = 8;  // which do not wait for each other
-  std::array<std::uint64_t, lanes> sums{};
-  auto const mix = [](std::uint64_t& sum, double word) {
-    sum = (std::rotl(sum, 5) ^ std::bit_cast<std::uint64_t>(word)) * 0x9E3779B97F4A7C15U;
-  };
-  auto const take = [&](double const* words, std::size_t count) {
-    std::size_t k = 0;
-    for (; k + lanes <= count; k += lanes)
-      for (std::size_t lane = 0; lane < lanes; ++lane) mix(sums[lane], words[k + lane]);
-    for (; k < count; ++k) mix(sums[0], words[k]);
+constexpr std::size_t together = std::size_t{1} << 14U;  // numbers
+
+std::uint64_t checksum(double const* numbers, std::size_t count, int threads) {
+  ChecksumKernel const kernel = for_instruction_set([](auto set) { return checksum_kernel<decltype(set)::value>(); });
+  if (count <= together) return kernel(numbers, count);
+  std::vector<double> parts((count + together - 1) / together);
+  for_ranges(parts.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      parts[k] = std::bit_cast<double>(kernel(numbers + k * together, std::min(together, count - k * together)));
+  });
+  return checksum(parts.data(), parts.size(), 1);
+}
+
+}  // namespace
+
+std::uint64_t rows_checksum(std::span<AnyEnsemble* const> ensembles, int threads, bool with_influences) {
+  std::uint64_t all = 0;
+  auto const take = [&](double const* numbers, std::size_t count) {
+    all = (std::rotl(all, 5) ^ checksum(numbers, count, threads)) * 0x9E3779B97F4A7C15U;
   };
   for (auto const* ensemble : ensembles) {
     take(ensemble->row(0), ensemble->size() * ensemble->stride());
-    take(ensemble->influences().data(), ensemble->influences().size());
-    mix(sums[0], std::bit_cast<double>(std::uint64_t{ensemble->size()}));
+    if (with_influences) take(ensemble->influences().data(), ensemble->influences().size());
   }
-  for (std::size_t lane = 1; lane < lanes; ++lane) mix(sums[0], std::bit_cast<double>(sums[lane]));
-  return sums[0];
+  return all;
 }
 
 }  // namespace boltzmann

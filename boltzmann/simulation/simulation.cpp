@@ -210,8 +210,12 @@ void Simulation::speak_in(UnitSystem const& units) {
   for (auto* scheme : schemes_) scheme->speak_in(units);
 }
 
-Dependence Simulation::dependence() const {
-  Dependence now{rows_checksum(ensembles_), 0};
+std::uint64_t Simulation::checksum(bool with_influences) const {
+  return rows_checksum(ensembles_, schemes_.front()->threads(), with_influences);
+}
+
+Dependence Simulation::dependence(bool with_influences) const {
+  Dependence now{checksum(with_influences), 0};
   for (auto const* scheme : schemes_) {
     auto const revision = scheme->revision();
     now.schemes =
@@ -267,7 +271,7 @@ void Simulation::adapt_now() {
     if (!completed) update_derived_fields();
     interrupt_division();
     changed = true;
-    auto const before = rows_checksum(ensembles_);
+    auto const before = checksum();
     auto const sizes_before = sizes();
     try {
       change.adaptation->change();
@@ -277,7 +281,7 @@ void Simulation::adapt_now() {
           throw Error(
               fmt::format("ensemble '{}' had {} particles and has {} now, but some of them are frozen, by number",
                           parts_[k].ensemble->name(), sizes_before[k], sizes_now[k]));
-      completed = sizes_now == sizes_before && rows_checksum(ensembles_) == before;
+      completed = sizes_now == sizes_before && checksum() == before;
       if (!completed) take_particles();
     } catch (Error const& error) {
       throw Error(fmt::format("step {}: {}", step_, error.what()));
@@ -364,6 +368,24 @@ void Simulation::rewind(std::uint64_t steps) {
   run_together([&] { run(steps, -1); });
 }
 
+void Simulation::refuse_backwards() const {
+  if (!changes_.empty())
+    throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
+  if (!dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
+  if (!barostats_.empty()) throw Error("a run whose box is stretched can't go backwards");
+  if (!events_.empty()) throw Error("a run with events can't go backwards");
+}
+
+/// What comes before the first step.
+void Simulation::begin() {
+  if (begun_) return;
+  if (minimisation_) minimise(*this, *std::exchange(minimisation_, std::nullopt));
+  equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
+  establish_flow();
+  begun_ = true;
+  observe_now();
+}
+
 void Simulation::run(std::uint64_t steps, int direction) {
   std::atomic_ref(pause_).store(false, std::memory_order_relaxed);
   check();
@@ -375,27 +397,18 @@ void Simulation::run(std::uint64_t steps, int direction) {
     }
     Simulation& simulation;
   } const running_now(*this);
-  if (direction < 0 && !changes_.empty())
-    throw Error("a run can't go backwards past steps between which an adaptation has changed particles");
-  if (direction < 0 && !dissipations_.empty()) throw Error("a run with friction and noise can't go backwards");
-  if (direction < 0 && !barostats_.empty()) throw Error("a run whose box is stretched can't go backwards");
-  if (direction < 0 && !events_.empty()) throw Error("a run with events can't go backwards");
+  if (direction < 0) refuse_backwards();
   RunVotes votes(steps);
   votes.begin(
       [&] {
-        return (rows_checksum(ensembles_) + std::bit_cast<std::uint64_t>(direction * step_size_)) *
+        return (checksum() + std::bit_cast<std::uint64_t>(direction * step_size_)) *
                    (2 * static_cast<std::uint64_t>(step_) + 1) +
                seed_;
       },
       stopped());
-  if (!begun_) {
-    if (minimisation_) minimise(*this, *std::exchange(minimisation_, std::nullopt));
-    equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
-    establish_flow();
-    begun_ = true;
-    observe_now();
-  }
-  Dependence const now = dependence();
+  begin();
+  std::optional<Dependence> now;
+  if (influences_.kept() || whole_.steps) now = dependence(!whole_.steps);
   divide();
   struct Together {
     Simulation* simulation;
@@ -408,33 +421,45 @@ void Simulation::run(std::uint64_t steps, int direction) {
   } const together{this};
   auto const running = influences_.begin_run(now);
   small_system_ = schemes_.size() == 1 ? schemes_.front()->small_system() : Scheme::SmallSystem{};
-  double const dt = direction * step_size_;
   bool const last = any_comes_last(schemes_);
   Division const* const division = is_divided() ? division_.get() : nullptr;
-  FusedSteps* const whole = steps > 0 ? whole_steps(dt, of_whole_steps(now, division)) : nullptr;
-  for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) {
-    try {
-      if (whole)
-        whole->step(time());
-      else
-        advance(dt, dissipations_);
-      if (!barostats_.empty()) stretch_box(dt);
-      if (last && stages_ == 0) influences_.outdated();  // nothing has moved, but a stream may have changed
-    } catch (PhysicsFailure const& failure) {
-      throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
-    }
-    step_ += direction;
-    if (!changes_.empty()) adapt_now();
-    if (!events_.empty()) happen_now();
-    if (!observations_.empty()) {
-      if (whole && observation_due()) whole->store();
-      if (last && observation_due()) calculate(time());
-      observe_now();
-    }
-    for (auto const& one : progress_)
-      if (!one.forgotten) one.observer(*this);
-  }
+  if (now) now = of_whole_steps(*now, division);
+  FusedSteps* const whole = steps > 0 ? whole_steps(direction * step_size_, now) : nullptr;
+  for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) take_step(direction, whole, last);
   if (votes.stopped()) stop();
+  complete_last_step(whole, last);
+  influences_.end_run([&] { return dependence(true); });
+  if (whole) whole_.are_for = of_whole_steps(dependence(false), division);
+  votes.end([&] { return checksum(); });
+}
+
+/// A step, and all that is to happen behind it.
+void Simulation::take_step(int direction, FusedSteps* whole, bool last) {
+  try {
+    double const dt = direction * step_size_;
+    if (whole)
+      whole->step(time());
+    else
+      advance(dt, dissipations_);
+    if (!barostats_.empty()) stretch_box(dt);
+    if (last && stages_ == 0) influences_.outdated();  // nothing has moved, but a stream may have changed
+  } catch (PhysicsFailure const& failure) {
+    throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
+  }
+  step_ += direction;
+  if (!changes_.empty()) adapt_now();
+  if (!events_.empty()) happen_now();
+  if (!observations_.empty()) {
+    if (whole && observation_due()) whole->store();
+    if (last && observation_due()) calculate(time());
+    observe_now();
+  }
+  for (auto const& one : progress_)
+    if (!one.forgotten) one.observer(*this);
+}
+
+/// All that others may look at is up to date, and everybody's.
+void Simulation::complete_last_step(FusedSteps* whole, bool last) {
   if (whole) {
     whole->store();
     influences_.outdated();
@@ -447,10 +472,6 @@ void Simulation::run(std::uint64_t steps, int direction) {
   }
   if (last) calculate(time());
   if (!divided) update_derived_fields();
-  Dependence const then = dependence();
-  influences_.end_run(then);
-  if (whole) whole_.are_for = of_whole_steps(then, division);
-  votes.end([&] { return then.rows; });
 }
 
 namespace {
@@ -528,7 +549,7 @@ std::vector<double> Simulation::state() const {
   for (auto const* scheme : schemes_) add(scheme->state());
   for (auto const* dissipation : dissipations_) add(dissipation->state());
   if (influences_.inside_step()) {
-    bool const fresh = influences_.belong_to_state(dependence());
+    bool const fresh = influences_.belong_to_state(dependence(true));
     state.push_back(fresh ? 1 : 0);
     for (auto const& part : parts_) {
       auto const influences = part.ensemble->influences();
@@ -596,7 +617,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   take_lengths();
   update_derived_fields();
   whole_ = {};
-  influences_.restored(with_influences, dependence());
+  influences_.restored(with_influences, dependence(true));
 }
 
 }  // namespace boltzmann

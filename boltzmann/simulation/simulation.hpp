@@ -254,8 +254,9 @@ class Simulation {
   void keep_rows();
   void restore_rows();
   std::unique_ptr<FusedSteps> fused_steps(double dt);
-  FusedSteps* whole_steps(double dt, Dependence const& now);
-  Dependence dependence() const;
+  FusedSteps* whole_steps(double dt, std::optional<Dependence> const& now);
+  std::uint64_t checksum(bool with_influences = true) const;
+  Dependence dependence(bool with_influences) const;
   void check_moves();
   void check_move(Part const& part, LargestMove const& move) const;
   std::string advice() const;
@@ -271,7 +272,11 @@ class Simulation {
   bool sums_suffice() const;
   void check_moves_together();
 
+  void refuse_backwards() const;
+  void begin();
   void run(std::uint64_t steps, int direction);
+  void take_step(int direction, FusedSteps* whole, bool last);
+  void complete_last_step(FusedSteps* whole, bool last);
   Part* part_of(AnyEnsemble const& ensemble);
   UnitSystem const& units() const;
   std::string told_time(double number) const;
@@ -326,7 +331,7 @@ class Simulation {
   struct {
     std::unique_ptr<FusedSteps> steps = {};
     double dt = 0;
-    Dependence are_for = {};  // as they were stored
+    Dependence are_for = {};  // as they were stored; influences, which they don't read, are not asked for
   } whole_;
   bool checked_ = false, begun_ = false, running_ = false;
   mutable bool stop_ = false;   // read and written as an atomic one: a signal or another thread may set it

@@ -98,7 +98,7 @@ py::dict gathered_of(std::vector<std::pair<std::string, CsvTable>> const& tables
 
 }  // namespace
 
-void bind_simulation(py::module_& module) {
+void bind_simulation(py::module_& module) {  // long: a table, a line for each name in Python
   using py::arg;
   py::class_<Source>(module, "Source")
       .def(py::init([](std::string text, std::string file, std::string name, std::string folder) {

@@ -22,7 +22,7 @@ Words<MetalPotential> const& metal_potential_words() {
   return all;
 }
 
-OptionTable const& embedded_atom_options() {
+OptionTable const& embedded_atom_options() {  // long: a table, a row for each key
   using namespace option;
   using E = EmbeddedAtomOptions;
   static OptionTable const all = [] {

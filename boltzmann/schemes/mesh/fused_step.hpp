@@ -136,7 +136,7 @@ template <class Real, int W>
 enum class StepPass {
   deposit,  ///< only deposits
   advance,  ///< a step
-  finish,   ///< only the second kick that is pending, into `finished`
+  finish,   ///< only the second kick that is pending
 };
 
 template <StepPass pass, int D, int p, class Real, int W>
@@ -274,23 +274,18 @@ class FusedStep {
         for (int a = 0; a < D; ++a) v[a] += dv[a];
         if (task_.turns) turn(v);
       }
-      if constexpr (pass == StepPass::finish) {
-        for (int a = 0; a < D; ++a)
-          *reinterpret_cast<SideBySide<Real, W>*>(task_.finished[a] + block - task_.finished_from + i) = v[a].native;
-      } else {
+      if constexpr (pass == StepPass::advance) {
         if (task_.turns) turn(v);
         Number square = Real(0);
         for (int a = 0; a < D; ++a) {
           v[a] += dv[a];
           square += v[a] * v[a];
         }
-        Mask<Real, W> failed = drift(block + i, v);
-        for (int a = 0; a < D; ++a)
-          *reinterpret_cast<SideBySide<Real, W>*>(task_.velocity[a] + block + i) = v[a].native;
-        failed = failed | !(square <= Number(task_.fastest_allowed));
+        Mask<Real, W> const failed = drift(block + i, v) | !(square <= Number(task_.fastest_allowed));
         failed_ = failed_ | (failed & particles(count - i));
         fastest_ = max(fastest_, select(particles(count - i), square, Number(Real(0))));
       }
+      for (int a = 0; a < D; ++a) *reinterpret_cast<SideBySide<Real, W>*>(task_.velocity[a] + block + i) = v[a].native;
     }
   }
 

@@ -161,10 +161,6 @@ class MeshSteps final : public FusedSteps {
     }
   };
 
-  double position(Columns const& columns, int a, std::size_t i) const {
-    return scheme_.box().low(a) + static_cast<double>(columns.position[a][i]) * part_[a];
-  }
-
   /// Gives the first particle that can't be where it is.
   std::size_t add_columns(MeshScheme::Loaded const& loaded, bool moves) {
     AnyEnsemble& ensemble = *loaded.ensemble;
@@ -210,6 +206,12 @@ class MeshSteps final : public FusedSteps {
         }
       }
     });
+    set_task(columns);
+    if (sorting()) sort(columns);
+    return outside;
+  }
+
+  void set_task(Columns& columns) {
     StepTask<Real>& task = columns.task;
     for (int a = 0; a < dimension_; ++a) {
       task.end[a] = end_[a];
@@ -225,11 +227,9 @@ class MeshSteps final : public FusedSteps {
     task.slots_y = slots_y_;
     task.copies = copies_;
     task.field = field_.data();
-    double const longest = scheme_.length_scale(ensemble) / std::abs(dt_);
+    double const longest = scheme_.length_scale(*columns.ensemble) / std::abs(dt_);
     task.fastest_allowed = static_cast<Real>(std::min(longest * longest, 1e30));
     set_turn(columns);
-    if (sorting()) sort(columns);
-    return outside;
   }
 
   bool sorting() const { return slots_ * (numbers_ * sizeof(Real) + width_ * 8) > slots_worth_sorting; }
@@ -272,13 +272,23 @@ class MeshSteps final : public FusedSteps {
     for (int a = 0; a < dimension_; ++a) columns.task.push[a] = static_cast<Real>(force[a] / columns.mass * dt_ / 2);
   }
 
+  void point_at_columns(Columns& columns) {
+    for (int a = 0; a < dimension_; ++a) {
+      columns.task.position[a] = columns.position[a].data();
+      columns.task.velocity[a] = columns.velocity[a].data();
+    }
+  }
+
+  /// Kernels move what stands behind the last particle, too.
+  void clear_padding(Columns& columns) {
+    for (std::size_t i = columns.size; i < columns.size + column_padding; ++i)
+      for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
+  }
+
   /// Runs a kernel over all particles of an ensemble, counting them.
   void run(Columns& columns, StepKernel<Real> kernel) {
     StepTask<Real>& task = columns.task;
-    for (int a = 0; a < dimension_; ++a) {
-      task.position[a] = columns.position[a].data();
-      task.velocity[a] = columns.velocity[a].data();
-    }
+    point_at_columns(columns);
     std::vector<StepResult> results((columns.size + mesh_grain - 1) / mesh_grain);
     int const threads = threads_for(columns.size, 1, scheme_.threads());
     tallies_.count(columns.size, mesh_grain, threads, [&](std::size_t begin, std::size_t end, std::int64_t* density) {
@@ -286,9 +296,7 @@ class MeshSteps final : public FusedSteps {
       mine.density = density;
       kernel(mine, results[begin / mesh_grain], begin, end);
     });
-    // The kernel has moved what stands behind the last particle.
-    for (std::size_t i = columns.size; i < columns.size + column_padding; ++i)
-      for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
+    clear_padding(columns);
     columns.fastest = 0;
     columns.failed = false;
     for (auto const& result : results) {
@@ -474,37 +482,44 @@ class MeshSteps final : public FusedSteps {
     columns.travelled = 0;
   }
 
+  /// The second kick that is pending, and all into the rows.
   void store(Columns& columns) {
-    AnyEnsemble& ensemble = *columns.ensemble;
     StepTask<Real>& task = columns.task;
-    for (int a = 0; a < dimension_; ++a) {
-      task.position[a] = columns.position[a].data();
-      task.velocity[a] = columns.velocity[a].data();
-    }
+    point_at_columns(columns);
     for_ranges(columns.size, mesh_grain, threads_for(columns.size, 1, scheme_.threads()),
                [&](std::size_t begin, std::size_t end) {
-                 AlignedArray<Real> finished[3];
-                 StepTask<Real> mine = task;
-                 if (task.pending) {
-                   for (int a = 0; a < dimension_; ++a) {
-                     finished[a].resize(end - begin + column_padding);
-                     mine.finished[a] = finished[a].data();
-                   }
-                   mine.finished_from = begin;
-                   StepResult ignored;
-                   kernels_.finish(mine, ignored, begin, end);
-                 }
-                 constexpr std::size_t ahead = 32;  // rows stand in the user's order: each is a miss
-                 for (std::size_t i = begin; i < end; ++i) {
-                   __builtin_prefetch(ensemble.row(columns.order[std::min(i + ahead, end - 1)]), 1);
-                   double* row = ensemble.row(columns.order[i]);
-                   for (int a = 0; a < dimension_; ++a) {
-                     row[a] = position(columns, a, i);
-                     row[columns.kind.velocity + a] =
-                         static_cast<double>(finished[a].size() > 0 ? finished[a][i - begin] : columns.velocity[a][i]);
-                   }
-                 }
+                 StepResult ignored;
+                 if (task.pending) kernels_.finish(task, ignored, begin, end);
+                 if (dimension_ == 1)
+                   store_rows<1>(columns, begin, end);
+                 else
+                   dimension_ == 2 ? store_rows<2>(columns, begin, end) : store_rows<3>(columns, begin, end);
                });
+    task.pending = false;
+    clear_padding(columns);
+  }
+
+  template <int D>
+  void store_rows(Columns const& columns, std::size_t begin, std::size_t end) const {
+    constexpr std::size_t ahead = 32;  // rows stand in the user's order: each is a miss
+    std::size_t const stride = columns.ensemble->stride(), velocity = static_cast<std::size_t>(columns.kind.velocity);
+    double* const rows = columns.ensemble->row(0);
+    std::uint32_t const* const order = columns.order.data();
+    Fixed const* x[D];
+    Real const* v[D];
+    double low[D], part[D];
+    for (int a = 0; a < D; ++a) {
+      x[a] = columns.position[a].data(), v[a] = columns.velocity[a].data();
+      low[a] = scheme_.box().low(a), part[a] = part_[a];
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      __builtin_prefetch(rows + stride * order[std::min(i + ahead, end - 1)], 1);
+      double* const row = rows + stride * order[i];
+      for (int a = 0; a < D; ++a) {
+        row[a] = low[a] + static_cast<double>(x[a][i]) * part[a];
+        row[velocity + static_cast<std::size_t>(a)] = static_cast<double>(v[a][i]);
+      }
+    }
   }
 
   MeshScheme& scheme_;

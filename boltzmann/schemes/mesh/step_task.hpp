@@ -47,9 +47,6 @@ struct StepTask {
   std::int64_t* density = nullptr;  ///< slots of the density
   std::size_t copies = 1;           ///< of each slot of the density, a power of two
   Real charge = 0;                  ///< what a particle counts
-
-  Real* finished[3] = {};  ///< velocities with the second kick, from particle `finished_from` on
-  std::size_t finished_from = 0;
 };
 
 struct StepResult {

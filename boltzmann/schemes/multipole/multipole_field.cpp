@@ -759,6 +759,23 @@ static std::vector<Point> with_first(std::vector<Point> const& particles, std::v
   return all;
 }
 
+/// At places about the middle of all particles, which are one node.
+template <class Kind>
+void MultipoleField<Kind>::add_images_beyond(double distance, Point const* places, std::size_t count,
+                                             double* field) const {
+  TreeNode const& all = tree_.nodes().front();
+  std::vector<double> local(numbers(), 0.0);
+  FarImages const far(D, lattice_, distance, highest_expansion_order);
+  for (int k = 0; k < Kind::densities; ++k) {
+    std::size_t const from = k * tables_.size();
+    far.add(tables_.view(), moments(0) + from, all.radius, local.data() + from);
+  }
+  Scratch scratch;
+  Cluster const targets{places, count, all.centre, all.radius};
+  add_local(targets, local.data(), field, nullptr, scratch);
+  add_backgrounds(targets, field, nullptr);
+}
+
 template <class Kind>
 std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& particles,
                                                  std::vector<std::size_t> const& chosen, double error,
@@ -813,16 +830,7 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
     }
   }
   bring();
-  std::vector<double> local(whole.numbers(), 0.0);
-  FarImages const far(D, lattice_, distance_of(images.back()), highest_expansion_order);
-  for (int k = 0; k < Kind::densities; ++k) {
-    std::size_t const from = k * whole.tables_.size();
-    far.add(whole.tables_.view(), whole.moments(0) + from, radius, local.data() + from);
-  }
-  Scratch scratch;
-  Cluster const targets{sources.data(), chosen.size(), whole.tree_.nodes().front().centre, radius};
-  whole.add_local(targets, local.data(), field.data(), nullptr, scratch);
-  whole.add_backgrounds(targets, field.data(), nullptr);
+  whole.add_images_beyond(distance_of(images.back()), sources.data(), chosen.size(), field.data());
   return field;
 }
 

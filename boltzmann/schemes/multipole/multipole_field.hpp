@@ -152,6 +152,7 @@ class MultipoleField {
   void add_softening(Visit& visit, Workspace const& work) const;
   void add_softening(Cluster const& target, Visit const& visit, Workspace& work, double* field,
                      double* potential) const;
+  void add_images_beyond(double distance, Point const* places, std::size_t count, double* field) const;
   double work_of(MultipoleCost const& cost) const;
   std::size_t part_of(TreeNode const& node) const;
   void put_in_order(int threads);

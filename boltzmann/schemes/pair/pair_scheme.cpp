@@ -213,6 +213,14 @@ struct PairScheme::Connected {
     find_images(t, *ensemble, box);
     return t;
   }
+  /// Adds to energies and virials of the particles.
+  void measure(Box const& box, double* energies, double* virials, int threads) const {
+    PairTask t = task(box);
+    t.energy = energies;
+    t.virial = virials;
+    for_share(*ensemble, 4 * particle_grain, threads_for(t.targets, 4, threads),
+              [&](std::size_t begin, std::size_t end) { kernels.connected_measure(law.get(), t, begin, end); });
+  }
 };
 
 struct PairScheme::External {
@@ -272,6 +280,12 @@ struct PairScheme::External {
       t.store = store;
     }
     return t;
+  }
+  /// Adds to energies of the particles.
+  void measure(double time, double* energies, int threads) const {
+    ExternalTask t = task(time);
+    t.energy = energies;
+    over_share(threads, [&](std::size_t begin, std::size_t end) { kernels.measure(law.get(), t, begin, end); });
   }
 };
 
@@ -575,6 +589,57 @@ Scheme::SmallSystem PairScheme::small_system() {
           &only};
 }
 
+/// Adds a law's to those of its targets.
+void PairScheme::measure(Near& near, std::vector<double>& energies, std::vector<double>& virials) {
+  near.locate(0, neighbourhood_);
+  near.task.zero_at = shifted_ && !near.all_pairs() ? near.cutoff : 0;
+  std::vector<double> other_energies, other_virials;  // while a part of these is measured
+  if (near.factor != 1) {
+    other_energies.resize(energies.size());
+    other_virials.resize(virials.size());
+    other_energies.swap(energies);
+    other_virials.swap(virials);
+  }
+  PairTask task = near.task;
+  task.energy = energies.data();
+  task.virial = virials.data();
+  PairKernel const kernel = near.all_pairs() ? near.kernels.all_measure : near.kernels.list_measure;
+  over_targets(near, task, 32 * task.targets, threads(),
+               [&](std::size_t begin, std::size_t end) { kernel(near.law.get(), task, begin, end); });
+  for (std::size_t i = 0; i < other_energies.size(); ++i) energies[i] = other_energies[i] + near.factor * energies[i];
+  for (std::size_t i = 0; i < other_virials.size(); ++i) virials[i] = other_virials[i] + near.factor * virials[i];
+}
+
+/// From what is known of particles; where sums suffice, of those of this rank, and nothing of a particle alone is left.
+void PairScheme::add_up(EnergyAndVirial& measures, std::vector<std::vector<double>> const& field, bool pairs) {
+  bool const sums_suffice = division_ && division_->sums_suffice();
+  std::array<ExactSum, 9> virials;
+  std::array<ExactSum, 2> energies;
+  for (std::size_t e = 0; e < ensembles().size(); ++e) {
+    auto const add = [&](std::size_t begin, std::size_t end) {
+      auto const part = [&](std::vector<double> const& numbers, std::size_t of_each) {
+        return std::span(numbers).subspan(of_each * begin, of_each * (end - begin));
+      };
+      if (pairs) add_columns(virials, part(measures.virial_per_particle[e], 9), threads());
+      energies[0].add(part(measures.per_particle[e], 1));
+      energies[1].add(part(field[e], 1));
+    };
+    if (!sums_suffice)
+      add(0, ensembles()[e]->size());
+    else
+      for (auto const& [begin, end] : ensembles()[e]->share()->stretches) add(begin, end);
+  }
+  if (sums_suffice) {
+    division_->sum(virials);
+    division_->sum(energies);
+    measures.per_particle.clear();
+    measures.virial_per_particle.clear();
+  }
+  measures.potential = energies[0].value();
+  measures.external = energies[1].value();
+  for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] = virials[k].value();
+}
+
 EnergyAndVirial PairScheme::measure(double time, bool zeros) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal =
@@ -597,43 +662,19 @@ EnergyAndVirial PairScheme::measure(double time, bool zeros) {
   auto const number = [&](AnyEnsemble const* ensemble) {
     return static_cast<std::size_t>(std::find(all.begin(), all.end(), ensemble) - all.begin());
   };
-  auto const output = [&](PairTask task, AnyEnsemble const* target) {
-    task.energy = measures.per_particle[number(target)].data();
-    task.virial = virial[number(target)].data();
-    return task;
-  };
   for (auto const& near : near_) {
     if (!near->traits.moves()) continue;
     if (!near->kernels.has_energy) measures.unknown = "a law on '" + near->target->name() + "'";
     measures.reciprocal = measures.reciprocal && has_reaction(*near);
     measures.driven = measures.driven || near->traits.velocity_dependent || !has_reaction(*near);
-    near->locate(0, neighbourhood_);
-    near->task.zero_at = shifted_ && !near->all_pairs() ? near->cutoff : 0;
-    auto const to = number(near->target);
-    std::vector<double> energies, virials;  // of others, while a part of these is measured
-    if (near->factor != 1) {
-      energies.resize(measures.per_particle[to].size());
-      virials.resize(virial[to].size());
-      energies.swap(measures.per_particle[to]);
-      virials.swap(virial[to]);
-    }
-    PairTask const task = output(near->task, near->target);
-    PairKernel const kernel = near->all_pairs() ? near->kernels.all_measure : near->kernels.list_measure;
-    over_targets(*near, task, 32 * task.targets, threads(),
-                 [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
-    for (std::size_t i = 0; i < energies.size(); ++i)
-      measures.per_particle[to][i] = energies[i] + near->factor * measures.per_particle[to][i];
-    for (std::size_t i = 0; i < virials.size(); ++i) virial[to][i] = virials[i] + near->factor * virial[to][i];
+    measure(*near, measures.per_particle[number(near->target)], virial[number(near->target)]);
   }
   for (auto const& connected : connected_) {
     if (!connected->traits.moves()) continue;
     if (!connected->kernels.has_energy) measures.unknown = "a connection of '" + connected->ensemble->name() + "'";
     measures.reciprocal = measures.reciprocal && !connected->traits.one_way;
-    PairTask const task = output(connected->task(box()), connected->ensemble);
-    for_share(*connected->ensemble, 4 * particle_grain, threads_for(task.targets, 4, threads()),
-              [&](std::size_t begin, std::size_t end) {
-                connected->kernels.connected_measure(connected->law.get(), task, begin, end);
-              });
+    auto const of = number(connected->ensemble);
+    connected->measure(box(), measures.per_particle[of].data(), virial[of].data(), threads());
   }
   // Energies may depend on what changes by a rate of its own.
   for (auto const* ensemble : all) measures.driven = measures.driven || !ensemble->driven().empty();
@@ -645,38 +686,10 @@ EnergyAndVirial PairScheme::measure(double time, bool zeros) {
         measures.unknown = "an external law on '" + external->ensemble->name() + "'";
       continue;
     }
-    ExternalTask task = external->task(time);
-    task.energy = field[number(external->ensemble)].data();
-    external->over_share(threads(), [&](std::size_t begin, std::size_t end) {
-      external->kernels.measure(external->law.get(), task, begin, end);
-    });
+    external->measure(time, field[number(external->ensemble)].data(), threads());
   }
   if (division_ && !sums_suffice) gather_measures(measures, field);
-  std::array<ExactSum, 9> virials;
-  std::array<ExactSum, 2> energies;
-  for (std::size_t e = 0; e < all.size(); ++e) {
-    auto const add = [&](std::size_t begin, std::size_t end) {
-      auto const part = [&](std::vector<double> const& numbers, std::size_t of_each) {
-        return std::span(numbers).subspan(of_each * begin, of_each * (end - begin));
-      };
-      if (pairs) add_columns(virials, part(virial[e], 9), threads());
-      energies[0].add(part(measures.per_particle[e], 1));
-      energies[1].add(part(field[e], 1));
-    };
-    if (!sums_suffice)
-      add(0, all[e]->size());
-    else
-      for (auto const& [begin, end] : all[e]->share()->stretches) add(begin, end);
-  }
-  if (sums_suffice) {
-    division_->sum(virials);
-    division_->sum(energies);
-    measures.per_particle.clear();
-    measures.virial_per_particle.clear();
-  }
-  measures.potential = energies[0].value();
-  measures.external = energies[1].value();
-  for (int k = 0; k < 9; ++k) measures.virial[k / 3][k % 3] = virials[k].value();
+  add_up(measures, field, pairs);
   return measures;
 }
 

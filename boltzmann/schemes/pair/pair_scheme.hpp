@@ -232,6 +232,8 @@ class PairScheme final : public Scheme {
   void clear_driven(AnyEnsemble& ensemble) const;
   template <class Kernel>
   void over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads, Kernel const& kernel) const;
+  void measure(Near& near, std::vector<double>& energies, std::vector<double>& virials);
+  void add_up(EnergyAndVirial& measures, std::vector<std::vector<double>> const& field, bool pairs);
   void gather_measures(EnergyAndVirial& measures, std::vector<std::vector<double>>& field);
   void add_near(AnyEnsemble& target, AnyEnsemble& source, PairKernels kernels, LawPointer law, LawTraits traits,
                 double cutoff, PairFilter filter, double factor);

@@ -23,6 +23,7 @@ struct SmoothScheme::Outside {
   AnyEnsemble* ensemble;
   ExternalKernels kernels;
   std::shared_ptr<void const> law;
+  bool reads_outside;
 
   ExternalTask task(double time) const {
     ExternalTask task;

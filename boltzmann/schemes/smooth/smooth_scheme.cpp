@@ -133,16 +133,24 @@ void SmoothScheme::add_material(AnyEnsemble& ensemble, MaterialKernels const& ke
   hood_.reset();
 }
 
-void SmoothScheme::add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels,
-                                std::shared_ptr<void const> law) {
+void SmoothScheme::add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels, std::shared_ptr<void const> law,
+                                bool reads_outside) {
   add(ensemble);
-  outside_.push_back(std::make_unique<Outside>(Outside{&ensemble, kernels, std::move(law)}));
+  outside_.push_back(std::make_unique<Outside>(Outside{&ensemble, kernels, std::move(law), reads_outside}));
+  changed();
+}
+
+std::optional<std::uint64_t> SmoothScheme::revision() const {
+  for (auto const& outside : outside_)
+    if (outside->reads_outside) return std::nullopt;
+  return revision_with({});
 }
 
 void SmoothScheme::heating(Heating heating) {
   parameters_.own_share = heating == Heating::own ? 1 : 0.5;
   parameters_.other_share = heating == Heating::own ? 0 : 0.5;
   hood_.reset();
+  changed();
 }
 
 void SmoothScheme::artificial_viscosity(ArtificialViscosity const& viscosity) {
@@ -152,6 +160,7 @@ void SmoothScheme::artificial_viscosity(ArtificialViscosity const& viscosity) {
   parameters_.alpha = viscosity.alpha;
   parameters_.beta = viscosity.beta;
   hood_.reset();
+  changed();
 }
 
 void SmoothScheme::skin(double length) {
@@ -167,10 +176,64 @@ std::size_t SmoothScheme::count() const {
   return count;
 }
 
+/// What is found of the particles of an ensemble where their places are taken.
+struct SmoothScheme::Extent {
+  double shortest = infinite, longest = 0;  // of ranges
+  std::size_t wrong = std::numeric_limits<std::size_t>::max();
+  bool same = true;  // all that densities are summed from
+
+  void take(Extent const& other) {
+    shortest = std::min(shortest, other.shortest);
+    longest = std::max(longest, other.longest);
+    wrong = std::min(wrong, other.wrong);
+    same = same && other.same;
+  }
+};
+
+SmoothScheme::Extent SmoothScheme::take_places(Loaded const& loaded) {
+  AnyEnsemble const& ensemble = *loaded.ensemble;
+  bool const evolves = density_from_ != DensityFrom::summation;
+  std::mutex taking;
+  Extent all;
+  in_dimension(box().dimension(), [&](auto d) {
+    constexpr int D = d;
+    auto const places = [&](Stretch const* one, Stretch const* last) {
+      Extent extent;
+      for (; one != last; ++one)
+        for (std::size_t i = one->begin; i < one->end; ++i) {
+          auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
+          auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(loaded.first + i));
+          extent.same = extent.same && place.position == p.position && place.mass == p.mass && place.range == p.range;
+          place.position = p.position;
+          place.mass = p.mass;
+          place.velocity = p.velocity;
+          place.range = p.range;
+          bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
+          if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
+          extent.shortest = std::min(extent.shortest, p.range);
+          extent.longest = std::max(extent.longest, p.range);
+        }
+      std::lock_guard const lock(taking);
+      all.take(extent);
+    };
+    int const used = threads_for(ensemble.size(), 1, threads());
+    if (division_ && !division_->is_whole())
+      for_share_stretches(ensemble, particle_grain, used, places);
+    else
+      for_ranges(ensemble.size(), particle_grain, used, [&](std::size_t begin, std::size_t end) {
+        Stretch const range{begin, end};
+        places(&range, &range + 1);
+      });
+  });
+  return all;
+}
+
 /// Step 1: where the particles are, and how they move.
 void SmoothScheme::take_places() {
-  if (points_->size() != count()) points_->resize(count());
-  bool const evolves = density_from_ != DensityFrom::summation;
+  if (points_->size() != count()) {
+    points_->resize(count());
+    summed_.hold = false;
+  }
   std::size_t first = 0;
   shortest_ = infinite;
   longest_ = 0;
@@ -178,49 +241,11 @@ void SmoothScheme::take_places() {
     AnyEnsemble const& ensemble = *loaded->ensemble;
     if (loaded->first != first) members_of_build_ = 0;
     loaded->first = first;
-    struct Extent {
-      double shortest = infinite, longest = 0;
-      std::size_t wrong = std::numeric_limits<std::size_t>::max();
-    };
-    std::mutex taking;
-    Extent all;
-    auto const take = [&](Extent const& extent) {
-      std::lock_guard const lock(taking);
-      all.shortest = std::min(all.shortest, extent.shortest);
-      all.longest = std::max(all.longest, extent.longest);
-      all.wrong = std::min(all.wrong, extent.wrong);
-    };
-    in_dimension(box().dimension(), [&](auto d) {
-      constexpr int D = d;
-      auto const places = [&](Stretch const* one, Stretch const* last) {
-        Extent extent;
-        for (; one != last; ++one)
-          for (std::size_t i = one->begin; i < one->end; ++i) {
-            auto const& p = *reinterpret_cast<Smooth<D> const*>(ensemble.row(i));
-            auto& place = *reinterpret_cast<SmoothPlace<D>*>(points_->row(first + i));
-            place.position = p.position;
-            place.mass = p.mass;
-            place.velocity = p.velocity;
-            place.range = p.range;
-            bool const usable = p.range > 0 && p.range < infinite && p.mass > 0 && p.mass < infinite;
-            if (!(usable && (!evolves || p.density > 0)) && i < extent.wrong) extent.wrong = i;
-            extent.shortest = std::min(extent.shortest, p.range);
-            extent.longest = std::max(extent.longest, p.range);
-          }
-        take(extent);
-      };
-      int const used = threads_for(ensemble.size(), 1, threads());
-      if (division_ && !division_->is_whole())
-        for_share_stretches(ensemble, particle_grain, used, places);
-      else
-        for_ranges(ensemble.size(), particle_grain, used, [&](std::size_t begin, std::size_t end) {
-          Stretch const range{begin, end};
-          places(&range, &range + 1);
-        });
-    });
-    if (all.wrong < ensemble.size()) throw PhysicsFailure(not_usable(ensemble, all.wrong));
-    shortest_ = std::min(shortest_, all.shortest);
-    longest_ = std::max(longest_, all.longest);
+    Extent const extent = take_places(*loaded);
+    summed_.hold = summed_.hold && extent.same;
+    if (extent.wrong < ensemble.size()) throw PhysicsFailure(not_usable(ensemble, extent.wrong));
+    shortest_ = std::min(shortest_, extent.shortest);
+    longest_ = std::max(longest_, extent.longest);
     first += ensemble.size();
   }
   if (division_) agree_on_ranges();
@@ -248,6 +273,7 @@ void SmoothScheme::prepare() {
     bool const matter = recipe().gradients;
     hood_ = std::make_unique<Neighbourhood>(box());
     members_of_build_ = 0;
+    summed_.hold = false;
     hood_->copy(*points_, 1 + (matter ? matter_blocks(dimension) : 0)).components(image_components(dimension, matter));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
@@ -285,11 +311,10 @@ void SmoothScheme::find_members() {
     }
 }
 
-void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result) {
+void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, std::vector<double>& sums) {
   SortedCopy const& copy = hood_->target(0);
   NeighbourList const& list = hood_->list(0);
-  if (sums_.size() < components * copy.owned()) sums_.resize(components * copy.owned());
-  for (auto& loaded : loaded_) loaded->task.*result = sums_.data();
+  if (sums.size() < components * copy.owned()) sums.resize(components * copy.owned());
   PairTask task;
   task.target = task.source = copy.rows();
   task.targets = copy.owned();
@@ -300,9 +325,19 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, double co
   task.row = list.rows();
   task.length = list.lengths(hood_->ring());
   task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
-  task.influence = sums_.data();
+  task.influence = sums.data();
   hood_->over_own(copy, pair_grain, threads_for(task.targets, 8, threads()),
                   [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
+}
+
+/// Step 2, unless there are these sums: whoever looks behind a step asks for those of its calculation again.
+void SmoothScheme::sum_densities(Recipe const& recipe) {
+  Summed::For const now{hood_->version(), box().revision(), recipe.own_ranges};
+  if (!summed_.hold || summed_.are_for != now)
+    run_pass(recipe.passes->density, recipe.own_ranges ? 2 : 1, summed_.sums);
+  summed_.hold = !division_;  // places of others' particles are not looked at
+  summed_.are_for = now;
+  for (auto& loaded : loaded_) loaded->task.density = summed_.sums.data();
 }
 
 void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
@@ -407,8 +442,7 @@ void SmoothScheme::find(Until until) {
 
   // Step 2, and the state of step 4. Where forces need no density, it waits until somebody looks.
   if (!recipe.uniform || until == Until::state) {
-    if (density_from_ == DensityFrom::summation)
-      run_pass(passes.density, recipe.own_ranges ? 2 : 1, &MaterialTask::density);
+    if (density_from_ == DensityFrom::summation) sum_densities(recipe);
     sound_rate_ = 0;
     run_material(&MaterialKernels::state);
     if (division_) bring(copy, fluid, matter);
@@ -422,8 +456,8 @@ void SmoothScheme::find(Until until) {
     for (auto& loaded : loaded_)
       loaded->task.influence = aside.emplace_back(loaded->ensemble->size() * loaded->ensemble->influence_size()).data();
   if (recipe.gradients) {
-    run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D,
-             &MaterialTask::gradients);
+    run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D, sums_);
+    for (auto& loaded : loaded_) loaded->task.gradients = sums_.data();
     run_material(&MaterialKernels::fluxes);
     if (division_) bring(copy, matter, end);
   }
@@ -431,7 +465,8 @@ void SmoothScheme::find(Until until) {
   if (recipe.gradients) copy.refresh_images(matter, end, threads_for(copy.owned(), 1, threads()));
 
   // Step 5.
-  run_pass(recipe.rates, recipe.uniform ? D : D + 2, &MaterialTask::rates);
+  run_pass(recipe.rates, recipe.uniform ? D : D + 2, sums_);
+  for (auto& loaded : loaded_) loaded->task.rates = sums_.data();
   run_material(&MaterialKernels::rates);
 }
 
@@ -485,7 +520,7 @@ void SmoothScheme::make_reversible(double) {
 
 std::size_t SmoothScheme::bytes() const {
   auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t bytes = points_->bytes() + of(sums_) + of(factors_);
+  std::size_t bytes = points_->bytes() + of(summed_.sums) + of(sums_) + of(factors_);
   for (auto const& loaded : loaded_) bytes += of(loaded->members);
   return bytes + (hood_ ? hood_->bytes() : 0);
 }

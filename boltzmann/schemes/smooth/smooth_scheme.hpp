@@ -66,12 +66,19 @@ class SmoothScheme final : public Scheme {
   void external(Ensemble<P>& ensemble, Law const& law) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
     check_parameters(law);
-    add_external(ensemble, external_kernels<P, ForceOn<Law>>(), std::make_shared<ForceOn<Law>>(ForceOn<Law>{law}));
+    add_external(ensemble, external_kernels<P, ForceOn<Law>>(), std::make_shared<ForceOn<Law>>(ForceOn<Law>{law}),
+                 !std::is_empty_v<Law> && !std::is_aggregate_v<Law>);
   }
 
   // How the continuum is calculated: at any time before the first calculation, in any order.
-  void density_from(DensityFrom from) { density_from_ = from; }
-  void mean_density(MeanDensity mean) { mean_density_ = mean; }
+  void density_from(DensityFrom from) {
+    density_from_ = from;
+    changed();
+  }
+  void mean_density(MeanDensity mean) {
+    mean_density_ = mean;
+    changed();
+  }
   void heating(Heating heating);
   /// Error if alpha or beta is negative.
   void artificial_viscosity(ArtificialViscosity const& viscosity);
@@ -87,6 +94,8 @@ class SmoothScheme final : public Scheme {
   double courant_step();
 
   void add_influences(double time) override;
+  /// Nothing if a law from outside reads what is not in it.
+  std::optional<std::uint64_t> revision() const override;
   void complete(double time) override;
   EnergyAndVirial measure(double time = 0) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override { return supervises(ensemble); }
@@ -114,7 +123,8 @@ class SmoothScheme final : public Scheme {
 
   // For code that knows classes only at run time (scenarios).
   void add_material(AnyEnsemble& ensemble, MaterialKernels const& kernels, std::shared_ptr<void const> material);
-  void add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels, std::shared_ptr<void const> law);
+  void add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels, std::shared_ptr<void const> law,
+                    bool reads_outside = false);
 
  private:
   struct Loaded;
@@ -141,12 +151,14 @@ class SmoothScheme final : public Scheme {
   double new_ranges(RangeBracket& bracket);
   void prepare();
   void reach(double cutoff);
+  struct Extent;
+  Extent take_places(Loaded const& loaded);
   void take_places();
   void agree_on_ranges();
   void bring(SortedCopy& copy, std::size_t first_block, std::size_t last_block);
   void gather_particles();
-  /// Sums over pairs, for materials to read as `result`.
-  void run_pass(PairKernel kernel, std::size_t components, double const* MaterialTask::*result);
+  void sum_densities(Recipe const& recipe);
+  void run_pass(PairKernel kernel, std::size_t components, std::vector<double>& sums);
   void run_material(MaterialKernel MaterialKernels::*kernel);
   void find_members();
   std::size_t count() const;
@@ -165,7 +177,19 @@ class SmoothScheme final : public Scheme {
   std::unique_ptr<Neighbourhood> hood_;  // of the points; none before the first calculation
   std::vector<std::unique_ptr<Loaded>> loaded_;
   std::vector<std::unique_ptr<Outside>> outside_;
-  std::vector<double> sums_;     // of the last pass, in the order of rows
+  /// Of the density pass, in the order of rows.
+  struct Summed {
+    struct For {
+      std::size_t lists = 0;     // their version
+      std::uint64_t images = 0;  // the box's revision
+      bool own_ranges = false;
+      bool operator==(For const&) const = default;
+    };
+    std::vector<double> sums;
+    For are_for;
+    bool hold = false;  // positions, masses and ranges are the same since
+  } summed_;
+  std::vector<double> sums_;     // of the last other pass
   std::vector<double> factors_;  // grad-h
   std::size_t calculations_ = 0, members_of_build_ = 0;
   double time_ = 0;

@@ -56,6 +56,7 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
     throw Error(fmt::format("variable range: longest = {:.6g} is below shortest = {:.6g}", variable_->longest,
                             variable.shortest));
   hood_.reset();
+  changed();
   // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
   // between two ranges that are too short and too long: density range^D grows with the range.
   constexpr int max_iterations = 200;
