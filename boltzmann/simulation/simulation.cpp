@@ -412,7 +412,12 @@ void Simulation::run(std::uint64_t steps, int direction) {
   bool const last = any_comes_last(schemes_);
   Division const* const division = is_divided() ? division_.get() : nullptr;
   FusedSteps* const whole = steps > 0 ? whole_steps(dt, of_whole_steps(now, division)) : nullptr;
-  for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) {
+  auto const change_due = [this] {
+    return std::any_of(changes_.begin(), changes_.end(),
+                       [&](Change const& one) { return !one.forgotten && step_ % one.every == 0; }) ||
+           std::any_of(events_.begin(), events_.end(), [&](Event const& event) { return event.step == step_; });
+  };
+  for (RunVotes::Done done; votes.go_on(done, stopped(), paused()); ++done.steps) {
     try {
       if (whole)
         whole->step(time());
@@ -424,6 +429,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
       throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
     }
     step_ += direction;
+    done.looked = division_ && (observation_due() || change_due());
     if (!changes_.empty()) adapt_now();
     if (!events_.empty()) happen_now();
     if (!observations_.empty()) {
@@ -433,6 +439,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     }
     for (auto const& one : progress_)
       if (!one.forgotten) one.observer(*this);
+    done.divided = is_divided();
   }
   if (votes.stopped()) stop();
   if (whole) {
