@@ -299,13 +299,27 @@ TEST_F(RanksOfSweep, AKilledRankOrASignalEndsAllAndAnyNumberGoesOn) {
   }
 }
 
+TEST_F(Ranks, AWindowIsServedByRankZeroAndChangesNoFile) {
+  std::vector<std::string> const plan{"run", "copper", "--steps", "12", "--set", "output.trajectory=5", "--quiet"};
+  auto const with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), plan.begin(), plan.end());
+    return bzm(more, folder.string());
+  };
+  ASSERT_EQ(with({"--out", "alone"}).status, 0);
+  auto const shown = with({"--out", "shown", "--window", "--play", "--ranks", "2"});
+  if (has(shown.err, "was built without the window")) GTEST_SKIP();
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_EQ(lines_in(shown.out), 1U) << shown.out;
+  EXPECT_EQ(shown.out.rfind("window: its address is in ", 0), 0U) << "who reads this may be anybody: " << shown.out;
+  expect_same_files("alone", "shown");
+}
+
 TEST_F(Ranks, MistakesAndWhatIsNotThereAreToldOnce) {
   struct Case {
     std::vector<std::string> words;
     char const* line;
   };
   for (auto const& [words, line] : {Case{{"run", "three-body", "--set", "run.stp=1"}, "unknown key 'stp' in [run]"},
-                                    Case{{"run", "three-body", "--window"}, "--window shows a run on one rank"},
                                     Case{{"run", "no-such"}, "no-such"}}) {
     auto all = words;
     all.insert(all.end(), {"--ranks", "2"});
