@@ -20,8 +20,6 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
 }
 
 void refuse_in_window(std::optional<double> const& hours, WindowRun const& window) {
-  if (window.open && !team().alone())
-    throw Error("--window shows a run on one rank; leave it or the other ranks out (bzm window shows what is stored)");
   if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
 }
 

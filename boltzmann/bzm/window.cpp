@@ -1,6 +1,7 @@
 // bzm window, and bzm run --window: the gallery, a stored run, a run that goes on, on a page.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
@@ -146,7 +147,8 @@ int window(WindowCommand const& command) {
 RunReport run_in_window(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps,
                         WindowRun const& options, bool quiet) {
   Clients clients(options.port);
-  Announcement const announcement("window", clients.address());
+  std::optional<Announcement> announcement;
+  if (team().first()) announcement.emplace("window", clients.address());
   auto const report = run_on_stage(scenario, recording, clients, steps, options.play, quiet);
   clients.bye("the run has ended");
   return report;

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <mutex>
 #include <utility>
 
 namespace boltzmann {
@@ -18,6 +19,8 @@ namespace {
 std::atomic<Simulation*> stopped_by_signal{nullptr};
 std::atomic<int> signals_seen{0};
 std::atomic<bool> left_alone{false};
+std::mutex installing;
+int watches = 0, interrupts = 0;  // each of which has a watch, too
 thread_local Interrupt* present = nullptr;
 static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 // SIGUSR1 is what mpirun and srun hand on without ending a run themselves.
@@ -39,14 +42,9 @@ void Interrupt::stop() {
   present->simulation_.stop();
 }
 
-Interrupt::Interrupt(Simulation& simulation) : simulation_(simulation) {
-  if (left_alone) {
-    before_ = std::exchange(present, this);
-    return;
-  }
-  Simulation* nobody = nullptr;
-  if (!stopped_by_signal.compare_exchange_strong(nobody, &simulation))
-    throw Error("two simulations can't both be stopped by Ctrl-C: one Interrupt at a time");
+SignalWatch::SignalWatch() {
+  std::scoped_lock const lock(installing);
+  if (left_alone || watches++ > 0) return;
   signals_seen = 0;
   struct sigaction action {};
   action.sa_handler = on_signal;
@@ -62,13 +60,36 @@ Interrupt::Interrupt(Simulation& simulation) : simulation_(simulation) {
   }
 }
 
+SignalWatch::~SignalWatch() {
+  std::scoped_lock const lock(installing);
+  if (left_alone || --watches > 0) return;
+  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+}
+
+bool SignalWatch::seen() const { return !left_alone && signals_seen > 0; }
+
+Interrupt::Interrupt(Simulation& simulation) : simulation_(simulation) {
+  if (left_alone) {
+    before_ = std::exchange(present, this);
+    return;
+  }
+  std::scoped_lock const lock(installing);
+  Simulation* nobody = nullptr;
+  if (!stopped_by_signal.compare_exchange_strong(nobody, &simulation) && watches == interrupts + 1)
+    throw Error("two simulations can't both be stopped by Ctrl-C: one Interrupt at a time");
+  ++interrupts;
+  if (watch_.seen()) simulation.stop();
+}
+
 Interrupt::~Interrupt() {
   if (left_alone) {
     present = before_;
     return;
   }
-  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
-  stopped_by_signal = nullptr;
+  std::scoped_lock const lock(installing);
+  --interrupts;
+  Simulation* mine = &simulation_;
+  stopped_by_signal.compare_exchange_strong(mine, nullptr);
 }
 
 bool Interrupt::seen() const { return left_alone ? told_ : signals_seen > 0; }

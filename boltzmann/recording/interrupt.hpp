@@ -5,9 +5,22 @@ namespace boltzmann {
 
 class Simulation;
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP (a lost terminal; not where nohup has it ignored), in a team of ranks SIGUSR1,
-/// too, stop the simulation after the present step; a second signal ends the process at once with status 130. One at a time; the handlers from
-/// before come back with the destructor.
+/// While one lives, SIGINT, SIGTERM and SIGHUP (a lost terminal; not where nohup has it ignored), in a team of ranks
+/// SIGUSR1, too, are noticed, for whoever does several runs; a second signal ends the process at once with status 130.
+/// The handlers from before come back with the last one.
+class SignalWatch {
+ public:
+  SignalWatch();
+  ~SignalWatch();
+  SignalWatch(SignalWatch const&) = delete;
+  SignalWatch& operator=(SignalWatch const&) = delete;
+
+  /// Whether a signal has come since there is one.
+  bool seen() const;
+};
+
+/// While it lives, these signals stop the simulation after the present step; at once those that have come before, where
+/// somebody watches. One at a time, unless somebody watches, who then stops the others.
 class Interrupt {
  public:
   explicit Interrupt(Simulation& simulation);
@@ -25,6 +38,7 @@ class Interrupt {
   bool seen() const;
 
  private:
+  SignalWatch watch_;
   Simulation& simulation_;
   bool told_ = false;            // by stop()
   Interrupt* before_ = nullptr;  // of this thread

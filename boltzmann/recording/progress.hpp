@@ -18,6 +18,8 @@ struct ProgressOptions {
   /// Wall time in seconds that is left for the run and its files: it ends early, after a whole step, where another step
   /// and a checkpoint might not fit any more. One step at least is done. 0: no limit.
   double seconds = 0;
+  /// Takes what is said at the end of a run, in place of standard error.
+  std::function<void(std::string const& line)> tell = {};
 };
 
 /// How a run went.

@@ -88,14 +88,21 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
     report.interrupted = report.out_of_time = false;
   Conserved const end = conserved(simulation);
   if (!options.quiet) print_summary(recording, report, start, end, recorded);
-  for (auto const& line : drift_warnings(start, end, recording.units()))
-    fmt::print(stderr, "{}{}\n", options.warnings ? "" : recording.folder() + ": ", line);
+  auto const tell = [&](std::string const& line) {
+    if (options.tell)
+      options.tell(line);
+    else
+      fmt::print(stderr, "{}\n", line);
+  };
+  std::string const whose = options.warnings ? "" : recording.folder() + ": ";
+  for (auto const& line : drift_warnings(start, end, recording.units())) tell(whose + line);
   if (auto const& minimised = simulation.minimised(); minimised && !minimised->converged)
-    fmt::print(stderr, "{}warning: the minimum before the run was not reached: {}\n",
-               options.warnings ? "" : recording.folder() + ": ", text(*minimised, recording.units()));
+    tell(fmt::format("{}warning: the minimum before the run was not reached: {}", whose,
+                     text(*minimised, recording.units())));
   if (report.interrupted || report.out_of_time)
-    fmt::print(stderr, "{} after step {}; its checkpoint is written: {}/checkpoint.h5\n",
-               report.interrupted ? "stopped by a signal" : "out of time", simulation.step(), recording.folder());
+    tell(fmt::format("{} after step {}; its checkpoint is written: {}/checkpoint.h5",
+                     report.interrupted ? "stopped by a signal" : "out of time", simulation.step(),
+                     recording.folder()));
   return report;
 }
 

@@ -2,6 +2,7 @@
 #include <boltzmann/simulation/run_votes.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -16,10 +17,13 @@ Team::Outcome RunVotes::vote(Team::Ballot const& ballot) {
   return outcome;
 }
 
-bool RunVotes::go_on_together(std::int64_t done, bool stop, bool pause) {
+bool RunVotes::go_on_together(Done const& after, bool stop, bool pause) {
+  auto const done = static_cast<std::int64_t>(after.steps);
+  bool looked = after.looked;
   for (;;) {
     if (stopping_ && done >= goal_) return false;
-    if (done < goal_ && (stopping_ || !(stop || pause))) return true;
+    bool const votes = after.divided ? std::exchange(looked, false) : !stopping_ && (stop || pause);
+    if (done < goal_ && !votes) return true;
     double const seconds = seconds_since(voted_);
     auto const possible = static_cast<double>(std::max<std::int64_t>(done - voted_at_, 1)) * seconds_between_votes /
                           std::max(seconds, 1e-9);

@@ -11,7 +11,10 @@ namespace boltzmann {
 
 /// The votes of one run(). They are taken where a rank fails, where one is told to stop, after so many steps that a
 /// tenth of a second has passed, and at both ends. Ranks stop where the one that is ahead of all has come to; what all
-/// are told in the same step (a condition on the particles) stops them in that step, as it does one rank.
+/// are told in the same step (a condition on the particles) stops them in that step, as it does one rank. Where a run is
+/// divided ranks speak with each other inside of steps, and who is told to stop can't vote when it likes: then they vote
+/// after steps in which somebody has looked at particles, or changed them, and might have said so, and what a clock or a
+/// signal says waits for the next vote.
 class RunVotes {
  public:
   explicit RunVotes(std::uint64_t steps)
@@ -28,10 +31,16 @@ class RunVotes {
     stopped_ = stopping_;
   }
 
-  /// Whether another step is to be done after so many.
-  bool go_on(std::uint64_t done, bool stop, bool pause) {
-    if (alone_) return static_cast<std::int64_t>(done) < steps_ && !stop && !pause;
-    return go_on_together(static_cast<std::int64_t>(done), stop, pause);
+  /// What has been done since the last time, the same on all ranks.
+  struct Done {
+    std::uint64_t steps = 0;
+    bool divided = false;  ///< by shares
+    bool looked = false;   ///< observers, adaptations or events have been called in the last one
+  };
+  /// Whether another step is to be done.
+  bool go_on(Done const& done, bool stop, bool pause) {
+    if (alone_) return static_cast<std::int64_t>(done.steps) < steps_ && !stop && !pause;
+    return go_on_together(done, stop, pause);
   }
   /// Whether a rank has been told to stop for good.
   bool stopped() const { return stopped_; }
@@ -47,7 +56,7 @@ class RunVotes {
 
  private:
   Team::Outcome vote(Team::Ballot const& ballot);
-  bool go_on_together(std::int64_t done, bool stop, bool pause);
+  bool go_on_together(Done const& done, bool stop, bool pause);
 
   Team& team_;
   bool alone_, stopping_ = false, stopped_ = false;

@@ -318,6 +318,12 @@ bool Simulation::observation_due() const {
                      [&](Observation const& one) { return !one.forgotten && one.due(step_); });
 }
 
+bool Simulation::change_due() const {
+  return std::any_of(changes_.begin(), changes_.end(),
+                     [&](Change const& one) { return !one.forgotten && step_ % one.every == 0; }) ||
+         std::any_of(events_.begin(), events_.end(), [&](Event const& event) { return event.step == step_; });
+}
+
 void Simulation::observe_now() const {
   if (!observation_due()) return;
   update_derived_fields();
@@ -425,7 +431,10 @@ void Simulation::run(std::uint64_t steps, int direction) {
   Division const* const division = is_divided() ? division_.get() : nullptr;
   if (now) now = of_whole_steps(*now, division);
   FusedSteps* const whole = steps > 0 ? whole_steps(direction * step_size_, now) : nullptr;
-  for (std::uint64_t n = 0; votes.go_on(n, stopped(), paused()); ++n) take_step(direction, whole, last);
+  for (RunVotes::Done done; votes.go_on(done, stopped(), paused()); ++done.steps) {
+    done.looked = take_step(direction, whole, last);
+    done.divided = is_divided();
+  }
   if (votes.stopped()) stop();
   complete_last_step(whole, last);
   influences_.end_run([&] { return dependence(true); });
@@ -433,8 +442,9 @@ void Simulation::run(std::uint64_t steps, int direction) {
   votes.end([&] { return checksum(); });
 }
 
-/// A step, and all that is to happen behind it.
-void Simulation::take_step(int direction, FusedSteps* whole, bool last) {
+/// A step, and all that is to happen behind it. Whether somebody has been called in a run that is divided, who may have
+/// taken any time.
+bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   try {
     double const dt = direction * step_size_;
     if (whole)
@@ -447,6 +457,7 @@ void Simulation::take_step(int direction, FusedSteps* whole, bool last) {
     throw PhysicsFailure(fmt::format("step {}: {}", step_ + direction, failure.what()));
   }
   step_ += direction;
+  bool const looked = division_ && (observation_due() || change_due());
   if (!changes_.empty()) adapt_now();
   if (!events_.empty()) happen_now();
   if (!observations_.empty()) {
@@ -456,6 +467,7 @@ void Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   }
   for (auto const& one : progress_)
     if (!one.forgotten) one.observer(*this);
+  return looked;
 }
 
 /// All that others may look at is up to date, and everybody's.

@@ -275,7 +275,7 @@ class Simulation {
   void refuse_backwards() const;
   void begin();
   void run(std::uint64_t steps, int direction);
-  void take_step(int direction, FusedSteps* whole, bool last);
+  bool take_step(int direction, FusedSteps* whole, bool last);
   void complete_last_step(FusedSteps* whole, bool last);
   Part* part_of(AnyEnsemble const& ensemble);
   UnitSystem const& units() const;
@@ -291,6 +291,7 @@ class Simulation {
   StretchedSystem stretched_system();
   void stretch_box(double dt);
   bool observation_due() const;
+  bool change_due() const;
   void observe_now() const;
   void drop_forgotten();
   void equilibrate_now();

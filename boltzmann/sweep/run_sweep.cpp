@@ -1,10 +1,12 @@
-// A sweep from its first run to its tables; runs.csv says which runs are done.
+// A sweep from its first run to its tables; runs.csv says which runs are done. Ranks of a team do whole runs, each its own.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/scenario/scenario_recording.hpp>
+#include <boltzmann/sweep/run_farm.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 #include <boltzmann/sweep/sweep_results.hpp>
 
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 namespace boltzmann {
@@ -24,7 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr char const* heading_of_runs = "run,folder,seed,state,reason";
 
-enum class RunState { waiting, done, failed };
 constexpr char const* state_words[] = {"waiting", "done", "failed"};
 
 struct SweepRun {
@@ -111,6 +113,19 @@ void read_states(std::string const& folder, std::vector<SweepRun>& runs) {
     }
 }
 
+/// What rank 0 knows of them, on every rank.
+void tell_states(std::vector<SweepRun>& runs) {
+  std::string text;
+  for (auto const& run : runs) text += fmt::format("{}{}\n", static_cast<int>(run.state), run.reason);
+  team().broadcast(text);
+  std::istringstream lines(text);
+  for (auto& run : runs) {
+    std::getline(lines, text);
+    run.state = static_cast<RunState>(text.at(0) - '0');
+    run.reason = text.substr(1);
+  }
+}
+
 /// A scenario as it is stored, but for the number of threads, which changes nothing.
 std::string without_threads(std::string const& text) {
   std::istringstream lines(text);
@@ -148,30 +163,22 @@ class SweepProgress {
   SweepProgress(SweepPlan const& plan, std::size_t done, bool quiet)
       : plan_(plan), done_(done), quiet_(quiet), terminal_(rewrites_lines()) {}
 
-  void begin(std::size_t run) { run_ = run; }
-  /// A run from `first` to `last`; the line is drawn while it goes on.
-  void follow(Simulation& simulation, std::int64_t first, std::int64_t last) {
-    if (quiet_ || !terminal_) return;
-    simulation.observe_progress([this, first, last, next = first, begun = Clock::now()](Simulation const& now) mutable {
-      if (now.step() < next) return;
-      double const length = std::max<double>(1, static_cast<double>(last));
-      double const seconds = seconds_since(begun);
-      auto const steps = static_cast<double>(now.step() - first);
-      next = now.step() +
-             static_cast<std::int64_t>(std::clamp(0.05 * steps / std::max(seconds, 1e-9), 1.0, std::max(steps, 1.0)));
-      if (elapsed() - shown_ < 0.2) return;
-      shown_ = elapsed();
-      double const part = static_cast<double>(now.step()) / length;
-      fmt::print(stderr, "\r{}: {:.0f} %; {}\033[K", run_name(plan_, run_), 100 * part,
-                 all(part - static_cast<double>(first) / length));
-      std::fflush(stderr);
-    });
+  /// Whether it wants to know how far runs are.
+  bool drawn() const { return !quiet_ && terminal_; }
+  /// So far is a run that has begun at a part of it.
+  void draw(std::size_t run, double part, double since) {
+    if (due()) print(fmt::format("{}: {:.0f} %; {}", run_name(plan_, run), 100 * part, all(part, part - since)));
   }
-  void end(bool good) {
+  /// So many runs are under way, and so much is done of them together.
+  void draw(std::size_t under_way, double parts) {
+    if (due())
+      print(fmt::format("{} of {} runs done, {} under way; {}", done_, plan_.runs(), under_way, all(parts, parts)));
+  }
+  void end(std::size_t run, bool good) {
     clear();
     ++done_, ++here_;
     if (!quiet_ && !terminal_)
-      fmt::print(stderr, "{} {}; {}\n", run_name(plan_, run_), good ? "done" : "failed", all(0));
+      fmt::print(stderr, "{} {}; {}\n", run_name(plan_, run), good ? "done" : "failed", all(0, 0));
   }
   void clear() const {
     if (terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);
@@ -179,20 +186,43 @@ class SweepProgress {
 
  private:
   double elapsed() const { return seconds_since(start_); }
-  /// `part` of the present run has been done since the start.
-  std::string all(double part) const {
+  bool due() {
+    if (!drawn() || elapsed() - shown_ < 0.2) return false;
+    shown_ = elapsed();
+    return true;
+  }
+  static void print(std::string const& line) {
+    fmt::print(stderr, "\r{}\033[K", line);
+    std::fflush(stderr);
+  }
+  /// `parts` of present runs are done, `worked` of them since the start.
+  std::string all(double parts, double worked) const {
     auto const total = static_cast<double>(plan_.runs());
-    double const now = static_cast<double>(done_) + part, worked = static_cast<double>(here_) + part;
+    double const now = static_cast<double>(done_) + parts;
+    worked += static_cast<double>(here_);
     double const left = worked > 0 ? (total - now) / worked * elapsed() : 1e9;
     return fmt::format("{:.0f} % of all, {} left", std::floor(100 * now / total), duration_text(left));
   }
 
   SweepPlan const& plan_;
-  std::size_t done_, here_ = 0, run_ = 0;
+  std::size_t done_, here_ = 0;
   bool quiet_, terminal_;
   Clock::time_point start_ = Clock::now();
   double shown_ = 0;
 };
+
+/// Calls it with the part of a run that is done, as often as a line is worth drawing.
+void follow(Simulation& simulation, std::int64_t last, std::function<void(double part)> call) {
+  simulation.observe_progress([first = simulation.step(), last, next = simulation.step(), begun = Clock::now(),
+                               call = std::move(call)](Simulation const& now) mutable {
+    if (now.step() < next) return;
+    double const seconds = seconds_since(begun);
+    auto const steps = static_cast<double>(now.step() - first);
+    next = now.step() +
+           static_cast<std::int64_t>(std::clamp(0.05 * steps / std::max(seconds, 1e-9), 1.0, std::max(steps, 1.0)));
+    call(static_cast<double>(now.step()) / std::max<double>(1, static_cast<double>(last)));
+  });
+}
 
 /// A text without its numbers.
 std::string words_of(std::string text) {
@@ -200,116 +230,271 @@ std::string words_of(std::string text) {
   return text;
 }
 
-/// Warnings that no run has given before: those of other seeds have mostly other numbers alone.
-void warn(Simulation& simulation, std::string const& name, std::vector<std::string>& told) {
-  auto const tell = [&](std::vector<std::string> const& lines) {
-    for (auto const& line : lines) {
-      if (!line.starts_with("warning") || std::find(told.begin(), told.end(), words_of(line)) != told.end()) continue;
-      told.push_back(words_of(line));
-      fmt::print(stderr, "{}: {}\n", name, line);
-    }
+std::vector<std::string> warnings_of(Simulation const& simulation) {
+  std::vector<std::string> all;
+  auto const add = [&](std::vector<std::string> const& lines) {
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(all),
+                 [](std::string const& line) { return line.starts_with("warning"); });
   };
-  for (auto* scheme : simulation.schemes()) tell(scheme->warnings(simulation.step_size()));
-  for (auto* dissipation : simulation.dissipations()) tell(dissipation->warnings(simulation.step_size()));
+  for (auto* scheme : simulation.schemes()) add(scheme->warnings(simulation.step_size()));
+  for (auto* dissipation : simulation.dissipations()) add(dissipation->warnings(simulation.step_size()));
+  return all;
 }
 
-using Attend = std::function<void(Simulation& simulation)>;
-
-/// Does one run, or the rest of it.
-RunReport do_run(std::string const& folder, SweepRun const& run, std::size_t number, std::string const& name,
-                 std::optional<int> threads, WallTime const& wall, SweepProgress& progress,
-                 std::vector<std::string>& told, Attend const& attend) {
-  std::string const place = folder + "/" + run.folder, stored = place + "/checkpoint.h5";
-  std::unique_ptr<ScenarioSimulation> scenario;
-  std::unique_ptr<Recording> recording;
-  std::int64_t first = 0;
-  bool ended = false;
-  if (team().first_says(fs::exists(stored))) {
-    auto const checkpoint = read_checkpoint(stored);
-    ended = checkpoint.state.contains("stopped");
-    check_scenario(folder, run, number, checkpoint.scenario, "checkpoint.h5");
-    scenario = parse_scenario(checkpoint.scenario, stored, {{}, {}, {}, threads});
-    recording = make_recording(*scenario, place, {.overwrite = true});
-    recording->resume();
-    first = checkpoint.step;
-  } else {
-    Overrides overrides{{}, {}, {}, threads};
-    overrides.sweep_run = number;
-    scenario = load_scenario(folder + "/sweep.toml", overrides);
-    recording = make_recording(*scenario, place, {.overwrite = true});
+/// Warnings that no run has given before: those of other seeds have mostly other numbers alone.
+class SweepWarnings {
+ public:
+  void tell(std::string const& name, std::string const& line) {
+    if (std::find(told_.begin(), told_.end(), words_of(line)) != told_.end()) return;
+    told_.push_back(words_of(line));
+    fmt::print(stderr, "{}: {}\n", name, line);
   }
-  progress.follow(*scenario->simulation, first, scenario->steps);
-  if (attend) attend(*scenario->simulation);
-  warn(*scenario->simulation, name, told);
-  auto const steps = static_cast<std::uint64_t>(ended ? 0 : std::max<std::int64_t>(scenario->steps - first, 0));
-  return run_with_progress(*recording, steps,
-                           {.quiet = true, .planned = scenario->steps, .warnings = false, .seconds = wall.seconds()});
-}
+
+ private:
+  std::vector<std::string> told_;
+};
+
+/// What a run calls.
+struct RunCalls {
+  std::function<void(Simulation& simulation, std::int64_t first, std::int64_t last)> begins;
+  std::function<void(std::string const&line)> warn, tell;
+  FarmHand* hand = nullptr;  ///< of the rank that does it alone
+};
 
 std::string one_line(std::string text) {
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) text.replace(at, 1, "; ");
   return text;
 }
 
+/// All runs of a sweep, in its folder.
+class SweepRuns {
+ public:
+  SweepRuns(std::string const& folder, SweepPlan const& plan, std::optional<int> threads, bool quiet,
+            WallTime const& wall, std::function<void(Simulation&)> const& attend)
+      : folder_(folder),
+        plan_(plan),
+        threads_(threads),
+        wall_(wall),
+        attend_(attend),
+        runs_(take_up(folder, plan)),
+        before_(static_cast<std::size_t>(std::count_if(
+            runs_.begin(), runs_.end(), [](SweepRun const& run) { return run.state != RunState::waiting; }))),
+        progress_(plan, before_, quiet) {}
+
+  std::size_t done_before() const { return before_; }
+  /// Whether each rank does whole runs, not all together each: then there are enough of them.
+  bool spread() const {
+    return !team().alone() && !attend_ && runs_.size() - before_ >= static_cast<std::size_t>(team().size());
+  }
+
+  SweepReport perform() {
+    if (spread())
+      perform_on_ranks();
+    else
+      perform_one_by_one();
+    return report_;
+  }
+
+  /// The folders of those that are done; empty for the others.
+  std::vector<std::string> folders() const {
+    std::vector<std::string> all;
+    all.reserve(runs_.size());
+    for (auto const& run : runs_) all.push_back(run.state == RunState::done ? folder_ + "/" + run.folder : "");
+    return all;
+  }
+  std::vector<SweepRun> const& runs() const { return runs_; }
+
+ private:
+  static std::vector<SweepRun> take_up(std::string const& folder, SweepPlan const& plan) {
+    auto runs = runs_of(plan);
+    team().on_first([&] {
+      read_states(folder, runs);
+      check_runs_before(folder, runs);
+      write_runs(folder, plan, runs);
+    });
+    tell_states(runs);
+    return runs;
+  }
+
+  void perform_one_by_one() {
+    for (std::size_t r = 0; r < runs_.size() && !report_.interrupted && !report_.out_of_time; ++r) {
+      if (runs_[r].state != RunState::waiting) {
+        tell_failure_of(r);
+        continue;
+      }
+      if (team().any(signals_.seen())) {
+        report_.interrupted = true;
+        return;
+      }
+      RunCalls calls;
+      calls.begins = [&](Simulation& simulation, std::int64_t first, std::int64_t last) {
+        double const since = static_cast<double>(first) / std::max<double>(1, static_cast<double>(last));
+        if (progress_.drawn())
+          follow(simulation, last, [this, r, since](double part) { progress_.draw(r, part, since); });
+        if (attend_) attend_(simulation);
+      };
+      calls.warn = [&](std::string const& line) { warnings_.tell(run_name(plan_, r), line); };
+      RunEnd const end = end_of_run(r, calls);
+      progress_.clear();
+      take(r, end);
+      team().on_first([&] { write_runs(folder_, plan_, runs_); });
+      report_.interrupted = end.interrupted;
+      report_.out_of_time = end.out_of_time && !end.interrupted;
+    }
+  }
+
+  void perform_on_ranks() {
+    for (std::size_t r = 0; r < runs_.size(); ++r) tell_failure_of(r);
+    std::vector<std::size_t> waiting;
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      if (runs_[r].state == RunState::waiting) waiting.push_back(r);
+    bool const drawn = team().first_says(progress_.drawn());
+    FarmCalls calls;
+    calls.stop = [this] { return signals_.seen(); };
+    calls.perform = [&](std::size_t run, FarmHand& hand) { return perform_here(run, hand, drawn); };
+    calls.hear = [this](std::vector<FarmWord> const& words) { hear(words); };
+    farm_runs(waiting, calls);
+    bool const some_wait =
+        std::any_of(runs_.begin(), runs_.end(), [](SweepRun const& run) { return run.state == RunState::waiting; });
+    report_.interrupted = (team().any(signals_.seen()) || report_.interrupted) && some_wait;
+    report_.out_of_time = report_.out_of_time && some_wait && !report_.interrupted;
+  }
+
+  RunEnd perform_here(std::size_t run, FarmHand& hand, bool drawn) {
+    RunCalls calls;
+    if (drawn)
+      calls.begins = [&hand](Simulation& simulation, std::int64_t, std::int64_t last) {
+        follow(simulation, last, [&hand](double part) { hand.part(part); });
+      };
+    calls.warn = [&hand](std::string const& line) { hand.warn(line); };
+    calls.tell = [&hand](std::string const& line) { hand.tell(line); };
+    calls.hand = &hand;
+    return end_of_run(run, calls);
+  }
+
+  void hear(std::vector<FarmWord> const& words) {
+    double parts = 0;
+    std::size_t under_way = 0;
+    bool some_ended = false;
+    for (auto const& word : words) {
+      if (!word.lines.empty() || !word.warnings.empty()) progress_.clear();
+      auto const run = static_cast<std::size_t>(word.run);
+      for (auto const& line : word.warnings) warnings_.tell(run_name(plan_, run), line);
+      for (auto const& line : word.lines) fmt::print(stderr, "{}\n", line);
+      if (word.ended) {
+        take(run, word.end);
+        some_ended = true;
+        report_.interrupted = report_.interrupted || word.end.interrupted;
+        report_.out_of_time = report_.out_of_time || word.end.out_of_time;
+      } else if (word.run >= 0) {
+        parts += word.part;
+        ++under_way;
+      }
+    }
+    if (some_ended && team().first()) write_runs(folder_, plan_, runs_);
+    progress_.draw(under_way, parts);
+  }
+
+  RunEnd end_of_run(std::size_t number, RunCalls const& calls) const {
+    RunEnd end;
+    try {
+      end = do_run(number, calls);
+    } catch (PhysicsFailure const& failure) {
+      end = {RunState::failed, one_line(failure.what())};
+    } catch (ScenarioErrors const& errors) {  // of this seed alone: all values have been tried
+      end = {RunState::failed, one_line(errors.what())};
+    }
+    return end;
+  }
+
+  /// Does one run, or the rest of it.
+  RunEnd do_run(std::size_t number, RunCalls const& calls) const {
+    SweepRun const& run = runs_[number];
+    std::string const place = folder_ + "/" + run.folder, stored = place + "/checkpoint.h5";
+    std::unique_ptr<ScenarioSimulation> scenario;
+    std::unique_ptr<Recording> recording;
+    std::int64_t first = 0;
+    bool ended = false;
+    if (team().first_says(fs::exists(stored))) {
+      auto const checkpoint = read_checkpoint(stored);
+      ended = checkpoint.state.contains("stopped");
+      check_scenario(folder_, run, number, checkpoint.scenario, "checkpoint.h5");
+      scenario = parse_scenario(checkpoint.scenario, stored, {{}, {}, {}, threads_});
+      recording = make_recording(*scenario, place, {.overwrite = true});
+      recording->resume();
+      first = checkpoint.step;
+    } else {
+      Overrides overrides{{}, {}, {}, threads_};
+      overrides.sweep_run = number;
+      scenario = load_scenario(folder_ + "/sweep.toml", overrides);
+      recording = make_recording(*scenario, place, {.overwrite = true});
+    }
+    Simulation& simulation = *scenario->simulation;
+    std::optional<FarmHand::Stoppable> stoppable;
+    if (calls.hand) stoppable.emplace(*calls.hand, simulation);
+    if (calls.begins) calls.begins(simulation, first, scenario->steps);
+    for (auto const& line : warnings_of(simulation)) calls.warn(line);
+    std::int64_t const steps = ended ? 0 : std::max<std::int64_t>(scenario->steps - first, 0);
+    auto const report = run_with_progress(
+        *recording, static_cast<std::uint64_t>(steps),
+        {.quiet = true, .planned = scenario->steps, .warnings = false, .seconds = wall_.seconds(), .tell = calls.tell});
+    bool const stopped = calls.hand && simulation.stopped() && report.steps < steps && report.condition.empty();
+    bool const whole = !report.interrupted && !report.out_of_time && !stopped;
+    return {whole ? RunState::done : RunState::waiting, "",
+            report.interrupted || (report.signalled && number + 1 < runs_.size()), report.out_of_time};
+  }
+
+  void take(std::size_t number, RunEnd const& end) {
+    runs_[number].state = end.state;
+    runs_[number].reason = end.reason;
+    if (end.state != RunState::waiting) progress_.end(number, end.state == RunState::done);
+    tell_failure_of(number);
+  }
+
+  void tell_failure_of(std::size_t number) {
+    if (runs_[number].state != RunState::failed) return;
+    ++report_.failed;
+    fmt::print(stderr, "{} failed: {}\n", run_name(plan_, number), runs_[number].reason);
+  }
+
+  std::string folder_;
+  SweepPlan const& plan_;
+  std::optional<int> threads_;
+  WallTime const& wall_;
+  std::function<void(Simulation&)> const& attend_;
+  SignalWatch signals_;
+  std::vector<SweepRun> runs_;
+  std::size_t before_;
+  SweepProgress progress_;
+  SweepWarnings warnings_;
+  SweepReport report_;
+};
+
 SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title,
-                    std::optional<int> threads, bool quiet, WallTime const& wall, Attend const& attend = {}) {
-  auto runs = runs_of(plan);
-  team().agree([&] {
-    read_states(folder, runs);
-    check_runs_before(folder, runs);
-  });
-  team().on_first([&] { write_runs(folder, plan, runs); });
-  auto const finished = static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](SweepRun const& run) { return run.state != RunState::waiting; }));
+                    std::optional<int> threads, bool quiet, WallTime const& wall,
+                    std::function<void(Simulation&)> const& attend = {}) {
+  SweepRuns runs(folder, plan, threads, quiet, wall, attend);
   if (!quiet) {
     std::string const each = plan.vary.empty() ? "" : fmt::format("{} values of {}", plan.values, plan.vary[0].path);
     std::string const seeds = plan.seeds > 1 ? fmt::format("{} seeds", plan.seeds) : "";
-    fmt::print("{} -> {}\n{} run{}: {}{}{}{}\n", title, folder, plan.runs(), plan.runs() == 1 ? "" : "s", each,
+    fmt::print("{} -> {}\n{} run{}: {}{}{}{}{}\n", title, folder, plan.runs(), plan.runs() == 1 ? "" : "s", each,
                each.empty() || seeds.empty() ? "" : " with ", seeds,
-               finished > 0 ? fmt::format("; {} done before", finished) : "");
+               runs.done_before() > 0 ? fmt::format("; {} done before", runs.done_before()) : "",
+               runs.spread() ? fmt::format("; each of {} ranks does whole runs", team().size()) : "");
     std::fflush(stdout);
   }
-  SweepProgress progress(plan, finished, quiet);
-  std::vector<std::string> told;
-  std::size_t failed = 0;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    SweepRun& run = runs[r];
-    if (run.state == RunState::waiting) {
-      progress.begin(r);
-      bool stopped = false, out_of_time = false;
-      try {
-        auto const report = do_run(folder, run, r, run_name(plan, r), threads, wall, progress, told, attend);
-        progress.clear();
-        if (!report.interrupted && !report.out_of_time) run.state = RunState::done;
-        out_of_time = report.out_of_time;
-        stopped = report.signalled && (report.interrupted || r + 1 < runs.size());
-      } catch (PhysicsFailure const& failure) {
-        run.state = RunState::failed;
-        run.reason = one_line(failure.what());
-      } catch (ScenarioErrors const& errors) {  // of this seed alone: all values have been tried
-        run.state = RunState::failed;
-        run.reason = one_line(errors.what());
-      }
-      if (run.state != RunState::waiting) progress.end(run.state == RunState::done);
-      team().on_first([&] { write_runs(folder, plan, runs); });
-      if (stopped || out_of_time) return {failed, stopped, !stopped};
-    }
-    if (run.state == RunState::failed) {
-      ++failed;
-      fmt::print(stderr, "{} failed: {}\n", run_name(plan, r), run.reason);
-    }
-  }
-  std::vector<std::string> folders;
-  folders.reserve(runs.size());
-  for (auto const& run : runs) folders.push_back(run.state == RunState::done ? folder + "/" + run.folder : "");
+  SweepReport const report = runs.perform();
+  if (report.interrupted || report.out_of_time) return report;
   std::vector<std::string> files;
-  team().on_first([&] { files = write_sweep_results(plan, folder, folders, title, quiet); });
+  team().on_first([&] { files = write_sweep_results(plan, folder, runs.folders(), title, quiet); });
   files.insert(files.begin(), {"sweep.toml", "runs.csv"});
   if (!quiet)
-    fmt::print("\n  results  {}: {}, {} ... {}\n", folder, join(files), runs.front().folder, runs.back().folder);
+    fmt::print("\n  results  {}: {}, {} ... {}\n", folder, join(files), runs.runs().front().folder,
+               runs.runs().back().folder);
   std::fflush(stdout);
-  if (failed > 0) fmt::print(stderr, "{} of {} runs failed; the others are in the tables\n", failed, runs.size());
-  return {failed, false, false};
+  if (report.failed > 0)
+    fmt::print(stderr, "{} of {} runs failed; the others are in the tables\n", report.failed, plan.runs());
+  return report;
 }
 
 /// Whether these are the same state, from which nothing random leads on.

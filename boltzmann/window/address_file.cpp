@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/window/address_file.hpp>
 
 #include <fmt/format.h>
@@ -75,7 +76,8 @@ AddressFile::~AddressFile() {
 }
 
 Announcement::Announcement(std::string const& what, std::string const& address) {
-  if (isatty(STDOUT_FILENO) == 1) {
+  // A launcher gives ranks a terminal, whoever reads what comes out of it.
+  if (isatty(STDOUT_FILENO) == 1 && team().alone()) {
     fmt::print("{}: {}\n", what, address);
   } else {
     path_ = (std::filesystem::temp_directory_path() / "boltzmann-window-XXXXXX").string();

@@ -81,7 +81,7 @@ struct Clients::State {
   std::uint64_t event_count = 0,
                 handled_count = 0;  // what has happened, and how much of it when it was last attended to
   Source* show = nullptr;
-  std::unique_ptr<WebServer> server;
+  std::unique_ptr<WebServer> server;  // of rank 0: to the others nobody comes
   // The same for its own thread: from the moment on at which it is known here, and until that thread has ended.
   std::atomic<WebServer*> speaks{nullptr};
 
@@ -235,7 +235,6 @@ struct Clients::State {
 
 Clients::Clients(std::uint16_t port, std::function<std::optional<WebFile>(std::string_view)> file, std::string token)
     : state_(std::make_shared<State>()), calls_(state_->calls), ready_(state_->ready) {
-  if (!team().alone()) throw Error("a window shows a run on one rank; leave the window out, or the other ranks");
   State* const state = state_.get();
   WebEvents events;
   events.joined = [state](std::uint64_t id) { state->joined(id); };
@@ -245,8 +244,10 @@ Clients::Clients(std::uint16_t port, std::function<std::optional<WebFile>(std::s
     if (path == "/") return page();
     return file ? file(path) : std::nullopt;
   };
-  state_->server = std::make_unique<WebServer>(std::move(events), port, std::move(token));
-  state_->speaks = state_->server.get();
+  team().on_first([&] {
+    state_->server = std::make_unique<WebServer>(std::move(events), port, std::move(token));
+    state_->speaks = state_->server.get();
+  });
 }
 
 Clients::~Clients() {
@@ -254,8 +255,8 @@ Clients::~Clients() {
   state_->server.reset();
 }
 
-std::string Clients::address() const { return state_->server->address(); }
-std::uint16_t Clients::port() const { return state_->server->port(); }
+std::string Clients::address() const { return state_->server ? state_->server->address() : ""; }
+std::uint16_t Clients::port() const { return state_->server ? state_->server->port() : std::uint16_t{0}; }
 
 void Clients::open(Source& show) {
   state_->show = &show;

@@ -18,7 +18,8 @@ namespace boltzmann {
 
 class Clients {
  public:
-  /// Listens at once. `file` gives further files by path; it is called on another thread. Errors as of WebServer.
+  /// Listens at once; in a team of ranks, rank 0 does. `file` gives further files by path; it is called on another
+  /// thread. Errors as of WebServer.
   explicit Clients(std::uint16_t port = 0, std::function<std::optional<WebFile>(std::string_view path)> file = {},
                    std::string token = "");
   ~Clients();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 namespace boltzmann {
 namespace {
@@ -30,9 +31,15 @@ bool FramePace::due(std::int64_t step, bool needed, bool hurried) {
   return due_;
 }
 
+bool FramePace::answers_now() const {
+  if (!patient_) return true;
+  auto const now = Clock::now();
+  return now >= next_affordable_ || now >= begun_frame_ + clock_time(1.0 / 3);
+}
+
 bool FramePace::decide(bool hurried) {
   ++since_frame_;
-  if (clients_.calls()) return true;
+  if (clients_.calls() && answers_now()) return true;
   if (paced(hurried)) return since_frame_ >= steps_per_frame_;
   if (!clients_.ready()) return false;
   // The clock is read some thousand times a second, not after every step.
@@ -44,6 +51,16 @@ bool FramePace::decide(bool hurried) {
   last_look_ = now;
   steps_since_clock_ = 0;
   return now >= next_frame_;
+}
+
+std::int64_t FramePace::steps_to_frame(bool hurried) const {
+  return paced(hurried) ? std::max<std::int64_t>(steps_per_frame_ - since_frame_, 1)
+                        : std::numeric_limits<std::int64_t>::max();
+}
+
+void FramePace::resumed(bool hurried) {
+  auto const affordable = afford();
+  if (!paced(hurried)) next_frame_ = std::max(next_frame_, affordable);
 }
 
 void FramePace::draw(bool hurried, std::function<bool()> const& turned) {

@@ -11,7 +11,9 @@ namespace boltzmann {
 
 class FramePace {
  public:
-  explicit FramePace(Clients& clients) : clients_(clients) {}
+  /// `patient`: a look costs more than a step, so that those who call wait until it fits into its share of the time, but
+  /// a third of a second at most.
+  explicit FramePace(Clients& clients, bool patient = false) : clients_(clients), patient_(patient) {}
 
   /// 0: steps are as fast as they can be.
   std::int64_t steps_per_frame() const { return steps_per_frame_; }
@@ -22,6 +24,10 @@ class FramePace {
   /// Whether anybody should look at this step: asked after every step, often more than once; what is said of a step
   /// holds until the next one. `needed`: somebody has to; `hurried`: steps are as fast as they can be, for now.
   bool due(std::int64_t step, bool needed, bool hurried);
+  /// How many steps there are until the next frame, if it comes after so many.
+  std::int64_t steps_to_frame(bool hurried) const;
+  /// A step has been done since the last frame: all that passed in between, the frame has cost.
+  void resumed(bool hurried);
   /// Draws for those who look, and waits where steps are faster than was asked for, until `turned` says that something
   /// else is wanted.
   void draw(bool hurried, std::function<bool()> const& turned);
@@ -36,7 +42,10 @@ class FramePace {
   void keep_pace(std::function<bool()> const& turned);
   Clock::time_point afford();
 
+  bool answers_now() const;
+
   Clients& clients_;
+  bool patient_;
   std::int64_t steps_per_frame_ = 0;
   std::int64_t decided_step_ = 0;  // the step that due_ is about
   bool decided_ = false, due_ = false;

@@ -1,6 +1,8 @@
 // The run's own thread does everything here: it steps, and between two steps it looks whether anybody wants something.
+// In a team of ranks rank 0 looks, and says in a vote what all do next; to look it lets the run pause.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/window/address_file.hpp>
 #include <boltzmann/window/frame_pace.hpp>
@@ -10,8 +12,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -40,6 +44,14 @@ struct Orders {
   }
 };
 
+/// What the simulation does next.
+struct Deed {
+  enum What : std::int64_t { wait, play, rewind, step_size, draw, picture, end } what;
+  std::int64_t steps = 0;
+  double size = 0;           // of a step
+  std::string request = {};  // what is drawn
+};
+
 /// From where to where the run goes, and how many steps were asked for.
 struct Plan {
   std::int64_t first = 0, target = 0, steps = 0;
@@ -66,7 +78,7 @@ struct LiveRun::State {
         recording(the_recording),
         simulation(the_views.simulation()),
         options(std::move(the_options)),
-        pace(the_clients) {}
+        pace(the_clients, !boltzmann::team().alone()) {}
 
   Views& views;
   Clients& clients;
@@ -82,8 +94,11 @@ struct LiveRun::State {
   ShownTable table;
   std::exception_ptr failure;
   Attendant observer{};
+  Team& team = boltzmann::team();
   bool inside = false;       // within run() or rewind() of the simulation
   bool begun = false;        // one of them has been called
+  bool moving = false;       // and nobody has waited since
+  bool resumes = false;      // a frame has been drawn, and no step done since
   bool told_of_end = false;  // that a condition of the recording has ended the run
 
   // STEP goes as fast as it can.
@@ -126,21 +141,31 @@ struct LiveRun::State {
   }
 
   // Runs the simulation until something else is wanted, or the end of this is reached.
-  void go(Command what, std::uint64_t steps) {
-    doing = wanted;
+  void go(Deed const& deed) {
+    if (!begun && !team.alone()) {  // all look at the start, as rank 0 does
+      begun = true;
+      simulation.run(0);
+      if (team.first()) start.keep(simulation);
+    }
     begun = true;
-    pace.start(simulation.step());
-    inside = true;
-    struct Outside {
-      bool& inside;
-      ~Outside() { inside = false; }
-    } const outside{inside};
-    if (what == Command::rewind)
-      simulation.rewind(steps);
-    else
-      simulation.run(steps);
+    if (!moving || doing != wanted) pace.start(simulation.step());
+    doing = wanted;
+    moving = true;
+    {
+      inside = true;
+      struct Outside {
+        bool& inside;
+        ~Outside() { inside = false; }
+      } const outside{inside};
+      auto const steps = static_cast<std::uint64_t>(deed.steps);
+      if (deed.what == Deed::rewind)
+        simulation.rewind(steps);
+      else
+        simulation.run(steps);
+    }
+    if (!team.first()) return;
     if (wanted.goal == simulation.step()) wanted.goal.reset();
-    if (recording && recording->ended_step() == simulation.step() && what == Command::play && !told_of_end) {
+    if (recording && recording->ended_step() == simulation.step() && deed.what == Deed::play && !told_of_end) {
       told_of_end = true;
       plan.target = simulation.step();
       wanted.goal.reset();
@@ -148,6 +173,20 @@ struct LiveRun::State {
       told.say("the run has ended: " + recording->ended_by());
     }
     ++told.scene;
+    if (doing.goal || doing.command == Command::rewind) arrive();
+    bool const at_end =
+        doing.command == Command::play ? simulation.step() >= plan.target : simulation.step() <= plan.first;
+    if (!doing.goal && at_end && wanted.command == doing.command) want(Command::pause);
+    if (team.alone()) return;
+    observe();
+    resumes = true;
+  }
+
+  // After a step of a run that has to pause before anybody looks.
+  void watch() {
+    if (!inside) return;
+    if (std::exchange(resumes, false)) pace.resumed(hurried());
+    if (pace.due(simulation.step(), false, hurried())) simulation.pause();
   }
 
   bool over() {
@@ -155,31 +194,105 @@ struct LiveRun::State {
     return simulation.stopped() || wanted.quit;
   }
 
-  // One turn of the run: what is wanted now, as far as it goes.
-  void turn() {
-    take_step_size();
+  /// What is wanted now, as far as it goes.
+  Deed next() {
+    if (over()) return {Deed::end};
+    clients.handle_requests();
+    if (over()) return {Deed::end};
+    if (failure || wanted.nothing()) return idle();
+    if (auto const size = std::exchange(wanted.step_size, std::nullopt)) return {Deed::step_size, 0, *size};
     std::int64_t const step = simulation.step();
-    if (wanted.goal) {
-      std::int64_t const ahead = *wanted.goal - step;
-      told.missed = nullptr;
-      go(ahead < 0 ? Command::rewind : Command::play, static_cast<std::uint64_t>(std::abs(ahead)));
-      arrive();
-      return;
-    }
+    if (wanted.goal) return move(*wanted.goal - step);
     if (wanted.command == Command::play) {
-      told.missed = nullptr;
       if (step >= plan.target) plan.target = step + std::max<std::int64_t>(plan.steps, 1);
-      go(Command::play, static_cast<std::uint64_t>(plan.target - step));
-      if (simulation.step() >= plan.target && wanted.command == Command::play) want(Command::pause);
-      return;
+      return move(plan.target - step);
     }
-    if (step > plan.first) go(Command::rewind, static_cast<std::uint64_t>(step - plan.first));
+    if (step > plan.first) return move(plan.first - step);
     arrive();
-    if (simulation.step() <= plan.first && wanted.command == Command::rewind) want(Command::pause);
+    want(Command::pause);
+    return {Deed::wait};
   }
 
-  void take_step_size() {
-    if (auto const size = std::exchange(wanted.step_size, std::nullopt)) simulation.step_size(*size);
+  Deed idle() {
+    moving = false;
+    clients.send_updates();
+    bool const finished = failure || simulation.step() >= plan.target;
+    if (options.play && finished && clients.viewers() == 0) return {Deed::end};
+    clients.wait(0.1);
+    return {Deed::wait};
+  }
+
+  Deed move(std::int64_t ahead) {
+    if (ahead > 0 || wanted.goal) told.missed = nullptr;
+    std::int64_t const steps = std::abs(ahead);
+    return {ahead < 0 ? Deed::rewind : Deed::play,
+            team.alone() ? steps : std::min(steps, pace.steps_to_frame(hurried()))};
+  }
+
+  /// What rank 0 does next, all do.
+  Deed together() {
+    if (team.alone()) return next();
+    Deed deed{Deed::wait};
+    std::exception_ptr failed;
+    try {
+      if (team.first()) deed = next();
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    return tell(std::move(deed), failed);
+  }
+
+  /// What rank 0 says, on all.
+  Deed tell(Deed deed, std::exception_ptr const& failed = nullptr) {
+    Team::Ballot ballot{Team::Occasion::between_runs, simulation.stopped()};
+    ballot.most.fill(std::numeric_limits<std::int64_t>::min());
+    if (team.first()) ballot.most = {deed.what, deed.steps, std::bit_cast<std::int64_t>(deed.size)};
+    auto const outcome = team.vote(ballot, failed);
+    Team::check(outcome);
+    if (outcome.stop) simulation.stop();  // a signal may have reached one rank alone
+    deed = {static_cast<Deed::What>(outcome.most[0]), outcome.most[1], std::bit_cast<double>(outcome.most[2]),
+            std::move(deed.request)};
+    if (deed.what == Deed::draw || deed.what == Deed::picture) team.broadcast(deed.request);
+    return deed;
+  }
+
+  /// Before rank 0 draws between two steps: the others draw the same, for nobody, since a drawing may measure, after which
+  /// a rank may know more of the neighbours of particles than before.
+  void draw_with_others(Deed::What what, json const& request) {
+    if (team.alone()) return;
+    tell({what, 0, 0, request.dump(-1, ' ', false, json::error_handler_t::replace)});
+  }
+
+  void draw_for_nobody(Deed const& deed) const {
+    try {
+      json const request = json::parse(deed.request);
+      if (deed.what == Deed::draw)
+        views.draw(request, simulation.step(), simulation.time());
+      else
+        views.picture(request, simulation.step(), simulation.time());
+    } catch (std::exception const&) {
+      // Rank 0 tells whoever wanted it.
+    }
+  }
+
+  void perform(Deed const& deed) {
+    if (deed.what == Deed::draw || deed.what == Deed::picture) draw_for_nobody(deed);
+    if (deed.what == Deed::step_size) {
+      simulation.step_size(deed.size);
+      ++told.notice;
+    }
+    if (deed.what != Deed::play && deed.what != Deed::rewind) return;
+    try {
+      go(deed);
+    } catch (PhysicsFailure const& physics) {
+      failure = std::current_exception();
+      told.say(physics.what());
+      wanted.pause();
+      ++told.scene;
+    } catch (Error const& error) {
+      told.say(error.what());
+      wanted.pause();
+    }
   }
 
   void arrive() {
@@ -234,9 +347,12 @@ LiveRun::LiveRun(Views& views, Clients& clients, Recording* recording, LiveOptio
       row.insert(row.end(), values.begin(), values.end());
       state->table.add(row);
     });
-  state_->observer =
-      views.simulation().observe_when([state = state_.get()](std::int64_t step) { return state->look(step); },
-                                      [state = state_.get()](Simulation const&) { state->observe(); });
+  Simulation& simulation = views.simulation();
+  if (state_->team.alone())
+    state_->observer = simulation.observe_when([state = state_.get()](std::int64_t step) { return state->look(step); },
+                                               [state = state_.get()](Simulation const&) { state->observe(); });
+  else if (state_->team.first())
+    state_->observer = simulation.observe_progress([state = state_.get()](Simulation const&) { state->watch(); });
 }
 
 LiveRun::~LiveRun() {
@@ -256,33 +372,7 @@ void LiveRun::run(std::uint64_t steps) {
           : std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(steps) / usual_frames)));
   if (state.options.play) state.wanted.command = Command::play;
   state.clients.open(*this);
-  while (!state.over()) {
-    state.clients.handle_requests();
-    if (state.over()) break;
-    if (state.failure || state.wanted.nothing()) {
-      state.clients.send_updates();
-      bool const finished = state.failure || state.simulation.step() >= state.plan.target;
-      if (state.options.play && finished && state.clients.viewers() == 0) break;
-      state.clients.wait(0.1);
-      continue;
-    }
-    if (state.wanted.command == Command::pause && !state.wanted.goal) {
-      state.take_step_size();
-      ++state.told.notice;
-      continue;
-    }
-    try {
-      state.turn();
-    } catch (PhysicsFailure const& failure) {
-      state.failure = std::current_exception();
-      state.told.say(failure.what());
-      state.wanted.pause();
-      ++state.told.scene;
-    } catch (Error const& error) {
-      state.told.say(error.what());
-      state.wanted.pause();
-    }
-  }
+  for (Deed deed = state.together(); deed.what != Deed::end; deed = state.together()) state.perform(deed);
   state.wanted.quit = true;
   ++state.told.notice;
   state.clients.send_updates();
@@ -379,10 +469,12 @@ json LiveRun::perform(json const& request) {
 }
 
 std::shared_ptr<Canvas const> LiveRun::draw(json const& view) {
+  state_->draw_with_others(Deed::draw, view);
   return state_->views.draw(view, state_->simulation.step(), state_->simulation.time());
 }
 
 PictureFile LiveRun::picture(json const& request) {
+  state_->draw_with_others(Deed::picture, request);
   return state_->views.picture(request, state_->simulation.step(), state_->simulation.time());
 }
 
@@ -397,7 +489,8 @@ RunReport run_live(Views& views, Clients& clients, Recording* recording, std::ui
   LiveRun live(views, clients, recording, options);
   ProgressOptions const progress{quiet, 0, true, [&](std::uint64_t n) { live.run(n); }};
   if (!recording) return run_with_progress(views.simulation(), steps, progress);
-  AddressFile const address(recording->folder(), clients.address());
+  std::optional<AddressFile> address;
+  if (team().first()) address.emplace(recording->folder(), clients.address());
   return run_with_progress(*recording, steps, progress);
 }
 

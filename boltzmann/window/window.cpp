@@ -1,5 +1,6 @@
 // Views of a simulation, the clients that look at them, and its run.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/pictures/colour.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/window/address_file.hpp>
@@ -23,7 +24,7 @@ struct Window::State {
         views(simulation, units, std::move(title), std::move(folder)),
         clients(options.port) {
     simulation.check();
-    if (!options.quiet) announcement.emplace("window", clients.address());
+    if (!options.quiet && team().first()) announcement.emplace("window", clients.address());
   }
 };
 

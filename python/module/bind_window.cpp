@@ -1,6 +1,8 @@
 // A window on a simulation from Python: a thread of Python's runs it as somebody at the page wants.
 #include "core.hpp"
 
+#include <boltzmann/core/team.hpp>
+
 #ifdef BOLTZMANN_WITH_WINDOW
 #include <boltzmann/window/live_run.hpp>
 #include <boltzmann/window/replay_page.hpp>
@@ -20,6 +22,7 @@ class LiveWindow {
         views_(core.simulation(), core.scenario().units,
                core.scenario().title.empty() ? core.scenario().name : core.scenario().title, core.folder()),
         clients_(port) {
+    if (!team().alone()) throw Error("a window of Python shows a run on one rank; leave it or the other ranks out");
     for (auto const& view : core.scenario().views) views_.add(view.name, view);
   }
 

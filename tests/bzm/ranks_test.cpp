@@ -98,9 +98,9 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SameFiles,
 TEST_F(Ranks, OfOneMachineTellEachOtherThroughItsMemoryUnlessToldOtherwise) {
   for (auto const* way : {"memory", "mpi"}) {
     environment.set("BOLTZMANN_MESSAGES", way);
-    auto const outcome = bzm({"run", "sod", "--steps", "12", "--set", "output.diagnoses=2", "--quiet", "--out", way,
-                              "--ranks", "3"},
-                             folder.string());
+    auto const outcome =
+        bzm({"run", "sod", "--steps", "12", "--set", "output.diagnoses=2", "--quiet", "--out", way, "--ranks", "3"},
+            folder.string());
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   expect_same_files("memory", "mpi");
@@ -202,17 +202,114 @@ TEST_F(Ranks, AKilledRankEndsAllAndTheCheckpointIsWhole) {
   }
 }
 
-TEST_F(Ranks, SweepsHaveTheSameTables) {
-  ASSERT_EQ(bzm({"new", "gas"}, folder.string()).status, 0);
-  for (std::string const ranks : {"1", "2"})
-    ASSERT_EQ(
-        bzm({"run", "gas.toml", "--steps", "40", "--seeds", "2", "--out", "on-" + ranks, "--ranks", ranks, "--quiet"},
-            folder.string())
-            .status,
-        0);
-  for (auto const* file : {"sweep.toml", "runs.csv", "sweep.csv", "series.csv"})
-    EXPECT_EQ(text_of(folder / ("on-1/" + std::string(file))), text_of(folder / ("on-2/" + std::string(file)))) << file;
-  for (std::string const run : {"/01-seed-1", "/02-seed-2"}) expect_same_files("on-1" + run, "on-2" + run);
+/// Runs of a gas, the more steps the colder, of which the hottest fails.
+struct RanksOfSweep : Ranks {
+  std::vector<std::string> words(std::string const& out, std::vector<std::string> const& more) const {
+    std::vector<std::string> all{
+        "run",    "gas.toml",           "--vary",  "ensembles.atoms.temperature=[\"60 K\", \"1e12 K\", \"120 K\"]",
+        "--vary", "run.steps=" + steps, "--seeds", "2",
+        "--set",  "output.pictures=[]", "--out",   out};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  void SetUp() override { ASSERT_EQ(bzm({"new", "gas"}, folder.string()).status, 0); }
+  /// All files of the folders, each of which has as many.
+  void expect_same_folders(std::string const& one, std::string const& other) const {
+    std::size_t files = 0, others = 0;
+    for (auto const& entry : fs::recursive_directory_iterator(folder / one)) {
+      if (!entry.is_regular_file()) continue;
+      auto const name = fs::relative(entry.path(), folder / one);
+      EXPECT_TRUE(text_of(entry.path()) == text_of(folder / other / name)) << other << "/" << name;
+      ++files;
+    }
+    for (auto const& entry : fs::recursive_directory_iterator(folder / other))
+      others += entry.is_regular_file() ? 1 : 0;
+    EXPECT_EQ(files, others);
+    EXPECT_GT(files, 20U);
+  }
+  /// What is told of runs, but for how far all are, in the order of the lines; of a warning, which is told once of all runs,
+  /// not which of them has given it first.
+  static std::vector<std::string> told(std::string const& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+      if (auto const warning = line.find("warning: "); warning != std::string::npos)
+        line = line.substr(warning, line.find(" up to ") - warning);
+      if (!has(line, " % of all, ")) lines.push_back(line);
+    }
+    std::sort(lines.begin(), lines.end());
+    return lines;
+  }
+
+  std::string steps = "[80, 20, 40]";
+};
+
+TEST_F(RanksOfSweep, EachDoesWholeRunsWithTheSameFiles) {
+  auto const one = bzm(words("all", {"--quiet"}), folder.string());
+  ASSERT_EQ(one.status, 3) << one.err;
+  fs::rename(folder / "all", folder / "one");
+  auto const several = bzm(words("all", {"--ranks", "3"}), folder.string());
+  EXPECT_EQ(several.status, 3) << several.err;
+  EXPECT_TRUE(has(several.out,
+                  "6 runs: 3 values of ensembles.atoms.temperature with 2 seeds; each of 3 ranks does "
+                  "whole runs\n"))
+      << several.out;
+  EXPECT_TRUE(has(several.err, "run 6 of 6 (temperature 120 K, steps 40, seed 2) done; ")) << several.err;
+  EXPECT_EQ(told(several.err), told(one.err));
+  expect_same_folders("one", "all");
+  // Fewer runs than ranks: all do each together.
+  auto const together =
+      bzm({"run", "gas.toml", "--steps", "40", "--seeds", "2", "--out", "together", "--ranks", "3"}, folder.string());
+  EXPECT_TRUE(has(together.out, "2 runs: 2 seeds\n")) << together.out << together.err;
+}
+
+TEST_F(RanksOfSweep, AKilledRankOrASignalEndsAllAndAnyNumberGoesOn) {
+  steps = "[12000, 20, 40]";
+  std::vector<std::string> const more{"--set", "output.checkpoint=1500", "--quiet"};
+  ASSERT_EQ(bzm(words("whole", more), folder.string()).status, 3);
+  for (auto const signal : {SIGKILL, SIGINT}) {
+    std::string const out = signal == SIGINT ? "stopped" : "killed";
+    auto with_ranks = more;
+    with_ranks.insert(with_ranks.end(), {"--ranks", "3"});
+    Process going(bzm_words(words(out, with_ranks)), folder.string());
+    ASSERT_TRUE(going.wait_until([&] {
+      return checkpoint_step(folder / out / "01-temperature-60-K-steps-12000-seed-1") >= 1500 &&
+             checkpoint_step(folder / out / "02-temperature-60-K-steps-12000-seed-2") >= 1500;
+    })) << going.wait().err;
+    auto const since = std::chrono::steady_clock::now();
+    if (signal == SIGINT)
+      going.signal(SIGINT);
+    else
+      kill(ranks(out)[1], SIGKILL);
+    auto const outcome = going.wait();
+    EXPECT_LT(seconds_since(since), 10);
+    EXPECT_EQ(outcome.status, signal == SIGINT ? 130 : 128 + SIGKILL) << outcome.err;
+    if (signal == SIGINT) {
+      EXPECT_TRUE(has(outcome.err, "bzm resume stopped goes on with the sweep\n")) << outcome.err;
+      EXPECT_TRUE(has(outcome.err, "stopped by a signal after step ")) << outcome.err;
+    }
+    EXPECT_TRUE(has(text_of(folder / (out + "/runs.csv")), ",waiting,"));
+    EXPECT_FALSE(fs::exists(folder / (out + "/sweep.csv")));
+    EXPECT_EQ(bzm({"resume", out, "--ranks", "2", "--quiet"}, folder.string()).status, 3);
+    for (std::string const file : {"/sweep.csv", "/series.csv", "/01-temperature-60-K-steps-12000-seed-1/checkpoint.h5",
+                                   "/06-temperature-120-K-steps-40-seed-2/trajectory.h5"})
+      EXPECT_TRUE(text_of(folder / (out + file)) == text_of(folder / ("whole" + file))) << out << file;
+  }
+}
+
+TEST_F(Ranks, AWindowIsServedByRankZeroAndChangesNoFile) {
+  std::vector<std::string> const plan{"run", "copper", "--steps", "12", "--set", "output.trajectory=5", "--quiet"};
+  auto const with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), plan.begin(), plan.end());
+    return bzm(more, folder.string());
+  };
+  ASSERT_EQ(with({"--out", "alone"}).status, 0);
+  auto const shown = with({"--out", "shown", "--window", "--play", "--ranks", "2"});
+  if (has(shown.err, "was built without the window")) GTEST_SKIP();
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_EQ(lines_in(shown.out), 1U) << shown.out;
+  EXPECT_EQ(shown.out.rfind("window: its address is in ", 0), 0U) << "who reads this may be anybody: " << shown.out;
+  expect_same_files("alone", "shown");
 }
 
 TEST_F(Ranks, MistakesAndWhatIsNotThereAreToldOnce) {
@@ -221,7 +318,6 @@ TEST_F(Ranks, MistakesAndWhatIsNotThereAreToldOnce) {
     char const* line;
   };
   for (auto const& [words, line] : {Case{{"run", "three-body", "--set", "run.stp=1"}, "unknown key 'stp' in [run]"},
-                                    Case{{"run", "three-body", "--window"}, "--window shows a run on one rank"},
                                     Case{{"run", "no-such"}, "no-such"}}) {
     auto all = words;
     all.insert(all.end(), {"--ranks", "2"});

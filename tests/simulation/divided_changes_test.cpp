@@ -338,6 +338,120 @@ TEST(DividedLists, BesideAMetal) {
       16, {2, 3});
 }
 
+// ---- Who is told to stop ----
+
+/// The step at which all ranks stop.
+std::int64_t stops_at(Make const& make, std::function<void(Simulation&, int rank)> const& also) {
+  std::vector<std::int64_t> steps(3);
+  auto const thrown = test::ThreadTeam(3).run([&](Team& team) {
+    World world;
+    make(world);
+    Simulation& simulation = *world.simulation;
+    also(simulation, team.rank());
+    simulation.run(1'000'000);
+    EXPECT_EQ(simulation.undivided(), "");
+    steps[static_cast<std::size_t>(team.rank())] = simulation.step();
+  });
+  for (auto const& failure : thrown) EXPECT_EQ(test::line_of(failure), "");
+  EXPECT_EQ(steps[1], steps[0]);
+  EXPECT_EQ(steps[2], steps[0]);
+  return steps[0];
+}
+
+TEST(DividedStops, WhatASignalTellsOneRankStopsAllInOneStep) {
+  for (auto const& make : {Make([](World& world) { melt<2>(world, 32, 1.0, Boundary::periodic); }),
+                           scenario("two-stream", {"run.threads=1"})})
+    for (std::int64_t const first : {5, 30}) {
+      auto const at = stops_at(make, [&](Simulation& simulation, int rank) {
+        simulation.observe_progress([&simulation, rank, first](Simulation const& now) {
+          if (rank != 1 && now.step() >= first + rank) simulation.stop();
+        });
+      });
+      EXPECT_GE(at, first);
+      EXPECT_LT(at, 100'000);
+    }
+}
+
+TEST(DividedStops, WhatAllAreToldInAStepStopsThemThere) {
+  Make const make = [](World& world) { melt<2>(world, 32, 1.0, Boundary::periodic); };
+  EXPECT_EQ(stops_at(make,
+                     [](Simulation& simulation, int) {
+                       simulation.observe(1, [&simulation](Simulation const& now) {
+                         if (now.step() == 37) simulation.stop();
+                       });
+                     }),
+            37);
+  EXPECT_EQ(
+      stops_at(make, [](Simulation& simulation, int) { simulation.adapt(29, [&simulation] { simulation.pause(); }); }),
+      29);
+}
+
+// ---- What every rank does, all of it ----
+
+/// Friction and noise between pairs of atoms, by the lists of a scheme.
+void add_friction(World& world, AnyEnsemble& atoms, PairScheme& pairs, DissipationMethod method) {
+  auto& friction = world.make<PairDissipation>(pairs, 1.0);
+  friction.internal(atoms,
+                    {.convention = Convention::fixed_temperature, .friction = 2, .temperature = 1, .range = 1.5});
+  friction.method(method);
+  world.simulation->add(friction);
+}
+
+TEST(UndividedRun, OfFrictionOnePairAfterTheOther) {
+  expect_same_bits(
+      [](World& world) {
+        melt<2>(world, 12, 1.0, Boundary::periodic);
+        add_friction(world, part_of<Ensemble<Newton<2>>>(world, 0), part_of<PairScheme>(world, 1),
+                     DissipationMethod::shardlow);
+      },
+      20, {2, 3}, "pairs that are taken one by one (shardlow)");
+}
+
+TEST(UndividedRun, OfFrictionBesideSeveralListsOrRigidBonds) {
+  expect_same_bits(
+      [](World& world) {
+        two_lists(world, 1, 1);
+        add_friction(world, part_of<Ensemble<Newton<2>>>(world, 0), part_of<PairScheme>(world, 1),
+                     DissipationMethod::simultaneous);
+      },
+      20, {2, 3}, "friction between pairs beside several schemes that have lists");
+  expect_same_bits(
+      [](World& world) {
+        chains(world, {.each = 4, .rigid = true});
+        add_friction(world, part_of<Ensemble<Newton<3>>>(world, 0), part_of<PairScheme>(world, 2),
+                     DissipationMethod::simultaneous);
+      },
+      20, {2, 3}, "friction between pairs of rigid molecules");
+}
+
+TEST(UndividedRun, OfMethodsThatKnowNoShares) {
+  expect_same_bits(scenario("pythagorean"), 40, {2, 3}, "gauss-radau");
+  expect_same_bits(
+      [](World& world) {
+        melt<2>(world, 12, 1.0, Boundary::periodic);
+        world.simulation->integrate(part_of<Ensemble<Newton<2>>>(world, 0), Method::reversible_leap_frog);
+      },
+      40, {2, 3}, "the reversible leap-frog");
+}
+
+TEST(UndividedRun, OfTwoSchemesWithPointsOfTheirOwn) {
+  expect_same_bits(
+      [](World& world) {
+        scenario("copper-3d")(world);
+        Simulation& first = *world.simulation;
+        scenario("copper-3d", {"ensembles.0.mass='60 amu'"})(world);
+        Simulation& second = *world.simulation;
+        first.add(*second.schemes()[0]);
+        first.integrate(dynamic_cast<Ensemble<Newton<3>>&>(*second.schemes()[0]->ensembles()[0]), Method::leap_frog);
+        world.simulation = &first;
+      },
+      4, {2}, "several schemes that have points of their own");
+}
+
+TEST(UndividedRun, OfAShearedFluid) {
+  expect_same_bits(scenario("sheared-fluid", {"equilibrate.time=0.2"}), 14, {2, 3}, "a sheared box");
+}
+
 // ---- Substeps ----
 
 TEST(DividedSubsteps, FollowWhatIsFastest) {
