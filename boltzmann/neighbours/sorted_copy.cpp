@@ -428,7 +428,11 @@ bool SortedCopy::refresh(int threads, bool others) {
   if (!finite) find_not_finite();
   if (others)
     for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
-      for (; first != last; ++first) kernel(task, first->begin, first->end);
+      for (; first != last; ++first)
+        if (sheared)
+          refresh_sheared(task, first->begin, first->end);
+        else
+          kernel(task, first->begin, first->end);
     });
   if (box_->any_wall() || sheared) {
     auto const now = box_->edges();
@@ -615,7 +619,12 @@ std::uint32_t SortedCopy::learn(std::uint32_t row_of_all, std::uint32_t particle
   return k;
 }
 
-void SortedCopy::refresh_row(std::uint32_t k) { neighbour_kernels().refresh(refresh_task(), k, k + 1); }
+void SortedCopy::refresh_row(std::uint32_t k) {
+  if (box_->sheared())
+    refresh_sheared(refresh_task(), k, k + 1);
+  else
+    neighbour_kernels().refresh(refresh_task(), k, k + 1);
+}
 
 double SortedCopy::left_build_by(std::uint32_t k) const {
   double square = 0;

@@ -3,6 +3,7 @@
 #include "tests/simulation/divided_runs.hpp"
 
 #include <boltzmann/dissipation/langevin_bath.hpp>
+#include <boltzmann/dissipation/nose_hoover.hpp>
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/laws/angular.hpp>
@@ -338,6 +339,39 @@ TEST(DividedLists, BesideAMetal) {
       16, {2, 3});
 }
 
+// ---- Sheared boxes ----
+
+/// Atoms of a hot fluid whose images flow, and a bath.
+template <int D>
+void sheared_melt(World& world, Shear const& shear) {
+  melt<D>(world, D == 3 ? 5 : 20, 1.0, Boundary::periodic);
+  auto& atoms = part_of<Ensemble<Newton<D>>>(world, 0);
+  Box box = part_of<PairScheme>(world, 1).box();
+  box.shear(shear);
+  auto& scheme = world.make<PairScheme>(box, 2.5);
+  scheme.internal(atoms, LennardJones{1.0, 1.0});
+  atoms[17].velocity[0] = 12;  // ahead of all others, over an end soon
+  world.simulation = &world.make<Simulation>(scheme, 0.004);
+  add_bath(world, atoms);
+}
+
+TEST(DividedShear, OfAFluid) {
+  expect_same_bits([](World& world) { sheared_melt<3>(world, {2, 0, 1}); }, 40, {2, 3});
+  expect_same_bits(
+      [](World& world) {
+        sheared_melt<2>(world, {-3, 1, 0, false});
+        auto& chain = world.make<NoseHooverChain>(1.0, 2.0, 1.0);
+        chain.on(part_of<Ensemble<Newton<2>>>(world, 0));
+        world.simulation->add(chain);
+      },
+      60, {3});
+}
+
+TEST(DividedShear, OfAMetalAndOfAContinuum) {
+  expect_same_bits(scenario("copper-3d", {"box.shear={rate='1e12 1/s', established=false}"}), 16, {2, 3});
+  expect_same_bits(scenario("taylor-green", {"box.shear={rate=2}"}), 6, {3});
+}
+
 // ---- Who is told to stop ----
 
 /// The step at which all ranks stop.
@@ -449,7 +483,8 @@ TEST(UndividedRun, OfTwoSchemesWithPointsOfTheirOwn) {
 }
 
 TEST(UndividedRun, OfAShearedFluid) {
-  expect_same_bits(scenario("sheared-fluid", {"equilibrate.time=0.2"}), 14, {2, 3}, "a sheared box");
+  expect_same_bits(scenario("sheared-fluid", {"equilibrate.time=0.2"}), 14, {2, 3},
+                   "friction between pairs in a sheared box");
 }
 
 // ---- Substeps ----
