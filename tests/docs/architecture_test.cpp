@@ -1,5 +1,5 @@
 // The list of rooms in docs/architecture.md: every folder stands in it, and a room includes only from itself and from
-// rooms above it.
+// rooms above it. And functions are no longer than what one reads at once, or say why.
 #include <boltzmann/files/text_file.hpp>
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace boltzmann::architecture_test {
@@ -45,6 +46,90 @@ TEST(Architecture, RoomsIncludeOnlyFromThoseAbove) {
     }
   }
   EXPECT_GT(seen, 1000U);
+}
+
+/// Where a comment or a literal ends that begins here; `from` itself if none does.
+std::size_t end_of_text(std::string const& code, std::size_t from) {
+  if (std::string_view("/R\"'").find(code[from]) == std::string_view::npos) return from;
+  auto const behind = [&](std::string const& what, std::size_t at) {
+    std::size_t const end = code.find(what, at);
+    return end == std::string::npos ? code.size() : end + what.size();
+  };
+  bool const in_word = from > 0 && std::isalnum(static_cast<unsigned char>(code[from - 1])) != 0;
+  if (code.compare(from, 2, "//") == 0) return behind("\n", from) - 1;
+  if (code.compare(from, 2, "/*") == 0) return behind("*/", from);
+  if (code.compare(from, 2, "R\"") == 0 && !in_word)
+    return behind(")" + code.substr(from + 2, code.find('(', from) - from - 2) + "\"", from);
+  char const quote = code[from];
+  if (quote != '"' && (quote != '\'' || in_word)) return from;  // 10'000
+  std::size_t at = from + 1;
+  while (at < code.size() && code[at] != quote) at += code[at] == '\\' ? 2 : 1;
+  return at + 1;
+}
+
+struct Function {
+  std::size_t at, lines;
+  bool says_why;
+};
+
+/// Those outside of functions, from their names to their ends.
+std::vector<Function> functions_of(std::string const& code) {
+  std::vector<Function> all;
+  std::size_t head = 0, inside = 0, body = 0;  // inside: open braces from that of a function on
+  std::string words;                           // since the last statement
+  auto const lines_between = [&](std::size_t from, std::size_t to) {
+    return static_cast<std::size_t>(std::count(code.data() + from, code.data() + to, '\n'));
+  };
+  auto const is_function = [&] {
+    auto const last = words.find_last_not_of(' ');
+    auto const parameters = words.rfind(')');
+    if (parameters == std::string::npos || words[last] == '=') return false;
+    static std::regex const type("\\b(class|struct|union|enum)\\b"), behind(" *((const|noexcept|override|->.*) *)*");
+    return !std::regex_search(words, type) || std::regex_match(words.substr(parameters + 1, last - parameters), behind);
+  };
+  for (std::size_t at = 0; at < code.size();) {
+    if (std::size_t const end = end_of_text(code, at); end != at) {
+      at = end;
+      continue;
+    }
+    char const c = code[at++];
+    if (c == '#' && (at < 2 || code[at - 2] == '\n')) {
+      at = code.find('\n', at);
+    } else if (c == '{') {
+      if (inside > 0 || is_function()) ++inside;
+      if (inside == 1) body = at;
+      if (inside == 0) words.clear();
+    } else if (c == '}') {
+      if (inside == 1) all.push_back({head, lines_between(head, at) + 1, code.compare(body, 11, "  // long: ") == 0});
+      if (inside > 0) --inside;
+      if (inside == 0) words.clear();
+    } else if (inside == 0) {
+      if (words.empty() && std::isspace(static_cast<unsigned char>(c)) == 0) head = at - 1;
+      if (c == ';')
+        words.clear();
+      else if (!words.empty() || std::isspace(static_cast<unsigned char>(c)) == 0)
+        words += c == '\n' ? ' ' : c;
+    }
+  }
+  return all;
+}
+
+TEST(Architecture, FunctionsAreShortOrSayWhyTheyAreNot) {
+  constexpr std::size_t most = 60;
+  std::size_t seen = 0;
+  for (std::string const folder : {"/boltzmann", "/python/module"})
+    for (auto const& file : fs::recursive_directory_iterator(std::string(BOLTZMANN_SOURCE) + folder)) {
+      auto const ending = file.path().extension();
+      if (ending != ".cpp" && ending != ".hpp") continue;
+      std::string const code = read_text(file.path().string());
+      for (auto const& [at, lines, says_why] : functions_of(code)) {
+        ++seen;
+        EXPECT_TRUE(lines <= most || says_why)
+            << file.path() << ":" << std::count(code.data(), code.data() + at, '\n') + 1 << ": a function of " << lines
+            << " lines; cut it at its ideas, or say in its first line why not: {  // long: a table";
+      }
+    }
+  EXPECT_GT(seen, 6000U);
 }
 
 }  // namespace
