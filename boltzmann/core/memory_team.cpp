@@ -312,7 +312,7 @@ bool MemoryTeam::done() {
   return true;
 }
 
-BoltzmannTeamFunctions const& MemoryTeam::functions() {
+BoltzmannTeamFunctions const& MemoryTeam::functions() {  // long: a table
   static BoltzmannTeamFunctions const all{
       boltzmann_team_version,
       [] { return "memory"; },

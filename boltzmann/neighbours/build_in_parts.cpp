@@ -58,6 +58,30 @@ double furthest2(Place const& a, Place const& b) {
   return square;
 }
 
+/// Whether some of what is in one of these intervals along each axis is within a distance of a place, and all of it.
+std::pair<bool, bool> within(std::vector<Place> const& places, std::vector<Interval> const& inner,
+                             std::vector<Interval> const& outer, double square) {
+  bool some = false, all = false;
+  for (auto const& place : places)
+    for (auto const& a : inner)
+      for (auto const& b : outer) {
+        some = some || distance2(place, {a, b}) <= square;
+        all = all || furthest2(place, {a, b}) <= square;
+      }
+  return {some, all};
+}
+
+/// Where an interval along an axis is seen.
+std::vector<Interval> images_of(Images const& images, int axis, double reach, Interval const& x) {
+  std::vector<Interval> all{x};
+  for (int turn = 1, most = images.most(axis, reach); turn <= most; ++turn)
+    for (int const sign : {-1, 1}) {
+      double const low = images.at(axis, sign * turn, x.low), high = images.at(axis, sign * turn, x.high);
+      all.push_back({std::min(low, high), std::max(low, high)});
+    }
+  return all;
+}
+
 /// What all ranks have to agree on.
 struct Extents {
   Bounds rows, images;
@@ -232,17 +256,8 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorti
   }
   Images const images(*box_);
   auto const axes = one.axes();
-  // Where an interval along an axis is seen.
   auto const seen = [&](int n, Interval const& x) {
-    std::vector<Interval> images_of{x};
-    int const axis = axes[n];
-    if (axis >= one.dimension) return images_of;
-    for (int turn = 1, most = images.most(axis, wide); turn <= most; ++turn)
-      for (int const sign : {-1, 1}) {
-        double const low = images.at(axis, sign * turn, x.low), high = images.at(axis, sign * turn, x.high);
-        images_of.push_back({std::min(low, high), std::max(low, high)});
-      }
-    return images_of;
+    return axes[n] < one.dimension ? images_of(images, axes[n], wide, x) : std::vector{x};
   };
   struct Reader {
     std::size_t rank;
@@ -255,13 +270,7 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorti
     auto const n = one.along(0), at = static_cast<std::int64_t>(unit);
     auto const inner = seen(0, one.cells_along(0, at % n, at % n)), outer = seen(1, one.cells_along(1, at / n, at / n));
     for (std::size_t r = 0; r < ranks; ++r) {
-      bool near = false, all = false;
-      for (auto const& place : places[r])
-        for (auto const& a : inner)
-          for (auto const& b : outer) {
-            near = near || distance2(place, {a, b}) <= wide2;
-            all = all || furthest2(place, {a, b}) <= wide2;
-          }
+      auto const [near, all] = within(places[r], inner, outer, wide2);
       // Whose a particle is in a unit that is cut is known to those who have the whole unit.
       bool const owns = r >= first && r <= last;
       if (owns || near) readers.push_back({r, owns || all || first != last});

@@ -178,7 +178,6 @@ template <int W, int D>
     out.wanted_scratch = candidates + 2 * W;
     out.wanted = (last - first) * (candidates + 2 * W);
     if (out.wanted_scratch > out.scratch || out.used + out.wanted > out.room) return first;
-
     BlockInSteps const block = in_steps<D>(task, first, last);
     std::uint32_t near = 0;
     for (std::uint32_t n = 0; n < ranges; ++n)

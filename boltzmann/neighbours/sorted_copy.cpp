@@ -32,6 +32,20 @@ std::int32_t in_steps(double x, double reach) {
   if (std::abs(steps) > 0x1p62) steps = std::fmod(steps, 0x1p32);
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(steps)));
 }
+/// All rows that have been moved, and their images, for the search.
+template <class Images>
+void list_images(std::vector<Images> const& of_rows, double reach, std::array<std::vector<std::int32_t>, 3>& position,
+                 std::vector<std::uint32_t>& item) {
+  for (auto& column : position) column.clear();
+  item.clear();
+  for (auto const& images : of_rows)
+    for (auto const& image : images) {
+      item.push_back(item_of_row(image.row));
+      for (std::size_t a = 0; a < 3; ++a) position[a].push_back(in_steps(image.position[a], reach));
+    }
+  item.resize(item.size() + candidate_padding, 0);
+  for (auto& column : position) column.resize(item.size(), 0);
+}
 /// As far away as can be.
 std::int32_t opposite(std::int32_t steps) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps) + (1U << 31U));
@@ -569,15 +583,7 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
       move_ghosts(0, all_blocks(), g, g + 1);
     });
   }
-  for (auto& column : moved_position_) column.clear();
-  moved_item_.clear();
-  for (std::size_t m = 0; m < moved_.size(); ++m)
-    for (auto const& image : moved_images_[m]) {
-      moved_item_.push_back(item_of_row(image.row));
-      for (std::size_t a = 0; a < 3; ++a) moved_position_[a].push_back(in_steps(image.position[a], reach_));
-    }
-  moved_item_.resize(moved_item_.size() + candidate_padding, 0);
-  for (auto& column : moved_position_) column.resize(moved_item_.size(), 0);
+  list_images(moved_images_, reach_, moved_position_, moved_item_);
 }
 
 void SortedCopy::owned_near(double const* x, double reach, std::vector<std::uint32_t>& rows) const {
