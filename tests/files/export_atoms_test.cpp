@@ -129,7 +129,8 @@ void expect_round_trip(UnitSystem const& units) {
     for (int a = 0; a < D; ++a) {
       EXPECT_NEAR(ions[1].position[a], 2.5 + a, close) << name;
       EXPECT_NEAR(gas[0].position[a], 6.25, close) << name;
-      if (!stills) EXPECT_NEAR(ions[1].velocity[a], -0.25 * (a + 1), coarse ? 0.002 : 1e-12) << name;
+      if (stills) continue;
+      EXPECT_NEAR(ions[1].velocity[a], -0.25 * (a + 1), coarse ? 0.002 : 1e-12) << name;
     }
   }
 }
