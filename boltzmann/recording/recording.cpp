@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/files/mesh_frames.hpp>
 #include <boltzmann/files/standard_streams.hpp>
+#include <boltzmann/particles/share.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/recording/diagnosis_rows.hpp>
 #include <boltzmann/recording/recording.hpp>
@@ -184,6 +185,12 @@ struct Recording::State {
            !rows.instruments().follow_steps() && rows.instruments().sums_suffice();
   }
 
+  /// Not those of other ranks where sums are asked for.
+  bool rows_are_known() const {
+    Share const* const share = ensembles().front()->share();
+    return !share || !share->sums;
+  }
+
   void look() {
     std::int64_t const step = simulation.step();
     if (!due(step)) return;
@@ -199,7 +206,7 @@ struct Recording::State {
     try {
       rows.instruments().follow();
       if (step < next) return;
-      if (!sums_suffice()) last.emplace(simulation);
+      if (rows_are_known()) last.emplace(simulation);
       if (is_due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
       if (writes && is_due(frames.every)) frames.write();
       if (writes && is_due(every_mesh))
