@@ -168,8 +168,8 @@ void expect_lists(int flow, int gradient, double rate, std::size_t max_builds) {
 TEST(ShearedCopy, ListsHaveAllImagesThatAreNear) {
   expect_lists<2>(0, 1, 4, 60);
   expect_lists<2>(1, 0, -1, 30);
-  expect_lists<3>(0, 2, 3, 60);
-  expect_lists<3>(2, 1, 0.5, 30);
+  expect_lists<3>(0, 2, 3, 20);
+  expect_lists<3>(2, 1, 0.5, 10);
 }
 
 }  // namespace
