@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,7 @@ namespace {
 
 constexpr std::size_t page = 1 << 16;  // by which outboxes grow, in bytes
 constexpr std::size_t few = 1024;      // numbers that every rank adds up by itself
+constexpr char const* no_memory = "there is no memory for what ranks tell each other";
 
 /// What all see of a rank. Zeros, as of a new file, are the beginning.
 struct Head {
@@ -99,8 +101,16 @@ class MemoryTeam::Outbox {
 struct MemoryTeam::Rank {
   Outbox head_file, outboxes[2];
   Head* head = nullptr;
-  /// All that the rank has said, or null.
-  char* said(std::size_t box) { return outboxes[box].bytes(head->room[box].load(std::memory_order_acquire)); }
+  bool opens(std::size_t box) {
+    return outboxes[box].bytes(head->room[box].load(std::memory_order_acquire)) != nullptr;
+  }
+  /// All that the rank has said.
+  char* said(std::size_t box) {
+    char* const bytes = outboxes[box].bytes(head->room[box].load(std::memory_order_acquire));
+    if (bytes) return bytes;
+    tell_last_words(no_memory);
+    std::abort();  // by which the launcher ends the others
+  }
 };
 
 MemoryTeam::MemoryTeam(int rank, int size, BoltzmannTeamFunctions const& launched, void* of)
@@ -128,6 +138,7 @@ std::string MemoryTeam::address() const {
 }
 
 bool MemoryTeam::open(std::vector<std::string> const& addresses) {
+  std::string const here = where_processes_are_numbered();
   for (int r = 0; r < size_; ++r) {
     Rank& rank = *ranks_[static_cast<std::size_t>(r)];
     long process = 0;
@@ -135,7 +146,7 @@ bool MemoryTeam::open(std::vector<std::string> const& addresses) {
     unsigned long long token = 0;
     auto const& address = addresses[static_cast<std::size_t>(r)];
     if (std::sscanf(address.c_str(), "%ld %d %d %d %llu", &process, &head, boxes, boxes + 1, &token) != 5 ||
-        !address.ends_with(where_processes_are_numbered()))
+        !address.ends_with(here))
       return false;
     if (r == rank_) continue;
     auto const open_here = [&](Outbox& box, int file) {
@@ -146,7 +157,7 @@ bool MemoryTeam::open(std::vector<std::string> const& addresses) {
     rank.head = reinterpret_cast<Head*>(rank.head_file.bytes(sizeof(Head)));
     if (!rank.head || rank.head->token != token) return false;
     for (std::size_t box = 0; box < 2; ++box)
-      if (!open_here(rank.outboxes[box], boxes[box]) || !rank.said(box)) return false;
+      if (!open_here(rank.outboxes[box], boxes[box]) || !rank.opens(box)) return false;
   }
   return true;
 }
@@ -164,12 +175,10 @@ char* MemoryTeam::room(std::size_t bytes) {
   auto& size = mine.head->room[box()];
   if (bytes > size) {
     std::size_t const more = (bytes + bytes / 4 + page) / page * page;
-    if (!grow(mine.outboxes[box()].file(), more)) end_all("there is no memory for what ranks tell each other");
+    if (!grow(mine.outboxes[box()].file(), more)) end_all(no_memory);
     size.store(more, std::memory_order_release);
   }
-  char* const at = mine.said(box());
-  if (!at) end_all("there is no memory for what ranks tell each other");
-  return at;
+  return mine.said(box());
 }
 
 void MemoryTeam::post() {

@@ -352,15 +352,12 @@ void RowExchange::plan(Division& division, std::vector<Needed> needed) {
 }
 
 void RowExchange::bring_rows(Division& division, Take const& take) {
-  auto const copy = [](double const* from, double* to, std::size_t count) {
-    for (std::size_t k = 0; k < count; k += row_block) std::memcpy(to + k, from + k, row_block * sizeof(double));
-  };
   auto const count = [&](std::size_t e) { return ensembles_[e]->stride(); };
   division.team().exchange(
       sizes(sends_, count), sizes(receives_, count),
       [&](std::size_t r, double* to) {
         for (std::size_t e = 0; e < ensembles_.size(); ++e)
-          for (auto const i : sends_[r][e]) copy(ensembles_[e]->row(i), to, count(e)), to += count(e);
+          for (auto const i : sends_[r][e]) to = copy_few(ensembles_[e]->row(i), count(e), to);
       },
       [&](std::size_t r, double const* from) {
         for (std::size_t e = 0; e < ensembles_.size(); ++e) {
@@ -369,7 +366,7 @@ void RowExchange::bring_rows(Division& division, Take const& take) {
             take(e, r, from);
           else
             for (std::size_t n = 0; n < numbers.size(); ++n)
-              copy(from + n * count(e), ensembles_[e]->row(numbers[n]), count(e));
+              copy_few(from + n * count(e), count(e), ensembles_[e]->row(numbers[n]));
           from += numbers.size() * count(e);
         }
       });
