@@ -279,7 +279,8 @@ template <int W, int D, bool projected, bool conducts, bool is_typed>
   constexpr std::size_t stride = dissipation_point_stride(D), blocks = stride / 4;
   constexpr int count = (projected ? 1 : D) + (conducts ? 1 : 0);
   double const* const source = task.source;
-  auto const rows = static_cast<std::uint32_t>(task.end - task.begin), begin = static_cast<std::uint32_t>(task.begin);
+  auto const rows = static_cast<std::uint32_t>(task.rows), begin = static_cast<std::uint32_t>(task.first);
+  auto const place_of = [=](std::uint32_t row) { return row - begin < rows ? row - begin : rows; };
   Reals<W> const zero = 0.0;
   auto const p = broadcast<DissipationPoint<D>, Reals<W>>(task.target + stride * i);
   Words<W> const self = Words<W>{} + task.number[i];
@@ -304,16 +305,13 @@ template <int W, int D, bool projected, bool conducts, bool is_typed>
       for (int a = 0; a < D; ++a) columns[a] = -pair.momentum[a];
       columns[D] = pair.loss - pair.transfer;
       std::uint32_t place[W];
-      for (int lane = 0; lane < W; ++lane) {
-        std::uint32_t const row = j[lane] / 4 - begin;
-        place[lane] = row < rows ? row : rows;
-      }
+      for (int lane = 0; lane < W; ++lane) place[lane] = place_of(j[lane] / 4);
       scatter<W>([&](int lane) { return task.sums + 4 * std::size_t{place[lane]}; }, columns);
     }
   Reals<W> columns[4] = {zero, zero, zero, zero};
   for (int a = 0; a < D; ++a) columns[a] = momentum[a];
   columns[D] = loss;
-  gather_sums<W>(task.sums + 4 * (i - task.begin), columns);
+  gather_sums<W>(task.sums + 4 * std::size_t{place_of(static_cast<std::uint32_t>(i))}, columns);
   return noise;
 }
 

@@ -32,10 +32,10 @@ struct PairNoise {
   PhiloxKey key;
 };
 
-/// Order-free: for target rows [begin, end), the sums over their neighbours. Four numbers a row: the momentum it gets
-/// (dimension numbers), then the energy that it loses. Among one ensemble (noise.same) each pair of rows of the range
-/// is listed once, in the row of the first, and both get their shares; sums have one row more, for those that are not
-/// of the range.
+/// Order-free: for target rows [begin, end), what they and their neighbours get, added to the sums of `rows` rows from
+/// `first` on. Four numbers a row: the momentum it gets (dimension numbers), then the energy that it loses. Among one
+/// ensemble (noise.same) a pair is listed once, in the row of the first, and both get their shares; sums have one row
+/// more, for those who have none.
 struct DissipationTask {
   double const *target = nullptr, *source = nullptr;  ///< dissipation points
   std::uint32_t const* number = nullptr;              ///< which particle each target row is
@@ -43,8 +43,9 @@ struct DissipationTask {
                                               ///< the 8 numbers of these particles behind it
   std::uint32_t const* length = nullptr;      ///< entries
   std::size_t begin = 0, end = 0;
-  double* sums = nullptr;  ///< of row `begin`
-  double asymmetry = 0;    ///< 1/4: |dp|^2 (1/mj - 1/mi) is paid by i; 0: not
+  std::size_t first = 0, rows = 0;
+  double* sums = nullptr;
+  double asymmetry = 0;  ///< 1/4: |dp|^2 (1/mj - 1/mi) is paid by i; 0: not
   PairNoise noise;
 };
 

@@ -15,6 +15,15 @@ namespace boltzmann {
 /// Rows of an ensemble are taken in chunks of so many: what is written for a chunk belongs to it alone.
 inline constexpr std::size_t dissipation_chunk = 8192;
 
+/// What one thread works on of the rows [low, low + dissipation_chunk) of a chunk: those from `begin` to before `end`.
+/// Their sums have the bits that they have where all rows of the chunk are worked on together.
+struct PairDissipation::Piece {
+  std::size_t low, begin, end;
+
+  std::size_t rows() const { return end - begin; }
+  bool operator==(Piece const&) const = default;
+};
+
 struct PairDissipation::Member {
   AnyEnsemble* ensemble;
   int mass, velocity, energy = -1, temperature = -1;  // where these fields are in a row; -1: not there
@@ -23,6 +32,7 @@ struct PairDissipation::Member {
   bool dissipates = false, at_fixed_temperature = false;
   AlignedVector<double> points;     // of the rows of the sorted copy
   AlignedVector<double> predicted;  // the corrector's last try: 4 numbers an owned row (see DissipationTask)
+  std::vector<Piece> pieces;        // of the rows of this rank
   std::vector<double> energies;     // Shardlow's splitting: of the owned rows
   std::size_t first_chunk = 0;      // among those of all members
 
@@ -45,6 +55,14 @@ struct PairDissipation::Member {
   std::string who(std::size_t row) const;
 };
 
+/// Rows [begin, begin + row.size()) of a chunk, which come before a piece and have pairs with it.
+struct PairDissipation::Border {
+  std::size_t begin = 0;
+  std::vector<std::uint32_t> entries;
+  std::vector<std::uint32_t const*> row;
+  std::array<std::vector<std::uint32_t>, list_rings> length;
+};
+
 struct PairDissipation::Coupling {
   Member *target, *source;
   DissipationLaw dissipation;
@@ -53,14 +71,18 @@ struct PairDissipation::Coupling {
   std::uint32_t number;                             // for random streams; the same for both directions
   bool first;                                       // whether targets are the first of the two ensembles
   std::size_t builds = ~std::size_t{0}, moves = 0;  // of the neighbourhood, when pairs were taken from its lists
-  std::vector<std::vector<std::uint32_t>> entries;  // of each chunk of targets (see DissipationTask)
+  // Of each piece of the targets (see DissipationTask):
+  std::vector<std::vector<std::uint32_t>> entries;
+  std::vector<Border> borders;
+  // Of the targets:
   std::vector<std::uint32_t const*> row;
   std::array<std::vector<std::uint32_t>, list_rings> length;
 
   bool same() const { return target == source; }
   bool vanishes() const { return dissipation.friction == 0 && dissipation.conduction == 0; }
-  /// Brings row, length and entries of a chunk up to date.
-  void take_chunk(std::size_t chunk, NeighbourList const& neighbours);
+  /// Brings what there is of a piece up to date.
+  void take_piece(std::size_t piece, NeighbourList const& neighbours);
+  void take_border(std::size_t piece, NeighbourList const& neighbours);
   double mean_friction(double const* p, double const* q, double r2) const;
   PairNoise noise(StepContext const& context, double boltzmann_constant, std::uint32_t owner) const;
 };

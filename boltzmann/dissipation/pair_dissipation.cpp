@@ -281,89 +281,157 @@ bool PairDissipation::take_points() {
   return current;
 }
 
-/// Of the chunk every pair once, in the order of the neighbour lists; with particles of other chunks, other ensembles
+namespace {
+/// Entries of rows, in groups as DissipationTask has them.
+struct Groups {
+  std::vector<std::uint32_t>& words;
+  std::uint32_t sentinel, taken = 0;  // of the row at hand
+
+  void take(std::uint32_t entry, std::uint32_t number) {
+    if (taken % list_padding == 0) words.resize(words.size() + 2 * list_padding);
+    std::uint32_t* const group = words.data() + words.size() - 2 * list_padding;
+    group[taken % list_padding] = entry;
+    group[list_padding + taken % list_padding] = number;
+    ++taken;
+  }
+  void end_row() {
+    while (taken % list_padding != 0) take(sentinel, 0);
+    taken = 0;
+  }
+};
+}  // namespace
+
+/// Every pair of the chunk once, in the order of the neighbour lists; with particles of other chunks, other ensembles
 /// and images, from both sides.
-void PairDissipation::Coupling::take_chunk(std::size_t chunk, NeighbourList const& neighbours) {
+void PairDissipation::Coupling::take_piece(std::size_t piece, NeighbourList const& neighbours) {
   SortedCopy const& of = *source->copy;
-  std::uint32_t const sentinel = item_of_row(of.sentinel());
-  std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, target->owned());
-  std::uint32_t const low = item_of_row(begin);
-  auto& groups = entries[chunk];
-  groups.clear();
+  auto const& [first, begin, end] = target->pieces[piece];
+  std::uint32_t const low = item_of_row(first);
+  entries[piece].clear();
+  Groups groups{entries[piece], item_of_row(of.sentinel())};
   std::vector<std::size_t> start;
   for (std::size_t k = begin; k < end; ++k) {
-    start.push_back(groups.size());
+    start.push_back(groups.words.size());
     std::uint32_t const* j = neighbours.rows()[k];
     std::uint32_t const self = item_of_row(k);
-    std::uint32_t read = 0, taken = 0;
-    auto const take = [&](std::uint32_t entry, std::uint32_t number) {
-      if (taken % list_padding == 0) groups.resize(groups.size() + 2 * list_padding);
-      std::uint32_t* group = groups.data() + groups.size() - 2 * list_padding;
-      group[taken % list_padding] = entry;
-      group[list_padding + taken % list_padding] = number;
-      ++taken;
-    };
+    std::uint32_t read = 0;
     for (int ring = 0; ring < list_rings; ++ring) {
       for (std::uint32_t const stop = neighbours.lengths(ring)[k]; read < stop; ++read) {
         bool const twice = same() && j[read] >= low && j[read] <= self;
-        if (!twice && j[read] != sentinel) take(j[read], of.order()[of.owner(j[read] / 4)]);
+        if (!twice && j[read] != groups.sentinel) groups.take(j[read], of.order()[of.owner(j[read] / 4)]);
       }
-      length[ring][k] = taken;
+      length[ring][k] = groups.taken;
     }
-    while (taken % list_padding != 0) take(sentinel, 0);
+    groups.end_row();
   }
-  for (std::size_t k = begin; k < end; ++k) row[k] = groups.data() + start[k - begin];
+  for (std::size_t k = begin; k < end; ++k) row[k] = groups.words.data() + start[k - begin];
+  take_border(piece, neighbours);
+}
+
+/// Pairs with rows of the same chunk before the piece, as these rows have them: the lists of the piece tell of them.
+void PairDissipation::Coupling::take_border(std::size_t piece, NeighbourList const& neighbours) {
+  auto const& [first, begin, end] = target->pieces[piece];
+  Border& border = borders[piece] = {};
+  if (!same() || first == begin) return;
+  struct Pair {
+    std::uint32_t row;
+    int ring;
+    std::uint32_t item;
+    auto operator<=>(Pair const&) const = default;
+  };
+  std::vector<Pair> pairs;
+  std::uint32_t const low = item_of_row(first), high = item_of_row(begin);
+  for (std::size_t k = begin; k < end; ++k) {
+    std::uint32_t const* j = neighbours.rows()[k];
+    std::uint32_t read = 0;
+    for (int ring = 0; ring < list_rings; ++ring)
+      for (std::uint32_t const stop = neighbours.lengths(ring)[k]; read < stop; ++read)
+        if (j[read] >= low && j[read] < high) pairs.push_back({j[read] / 4, ring, item_of_row(k)});
+  }
+  if (pairs.empty()) return;
+  std::sort(pairs.begin(), pairs.end());
+  border.begin = pairs.front().row;
+  Groups groups{border.entries, item_of_row(target->copy->sentinel())};
+  std::vector<std::size_t> start;
+  auto pair = pairs.begin();
+  for (std::size_t i = border.begin; i <= pairs.back().row; ++i) {
+    start.push_back(groups.words.size());
+    for (int ring = 0; ring < list_rings; ++ring) {
+      for (; pair != pairs.end() && pair->row == i && pair->ring == ring; ++pair)
+        groups.take(pair->item, target->copy->order()[pair->item / 4]);
+      border.length[ring].push_back(groups.taken);
+    }
+    groups.end_row();
+  }
+  for (std::size_t const at : start) border.row.push_back(groups.words.data() + at);
 }
 
 std::string PairDissipation::undivided() const {
-  if (method_ == DissipationMethod::shardlow) return "pairs that are taken one by one (shardlow)";
-  std::size_t chunks = 1;
-  for (auto const& member : members_)
-    if (member->dissipates)
-      chunks = std::max(chunks, (member->ensemble->size() + dissipation_chunk - 1) / dissipation_chunk);
-  if (chunks >= static_cast<std::size_t>(team().size())) return "";
-  return fmt::format("friction between so few pairs (a rank takes {} particles at least)", dissipation_chunk);
+  return method_ == DissipationMethod::shardlow ? "pairs that are taken one by one (shardlow)" : "";
 }
 
 void PairDissipation::divide(Division* division) {
   Dissipation::divide(division);
   if (division) division->read_rows();
-  scheme_.neighbourhood().cut_at(dissipation_chunk);
   for (auto& coupling : couplings_) coupling->builds = ~std::size_t{0};  // of whose rows there are pairs
 }
 
-/// All of them, or those of this rank's share.
-std::vector<std::size_t> PairDissipation::own_chunks(Member const& m) const {
-  std::vector<std::size_t> chunks;
-  for (auto const& [begin, end] : scheme_.neighbourhood().own(*m.copy))
-    for (std::size_t chunk = begin / dissipation_chunk; chunk * dissipation_chunk < end; ++chunk)
-      chunks.push_back(chunk);
-  return chunks;
+/// Of all rows, or of those of this rank's share. Threads have about equal parts of them where chunks are few; each
+/// further cut has pairs across it that are then done twice.
+std::vector<PairDissipation::Piece> PairDissipation::pieces(Member const& m) const {
+  constexpr std::size_t grain = 512, few = 8;
+  auto const& own = scheme_.neighbourhood().own(*m.copy);
+  std::size_t rows = 0, done = 0;
+  for (auto const& [begin, end] : own) rows += end - begin;
+  auto const used = static_cast<std::size_t>(threads_for(rows, 4, threads()));
+  std::size_t const parts = rows < few * used * dissipation_chunk ? used : 1;
+  auto const part_end = [&](std::size_t part) { return part < parts ? rows * part / parts / grain * grain : rows; };
+  std::vector<Piece> pieces;
+  std::size_t part = 1;
+  for (auto const& [first, last] : own)
+    for (std::size_t begin = first; begin < last; begin = pieces.back().end) {
+      while (part_end(part) <= done) ++part;
+      std::size_t const low = begin / dissipation_chunk * dissipation_chunk;
+      std::size_t const end = std::min({last, low + dissipation_chunk, begin + (part_end(part) - done)});
+      pieces.push_back({low, begin, end});
+      done += end - begin;
+    }
+  return pieces;
 }
 
 void PairDissipation::take_lists() {
   Neighbourhood const& neighbourhood = scheme_.neighbourhood();
+  for (auto& member : members_) {
+    if (!member->dissipates) continue;
+    auto now = pieces(*member);
+    if (now == member->pieces) continue;
+    member->pieces = std::move(now);
+    for (auto& coupling : couplings_)
+      if (coupling->target == member.get()) coupling->builds = ~std::size_t{0};
+  }
   for (auto& coupling : couplings_) {
     Coupling& c = *coupling;
     Member const& m = *c.target;
     if (c.builds == neighbourhood.version() && c.moves == neighbourhood.moves()) continue;
     NeighbourList const& list = neighbourhood.list(c.list);
-    std::vector<std::size_t> chunks;
+    std::vector<std::size_t> pieces;
     if (c.builds == neighbourhood.version() && c.moves + 1 == neighbourhood.moves()) {
+      std::size_t piece = 0;
       for (std::uint32_t const row : list.rebuilt()) {  // ascending
-        std::size_t const chunk = row / dissipation_chunk;
-        if (chunks.empty() || chunks.back() != chunk) chunks.push_back(chunk);
+        while (m.pieces[piece].end <= row) ++piece;
+        if (pieces.empty() || pieces.back() != piece) pieces.push_back(piece);
       }
     } else {
-      c.entries.resize(m.chunks());
+      c.entries.resize(m.pieces.size());
+      c.borders.resize(m.pieces.size());
       c.row.resize(m.owned());
       for (auto& length : c.length) length.resize(m.owned());
-      chunks = own_chunks(m);
+      for (std::size_t piece = 0; piece < m.pieces.size(); ++piece) pieces.push_back(piece);
     }
     c.builds = neighbourhood.version();
     c.moves = neighbourhood.moves();
-    for_ranges(chunks.size(), 1, threads_for(m.owned(), 2, threads()), [&](std::size_t first, std::size_t last) {
-      for (std::size_t n = first; n < last; ++n) c.take_chunk(chunks[n], list);
+    for_ranges(pieces.size(), 1, threads_for(m.owned(), 2, threads()), [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) c.take_piece(pieces[n], list);
     });
   }
 }

@@ -73,6 +73,8 @@ class PairDissipation final : public Dissipation {
 
  private:
   struct Member;    // an ensemble with its points
+  struct Piece;     // of its rows
+  struct Border;    // of a piece
   struct Coupling;  // a dissipation between two members, with its pairs
   struct Splitting;
 
@@ -81,12 +83,12 @@ class PairDissipation final : public Dissipation {
   template <class Function>
   void for_dissipating(Function const& function);
   template <class Function>
-  void each_chunk(StepContext const& context, double asymmetry, Function const& function);
+  void each_piece(StepContext const& context, double asymmetry, Function const& function);
   bool take_points();
   void bring_mean_velocities(Member& member);
-  std::vector<std::size_t> own_chunks(Member const& member) const;
+  std::vector<Piece> pieces(Member const& member) const;
   void take_lists();
-  void finish_chunk(Member& member, std::size_t chunk, double const* sums, ExactSum& by_bath);
+  void finish_piece(Member& member, Piece const& piece, double const* sums, ExactSum& by_bath);
   void simultaneous(StepContext const& context);
   void shardlow(StepContext const& context);
 

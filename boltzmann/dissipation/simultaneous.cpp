@@ -11,14 +11,19 @@
 
 namespace boltzmann {
 
-/// Calls function(member, chunk, sums) with the sums over all pairs of a chunk's particles, side by side.
+/// Calls function(member, piece, sums) with the sums over all pairs of a piece's particles, side by side.
 template <class Function>
-void PairDissipation::each_chunk(StepContext const& context, double asymmetry, Function const& function) {
+void PairDissipation::each_piece(StepContext const& context, double asymmetry, Function const& function) {
   int const ring = scheme_.neighbourhood().ring();
   for (auto& member : members_) {
     Member& m = *member;
     if (!m.dissipates) continue;
-    std::vector<std::pair<DissipationTask, DissipationKernels const*>> tasks;
+    struct Part {
+      DissipationTask task;
+      DissipationKernels const* kernels;
+      Coupling const* coupling;
+    };
+    std::vector<Part> parts;
     for (auto const& coupling : couplings_) {
       Coupling const& c = *coupling;
       if (c.target != &m) continue;
@@ -30,22 +35,31 @@ void PairDissipation::each_chunk(StepContext const& context, double asymmetry, F
       task.length = c.length[ring].data();
       task.asymmetry = asymmetry;
       task.noise = c.noise(context, boltzmann_constant_, number());
-      tasks.emplace_back(task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected));
+      parts.push_back({task, &dissipation_kernels_for(m.dimension(), c.dissipation.projected), &c});
     }
-    auto const chunks = own_chunks(m);
-    for_ranges(chunks.size(), 1, threads_for(m.owned(), 4, threads()), [&](std::size_t first, std::size_t last) {
+    for_ranges(m.pieces.size(), 1, threads_for(m.owned(), 4, threads()), [&](std::size_t first, std::size_t last) {
       AlignedVector<double> sums;
       for (std::size_t n = first; n < last; ++n) {
-        std::size_t const chunk = chunks[n];
-        std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
-        sums.assign(4 * (end - begin + 1), 0.0);
-        for (auto [task, kernels] : tasks) {
-          task.begin = begin;
-          task.end = end;
+        Piece const& piece = m.pieces[n];
+        sums.assign(4 * (piece.rows() + 1), 0.0);
+        for (auto [task, kernels, coupling] : parts) {
+          task.first = piece.begin;
+          task.rows = piece.rows();
           task.sums = sums.data();
+          // Each row gets from those before it first, in their order, as it does where the chunk is one piece.
+          if (Border const& before = coupling->borders[n]; !before.row.empty()) {
+            DissipationTask border = task;
+            border.begin = before.begin;
+            border.end = before.begin + before.row.size();
+            border.row = before.row.data() - before.begin;
+            border.length = before.length[ring].data() - before.begin;
+            kernels->simultaneous(border);
+          }
+          task.begin = piece.begin;
+          task.end = piece.end;
           kernels->simultaneous(task);
         }
-        function(m, chunk, sums.data());
+        function(m, piece, sums.data());
       }
     });
   }
@@ -64,9 +78,8 @@ void PairDissipation::simultaneous(StepContext const& context) {
   for (int n = 0; n < tries; ++n) {
     for (auto& member : members_)
       if (member->dissipates) member->predicted.resize(4 * member->owned());
-    each_chunk(context, 0, [](Member& m, std::size_t chunk, double const* sums) {
-      std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
-      std::copy_n(sums, 4 * (end - begin), m.predicted.data() + 4 * begin);
+    each_piece(context, 0, [](Member& m, Piece const& piece, double const* sums) {
+      std::copy_n(sums, 4 * piece.rows(), m.predicted.data() + 4 * piece.begin);
     });
     for (auto& member : members_)
       if (member->dissipates) {
@@ -77,9 +90,9 @@ void PairDissipation::simultaneous(StepContext const& context) {
       }
   }
   SharedSum paid;  // by the bath
-  each_chunk(context, corrector_ ? 0 : 0.25, [&](Member& m, std::size_t chunk, double const* sums) {
+  each_piece(context, corrector_ ? 0 : 0.25, [&](Member& m, Piece const& piece, double const* sums) {
     ExactSum by_bath;
-    finish_chunk(m, chunk, sums, by_bath);
+    finish_piece(m, piece, sums, by_bath);
     paid.add(by_bath);
   });
   if (division()) division()->sum(paid.total());
@@ -122,12 +135,11 @@ void PairDissipation::Member::carry_along_flow() {
     if (k != copy->sentinel()) point(k)[flow] += copy->ahead_in_flow(k);
 }
 
-/// Gives momenta and energies to the particles of a chunk; what no internal energy pays for the bath does.
-void PairDissipation::finish_chunk(Member& m, std::size_t chunk, double const* sums, ExactSum& by_bath) {
+/// Gives momenta and energies to the particles of a piece; what no internal energy pays for the bath does.
+void PairDissipation::finish_piece(Member& m, Piece const& piece, double const* sums, ExactSum& by_bath) {
   bool const has_energy = m.has_energy();
   int const dimension = m.dimension();
-  std::size_t const begin = chunk * dissipation_chunk, end = std::min(begin + dissipation_chunk, m.owned());
-  for (std::size_t k = begin; k < end; ++k, sums += 4) {
+  for (std::size_t k = piece.begin; k < piece.end; ++k, sums += 4) {
     double* row = m.ensemble->row(m.copy->order()[k]);
     double const inverse_mass = m.point(k)[m.inverse_mass_at()];
     double const* predicted = corrector_ ? m.predicted.data() + 4 * k : nullptr;

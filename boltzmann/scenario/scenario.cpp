@@ -95,6 +95,7 @@ void complete_simulation(Reading& reading) {
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   add_dyes(reading);
   keep_out_of_bodies(reading);
+  result.simulation->threads(reading.run.threads);  // what it has by now, baths and friction too
 }
 
 void check_simulation(Reading& reading) {

@@ -186,6 +186,13 @@ TEST(Dissipation, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
   }
 }
 
+TEST(Dissipation, ActsOnTheThreadsThatTheRunIsGiven) {
+  std::string const bath = "[[dissipation]]\nkind = \"langevin\"\non = \"gas\"\nrate = 1\ntemperature = 1\n";
+  auto const run = scenario(text(square, meso, dpd("convention = \"constant-friction\"") + bath), {.threads = 3});
+  ASSERT_EQ(run->simulation->dissipations().size(), 2u);
+  for (auto const* dissipation : run->simulation->dissipations()) EXPECT_EQ(dissipation->threads(), 3);
+}
+
 TEST(Dissipation, AFormulaOfThePowerIsThePower) {
   std::string const convention = "convention = \"constant-friction\"\n";
   auto const with = [&](std::string const& more, std::string const& friction = "1") {

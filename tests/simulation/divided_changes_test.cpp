@@ -23,6 +23,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
 
 namespace boltzmann::divided_changes_test {
 namespace {
@@ -420,16 +421,52 @@ TEST(DividedStops, WhatAllAreToldInAStepStopsThemThere) {
       29);
 }
 
-// ---- What every rank does, all of it ----
+// ---- Friction ----
+
+DissipationLaw const some_friction{
+    .convention = Convention::fixed_temperature, .friction = 2, .temperature = 1, .range = 1.5};
 
 /// Friction and noise between pairs of atoms, by the lists of a scheme.
-void add_friction(World& world, AnyEnsemble& atoms, PairScheme& pairs, DissipationMethod method) {
+PairDissipation& add_friction(World& world, AnyEnsemble& atoms, PairScheme& pairs, DissipationMethod method) {
   auto& friction = world.make<PairDissipation>(pairs, 1.0);
-  friction.internal(atoms,
-                    {.convention = Convention::fixed_temperature, .friction = 2, .temperature = 1, .range = 1.5});
+  friction.internal(atoms, some_friction);
   friction.method(method);
   world.simulation->add(friction);
+  return friction;
 }
+
+/// A melt whose atoms rub against each other, and against dust that feels nothing else.
+template <int D>
+void rubbing_melt(World& world, int cells, Boundary boundary, bool corrector) {
+  melt<D>(world, cells, 1.0, boundary);
+  auto& atoms = part_of<Ensemble<Newton<D>>>(world, 0);
+  auto& pairs = part_of<PairScheme>(world, 1);
+  auto& dust = world.make<Ensemble<Newton<D>>>("dust", 100);
+  std::mt19937_64 random(test_seed(5));
+  for (auto& p : dust) {
+    p.mass = 3;
+    for (int a = 0; a < D; ++a)
+      p.position[a] = std::uniform_real_distribution<double>(0.01, pairs.box().length(a) - 0.01)(random);
+  }
+  pairs.add(dust);
+  auto& friction = add_friction(world, atoms, pairs, DissipationMethod::simultaneous);
+  friction.between(atoms, dust, some_friction);
+  friction.corrector(corrector);
+  world.simulation->integrate(atoms, Method::leap_frog);
+  world.simulation->integrate(dust, Method::leap_frog);
+}
+
+TEST(DividedFriction, OfPairsAcrossTheCuts) {
+  expect_same_bits([](World& world) { rubbing_melt<1>(world, 300, Boundary::periodic, true); }, 10, {3});
+  expect_same_bits([](World& world) { rubbing_melt<2>(world, 20, Boundary::reflecting, true); }, 20, {2, 5});
+  expect_same_bits([](World& world) { rubbing_melt<3>(world, 5, Boundary::periodic, false); }, 20, {3});
+}
+
+TEST(DividedFriction, WhereRanksBeginInTheMidstOfAChunk) {
+  expect_same_bits([](World& world) { rubbing_melt<2>(world, 134, Boundary::periodic, false); }, 3, {3});
+}
+
+// ---- What every rank does, all of it ----
 
 TEST(UndividedRun, OfFrictionOnePairAfterTheOther) {
   expect_same_bits(

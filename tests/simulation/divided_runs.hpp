@@ -143,7 +143,7 @@ void melt(World& world, int cells, double temperature, Boundary boundary) {
   auto const count = static_cast<std::size_t>(cells);
   block_load(atoms, {D == 3 ? Lattice::fcc : Lattice::square,
                      spacing,
-                     {count, count, D == 3 ? count : 1},
+                     {count, D > 1 ? count : 1, D == 3 ? count : 1},
                      {0.3, 0.3, D == 3 ? 0.3 : 0}});
   maxwellian_load(atoms, {.temperature = temperature, .seed = test_seed(3)});
   scheme.internal(atoms, LennardJones{1.0, 1.0});
