@@ -379,13 +379,13 @@ void PairDissipation::divide(Division* division) {
 /// Of all rows, or of those of this rank's share. Threads have about equal parts of them where chunks are few; each
 /// further cut has pairs across it that are then done twice.
 std::vector<PairDissipation::Piece> PairDissipation::pieces(Member const& m) const {
-  constexpr std::size_t grain = 512, few = 8;
+  constexpr std::size_t few = 8;
   auto const& own = scheme_.neighbourhood().own(*m.copy);
   std::size_t rows = 0, done = 0;
   for (auto const& [begin, end] : own) rows += end - begin;
   auto const used = static_cast<std::size_t>(threads_for(rows, 4, threads()));
   std::size_t const parts = rows < few * used * dissipation_chunk ? used : 1;
-  auto const part_end = [&](std::size_t part) { return part < parts ? rows * part / parts / grain * grain : rows; };
+  auto const part_end = [&](std::size_t part) { return rows * part / parts; };
   std::vector<Piece> pieces;
   std::size_t part = 1;
   for (auto const& [first, last] : own)
