@@ -22,7 +22,6 @@ namespace {
 constexpr double nowhere = 1e150;  // its square is finite
 constexpr double noticeable = 0.01;
 constexpr std::size_t sampled = 1000;
-constexpr std::size_t particles_of_sum = 1024;
 
 }  // namespace
 
@@ -475,7 +474,7 @@ double PairDissipation::internal_energy() const {
 
 /// The mean force of friction on i is -g v_ij, along the line of centres if it is projected (see warnings()).
 std::array<std::array<double, 3>, 3> PairDissipation::virial() {
-  std::array<std::array<double, 3>, 3> sum{};
+  std::array<ExactSum, 9> sums;
   Neighbourhood& neighbourhood = scheme_.neighbourhood();
   neighbourhood.refresh(threads());
   take_points();
@@ -484,31 +483,30 @@ std::array<std::array<double, 3>, 3> PairDissipation::virial() {
     Member &m = *coupling->target, &of = *coupling->source;
     NeighbourList const& list = neighbourhood.list(coupling->list);
     int const D = m.dimension(), v = m.velocity_at();
-    std::vector<std::array<double, 9>> parts(m.owned() / particles_of_sum + 1);
-    for_ranges(m.owned(), particles_of_sum, threads_for(m.owned(), 4, threads()),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k) {
-                   double const* const p = m.point(k);
-                   std::uint32_t const* j = list.rows()[k];
-                   for (std::uint32_t const* const last = j + list.lengths(ring)[k]; j < last; ++j) {
-                     double const* const q = of.point(*j / 4);
-                     double r[3] = {}, along = 0, r2 = 0;
-                     for (int a = 0; a < D; ++a) r[a] = p[a] - q[a], r2 += r[a] * r[a];
-                     double const friction = coupling->mean_friction(p, q, r2);
-                     if (friction == 0) continue;
-                     for (int a = 0; a < D; ++a) along += r[a] * (p[v + a] - q[v + a]);
-                     for (int a = 0; a < D; ++a)
-                       for (int b = 0; b < D; ++b)  // half of the pair's
-                         parts[k / particles_of_sum][static_cast<std::size_t>(3 * a + b)] -=
-                             0.5 * friction * r[a] *
-                             (coupling->dissipation.projected ? along / r2 * r[b] : p[v + b] - q[v + b]);
-                   }
-                 }
-               });
-    for (auto const& part : parts)
-      for (std::size_t n = 0; n < 9; ++n) sum[n / 3][n % 3] += part[n];
+    auto const of_row = [&](std::size_t k, std::array<double, 9>& terms) {
+      double const* const p = m.point(k);
+      std::uint32_t const* j = list.rows()[k];
+      for (std::uint32_t const* const last = j + list.lengths(ring)[k]; j < last; ++j) {
+        double const* const q = of.point(*j / 4);
+        double r[3] = {}, along = 0, r2 = 0;
+        for (int a = 0; a < D; ++a) r[a] = p[a] - q[a], r2 += r[a] * r[a];
+        double const friction = coupling->mean_friction(p, q, r2);
+        if (friction == 0) continue;
+        for (int a = 0; a < D; ++a) along += r[a] * (p[v + a] - q[v + a]);
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b)  // half of the pair's
+            terms[static_cast<std::size_t>(3 * a + b)] -=
+                0.5 * friction * r[a] * (coupling->dissipation.projected ? along / r2 * r[b] : p[v + b] - q[v + b]);
+      }
+    };
+    for (auto const& [first, last] : neighbourhood.own(*m.copy))
+      add_terms(sums, last - first, threads(),
+                [&, first = first](std::size_t k, std::array<double, 9>& terms) { of_row(first + k, terms); });
   }
-  return sum;
+  if (division()) division()->sum(sums);
+  std::array<std::array<double, 3>, 3> virial{};
+  for (std::size_t n = 0; n < sums.size(); ++n) virial[n / 3][n % 3] = sums[n].value();
+  return virial;
 }
 
 /// Friction times weight, without the step: of a pair's points, the square of whose distance is r2.

@@ -30,10 +30,6 @@ std::string Simulation::undivided() const {
   if (team().size() > Division::most_ranks) return "more than 65,536 ranks";
   for (auto const* dissipation : dissipations_)
     if (auto why = dissipation->undivided(); !why.empty()) return why;
-  if (schemes_.front()->box().sheared() && std::any_of(dissipations_.begin(), dissipations_.end(), [](auto const* one) {
-        return dynamic_cast<PairDissipation const*>(one) != nullptr;
-      }))
-    return "friction between pairs in a sheared box";
   if (!gauss_radau_.parts().empty()) return "gauss-radau";
   auto const lists = schemes_with_lists();
   if (lists.size() > 1 && lists[1]->has_points()) return "several schemes that have points of their own";

@@ -368,6 +368,10 @@ TEST(DividedShear, OfAFluid) {
       60, {3});
 }
 
+TEST(DividedShear, OfAFluidThatRubs) {
+  expect_same_bits(scenario("sheared-fluid", {"equilibrate.time=0.2"}), 30, {2, 3});
+}
+
 TEST(DividedShear, OfAMetalAndOfAContinuum) {
   expect_same_bits(scenario("copper-3d", {"box.shear={rate='1e12 1/s', established=false}"}), 16, {2, 3});
   expect_same_bits(scenario("taylor-green", {"box.shear={rate=2}"}), 6, {3});
@@ -517,11 +521,6 @@ TEST(UndividedRun, OfTwoSchemesWithPointsOfTheirOwn) {
         world.simulation = &first;
       },
       4, {2}, "several schemes that have points of their own");
-}
-
-TEST(UndividedRun, OfAShearedFluid) {
-  expect_same_bits(scenario("sheared-fluid", {"equilibrate.time=0.2"}), 14, {2, 3},
-                   "friction between pairs in a sheared box");
 }
 
 // ---- Substeps ----
