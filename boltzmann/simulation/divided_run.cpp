@@ -1,6 +1,5 @@
 // A run over the ranks of a team: each advances its share of the particles, and all have the bits of one.
 #include <boltzmann/core/team.hpp>
-#include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <algorithm>
@@ -33,12 +32,6 @@ std::string Simulation::undivided() const {
   if (!gauss_radau_.parts().empty()) return "gauss-radau";
   auto const lists = schemes_with_lists();
   if (lists.size() > 1 && lists[1]->has_points()) return "several schemes that have points of their own";
-  bool const groups =
-      std::any_of(parts_.begin(), parts_.end(), [](auto& part) { return part.integrator->has_groups(); });
-  for (auto const* dissipation : dissipations_)
-    if ((groups || lists.size() > 1) && dynamic_cast<PairDissipation const*>(dissipation))
-      return groups ? "friction between pairs of rigid molecules"
-                    : "friction between pairs beside several schemes that have lists";
   for (auto const* scheme : schemes_) {
     if (auto why = scheme->undivided(); !why.empty()) return why;
   }

@@ -470,6 +470,24 @@ TEST(DividedFriction, WhereRanksBeginInTheMidstOfAChunk) {
   expect_same_bits([](World& world) { rubbing_melt<2>(world, 134, Boundary::periodic, false); }, 3, {3});
 }
 
+TEST(DividedFriction, BesideSeveralListsOrRigidBonds) {
+  expect_same_bits(
+      [](World& world) {
+        two_lists(world, 1, 1);
+        add_friction(world, part_of<Ensemble<Newton<2>>>(world, 0), part_of<PairScheme>(world, 1),
+                     DissipationMethod::simultaneous);
+      },
+      20, {3});
+  expect_same_bits(
+      [](World& world) {
+        chains(world, {.each = 4, .rigid = true});
+        add_friction(world, part_of<Ensemble<Newton<3>>>(world, 0), part_of<PairScheme>(world, 2),
+                     DissipationMethod::simultaneous)
+            .corrector(true);
+      },
+      40, {2, 5});
+}
+
 // ---- What every rank does, all of it ----
 
 TEST(UndividedRun, OfFrictionOnePairAfterTheOther) {
@@ -480,23 +498,6 @@ TEST(UndividedRun, OfFrictionOnePairAfterTheOther) {
                      DissipationMethod::shardlow);
       },
       20, {2, 3}, "pairs that are taken one by one (shardlow)");
-}
-
-TEST(UndividedRun, OfFrictionBesideSeveralListsOrRigidBonds) {
-  expect_same_bits(
-      [](World& world) {
-        two_lists(world, 1, 1);
-        add_friction(world, part_of<Ensemble<Newton<2>>>(world, 0), part_of<PairScheme>(world, 1),
-                     DissipationMethod::simultaneous);
-      },
-      20, {2, 3}, "friction between pairs beside several schemes that have lists");
-  expect_same_bits(
-      [](World& world) {
-        chains(world, {.each = 4, .rigid = true});
-        add_friction(world, part_of<Ensemble<Newton<3>>>(world, 0), part_of<PairScheme>(world, 2),
-                     DissipationMethod::simultaneous);
-      },
-      20, {2, 3}, "friction between pairs of rigid molecules");
 }
 
 TEST(UndividedRun, OfMethodsThatKnowNoShares) {
