@@ -15,13 +15,6 @@
 namespace boltzmann {
 namespace detail {
 
-template <int W>
-[[gnu::always_inline]] inline Pack<double, W> load(double const* numbers) {
-  Pack<double, W> result;
-  __builtin_memcpy(&result.native, numbers, sizeof(result.native));
-  return result;
-}
-
 /// Of all lanes, by an operation that may take them in any order.
 template <int W, class Operation>
 [[gnu::always_inline]] inline double over_lanes(Pack<double, W> a, Operation const& operation) {
@@ -50,7 +43,7 @@ template <int W>
   Number largest[chains];  // what is NaN does not count
   for (auto& of_chain : largest) of_chain = 0.0;
   for (std::size_t i = 0; i < task.count; i += chains * W)
-    for (int c = 0; c < chains; ++c) largest[c] = max(largest[c], abs(load<W>(task.numbers + i + c * W)));
+    for (int c = 0; c < chains; ++c) largest[c] = max(largest[c], abs(load_pack<W>(task.numbers + i + c * W)));
   for (int c = 1; c < chains; ++c) largest[0] = max(largest[0], largest[c]);
   double const most = largest_lane<W>(largest[0]);
   task.largest_rest = std::numeric_limits<double>::quiet_NaN();
@@ -66,7 +59,7 @@ template <int W>
   for (std::size_t i = 0; i < task.count; i += chains * W)
     for (int c = 0; c < chains; ++c) {
       std::size_t const at = i + static_cast<std::size_t>(c * W);
-      Number const x = load<W>(task.numbers + at);
+      Number const x = load_pack<W>(task.numbers + at);
       Number const q = (first + x) - first, left = x - q;
       Number const r = (second + left) - second, rest = left - r;
       sums[c] += q;

@@ -232,6 +232,18 @@ struct Pack {
   }
 };
 
+/// W numbers that stand side by side, wherever they do.
+template <int W, class Real>
+[[gnu::always_inline]] inline Pack<Real, W> load_pack(Real const* from) {
+  Pack<Real, W> pack;
+  __builtin_memcpy(&pack.native, from, sizeof(pack.native));
+  return pack;
+}
+template <int W, class Real>
+[[gnu::always_inline]] inline void store_pack(Real* to, Pack<Real, W> pack) {
+  __builtin_memcpy(to, &pack.native, sizeof(pack.native));
+}
+
 /// The sum over all lanes, always in the same order.
 template <class Real, int W>
 Real sum(Pack<Real, W> a) {

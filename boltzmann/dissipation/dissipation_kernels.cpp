@@ -241,7 +241,7 @@ template <int W, int count>
     for (std::size_t lane = 0; lane < list_padding; lane += W) {
       Reals<W> normal[count + count % 2];
       draw_normals<W, count>(self, widened<W>(group + list_padding + lane), task.noise, normal);
-      for (int n = 0; n < count; ++n, out += W) *reinterpret_cast<typename Reals<W>::Native*>(out) = normal[n].native;
+      for (int n = 0; n < count; ++n, out += W) store_pack<W>(out, normal[n]);
     }
   return out;
 }
@@ -292,8 +292,7 @@ template <int W, int D, bool projected, bool conducts, bool is_typed>
     for (std::uint32_t const* j = group; j < group + list_padding; j += W) {
       auto const q = load_rows<DissipationPoint<D>, W>([&](int lane) { return source + blocks * j[lane]; });
       Reals<W> normal[count];
-      for (int n = 0; n < count; ++n, noise += W)
-        normal[n] = *reinterpret_cast<typename Reals<W>::Native const*>(noise);
+      for (int n = 0; n < count; ++n, noise += W) normal[n] = load_pack<W>(noise);
       Reals<W> const sign = order_of<W>(self, widened<W>(j + list_padding), task.noise);
       auto const pair = exchange<W, D, projected, conducts, is_typed>(p, q, normal, sign, task.noise, task.asymmetry,
                                                                       typed, typed_stride);
@@ -395,7 +394,7 @@ template <int W, int D, bool projected>
   if (typed && !task.noise.of_temperature) weigh_pairs<W, D>(task, weighed);
   constexpr int directions = projected ? 1 : D;
   auto const store = [&](std::size_t column, std::size_t k, Reals<W> x) {
-    *reinterpret_cast<typename Reals<W>::Native*>(task.columns + column * geometry_block + k) = x.native;
+    store_pack<W>(task.columns + column * geometry_block + k, x);
   };
   for (std::size_t k = 0; k < task.count; k += W) {
     auto const pair = [&](int lane) { return task.pairs[k + lane < task.count ? k + lane : task.count - 1]; };

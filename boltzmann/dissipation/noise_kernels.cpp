@@ -8,7 +8,7 @@ namespace detail {
 template <int W>
 [[gnu::flatten]] void draw_noise(NoiseTask const& task) {
   auto const store = [&](int column, std::size_t k, Pack<double, W> x) {
-    *reinterpret_cast<typename Pack<double, W>::Native*>(task.columns + column * noise_block + k) = x.native;
+    store_pack<W>(task.columns + column * noise_block + k, x);
   };
   Words<W> lane{};
   for (int l = 0; l < W; ++l) lane[l] = static_cast<std::uint64_t>(l);

@@ -18,23 +18,12 @@ struct Workspace {
   alignas(64) double scalars[(max_scalars + 4) * W];  // those of a list's rows stand behind a program's
 
   double* column(std::size_t which) { return columns + which * block_pairs; }
-  void set_scalar(std::size_t which, double value) {
-    *reinterpret_cast<typename Real::Native*>(scalars + which * W) = Real(value).native;
-  }
+  void set_scalar(std::size_t which, double value) { store_pack<W>(scalars + which * W, Real(value)); }
   void set_constants(FormulaProgram const& program) {
     for (std::size_t k = 0; k < program.constants.size(); ++k) set_scalar(k, program.constants[k]);
   }
   double* place(Operand operand) { return operand.scalar ? scalars + operand.index * W : column(operand.index); }
 };
-
-template <int W>
-[[gnu::always_inline]] inline Pack<double, W> load_pack(double const* from) {
-  return *reinterpret_cast<typename Pack<double, W>::Native const*>(from);
-}
-template <int W>
-[[gnu::always_inline]] inline void store_pack(double* to, Pack<double, W> value) {
-  *reinterpret_cast<typename Pack<double, W>::Native*>(to) = value.native;
-}
 
 /// An argument that has been calculated has been rounded.
 template <int W>

@@ -7,36 +7,26 @@
 namespace boltzmann {
 namespace detail {
 
-/// W numbers that stand side by side, or some doubles apart.
+/// W numbers that stand some doubles apart.
 template <int W>
-[[gnu::always_inline]] inline Pack<double, W> load_numbers(double const* from) {
-  Pack<double, W> result;
-  __builtin_memcpy(&result.native, from, sizeof(result.native));
-  return result;
-}
-template <int W>
-[[gnu::always_inline]] inline Pack<double, W> load_numbers(double const* from, std::size_t step) {
-  if (step == 1) return load_numbers<W>(from);
+[[gnu::always_inline]] inline Pack<double, W> load_apart(double const* from, std::size_t step) {
+  if (step == 1) return load_pack<W>(from);
   Pack<double, W> result;
   for (int lane = 0; lane < W; ++lane) result.native[lane] = from[static_cast<std::size_t>(lane) * step];
   return result;
-}
-template <int W>
-[[gnu::always_inline]] inline void store_numbers(double* to, Pack<double, W> numbers) {
-  __builtin_memcpy(to, &numbers.native, sizeof(numbers.native));
 }
 
 /// f(x, start, sum, rate) for W numbers from the i-th on; `reads` tells whether f asks for x and start as they were,
 /// `sums` whether it keeps a sum. NaN where a number is not finite then, else zero.
 template <bool reads, bool sums, int W, class F>
 [[gnu::always_inline]] inline Pack<double, W> advance_pack(FieldColumn const& column, std::size_t i, F const& f) {
-  Pack<double, W> x = 0.0, sum = 0.0, start = load_numbers<W>(column.start + i);
+  Pack<double, W> x = 0.0, sum = 0.0, start = load_pack<W>(column.start + i);
   if constexpr (reads)
     for (int lane = 0; lane < W; ++lane) x.native[lane] = column.x[(i + static_cast<std::size_t>(lane)) * column.row];
-  if constexpr (sums) sum = load_numbers<W>(column.sum + i);
-  f(x, start, sum, load_numbers<W>(column.rate + i * column.rate_step, column.rate_step));
-  store_numbers(column.start + i, start);
-  if constexpr (sums) store_numbers(column.sum + i, sum);
+  if constexpr (sums) sum = load_pack<W>(column.sum + i);
+  f(x, start, sum, load_apart<W>(column.rate + i * column.rate_step, column.rate_step));
+  store_pack<W>(column.start + i, start);
+  if constexpr (sums) store_pack<W>(column.sum + i, sum);
   for (int lane = 0; lane < W; ++lane) column.x[(i + static_cast<std::size_t>(lane)) * column.row] = x.native[lane];
   return x - x;
 }

@@ -141,7 +141,7 @@ bool Neighbourhood::bring_rows() {
 /// Where the rows of each rank begin, and one more: each gets as much work, as far as lists before have shown it.
 WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
   shares_[e].divide(&division_->team());
-  return cuts_[e] = shares_[e].balanced(copies_[e].ensemble().size(), cut_at_);
+  return cuts_[e] = shares_[e].balanced(copies_[e].ensemble().size());
 }
 
 /// The entries of all ranks' lists, and what rows have taken.

@@ -11,20 +11,6 @@ namespace boltzmann {
 
 namespace detail {
 
-template <int W>
-[[gnu::always_inline]] inline Pack<double, W> load_pack(double const* from) {
-  Pack<double, W> pack;
-  __builtin_memcpy(&pack, from, sizeof(pack));
-  return pack;
-}
-
-template <int W>
-[[gnu::always_inline]] inline Pack<float, W> load_pack(float const* from) {
-  Pack<float, W> pack;
-  __builtin_memcpy(&pack, from, sizeof(pack));
-  return pack;
-}
-
 /// W steps.
 template <int W>
 using Steps = typename register_of<std::int32_t, W>::type;

@@ -95,8 +95,6 @@ class Neighbourhood {
   }
   /// The same of blocks [first, last).
   void bring_blocks(SortedCopy& copy, std::size_t first, std::size_t last);
-  /// Shares begin at multiples of so many rows.
-  void cut_at(std::size_t rows) { cut_at_ = std::max(cut_at_, rows); }
 
   /// Mirrors take the ensembles' rows of now. Afterwards every pair within the cut-off is in its list, no further than
   /// ring(). PhysicsFailure if a position is not finite.
@@ -186,9 +184,8 @@ class Neighbourhood {
   std::size_t builds_ = 0, moves_ = 0, version_ = 0;
   Division* division_ = nullptr;                   // while a run is divided
   std::uint64_t last_division_ = 0, changes_ = 0;  // of owners, when shares were taken
-  std::size_t cut_at_ = 1;
-  std::deque<WorkShares> shares_;      // of the rows of each copy
-  std::deque<WorkShares::Cuts> cuts_;  // where those of ranks begin, since the last build
+  std::deque<WorkShares> shares_;                  // of the rows of each copy
+  std::deque<WorkShares::Cuts> cuts_;              // where those of ranks begin, since the last build
   AlsoRead also_read_;
   RowExchange exchange_;
   bool complete_ = true;          // every row has its lists

@@ -13,13 +13,11 @@ WorkShares::Cuts WorkShares::even(std::size_t items, std::size_t multiple) const
   return cuts;
 }
 
-WorkShares::Cuts WorkShares::balanced(std::size_t items, std::size_t multiple) const {
-  if (cuts_.size() != ranks() + 1) return even(items, multiple);
+WorkShares::Cuts WorkShares::balanced(std::size_t items) const {
+  if (cuts_.size() != ranks() + 1) return even(items);
   Cuts cuts;
-  for (double const cut : cuts_) {
-    auto const at = static_cast<std::size_t>(cut * static_cast<double>(items));
-    cuts.push_back(std::min((at + multiple / 2) / multiple * multiple, items));
-  }
+  for (double const cut : cuts_)
+    cuts.push_back(std::min(static_cast<std::size_t>(cut * static_cast<double>(items)), items));
   cuts.back() = items;
   return cuts;
 }

@@ -25,8 +25,8 @@ class WorkShares {
 
   /// As many of so many items for each, in multiples of a number.
   Cuts even(std::size_t items, std::size_t multiple = 1) const;
-  /// As much work for each of so many items, as far as is known from calculations before, in multiples of a number.
-  Cuts balanced(std::size_t items, std::size_t multiple = 1) const;
+  /// As much work for each of so many items, as far as is known from calculations before.
+  Cuts balanced(std::size_t items) const;
   /// What each rank had to do in the parts of its stretch, equal in items, from the first on, where they were cut so.
   static constexpr std::size_t parts = 32;
   using Work = std::array<std::uint64_t, parts>;
