@@ -236,8 +236,8 @@ template <int W, int count>
 [[gnu::always_inline]] inline double* draw_row(DissipationTask const& task, std::size_t i, std::size_t first,
                                                std::size_t last, double* out) {
   Words<W> const self = Words<W>{} + task.number[i];
-  for (std::uint32_t const* group = task.row[i] + 2 * list_padding * first;
-       group < task.row[i] + 2 * list_padding * last; group += 2 * list_padding)
+  for (std::uint32_t const* group = task.row[i - task.listed] + 2 * list_padding * first;
+       group < task.row[i - task.listed] + 2 * list_padding * last; group += 2 * list_padding)
     for (std::size_t lane = 0; lane < list_padding; lane += W) {
       Reals<W> normal[count + count % 2];
       draw_normals<W, count>(self, widened<W>(group + list_padding + lane), task.noise, normal);
@@ -258,7 +258,7 @@ template <int W, int D>
   auto const p = broadcast<DissipationPoint<D>, Reals<W>>(task.target + stride * i);
   for (std::size_t group = first; group < last; group += block_pairs / list_padding) {
     std::size_t const left = (last - group) * list_padding, count = left < block_pairs ? left : block_pairs;
-    std::uint32_t const* const entries = task.row[i] + 2 * list_padding * group;
+    std::uint32_t const* const entries = task.row[i - task.listed] + 2 * list_padding * group;
     run_typed<W, D>(
         work, task.noise, count, [&](std::size_t) { return p; },
         [&](std::size_t k) {
@@ -287,8 +287,8 @@ template <int W, int D, bool projected, bool conducts, bool is_typed>
   Vector<D, Reals<W>> momentum;
   for (int a = 0; a < D; ++a) momentum[a] = zero;
   Reals<W> loss = zero;
-  for (std::uint32_t const* group = task.row[i] + 2 * list_padding * first;
-       group < task.row[i] + 2 * list_padding * last; group += 2 * list_padding)
+  for (std::uint32_t const* group = task.row[i - task.listed] + 2 * list_padding * first;
+       group < task.row[i - task.listed] + 2 * list_padding * last; group += 2 * list_padding)
     for (std::uint32_t const* j = group; j < group + list_padding; j += W) {
       auto const q = load_rows<DissipationPoint<D>, W>([&](int lane) { return source + blocks * j[lane]; });
       Reals<W> normal[count];
@@ -319,7 +319,7 @@ template <int W, int D, bool projected, bool conducts, bool is_typed>
   constexpr int count = (projected ? 1 : D) + (conducts ? 1 : 0);
   alignas(64) double noise[noise_groups * list_padding * count];
   alignas(64) double weighed[is_typed ? typed_results * typed_stride : 1];
-  auto const groups = [&](std::size_t i) { return (task.length[i] + list_padding - 1) / list_padding; };
+  auto const groups = [&](std::size_t i) { return (task.length[i - task.listed] + list_padding - 1) / list_padding; };
   for (std::size_t i = task.begin; i < task.end;) {
     std::size_t stop = i + 1, all = groups(i);
     for (std::size_t more; stop < task.end && all + (more = groups(stop)) <= noise_groups; ++stop) all += more;

@@ -51,8 +51,9 @@ void PairDissipation::each_piece(StepContext const& context, double asymmetry, F
             DissipationTask border = task;
             border.begin = before.begin;
             border.end = before.begin + before.row.size();
-            border.row = before.row.data() - before.begin;
-            border.length = before.length[ring].data() - before.begin;
+            border.row = before.row.data();
+            border.length = before.length[ring].data();
+            border.listed = before.begin;
             kernels->simultaneous(border);
           }
           task.begin = piece.begin;
