@@ -51,7 +51,8 @@ struct PendulumGravity {
                                 .formula = "m acceleration l (1 - cos angle)",
                                 .target = "Pendulum",
                                 .source = "",
-                                .greatest_dimension = 1};
+                                .greatest_dimension = 1,
+                                .typed = TypedLawText("bob_mass*acceleration*length*(1 - cos(x))")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&PendulumGravity::acceleration, {"acceleration", dimensions::acceleration, "g, downwards"}}};

@@ -37,7 +37,8 @@ struct ShearFlow {
                                 .target = "Tracer",
                                 .source = "",
                                 .least_dimension = 2,
-                                .has_energy = false};
+                                .has_energy = false,
+                                .typed = TypedLawText("direction*dot(gradient, position - origin)")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&ShearFlow::direction, {"direction", dimensions::none, "along which the stream goes"}},
@@ -69,7 +70,9 @@ struct StrainFlow {
                                 .target = "Tracer",
                                 .source = "",
                                 .least_dimension = 2,
-                                .has_energy = false};
+                                .has_energy = false,
+                                .typed = {"", "[rates.x*(x - origin.x), rates.y*(y - origin.y)]",
+                                          "[rates.x*(x - origin.x), rates.y*(y - origin.y), rates.z*(z - origin.z)]"}};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&StrainFlow::rates, {"rates", dimensions::frequency, "of strain along each axis; their sum is 0"}},
@@ -103,7 +106,8 @@ struct OscillatingFlow {
                                 .formula = "velocity sin(angular_frequency t + phase)",
                                 .target = "Tracer",
                                 .source = "",
-                                .has_energy = false};
+                                .has_energy = false,
+                                .typed = TypedLawText("velocity*sin(angular_frequency*time + phase)")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&OscillatingFlow::velocity, {"velocity", dimensions::velocity, "greatest velocity of the flow"}},

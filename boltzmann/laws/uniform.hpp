@@ -17,7 +17,8 @@ struct UniformGravity {
                                 .doc = "weight: the same acceleration for every mass",
                                 .formula = "-m acceleration . x",
                                 .target = "Newton",
-                                .source = ""};
+                                .source = "",
+                                .typed = TypedLawText("-mass*dot(acceleration, position)")};
   static constexpr auto parameters() {
     return std::tuple{ParameterOf{&UniformGravity::acceleration,
                                   {"acceleration", dimensions::acceleration, "acceleration of every particle"}}};
@@ -41,7 +42,8 @@ struct UniformElectricField {
                                 .doc = "the same electric field everywhere",
                                 .formula = "-charge field . x",
                                 .target = "Coulomb",
-                                .source = ""};
+                                .source = "",
+                                .typed = TypedLawText("-charge*dot(field, position)")};
   static constexpr auto parameters() {
     return std::tuple{
         ParameterOf{&UniformElectricField::field, {"field", dimensions::electric_field, "force per charge"}}};
@@ -66,7 +68,8 @@ struct UniformFlow {
                                 .formula = "velocity",
                                 .target = "Tracer",
                                 .source = "",
-                                .has_energy = false};
+                                .has_energy = false,
+                                .typed = TypedLawText("velocity")};
   static constexpr auto parameters() {
     return std::tuple{ParameterOf{&UniformFlow::velocity, {"velocity", dimensions::velocity, "velocity of the flow"}}};
   }

@@ -208,33 +208,60 @@ void show_options(Page& page, OptionTable const& options, void* plain = nullptr)
   }
 }
 
-/// Names in a text that are a word of their own.
+/// Whether a name stands in a text as a word of its own, or with a component behind it.
 bool reads_name(std::string_view text, std::string_view name) {
-  auto const part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
+  auto const letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   for (auto at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
     std::size_t const end = at + name.size();
-    if ((at == 0 || !part(text[at - 1])) && (end == text.size() || !part(text[end]))) return true;
+    if ((at == 0 || !(letter(text[at - 1]) || text[at - 1] == '.')) && (end == text.size() || !letter(text[end])))
+      return true;
   }
   return false;
+}
+
+/// "1 eV": its default, or one, in some unit.
+std::string example_of(Parameter const& parameter, int dimension) {
+  auto const units = example_units(parameter.dimension.in(dimension));
+  std::string value(parameter.default_text.empty() ? "1" : parameter.default_text);
+  if (value.find(' ') == std::string::npos && !units.empty()) value += " " + units.front();
+  return value;
 }
 
 /// The law as a table for a scenario, with examples of its parameters.
 void show_typed(Page& page, LawInfo const& law, int dimension, std::string_view text) {
   page.print("    [[influences]]\n    {} = \"{}\"\n", law.has_energy ? "energy" : "influence", text);
-  std::vector<std::string> parameters;
+  std::vector<std::string> parameters, vectors;
   for (auto const& parameter : law.parameters) {
     if (!reads_name(text, parameter.name)) continue;
-    auto const units = example_units(parameter.dimension.in(dimension));
-    std::string value(parameter.default_text);
-    if (value.empty()) value = "1";
-    if (value.find(' ') == std::string::npos && !units.empty()) value += " " + units.front();
-    bool const plain = value.find(' ') == std::string::npos;
-    parameters.push_back(plain ? fmt::format("{} = {}", parameter.name, value)
-                               : fmt::format("{} = \"{}\"", parameter.name, value));
+    std::string const value = example_of(parameter, dimension);
+    char const* const quote = value.find(' ') == std::string::npos ? "" : "\"";
+    if (parameter.vector)
+      vectors.push_back(fmt::format("{} = \"[{}]\"", parameter.name,
+                                    join(std::vector<std::string>(static_cast<std::size_t>(dimension), value))));
+    else
+      parameters.push_back(fmt::format("{0} = {1}{2}{1}", parameter.name, quote, value));
   }
+  if (!vectors.empty()) page.print("    where = {{ {} }}\n", join(vectors));
   if (!parameters.empty()) page.print("    parameters = {{ {} }}\n", join(parameters));
   if (law.kind == LawKind::external) page.print("    from_outside = true\n");
   page.print("    on = \"...\"\n");
+}
+
+/// Once for all dimensions with one text, as it is in the last of them.
+void show_typed(Page& page, LawInfo const& law) {
+  auto const text = [&](int d) { return law.typed.in[d - 1]; };
+  int const least = law.least_dimension, greatest = law.greatest_dimension;
+  bool const vectors = std::any_of(law.parameters.begin(), law.parameters.end(),
+                                   [](Parameter const& parameter) { return parameter.vector; });
+  for (int d = least; d <= greatest; ++d) {
+    if (text(d).empty() || (d < greatest && text(d) == text(d + 1))) continue;
+    bool const all = text(least) == text(greatest);
+    page.print("\n  the same as a typed law{}\n", all && vectors && least < greatest
+                                                      ? fmt::format(", with its vectors in {}D", d)
+                                                  : all ? ""
+                                                        : fmt::format(", in {}D", d));
+    show_typed(page, law, d, text(d));
+  }
 }
 
 void show_law(Page& page, LawInfo const& law) {
@@ -252,14 +279,7 @@ void show_law(Page& page, LawInfo const& law) {
   if (!law.has_energy) page.print("  has no energy: total energies are not defined with it\n");
   page.print("\n  parameters\n");
   show_options(page, options_of(law.parameters));
-  for (int d = 1; d <= 3; ++d) {
-    std::string_view const text = law.typed.in[d - 1];
-    bool const same = d > 1 && text == law.typed.in[d - 2];
-    if (text.empty() || same || d < law.least_dimension) continue;
-    bool const all = law.typed.in[0] == law.typed.in[2];
-    page.print("\n  the same as a typed law{}\n", all ? "" : fmt::format(", in {}D", d));
-    show_typed(page, law, d, text);
-  }
+  show_typed(page, law);
   page.print("\n  in C++: #include <{}>, {}\n", law.header, law.type);
 }
 

@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
-#include <tests/formulas/formula_texts.hpp>
+#include <tests/formulas/random_formula.hpp>
 
 #include <cerrno>
 #include <cmath>
@@ -94,7 +94,8 @@ TEST(MachineCode, GivesTheBitsOfTheInterpreter) {
   std::mt19937 random(7);
   for (int k = 0; k < 1500; ++k) {
     std::vector<std::string> texts;
-    for (int result = 0; result < 1 + k % 3; ++result) texts.push_back(formula_text(random, 2 + k % 5, "xyzuv"));
+    for (int result = 0; result < 1 + k % 3; ++result)
+      texts.push_back(RandomFormula(random, 2 + k % 5, "xyzuv").text());
     auto const numbers = ordinary(random);
     for_each_width([&](auto width) { expect_same_bits<width>(texts, numbers); });
   }

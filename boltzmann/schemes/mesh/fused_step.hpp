@@ -136,7 +136,7 @@ template <class Real, int W>
 enum class StepPass {
   deposit,  ///< only deposits
   advance,  ///< a step
-  finish,   ///< only the second kick that is pending
+  finish,   ///< only the second kick that is pending; the field is kept for the next step
 };
 
 template <StepPass pass, int D, int p, class Real, int W>
@@ -159,9 +159,13 @@ class FusedStep {
         locate(block, count);
         deposit(count);
       } else {
-        locate(block, count);
-        gather(count);
-        move(block, count);
+        if (pass == StepPass::advance && task_.felt[0]) {
+          move(block, count, [&](std::size_t i, Number* e) { recall(block + i, e); });
+        } else {
+          locate(block, count);
+          gather(count);
+          move(block, count, [&](std::size_t i, Number* e) { feel(i, e); });
+        }
         if constexpr (pass == StepPass::advance) {
           locate(block, count);
           deposit(count);
@@ -259,15 +263,31 @@ class FusedStep {
     }
   }
 
-  [[gnu::always_inline]] void move(std::size_t block, std::size_t count) {
+  /// The field at W particles of a block: what has been gathered, weighed along x.
+  [[gnu::always_inline]] void feel(std::size_t i, Number* e) const {
+    Number field[V], along[P];
+    from_groups<V>(gathered_ + i * V, field);
+    from_groups<P>(along_x_ + i * P, along);
+    for (int a = 0; a < D; ++a) {
+      e[a] = rounded(field[a * P] * along[0]);
+      for (int k = 1; k < p; ++k) e[a] += field[a * P + k] * along[k];
+    }
+  }
+  /// The same from the columns in which it has been kept.
+  [[gnu::always_inline]] void recall(std::size_t first, Number* e) const {
+    for (int a = 0; a < D; ++a) e[a] = *reinterpret_cast<SideBySide<Real, W> const*>(task_.felt[a] + first);
+  }
+
+  /// `field(i, e)` gives that at the W particles behind the i-th of the block.
+  template <class Field>
+  [[gnu::always_inline]] void move(std::size_t block, std::size_t count, Field const& field) {
     for (std::size_t i = 0; i < count; i += W) {
-      Number field[V], along[P], v[D], dv[D];
-      from_groups<V>(gathered_ + i * V, field);
-      from_groups<P>(along_x_ + i * P, along);
+      Number e[D], v[D], dv[D];
+      field(i, e);
       for (int a = 0; a < D; ++a) {
-        Number e = rounded(field[a * P] * along[0]);
-        for (int k = 1; k < p; ++k) e += field[a * P + k] * along[k];
-        dv[a] = e * Number(task_.kick) + Number(task_.push[a]);
+        if constexpr (pass == StepPass::finish)
+          *reinterpret_cast<SideBySide<Real, W>*>(task_.felt[a] + block + i) = e[a].native;
+        dv[a] = e[a] * Number(task_.kick) + Number(task_.push[a]);
         v[a] = *reinterpret_cast<SideBySide<Real, W> const*>(task_.velocity[a] + block + i);
       }
       if (task_.pending) {

@@ -78,6 +78,7 @@ class MeshSteps final : public FusedSteps {
         accelerate(columns, time);
         run(columns, kernels_.advance);
         columns.task.pending = true;
+        for (auto& felt : columns.task.felt) felt = nullptr;
       } else {
         run(columns, kernels_.deposit);
       }
@@ -104,6 +105,7 @@ class MeshSteps final : public FusedSteps {
     std::size_t size;  // of this rank's share
     AlignedArray<Fixed> position[3], other_position[3];
     AlignedArray<Real> velocity[3], other_velocity[3];
+    AlignedArray<Real> felt[3];                     // of the field, from a look until the next step
     std::vector<std::uint32_t> order, other_order;  // the number of each particle
     StepTask<Real> task;
     double fastest = 0;    // square of a velocity in the last step
@@ -482,10 +484,16 @@ class MeshSteps final : public FusedSteps {
     columns.travelled = 0;
   }
 
-  /// The second kick that is pending, and all into the rows.
+  /// The second kick that is pending, and all into the rows. The next step begins with the same field at the same
+  /// places: what is felt there is kept.
   void store(Columns& columns) {
     StepTask<Real>& task = columns.task;
     point_at_columns(columns);
+    if (task.pending)
+      for (int a = 0; a < dimension_; ++a) {
+        columns.felt[a].resize(columns.size + column_padding);
+        task.felt[a] = columns.felt[a].data();
+      }
     for_ranges(columns.size, mesh_grain, threads_for(columns.size, 1, scheme_.threads()),
                [&](std::size_t begin, std::size_t end) {
                  StepResult ignored;

@@ -41,6 +41,7 @@ struct StepTask {
   bool turns = false;
   bool pending = false;      ///< velocities lack the second kick of the last step
   Real fastest_allowed = 0;  ///< square of a velocity
+  Real* felt[3] = {};        ///< the field at each particle, as `finish` keeps it for the next step; null: to be found
 
   Real const* field = nullptr;  ///< slots of the field
   std::size_t slots_x = 0, slots_y = 0;
