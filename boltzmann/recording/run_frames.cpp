@@ -103,21 +103,20 @@ void RunFrames::write() {
     std::error_code ignored;
     std::filesystem::remove(view(), ignored);
   }
-  if (shown_ && !std::has_single_bit(times_.size())) return;
-  try {
-    show(false);
-  } catch (Error const&) {
-    shown_ = false;  // the frames are there without it; the next one tries again
-  }
+  if (!shown_ || std::has_single_bit(times_.size())) show(false);
 }
 
 void RunFrames::show(bool finished) {
   auto const ensembles = supervised_by(simulation_.schemes());
   if (!same_particles_ || times_.empty() || sizes_ != sizes_of(ensembles)) return;
-  write_trajectory_view(view(), std::filesystem::path(path_).filename().string(), options(),
-                        std::vector<AnyEnsemble const*>(ensembles.begin(), ensembles.end()),
-                        edges_of(simulation_.schemes().front()->box()), times_, finished);
-  shown_ = true;
+  try {
+    write_trajectory_view(view(), std::filesystem::path(path_).filename().string(), options(),
+                          std::vector<AnyEnsemble const*>(ensembles.begin(), ensembles.end()),
+                          edges_of(simulation_.schemes().front()->box()), times_, finished);
+    shown_ = true;
+  } catch (Error const&) {
+    shown_ = false;  // the frames are there without it; the next one tries again
+  }
 }
 
 void RunFrames::write_last() {

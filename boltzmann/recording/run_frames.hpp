@@ -38,7 +38,7 @@ class RunFrames {
 
  private:
   TrajectoryOptions options() const;
-  /// For MDAnalysis, where all frames have the same particles.
+  /// For MDAnalysis, where all frames have the same particles; nothing if it can't be written.
   void show(bool finished);
   std::string view() const { return path_ + "md"; }
 

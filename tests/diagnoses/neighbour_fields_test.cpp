@@ -247,10 +247,12 @@ TEST(NeighbourFields, RefuseWhatIsNoNumberOfNeighbours) {
 
 // ---- In scenarios ----
 
-std::string const melting = R"toml([box]
+std::string const melting = R"toml([units]
+base = "reduced"
+[box]
 low = [0, 0, 0]
 high = [5.1, 5.1, 6.1]
-boundary = ["periodic", "periodic", "mirror"]
+boundary = ["periodic", "periodic", "reflecting"]
 [run]
 step = 0.004
 steps = 30
@@ -273,12 +275,12 @@ load = { kind = "block", lattice = "fcc", spacing = 1.2, counts = [3, 3, 2], ori
 name = "b"
 class = "Newton"
 mass = 1
-load = { kind = "block", lattice = "square", spacing = 1.7, counts = [3, 3, 1], origin = [0.4, 0.4, 5.2] }
+load = { kind = "block", lattice = "square", spacing = 1.7, counts = [3, 3, 1], origin = [0.4, 0.4, 4.1] }
 [[influences]]
 law = "lennard-jones"
 among = ["a", "b"]
 depth = 1
-sigma = 1
+r0 = 1.12
 [[diagnoses]]
 kind = "formula"
 ensembles = "a"
@@ -306,6 +308,7 @@ TEST(NeighbourFields, StandInScenariosForWhoeverLooks) {
   });
   run->simulation->run(30);
   EXPECT_EQ(looks, 4U);
+  EXPECT_GT(values(a, "others")[71], 0) << "the plane of b lies on the top layer of a";
   EXPECT_NE(values(a, "coordination"), at_start);
   std::vector<double> numbers;
   Sample const sample{run->simulation->ensembles(), run->box(), nullptr, 1, 0, 0};
@@ -332,26 +335,26 @@ std::string with_field(std::string const& field) {
 INSTANTIATE_TEST_SUITE_P(
     All, MistakesOfNeighbourFields,
     testing::Values(
-        Mistake{"order alone", with_field("bond_order = 6"), "15:25", {"bond_order: it belongs to 'neighbours'"}},
-        Mistake{"order of 20", with_field("neighbours = 1, bond_order = 20"), "15:41", {"bond_order", "16"}},
-        Mistake{"no distance", with_field("neighbours = -1"), "15:35", {"neighbours"}},
+        Mistake{"order alone", with_field("bond_order = 6"), "17:34", {"bond_order: it belongs to 'neighbours'"}},
+        Mistake{"order of 20", with_field("neighbours = 1, bond_order = 20"), "17:50", {"bond_order", "16"}},
+        Mistake{"no distance", with_field("neighbours = -1"), "17:34", {"neighbours"}},
         Mistake{
-            "a sum", with_field("neighbours = 1, sum = true"), "15:39", {"sum: it means nothing beside 'neighbours'"}},
+            "a sum", with_field("neighbours = 1, sum = true"), "17:43", {"sum: it means nothing beside 'neighbours'"}},
         Mistake{"nobody",
                 replaced(melting, "of = \"b\"", "of = \"c\""),
-                "14:44",
+                "16:46",
                 {"of: there is no ensemble 'c'; there are a, b"}},
         Mistake{"a rate",
                 replaced(melting, "[[ensembles]]", "rate.order = 1\n[[ensembles]]"),
-                "17:1",
+                "19:14",
                 {"rate.order: neighbours say what it is; it has no rate"}},
         Mistake{"a law reads it",
                 melting + "[[influences]]\nenergy = \"p.order*q.order/r\"\non = \"a\"\n",
-                "50:10",
+                "45:10",
                 {"energy: 'order' is found when somebody looks, so that nothing that acts may use it"}},
         Mistake{"an influence changes it",
                 melting + "[[influences]]\ninfluence = \"1\"\nchanges = \"order\"\non = \"a\"\n",
-                "51:11",
+                "46:11",
                 {"changes: order of class Atom has no rate"}}),
     test::mistake_name);
 
