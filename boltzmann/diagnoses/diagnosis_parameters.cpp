@@ -3,7 +3,7 @@
 
 namespace boltzmann {
 
-OptionTable const& diagnosis_options() {
+OptionTable const& diagnosis_options() {  // long: a table, a row for each key
   using namespace option;
   using P = DiagnosisParameters;
   static OptionTable const table = [] {
