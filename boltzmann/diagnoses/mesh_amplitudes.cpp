@@ -140,7 +140,7 @@ std::size_t number_of(int n, std::size_t length) {
 
 /// Transformed along the last two axes: of each plane the rows of waves -most .. most, 0 .. most in each.
 std::vector<MeshAmplitudes::Complex> MeshAmplitudes::in_planes(Counts const& counts, int threads) const {
-  auto const [planes, lines, line] = nodes_;
+  std::size_t const planes = nodes_[0], lines = nodes_[1], line = nodes_[2];
   std::size_t const kept = static_cast<std::size_t>(most_[2]) + 1, rows = 2 * static_cast<std::size_t>(most_[1]) + 1;
   LineTransform const along_z(FourierKind::real_to_complex, line);
   LineTransform along_y;
@@ -168,7 +168,7 @@ std::vector<MeshAmplitudes::Complex> MeshAmplitudes::in_planes(Counts const& cou
 
 /// Adds half of what a mesh has found that stands `shift` cells further.
 void MeshAmplitudes::transform(Counts const& counts, double shift, int threads) {
-  auto const [planes, lines, line] = nodes_;
+  std::size_t const planes = nodes_[0], lines = nodes_[1], line = nodes_[2];
   std::size_t const kept = static_cast<std::size_t>(most_[2]) + 1, rows = 2 * static_cast<std::size_t>(most_[1]) + 1;
   threads = threads_for(planes * lines * line, 1.0, threads);
   auto const waves = in_planes(counts, threads);
