@@ -19,6 +19,7 @@
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/mean_profile.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/diagnoses/neighbour_fields.hpp>
 #include <boltzmann/diagnoses/profile.hpp>
 #include <boltzmann/diagnoses/radial_distribution.hpp>
 #include <boltzmann/diagnoses/shock.hpp>

@@ -1,6 +1,7 @@
 // Harmonics of the directions to neighbours, particle by particle.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
+#include <boltzmann/diagnoses/bond_harmonics.hpp>
 #include <boltzmann/diagnoses/bond_order.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/near_images.hpp>
@@ -9,54 +10,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <complex>
-#include <numbers>
 #include <utility>
 
 namespace boltzmann {
-namespace {
-
-constexpr std::size_t largest_order = 16;
-
-/// The sums over directions of the harmonics of one order: in 3D Y_lm for m = 0, ..., l, in 2D exp(i l theta).
-class Harmonics {
- public:
-  Harmonics(int dimension, std::size_t order)
-      : dimension_(dimension), order_(static_cast<unsigned>(order)), sums_(dimension == 3 ? order + 1 : 1) {}
-
-  void add(double const* direction, double length) {
-    count_ += 1;
-    double const angle = std::atan2(direction[1], direction[0]);
-    if (dimension_ == 2) {
-      sums_[0] += std::polar(1.0, order_ * angle);
-      return;
-    }
-    double const polar = std::acos(std::fmax(-1.0, std::fmin(1.0, direction[2] / length)));
-    for (unsigned m = 0; m <= order_; ++m) sums_[m] += std::sph_legendre(order_, m, polar) * std::polar(1.0, m * angle);
-  }
-  void add(Harmonics const& other) {
-    count_ += other.count_;
-    for (std::size_t m = 0; m < sums_.size(); ++m) sums_[m] += other.sums_[m];
-  }
-  double count() const { return count_; }
-  std::complex<double> mean() const { return sums_[0] / count_; }
-  /// q_l or psi_l; NaN of no direction.
-  double order() const {
-    if (count_ == 0) return unknown;
-    if (dimension_ == 2) return std::abs(mean());
-    double squares = std::norm(sums_[0]);
-    for (std::size_t m = 1; m < sums_.size(); ++m) squares += 2 * std::norm(sums_[m]);  // those of m and -m
-    return std::sqrt(4 * std::numbers::pi / (2 * order_ + 1) * squares) / count_;
-  }
-
- private:
-  int dimension_;
-  unsigned order_;
-  double count_ = 0;
-  std::vector<std::complex<double>> sums_;
-};
-
-}  // namespace
 
 BondOrder::BondOrder(std::vector<AnyEnsemble const*> const& available, Options options)
     : options_(std::move(options)), label_(options_.label) {
@@ -67,8 +23,8 @@ BondOrder::BondOrder(std::vector<AnyEnsemble const*> const& available, Options o
     throw Error(fmt::format("bond-order: of one ensemble or of all particles, not of {}", join(options_.ensembles)));
   if (!(options_.range > 0))
     throw Error("bond-order: it needs a positive 'range' within which particles are neighbours");
-  if (options_.order < 1 || options_.order > largest_order)
-    throw Error(fmt::format("bond-order: the order is 1 to {}, not {}", largest_order, options_.order));
+  if (options_.order < 1 || options_.order > BondHarmonics::largest_order)
+    throw Error(fmt::format("bond-order: the order is 1 to {}, not {}", BondHarmonics::largest_order, options_.order));
   if (label_.empty() && !options_.ensembles.empty()) label_ = options_.ensembles[0];
 }
 
@@ -103,7 +59,7 @@ BondOrder::Local BondOrder::find(Sample const& sample) const {
   Local local{std::vector<double>(size, unknown), std::vector<double>(size, 0.0), unknown};
   if (size == 0) return local;
   Cells const cells(D, places.data(), D, size, options_.range, sample.threads);
-  std::vector<Harmonics> own(size, Harmonics(D, options_.order));
+  std::vector<BondHarmonics> own(size, BondHarmonics(D, options_.order));
   double const reach2 = options_.range * options_.range;
   for_ranges(size, 64, threads_for(size, 16, sample.threads), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -118,7 +74,7 @@ BondOrder::Local BondOrder::find(Sample const& sample) const {
       local.neighbours[i] = own[i].count();
     }
   });
-  Harmonics all(D, options_.order);
+  BondHarmonics all(D, options_.order);
   ExactSum real, imaginary;
   double with = 0;
   for (auto const& one : own) {

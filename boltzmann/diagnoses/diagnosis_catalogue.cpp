@@ -688,6 +688,7 @@ std::unique_ptr<Diagnosis> make_radial_distribution(DiagnosisParameters const& p
 std::unique_ptr<Diagnosis> make_structure_factor(DiagnosisParameters const& parameters) {
   StructureFactorOptions options{parameters.ensembles, parameters.label};
   options.modes = or_usual(parameters.modes, options.modes);
+  if (!parameters.by.empty()) options.by = wave_sums_words().named(parameters.by);
   options.since = parameters.since;
   options.every = parameters.every;
   options.particles = parameters.particles;
@@ -862,13 +863,14 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
                 first_look})},
          make_radial_distribution},
         {{"structure-factor",
-          "height and place of the highest value of S(k), by direct sums over the wave vectors of a periodic box; S(k) "
-          "in structure-factor.csv",
+          "height and place of the highest value of S(k), over the wave vectors of a periodic box; S(k) in "
+          "structure-factor.csv",
           told({pairs_of,
                 {"label", "of columns and file", "the ensembles"},
                 {"particles"},
                 {"partners"},
                 {"modes", "the shortest wave: so many periods in the longest side", "`12`"},
+                {"by"},
                 rows,
                 first_look})},
          make_structure_factor},

@@ -3,7 +3,7 @@
 
 namespace boltzmann {
 
-OptionTable const& diagnosis_options() {
+OptionTable const& diagnosis_options() {  // long: a table, a row for each key
   using namespace option;
   using P = DiagnosisParameters;
   static OptionTable const table = [] {
@@ -28,6 +28,11 @@ OptionTable const& diagnosis_options() {
     all.add("axis", &P::axis, axis_word(), "along which one looks");
     all.add("modes", &P::modes, whole(1, __builtin_inf()), "how many waves are kept",
             "as many as there are, up to 256");
+    all.add(
+        "by", &P::by, word({"direct", "mesh"}),
+        "`\"direct\"`: wave by wave, exact; `\"mesh\"`: all at once, each sum to 1e-5 of the particles, for many of "
+        "them",
+        "`\"direct\"`");
     all.add_of<P>(
         "weight", [](P& p) -> OptionPlace { return named_value(&p.weight, weight_words()); },
         word(weight_words().names()), "of the averages");

@@ -50,6 +50,7 @@ struct DiagnosisParameters {
   std::vector<int> mode = {};               ///< field-mode: periods in the box along each axis
   std::string axis = {};                    ///< wave-spectrum, heat-flux, slab, shock: "x", "y" or "z"
   std::size_t modes = 0;  ///< wave-spectrum: how many waves are kept; 0: as many as there are, up to 256
+  std::string by = {};    ///< structure-factor: "mesh", or "direct" (empty)
   WeightShape weight = WeightShape::lucy;  ///< entropy: of the averages
   double range = 0;                        ///< entropy: of the weight; 0: each particle's own
   double gamma = 0;                        ///< entropy: the ratio of specific heats; 0: 1 + 2/D

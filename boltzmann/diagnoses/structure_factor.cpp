@@ -1,7 +1,8 @@
-// Direct sums over particles, wave vector by wave vector.
+// Sums over particles, wave vector by wave vector, or all of them from a mesh.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
+#include <boltzmann/diagnoses/mesh_amplitudes.hpp>
 #include <boltzmann/diagnoses/structure_factor.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
 
@@ -16,7 +17,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr double most_modes = 200'000;
+constexpr double most_modes = 200'000, most_modes_of_mesh = 1'000'000;
 
 double longest_side(std::span<double const> lengths) { return *std::max_element(lengths.begin(), lengths.end()); }
 
@@ -48,28 +49,37 @@ std::vector<std::array<int, 3>> modes_of(std::span<double const> lengths, std::s
   return modes;
 }
 
+/// The highest number along each axis.
+std::array<int, 3> most_of(std::span<std::array<int, 3> const> modes) {
+  std::array<int, 3> most{0, 0, 0};
+  for (auto const& mode : modes)
+    for (std::size_t a = 0; a < 3; ++a) most[a] = std::max(most[a], std::abs(mode[a]));
+  return most;
+}
+
+/// Of the groups of all ensembles.
+std::vector<double const*> rows_of(std::vector<AnyEnsemble const*> const& ensembles,
+                                   std::span<std::uint32_t const> group) {
+  std::vector<double const*> rows;
+  for (auto const* ensemble : ensembles)
+    for (auto const i : members_of(*ensemble, group)) rows.push_back(ensemble->row(i));
+  return rows;
+}
+
 /// exp(-2 pi i n x / L) of every particle for n = 0, 1, ... along each axis, by powers.
 class Phases {
  public:
-  Phases(std::vector<AnyEnsemble const*> const& ensembles, std::span<std::uint32_t const> group, Box const& box,
-         std::span<std::array<int, 3> const> modes) {
-    std::vector<double const*> rows;
-    for (auto const* ensemble : ensembles)
-      for (auto const i : members_of(*ensemble, group)) rows.push_back(ensemble->row(i));
-    size_ = rows.size();
+  Phases(std::vector<double const*> const& rows, Box const& box, std::array<int, 3> const& most) : size_(rows.size()) {
     for (int a = 0; a < box.dimension(); ++a) {
-      int most = 0;
-      for (auto const& mode : modes) most = std::max(most, std::abs(mode[static_cast<std::size_t>(a)]));
-      auto& powers = powers_.emplace_back((static_cast<std::size_t>(most) + 1) * size_, 1.0);
+      auto const highest = static_cast<std::size_t>(most[static_cast<std::size_t>(a)]);
+      auto& powers = powers_.emplace_back((highest + 1) * size_, 1.0);
       for (std::size_t at = 0; at < size_; ++at) {
         double const angle = -2 * std::numbers::pi * (rows[at][a] - box.low(a)) / box.length(a);
         std::complex<double> const first = std::polar(1.0, angle);
-        for (std::size_t n = 1; n <= static_cast<std::size_t>(most); ++n)
-          powers[n * size_ + at] = times(powers[(n - 1) * size_ + at], first);
+        for (std::size_t n = 1; n <= highest; ++n) powers[n * size_ + at] = times(powers[(n - 1) * size_ + at], first);
       }
     }
   }
-  std::size_t size() const { return size_; }
 
   /// The phases along x and y of all particles, which many wave vectors share.
   struct Shared {
@@ -117,11 +127,37 @@ class Phases {
       shared.phases[i] = times(shared.phases[i], mode[1] < 0 ? std::conj(y[i]) : y[i]);
   }
 
-  std::size_t size_ = 0;
+  std::size_t size_;
   std::vector<std::vector<std::complex<double>>> powers_;
 };
 
+using Amplitudes = std::vector<std::complex<double>>;
+
+Amplitudes amplitudes_of(std::vector<double const*> const& rows, Box const& box,
+                         std::span<std::array<int, 3> const> modes, WaveSums by, int threads) {
+  Amplitudes all(modes.size());
+  if (by == WaveSums::mesh) {
+    MeshAmplitudes const mesh(rows, box, most_of(modes), threads);
+    for (std::size_t m = 0; m < modes.size(); ++m) all[m] = mesh(modes[m]);
+    return all;
+  }
+  Phases const phases(rows, box, most_of(modes));
+  for_ranges(modes.size(), 16, threads_for(modes.size() * rows.size(), 1.0 / 8, threads),
+             [&](std::size_t begin, std::size_t end) {
+               Phases::Shared shared;
+               for (std::size_t m = begin; m < end; ++m) all[m] = phases.amplitude(modes[m], shared);
+             });
+  return all;
+}
+
 }  // namespace
+
+Words<WaveSums> const& wave_sums_words() {
+  static Words<WaveSums> const words{"way to sum waves",
+                                     {{WaveSums::direct, "direct", "one by one: exact"},
+                                      {WaveSums::mesh, "mesh", "all at once by a mesh, to 1e-5, for many particles"}}};
+  return words;
+}
 
 StructureFactor::StructureFactor(std::vector<AnyEnsemble const*> const& available, Options options)
     : options_(std::move(options)), label_(options_.label) {
@@ -146,11 +182,12 @@ void StructureFactor::check(Box const& box) const {
   auto const sides = sides_of(box);
   double expected = 1;
   for (double const side : sides) expected *= 2 * static_cast<double>(options_.modes) * side / longest_side(sides) + 1;
-  if (expected / 2 > most_modes)
+  double const most = options_.by == WaveSums::mesh ? most_modes_of_mesh : most_modes;
+  if (expected / 2 > most)
     throw Error(
         fmt::format("structure-factor: {:.2g} wave vectors are shorter than {} periods in the box, {:.2g} are "
                     "allowed; choose fewer 'modes'",
-                    expected / 2, options_.modes, most_modes));
+                    expected / 2, options_.modes, most));
 }
 
 std::vector<Column> StructureFactor::columns() const {
@@ -178,19 +215,14 @@ void StructureFactor::measure(Sample const& sample, std::vector<double>& values)
       first.push_back(&ensemble_of(sample, names[0]));
     bool const between = !options_.partners.empty() || (names.size() == 2 && names[0] != names[1]);
     if (between) second.push_back(&ensemble_of(sample, names.back()));
-    Phases const a(first, options_.particles, sample.box, modes_), b(second, options_.partners, sample.box, modes_);
-    double const number = between ? std::sqrt(static_cast<double>(a.size()) * static_cast<double>(b.size()))
-                                  : static_cast<double>(a.size());
-    for_ranges(modes_.size(), 16, threads_for(modes_.size() * a.size(), 1.0 / 8, sample.threads),
-               [&](std::size_t begin, std::size_t end) {
-                 Phases::Shared of_first, of_second;
-                 for (std::size_t m = begin; m < end; ++m) {
-                   auto const rho = a.amplitude(modes_[m], of_first);
-                   double const product =
-                       between ? (rho * std::conj(b.amplitude(modes_[m], of_second))).real() : std::norm(rho);
-                   sums_[m] += product / number;
-                 }
-               });
+    auto const rows = rows_of(first, options_.particles), others = rows_of(second, options_.partners);
+    auto const rho = amplitudes_of(rows, sample.box, modes_, options_.by, sample.threads);
+    auto const of_second =
+        between ? amplitudes_of(others, sample.box, modes_, options_.by, sample.threads) : Amplitudes();
+    double const number = between ? std::sqrt(static_cast<double>(rows.size()) * static_cast<double>(others.size()))
+                                  : static_cast<double>(rows.size());
+    for (std::size_t m = 0; m < modes_.size(); ++m)
+      sums_[m] += (between ? (rho[m] * std::conj(of_second[m])).real() : std::norm(rho[m])) / number;
   }
   auto const found = shells();
   auto const highest = std::max_element(found.s.begin(), found.s.end());

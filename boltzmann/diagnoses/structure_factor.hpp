@@ -1,6 +1,7 @@
 // Structure factor: how strongly the particles' density varies with the wave vectors that fit into a periodic box.
 #pragma once
 
+#include <boltzmann/core/words.hpp>
 #include <boltzmann/diagnoses/diagnosis.hpp>
 
 #include <array>
@@ -12,21 +13,30 @@
 
 namespace boltzmann {
 
+/// How the sums over particles are found.
+enum class WaveSums {
+  direct,  ///< wave by wave: exact
+  mesh     ///< all at once by a mesh (MeshAmplitudes), which costs as much as some 30 waves
+};
+Words<WaveSums> const& wave_sums_words();
+
 struct StructureFactorOptions {
   /// None: of all particles; one: of it; two: the partial one between them.
   std::vector<std::string> ensembles = {};
   std::string label = {};  ///< before the columns' names; empty: the ensembles
   std::size_t modes = 12;  ///< wave vectors are as long as so many periods in the longest side, or shorter
-  double since = 0;        ///< the time of the first look
-  std::size_t every = 1;   ///< looks at rows whose steps are multiples of it
+  WaveSums by = WaveSums::direct;
+  double since = 0;                           ///< the time of the first look
+  std::size_t every = 1;                      ///< looks at rows whose steps are multiples of it
   std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble; empty: all
   std::vector<std::uint32_t> partners = {};   ///< of the same ensemble: the partial one between both groups
 };
 
-/// S(k) = <|sum_i exp(-i k r_i)|^2> / N, summed directly for every wave vector 2 pi (n_x/L_x, n_y/L_y, n_z/L_z) up to a
+/// S(k) = <|sum_i exp(-i k r_i)|^2> / N, for every wave vector 2 pi (n_x/L_x, n_y/L_y, n_z/L_z) up to a
 /// length, in the mean over looks and over those of about the same length; between two ensembles
 /// S_ab(k) = Re <rho_a rho_b*> / sqrt(N_a N_b) (Ashcroft and Langreth 1967). Columns: the highest value in the table and
-/// its wave number. Table: wave number, S, how many wave vectors (k and -k are one).
+/// its wave number. Table: wave number, S, how many wave vectors (k and -k are one). By a mesh an amplitude is wrong by
+/// 1.1e-5 of N at most, and by 1.1e-5 of its own size where particles know nothing of the mesh.
 class StructureFactor final : public Diagnosis {
  public:
   using Options = StructureFactorOptions;

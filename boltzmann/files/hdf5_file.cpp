@@ -240,6 +240,17 @@ std::unique_ptr<File> File::create(std::string path, bool ordered, std::uint64_t
   return file;
 }
 
+std::unique_ptr<File> File::create_plain(std::string path) {
+  Silence const silence;
+  std::unique_ptr<File> file(new File(std::move(path)));
+  Properties const access(H5Pcreate(H5P_FILE_ACCESS)), creation(creation_list(H5P_FILE_CREATE));
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  file->id_ = H5Fcreate(file->path_.c_str(), H5F_ACC_TRUNC, creation, access);
+  if (file->id_ < 0) file->fail("can't be made");
+  return file;
+}
+
 std::unique_ptr<File> File::open(std::string path) {
   Silence const silence;
   need_regular_file(path);
@@ -370,6 +381,55 @@ Dataset File::create_growing(std::string const& dataset, Number number, Extents 
   made.id_ = H5Dcreate2(id_, dataset.c_str(), file_type(number), space, H5P_DEFAULT, creation, H5P_DEFAULT);
   if (made.id_ < 0) fail("can't make the dataset " + dataset);
   return made;
+}
+
+namespace {
+
+// A block in a space of its own; a count of 0 is without end.
+hid_t space_with(Extents const& extents, Extents const& start, Extents const& count) {
+  bool const grows = !count.empty() && count[0] == 0;
+  std::vector<hsize_t> const sizes(extents.begin(), extents.end()), from(start.begin(), start.end());
+  std::vector<hsize_t> limits = sizes, counts(count.begin(), count.end());
+  if (grows) limits[0] = counts[0] = H5S_UNLIMITED;
+  hid_t const space = H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), limits.data());
+  if (space >= 0) H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, counts.data(), nullptr);
+  return space;
+}
+
+}  // namespace
+
+void File::create_view(std::string const& dataset, Number number, Extents const& extents, std::string const& file,
+                       std::vector<Piece> const& pieces) {
+  Silence const silence;
+  Properties const creation(creation_list(H5P_DATASET_CREATE));
+  bool const grows = std::any_of(pieces.begin(), pieces.end(), [](Piece const& piece) { return piece.count[0] == 0; });
+  if (number == Number::real && grows) {
+    double const missing = std::numeric_limits<double>::quiet_NaN();
+    H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &missing);
+  }
+  bool right = true;
+  for (auto const& piece : pieces) {
+    Space const here(space_with(extents, piece.at, piece.size)),
+        there(space_with(piece.extents, piece.start, piece.count));
+    right = right && H5Pset_virtual(creation, here, file.c_str(), piece.dataset.c_str(), there) >= 0;
+  }
+  std::vector<hsize_t> const sizes(extents.begin(), extents.end());
+  std::vector<hsize_t> limits = sizes;
+  if (grows) limits[0] = H5S_UNLIMITED;
+  Space const space(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), limits.data()));
+  Opened const made(H5Dcreate2(id_, dataset.c_str(), file_type(number), space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  if (!right || made.bad()) fail("can't make the view " + dataset);
+}
+
+void File::create_same(std::string const& dataset, std::uint64_t count, double number) {
+  Silence const silence;
+  Properties const creation(creation_list(H5P_DATASET_CREATE));
+  hsize_t const size = count, chunk = std::min<hsize_t>(count, 4096);
+  H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &number);
+  H5Pset_chunk(creation, 1, &chunk);
+  Space const space(H5Screate_simple(1, &size, nullptr));
+  Opened const made(H5Dcreate2(id_, dataset.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  if (made.bad()) fail("can't make the dataset " + dataset);
 }
 
 Dataset File::dataset(std::string const& path) const {

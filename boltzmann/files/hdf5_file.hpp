@@ -29,6 +29,14 @@ using Extents = std::vector<std::uint64_t>;
 
 enum class Number { real, integer };  ///< double, or std::int64_t
 
+/// A block of a dataset in another file, and where it is seen in a view. A count of 0 along the first axis: all that there
+/// is, however far it grows.
+struct Piece {
+  std::string dataset;
+  Extents extents, start, count;  ///< of that dataset, and of the block
+  Extents at, size;               ///< where the view has it: as many numbers
+};
+
 /// An open dataset. Valid as long as its File.
 class Dataset {
  public:
@@ -67,6 +75,8 @@ class File {
   /// A new, empty file that replaces one of that name. `user_block` bytes (0 or a power of two from 512 on) before
   /// HDF5's own first byte are the caller's. `ordered` makes the file one that start_ordered_writes can be called for.
   static std::unique_ptr<File> create(std::string path, bool ordered = false, std::uint64_t user_block = 0);
+  /// The same by HDF5's own ways, for views: what they look at is opened as they are.
+  static std::unique_ptr<File> create_plain(std::string path);
   /// An existing file, for reading: also one that another process is writing, or was writing when it was killed.
   static std::unique_ptr<File> open(std::string path);
   /// An existing file, for changing it.
@@ -108,6 +118,12 @@ class File {
   /// extent.
   Dataset create_growing(std::string const& dataset, Number, Extents const& extents, Extents const& chunk,
                          std::vector<bool> const& growing);
+  /// Shows pieces of datasets of another file, which is looked for in the folder of this one. Where they grow along their
+  /// first axis, it does, and what is nowhere is NaN; else it is 0.
+  void create_view(std::string const& dataset, Number, Extents const& extents, std::string const& file,
+                   std::vector<Piece> const& pieces);
+  /// A dataset of one number, again and again, that takes no space.
+  void create_same(std::string const& dataset, std::uint64_t count, double number);
   Dataset dataset(std::string const& path) const;
 
   void write_text(std::string const& dataset, std::string const& text);

@@ -5,6 +5,7 @@
 #include <boltzmann/files/spatial.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/files/trajectory_layout.hpp>
+#include <boltzmann/files/trajectory_view.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <algorithm>
@@ -22,26 +23,6 @@ using hdf5::Dataset;
 using hdf5::Extents;
 using hdf5::File;
 using hdf5::Number;
-
-// Names that MDAnalysis (2.4) knows. It refuses a file with any other `unit` at these datasets.
-constexpr std::array known_lengths{"Angstrom", "nm", "pm", "fm"};
-constexpr std::array known_times{"ps", "fs", "ns", "s"};
-// "Angstrom fs-1" is left out: it takes it for 1e-3 Angstrom/ps, which is wrong by a factor of a million.
-constexpr std::array known_velocities{"Angstrom ps-1", "nm ps-1", "nm ns-1", "pm ps-1", "m s-1"};
-constexpr std::array known_forces{"N", "J m-1"};
-
-template <std::size_t N>
-bool is_one_of(std::string const& word, std::array<char const*, N> const& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool mdanalysis_reads(std::string const& element, std::string const& unit) {
-  if (element == "time") return is_one_of(unit, known_times);
-  if (element == "position" || element == "edges") return is_one_of(unit, known_lengths);
-  if (element == "velocity") return is_one_of(unit, known_velocities);
-  if (element == "force") return is_one_of(unit, known_forces);
-  return true;  // it doesn't look at the others
-}
 
 // Chunks of at least 16 kB where many small frames make one, and of at most about 1 MB. Ensembles that may grow have wide
 // ones from the start: a frame of 40000 particles would be thousands of the chunks that suit the first 10.

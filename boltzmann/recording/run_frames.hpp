@@ -1,4 +1,4 @@
-// Run frames: trajectory.h5 while a run writes it. Private to this room.
+// Run frames: trajectory.h5 while a run writes it, and its view, trajectory.h5md. Private to this room.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace boltzmann {
 
@@ -37,6 +38,9 @@ class RunFrames {
 
  private:
   TrajectoryOptions options() const;
+  /// For MDAnalysis, where all frames have the same particles; nothing if it can't be written.
+  void show(bool finished);
+  std::string view() const { return path_ + "md"; }
 
   Simulation const& simulation_;
   UnitSystem const& units_;
@@ -44,6 +48,9 @@ class RunFrames {
   std::optional<Trajectory> file_;
   std::int64_t stopped_ = -1;                          // the step of a stop between two frames, which has one; -1: none
   std::pair<std::size_t, std::uint64_t> before_stop_;  // number and checksum of the frames before it
+  std::vector<double> times_;                          // of all frames
+  std::vector<std::size_t> sizes_;                     // of ensembles, in the first one
+  bool same_particles_ = true, shown_ = false;         // in all; since the file was begun, or gone on with
 };
 
 }  // namespace boltzmann

@@ -1,5 +1,6 @@
 // Reads [[classes]]: classes that a scenario derives from shipped ones, with fields of their own and rates.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/diagnoses/bond_harmonics.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/integrators/methods.hpp>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <typeinfo>
 
 namespace boltzmann {
@@ -38,6 +40,26 @@ bool means_something(std::string_view name) {
   return is_one_of(name, taken) || is_one_of(name, formula_functions());
 }
 
+/// Whether a formula uses a name: its own, or that of p's or q's.
+bool uses(std::string_view formula, std::string_view name) {
+  auto const in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = formula.find(name); at != std::string_view::npos; at = formula.find(name, at + 1)) {
+    std::size_t const end = at + name.size();
+    if ((at == 0 || !in_word(formula[at - 1])) && (end == formula.size() || !in_word(formula[end]))) return true;
+  }
+  return false;
+}
+
+void refuse_uses(std::vector<ReadNeighbourField> const& fields, std::string_view formula, std::string_view key,
+                 Place const& place, Reading& reading) {
+  for (auto const& one : fields)
+    if (uses(formula, one.field.field))
+      reading.mistake(place,
+                      fmt::format("{}: '{}' is found when somebody looks, so that nothing that acts may use it; a "
+                                  "field with sum = true can count neighbours at each step",
+                                  key, one.field.field));
+}
+
 /// From one table to a class.
 class ClassReader {
  public:
@@ -59,6 +81,8 @@ class ClassReader {
     result_->rates.units = reading_.context.units;
     result_->rates.parameters = read_formula_parameters(section_, reading_);
     result_->rates.where = read_formula_parts(section_, reading_);
+    for (auto const& part : result_->rates.where)
+      refuse_uses(result_->neighbour_fields, part.text, "where." + part.name, section_.place("where"), reading_);
     read_rates("rate", result_->rates.rates);
     read_rates("diffusion", result_->rates.diffusions);
     section_.finish();
@@ -167,11 +191,39 @@ class ClassReader {
     }
     added.sum = section.boolean("sum");
     added.period = section.quantity("period", field.dimension, positive).value_or(0);
+    auto around = read_neighbours(section);
     section.finish();
+    around.field.field = field.name;
+    if (around.field.range > 0 && !field.name.empty()) result_->neighbour_fields.push_back(std::move(around));
     if (added.period > 0) periods_.push_back({field.name, section.place("period")});
     if (field.name.empty()) return;
     told_.fields.push_back(field);
     derived_.added.push_back(std::move(added));
+  }
+
+  /// Without a range there are none, or a mistake.
+  ReadNeighbourField read_neighbours(Section& section) {
+    ReadNeighbourField around;
+    around.place = section.place("neighbours");
+    bool const wanted = section.has("neighbours");
+    around.field.range = section.quantity("neighbours", dimensions::length, positive).value_or(0);
+    for (char const* other : {"of", "bond_order"})
+      if (!wanted) section.refuse(other, "it belongs to 'neighbours', the distance within which particles are that");
+    if (!wanted) return around;
+    if (Item const* of = section.find("of")) {
+      around.among = read_texts(*of, "of", reading_.context);
+      around.among_place = of->place;
+    }
+    if (auto const order = section.integer("bond_order", 1, BondHarmonics::largest_order)) {
+      around.field.order = static_cast<std::size_t>(*order);
+      if (reading_.dimension == 1)
+        mistake(section.place("bond_order"), "bond_order: on a line neighbours have no directions");
+    }
+    for (char const* other : {"kind", "unit", "default", "sum", "period"})
+      if (section.has(other))
+        mistake(section.place(other),
+                fmt::format("{}: it means nothing beside 'neighbours', which find a number", other));
+    return around;
   }
 
   bool can_be_named(std::string const& name, Place const& place) {
@@ -220,7 +272,10 @@ class ClassReader {
                                          join(names), did_you_mean(entry.key, names)));
         continue;
       }
-      if (auto text = formula_of(entry.item, whole)) rates.push_back({entry.key, *text});
+      if (auto text = formula_of(entry.item, whole)) {
+        refuse_uses(result_->neighbour_fields, *text, whole, entry.item.place, reading_);
+        rates.push_back({entry.key, *text});
+      }
       texts_.push_back({whole, &entry.item});
     }
   }
@@ -254,8 +309,13 @@ class ClassReader {
       bool const sum = std::any_of(derived_.added.begin(), derived_.added.end(), [&](AddedField const& added) {
         return added.field.name == rate.field && added.sum;
       });
+      auto const& around = result_->neighbour_fields;
+      bool const found = std::any_of(around.begin(), around.end(),
+                                     [&](ReadNeighbourField const& one) { return one.field.field == rate.field; });
       if (sum)
         mistake(place, fmt::format("{}: it is a sum, which has no rate", whole));
+      else if (found)
+        mistake(place, fmt::format("{}: neighbours say what it is; it has no rate", whole));
       else if (rate.field == "position" || rate.field == "velocity")
         mistake(place, fmt::format("{}: laws move particles; write an [[influences]] with an influence, from_outside = "
                                    "true",
@@ -365,6 +425,54 @@ std::vector<std::string> Reading::class_names() const {
 
 void read_classes(Section& document, Reading& reading) {
   for (Item const* table : find_tables(document, "classes")) ClassReader(*table, reading).read();
+}
+
+void Reading::refuse_neighbour_fields(std::string_view formula, std::string_view key, Place const& place) {
+  for (auto const& one : classes) refuse_uses(one->neighbour_fields, formula, key, place, *this);
+}
+
+namespace {
+
+/// Those of these names, or all; nothing and a mistake where there is no such ensemble.
+std::vector<AnyEnsemble*> neighbours_of(ReadNeighbourField const& around, Reading& reading) {
+  std::vector<AnyEnsemble*> among;
+  for (auto const& ensemble : reading.ensembles)
+    if (ensemble.particles && (around.among.empty() || is_one_of(ensemble.name, around.among)))
+      among.push_back(ensemble.particles);
+  auto const names = reading.ensemble_names();
+  for (auto const& name : around.among)
+    if (!is_one_of(name, names)) {
+      reading.mistake(around.among_place, fmt::format("of: there is no ensemble '{}'; there are {}{}", quoted(name),
+                                                      join(names), did_you_mean(name, names)));
+      among.clear();
+    }
+  return among;
+}
+
+}  // namespace
+
+void load_neighbour_fields(Reading& reading) {
+  if (!reading.box || !reading.context.mistakes.none()) return;  // particles may be missing
+  for (auto const& one : reading.classes)
+    for (auto const& around : one->neighbour_fields) {
+      auto const among = neighbours_of(around, reading);
+      for (auto const& ensemble : reading.ensembles) {
+        if (ensemble.kind != &one->kind || !ensemble.particles || among.empty()) continue;
+        auto* scheme = reading.result->scheme<NeighbourFields>();
+        if (!scheme) {
+          auto made = std::make_unique<NeighbourFields>(*reading.box);
+          made->threads(reading.run.threads);
+          scheme = made.get();
+          reading.result->schemes.push_back(std::move(made));
+        }
+        NeighbourField field = around.field;
+        field.among = among;
+        catch_errors(reading, around.place, [&] { scheme->find(*ensemble.particles, std::move(field)); });
+      }
+    }
+  // For groups that are chosen by them.
+  if (auto* scheme = reading.result->scheme<NeighbourFields>(); scheme && reading.context.mistakes.none())
+    scheme->complete(0);
 }
 
 void load_rates(Reading& reading) {

@@ -218,6 +218,7 @@ FrictionTexts read_friction_texts(Section& section, OptionTable& keys, Reading& 
     if (auto const text = read_text(*texts.weight, "weight", reading.context)) texts.formulas.weight = *text;
     section.refuse("exponent", "'weight' says what chi is; leave one out");
   }
+  reading.refuse_neighbour_fields(texts.formulas.friction, "friction", section.place("friction"));
   if (texts.any())
     texts.formulas.parameters = read_formula_parameters(section, reading);
   else

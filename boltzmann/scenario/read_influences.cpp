@@ -132,6 +132,9 @@ class InfluenceReader {
     Item const* where = from_outside_ ? section_.item("where") : nullptr;
     if (!from_outside_ || (where && where->is(Item::Kind::table)))
       typed_.where = read_formula_parts(section_, reading_);
+    reading_.refuse_neighbour_fields(typed_.text, by_energy ? "energy" : "influence", law_place_);
+    for (auto const& part : typed_.where)
+      reading_.refuse_neighbour_fields(part.text, "where." + part.name, section_.place("where"));
     read_ensembles();
     read_every();
     read_end();

@@ -3,6 +3,7 @@
 
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/options.hpp>
+#include <boltzmann/diagnoses/neighbour_fields.hpp>
 #include <boltzmann/dissipation/dissipation.hpp>
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/laws/laplace.hpp>
@@ -35,11 +36,19 @@ namespace boltzmann {
 struct Reading;
 struct SchemeEntry;
 
+/// A field that is found by a particle's neighbours, and who they are by the names of ensembles; none: all particles.
+struct ReadNeighbourField {
+  NeighbourField field;
+  std::vector<std::string> among;
+  Place place, among_place;
+};
+
 /// A class that the file derives from another one.
 struct ReadClass {
   ParticleClass kind;  ///< in the space of the file; without variants: there are mistakes in it
   FieldRates rates;
   Place place;
+  std::vector<ReadNeighbourField> neighbour_fields = {};
 };
 
 /// Which particles of an ensemble are bonded, and how many of them make a molecule (0: they are all one).
@@ -185,6 +194,8 @@ struct Reading {
   /// A class of the file or a shipped one; nullptr if there is none of that name, or mistakes in it.
   ParticleClass const* find_class(std::string_view name) const;
   std::vector<std::string> class_names() const;
+  /// A mistake if a formula that acts on particles reads a field that is found only when somebody looks.
+  void refuse_neighbour_fields(std::string_view formula, std::string_view key, Place const& place);
 };
 
 /// Calls function(); an Error becomes a mistake at the place. False if there was one.
@@ -317,6 +328,8 @@ void refuse_formula(Section const& section, FormulaPartError const& error, Item 
 /// Reads [[classes]]: those that the scenario derives. Gives the fields of their particles their rates.
 void read_classes(Section& document, Reading& reading);
 void load_rates(Reading& reading);
+/// Fields of classes that are found by neighbours: whose they are, and who is one.
+void load_neighbour_fields(Reading& reading);
 /// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
 void read_dissipations(Section& document, Reading& reading);
 void add_dissipations(Reading const& reading);

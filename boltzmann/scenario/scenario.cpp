@@ -40,6 +40,7 @@ void read_tables(Item& document, Reading& reading) {
   load_schemes(reading);
   load_rezone(reading);
   load_rates(reading);
+  load_neighbour_fields(reading);
   read_dyes(top, reading);
   read_influences(top, reading);
   read_rigid_bonds(top, reading);

@@ -281,6 +281,16 @@ OptionTable make_class_field_options() {
                "of a field that has a rate: after each step it is taken back to between minus and plus half of it, as "
                "`\"2 pi\"` does with an angle",
                "it grows as it does");
+  all.add_said(
+      "neighbours", "a length, positive",
+      "it is how many particles are nearer than that, found whenever somebody looks: files, pictures, diagnoses "
+      "and events may use it, influences and rates can't",
+      "it is no such number");
+  all.add_said("of", "the name of an ensemble, or a list", "whose particles are neighbours", "all particles");
+  all.add_said("bond_order", "a whole number, 1 to 16",
+               "instead of their number, how far the directions to the neighbours are those of a crystal, as "
+               "`bond-order` has it: Steinhardt's q6 or psi6 for 6",
+               "their number");
   all.add_said("doc", "a text", "one line about it", "none");
   all.at("name").needed = "\"charge\"";
   return all;

@@ -585,7 +585,7 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
     if (options.force) {
       remove_sweep(folder);
       std::error_code ignored;
-      for (char const* file : {"scenario.toml", "diagnoses.csv", "trajectory.h5", "checkpoint.h5"})
+      for (char const* file : {"scenario.toml", "diagnoses.csv", "trajectory.h5", "trajectory.h5md", "checkpoint.h5"})
         fs::remove(folder + "/" + file, ignored);
     }
     std::error_code error;

@@ -289,5 +289,41 @@ TEST(Recording, TrajectoriesOfAtomsAreInUnitsThatReadersKnow) {
             "ps nm angstrom/ps");
 }
 
+// What stands in it is held to MDAnalysis in tests/files/trajectory_readers_test.cpp.
+TEST(Recording, AViewOfTheFramesStandsBesideThemAsLongAsParticlesAreTheSame) {
+  Folder const folder;
+  auto const view = folder / "out/trajectory.h5md";
+  auto const run = [&](std::string const& name, int first, int second) {
+    Pair pair;
+    Recording recording(pair.simulation, UnitSystem::reduced(), (folder / name).string());
+    recording.trajectory(2);
+    pair.simulation.run(static_cast<std::uint64_t>(first));
+    recording.finish();
+    if (second == 0) return;
+    Pair again;
+    Recording resumed(again.simulation, UnitSystem::reduced(), (folder / name).string());
+    resumed.trajectory(2);
+    resumed.resume();
+    EXPECT_TRUE(fs::exists(folder / name / "trajectory.h5md"));
+    again.simulation.run(static_cast<std::uint64_t>(second));
+    resumed.finish();
+  };
+  run("whole", 9, 0);
+  run("parts", 3, 6);
+  EXPECT_TRUE(text_of(folder / "parts/trajectory.h5md") == text_of(folder / "whole/trajectory.h5md"));
+
+  Pair pair;
+  Recording recording(pair.simulation, UnitSystem::reduced(), (folder / "out").string());
+  recording.trajectory(1);
+  pair.simulation.run(1);
+  EXPECT_TRUE(fs::exists(view));
+  EXPECT_LT(fs::file_size(view), 16'000U);
+  pair.atoms.add(Newton<2>{{{-3., -3.}}, 1, {0., 0.}});
+  pair.simulation.run(1);
+  EXPECT_FALSE(fs::exists(view));
+  recording.finish();
+  EXPECT_FALSE(fs::exists(view));
+}
+
 }  // namespace
 }  // namespace boltzmann::recording_test

@@ -125,6 +125,11 @@ kind = "radial-distribution"
 kind = "structure-factor"
 modes = 5
 [[diagnoses]]
+kind = "structure-factor"
+label = "meshed"
+modes = 5
+by = "mesh"
+[[diagnoses]]
 kind = "bond-order"
 range = 1.5
 [[diagnoses]]
@@ -175,7 +180,7 @@ TEST(Average, EndsARunAndIsTold) {
                                           "velocity-autocorrelation.csv",     "velocity-spectrum.csv",
                                           "mean-square-displacement.csv",     "mean-profile.csv",
                                           "green-kubo-heat-conductivity.csv", "average.csv",
-                                          "green-kubo-viscosity.csv"};
+                                          "green-kubo-viscosity.csv",         "structure-factor-meshed.csv"};
   for (auto const& file : gathered) EXPECT_TRUE(std::filesystem::exists(folder / ("run/" + file))) << file;
   for (char const* file : {"g.png", "blocks.png"})
     EXPECT_TRUE(std::filesystem::exists(folder / ("run/" + std::string(file)))) << file;
@@ -185,6 +190,10 @@ TEST(Average, EndsARunAndIsTold) {
   EXPECT_FALSE(relative[relative.size() - 2] < 0.02);
   EXPECT_NEAR(rows.column("temperature mean").back(), 1, 0.1);
   EXPECT_EQ(read_csv((folder / "run/radial-distribution.csv").string()).header[2], "coordination number");
+  auto const waves = read_csv((folder / "run/structure-factor.csv").string()).column("S"),
+             meshed = read_csv((folder / "run/structure-factor-meshed.csv").string()).column("S");
+  ASSERT_EQ(waves.size(), meshed.size());
+  for (std::size_t k = 0; k < waves.size(); ++k) EXPECT_NEAR(meshed[k], waves[k], 40 * 2.2e-5) << k;
 
   ASSERT_EQ(test::bzm({"run", "walkers.toml", "--out", "parts", "--quiet", "--steps", "123"}, folder.string()).status,
             0);

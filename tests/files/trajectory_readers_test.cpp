@@ -4,10 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/files/trajectory_view.hpp>
 #include <boltzmann/particles/ensemble.hpp>
+#include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/particles/newton.hpp>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "temporary_folder.hpp"
@@ -35,6 +38,28 @@ void write_and_die(std::string const& path, bool periodic, std::function<std::st
     kill(getpid(), SIGKILL);
   }
   waitpid(child, nullptr, 0);
+}
+
+// Three frames of two ensembles, and the view of them that was written with the second one.
+void write_shown(std::string const& path, std::function<std::string(Dimension)> const& unit_name) {
+  Ensemble<Newton<2>> zinc("zinc", 3), none("none", 0);
+  Ensemble<Coulomb<2>> argon("argon", 2);
+  AnyEnsemble const* const list[] = {&zinc, &none, &argon};
+  TrajectoryOptions options;
+  options.unit_name = unit_name;
+  Trajectory file(path, options);
+  std::vector<double> times;
+  for (int step = 0; step < 3; ++step) {
+    zinc[1].position = {1.0 * step, 2};
+    argon[1].velocity = {0, -1.0 * step};
+    argon[0].charge = 3;
+    argon[1].mass = 40;
+    BoxEdges const box{.dimension = 2, .low = {}, .high = {5.0 + step, 6}, .periodic = {true, true}};
+    file.write(10 * step, 2 * step, list, box);
+    times.push_back(2 * step);
+    if (step == 1)
+      write_trajectory_view(path + "md", std::filesystem::path(path).filename().string(), options, list, box, times);
+  }
 }
 
 bool python(std::string const& text, std::string const& folder) {
@@ -83,8 +108,11 @@ TEST(TrajectoryReaders, MdanalysisReadsEveryDimensionWithAndWithoutUnits) {
   write_and_die<2>(folder / "plane.h5", true, unit_known);
   write_and_die<1>(folder / "line.h5", false, {});
   write_and_die<3>(folder / "cgs.h5", true, [](Dimension d) { return d == dimensions::time ? "s" : "cm"; });
+  write_shown(folder / "shown.h5", unit_known);
+  write_shown(folder / "galaxy.h5", [](Dimension d) { return d == dimensions::time ? "yr" : "pc"; });
+  write_shown(folder / "reduced.h5", {});
   EXPECT_TRUE(python(R"(
-import MDAnalysis, numpy as np
+import MDAnalysis, h5py, numpy as np
 def load(name, **options):
     u = MDAnalysis.Universe.empty(5, trajectory=True, velocities=True)
     u.load_new(name, format='H5MD', **options)
@@ -104,6 +132,18 @@ for name in 'line.h5', 'cgs.h5':                  # no units, or units that MDAn
     assert np.allclose(u.atoms.velocities[1], [-3, 0, 0])
     assert ts.time == 6
 assert load('line.h5', convert_units=False)[1].dimensions is None
+for name, length, time in ('shown', 10, 1e-3), ('galaxy', 1, 1), ('reduced', 1, 1):   # what it knows; what it doesn't
+    u = MDAnalysis.Universe(name + '.h5md')       # all ensembles, without arguments
+    assert len(u.atoms) == 5 and len(u.trajectory) == 3, name
+    ts = u.trajectory[2]
+    assert np.allclose(u.atoms.positions[1], [2 * length, 2 * length, 0]), (name, u.atoms.positions)
+    assert np.allclose(u.atoms.velocities[4], [0, -2 * length, 0]), (name, u.atoms.velocities)
+    assert np.allclose(ts.dimensions, [7 * length, 6 * length, length, 90, 90, 90]), (name, ts.dimensions)
+    assert ts.data['step'] == 20 and np.isclose(ts.time, 4 * time) and np.isclose(u.trajectory.dt, 2 * time), name
+    kinds = h5py.File(name + '.h5md')['particles/trajectory']
+    u.add_TopologyAttr('masses', kinds['mass'][:])
+    assert u.atoms.masses.tolist() == [1, 1, 1, 1, 40] and kinds['charge'][:].tolist() == [0, 0, 0, 3, 0]
+    assert [kinds['species'].attrs['names'][k] for k in kinds['species']] == ['zinc'] * 3 + ['argon'] * 2
 )",
                      folder.path))
       << output(folder.path);
